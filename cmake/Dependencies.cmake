@@ -1,0 +1,36 @@
+# Every third-party library the project uses, found once, under one name each. All come from Debian 12
+# packages (packages.txt). Imported targets are SYSTEM: their headers' warnings are not ours.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(FlatBuffers CONFIG REQUIRED)
+find_package(embree 3.13 REQUIRED CONFIG)
+find_package(TBB REQUIRED CONFIG)
+find_package(pugixml REQUIRED CONFIG)
+find_package(fmt REQUIRED CONFIG)
+find_package(Boost 1.74 REQUIRED)
+find_package(GTest CONFIG REQUIRED)
+find_package(benchmark CONFIG REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(nlohmann_json REQUIRED)
+pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet-float64)
+pkg_check_modules(lua REQUIRED IMPORTED_TARGET lua5.4-c++)
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+pkg_check_modules(cli11 REQUIRED IMPORTED_TARGET CLI11)
+
+# libsumo and the three OpenCV modules ship no CMake package in the small -dev packages we install.
+function(reprise_plain_library name header)
+  cmake_parse_arguments(PLAIN "" "" "PATHS;NAMES" ${ARGN})
+  find_path(${name}_INCLUDE_DIR ${header} PATH_SUFFIXES ${PLAIN_PATHS} REQUIRED)
+  add_library(${name} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${name} SYSTEM INTERFACE ${${name}_INCLUDE_DIR})
+  foreach(library IN LISTS PLAIN_NAMES)
+    find_library(${name}_${library}_LIBRARY ${library} REQUIRED)
+    target_link_libraries(${name} INTERFACE ${${name}_${library}_LIBRARY})
+  endforeach()
+endfunction()
+
+reprise_plain_library(sumo libsumo/libsumo.h NAMES sumocpp)
+reprise_plain_library(opencv opencv2/core.hpp PATHS opencv4
+                      NAMES opencv_core opencv_imgproc opencv_imgcodecs)

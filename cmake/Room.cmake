@@ -1,0 +1,41 @@
+# How every room is built. The flags are the same everywhere, because they are part of what a
+# recorded run depends on: see docs/determinism.md.
+set(REPRISE_SANITIZE "" CACHE STRING "Comma-separated sanitizers, such as address,undefined")
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -g1 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g")
+
+set(REPRISE_FLAGS -ffp-contract=off -march=x86-64 -mtune=generic)
+
+add_library(reprise_build INTERFACE)
+target_compile_options(reprise_build INTERFACE
+  ${REPRISE_FLAGS} -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast
+  -Wdouble-promotion)
+# State maths uses Eigen's fixed sizes only; without its own vector code their results do not depend
+# on where an array happens to lie in memory.
+target_compile_definitions(reprise_build INTERFACE EIGEN_DONT_VECTORIZE EIGEN_DONT_PARALLELIZE)
+if(REPRISE_SANITIZE)
+  target_compile_options(reprise_build INTERFACE
+    -fsanitize=${REPRISE_SANITIZE} -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(reprise_build INTERFACE -fsanitize=${REPRISE_SANITIZE})
+endif()
+
+# reprise_room(NAME SOURCES ... ROOMS ... LIBRARIES ...): one static library per folder. LIBRARIES
+# stay private to the room: no third-party type crosses its headers.
+function(reprise_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  add_library(${name} STATIC ${ROOM_SOURCES})
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PUBLIC ${ROOM_ROOMS} PRIVATE reprise_build ${ROOM_LIBRARIES})
+endfunction()
+
+# reprise_test(NAME SOURCES ... ROOMS ...): one test program per room.
+function(reprise_test name)
+  cmake_parse_arguments(TEST "" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  add_executable(${name} ${TEST_SOURCES})
+  target_link_libraries(${name} PRIVATE reprise_build ${TEST_ROOMS} ${TEST_LIBRARIES} GTest::gmock
+                                        GTest::gtest_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()
+
+include(GoogleTest)
