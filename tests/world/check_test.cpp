@@ -1,0 +1,64 @@
+#include "world/check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace reprise {
+
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+using world::did_you_mean;
+
+std::string message_of(const auto& action) {
+    try {
+        action();
+    } catch (const world::CheckFailed& failed) {
+        return failed.what();
+    }
+    return "nothing was thrown";
+}
+
+const std::vector<std::string> models{"hatchback", "sedan", "suv", "van", "lorry", "bus"};
+
+}  // namespace
+
+TEST(Check, SaysWhatBrokeAndWhere) {
+    const std::string message = message_of([] {
+        const int wheels = 3;
+        REPRISE_CHECK(wheels == 4, "tick 17: " + std::to_string(wheels) + " wheels");
+    });
+    EXPECT_THAT(message, StartsWith("world/check_test.cpp:"));
+    EXPECT_THAT(message, HasSubstr("wheels == 4"));
+    EXPECT_THAT(message, HasSubstr("tick 17: 3 wheels"));
+}
+
+TEST(Check, EvaluatesTheMessageOnlyOnFailure) {
+    int evaluated = 0;
+    const auto values = [&] {
+        ++evaluated;
+        return std::string();
+    };
+    REPRISE_CHECK(true, values());
+    EXPECT_EQ(evaluated, 0);
+    EXPECT_THROW(REPRISE_CHECK(false, values()), world::CheckFailed);
+    EXPECT_EQ(evaluated, 1);
+}
+
+TEST(Check, IsNotTheUsersMistake) {
+    EXPECT_FALSE((std::is_base_of_v<world::Error, world::CheckFailed>));
+}
+
+TEST(DidYouMean, SuggestsTheNearestName) {
+    EXPECT_EQ(did_you_mean("sedna", models), " (did you mean 'sedan'?)");
+    EXPECT_EQ(did_you_mean("hatchbak", models), " (did you mean 'hatchback'?)");
+    EXPECT_EQ(did_you_mean("vn", models), " (did you mean 'van'?)");
+}
+
+TEST(DidYouMean, KeepsQuietWhenNothingIsNear) {
+    EXPECT_EQ(did_you_mean("submarine", models), "");
+    EXPECT_EQ(did_you_mean("x", {}), "");
+}
+
+}  // namespace reprise

@@ -1,0 +1,99 @@
+// Must: give every lane and every path through a junction a road surface at its own height.
+// Assumes: centre lines of at least two points; nothing of junction outlines.
+// Goes: lanes are ribbons; a junction is the union of its outline and of the swaths of its internal
+//   lanes (real outlines leave holes under turning cars), less its crossings; then slabs.cpp, and
+//   terrain.cpp under it all. Everything is local, never one map in plan: bridges keep their level.
+// Keeps: surfaces of the same level meet or overlap at the same height; there are no cracks.
+#include "world/ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "world/ground_builder.h"
+#include "world/junction_surface.h"
+#include "world/polygons.h"
+#include "world/ribbon.h"
+#include "world/slabs.h"
+#include "world/terrain.h"
+#include "world/town.h"
+
+namespace reprise::world {
+
+namespace {
+
+/// [m] Neighbouring surfaces reach this far into each other, so that no wheel finds the millimetre
+/// between them.
+constexpr double overlap = 0.02;
+
+double half_road(const LaneT& lane) {
+    return std::max(lane.width / 2, car_clearance) + overlap;
+}
+
+Ribbon road_ribbon(const LaneT& lane) {
+    return make_ribbon(clean_line(lane.centre, overlap), -half_road(lane), half_road(lane));
+}
+
+void add_lanes(const TownT& town, GroundBuilder& ground) {
+    for (const LaneT& lane : town.lanes) {
+        const bool is_road = is_for_cars(lane) || lane.kind == LaneKind::other;
+        if (!is_road || is_inside_junction(town, lane))
+            continue;
+        for (const auto& piece : road_ribbon(lane).pieces)
+            ground.add_face(piece, Surface::road);
+    }
+}
+
+/// Crossings that no junction owns.
+void add_lone_crossings(const TownT& town, GroundBuilder& ground) {
+    for (const LaneT& lane : town.lanes) {
+        if (lane.kind != LaneKind::crossing || lane.junction < town.junctions.size())
+            continue;
+        const Ribbon ribbon = make_ribbon(clean_line(lane.centre), -lane.width / 2, lane.width / 2);
+        for (const auto& piece : ribbon.pieces)
+            ground.add_face(piece, Surface::crossing);
+    }
+}
+
+void add_junction(const TownT& town,
+                  std::uint32_t junction,
+                  const JunctionParts& parts,
+                  GroundBuilder& ground) {
+    const Eigen::Vector2d origin(std::floor(town.low.x()), std::floor(town.low.y()));
+    Area crossings(origin);
+    for (const std::uint32_t crossing : parts.crossings)
+        crossings.add(in_plan(town.lanes[crossing].outline));
+    Area road(origin);
+    road.add(in_plan(town.junctions[junction].outline));
+    for (const std::uint32_t path : parts.paths)
+        for (const Loop& loop : road_ribbon(town.lanes[path]).loops())
+            road.add(loop);
+    road.subtract(crossings);
+
+    const SurfaceHeight surface = height_of_junction(town, junction, parts);
+    const auto height = [&](const Eigen::Vector2d& p) { return surface.at(p); };
+    const double cell = surface.is_plane() ? 0 : surface_cell;
+    for (const Loop& piece : road.pieces())
+        ground.add_face(piece, height, cell, Surface::road);
+    for (const Loop& piece : crossings.pieces())
+        ground.add_face(piece, height, cell, Surface::crossing);
+}
+
+void add_junctions(const TownT& town, GroundBuilder& ground) {
+    const std::vector<JunctionParts> parts = parts_of_junctions(town);
+    for (std::uint32_t i = 0; i < parts.size(); ++i)
+        add_junction(town, i, parts[i], ground);
+}
+
+}  // namespace
+
+GroundMesh build_ground(const TownT& town) {
+    GroundBuilder ground;
+    add_lanes(town, ground);
+    add_lone_crossings(town, ground);
+    add_junctions(town, ground);
+    add_slabs(town, ground);
+    add_terrain(town, ground);
+    return ground.take();
+}
+
+}  // namespace reprise::world

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "world/town_generated.h"
+
+namespace reprise::world {
+
+/// What a piece of ground is made of. Values are recorded (WheelState.surface).
+enum class Surface : std::uint8_t {
+    terrain,   ///< grass and earth beside the road, 5 cm below it
+    road,      ///< lane ribbons and junction areas
+    crossing,  ///< zebra crossings: road surface with stripes, no height of its own
+    sidewalk,  ///< 15 cm above the road
+    kerb,      ///< the vertical faces between road and sidewalk
+    marking    ///< painted lines, 5 mm above the road: for eyes only, not for wheels
+};
+
+/// Triangles, counter-clockwise seen from above. World frame, metres.
+struct GroundMesh {
+    std::vector<Eigen::Vector3d> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<Surface> surfaces;  ///< one for each triangle
+};
+
+/// Height of a sidewalk above its road. [m]
+inline constexpr double kerb_height = 0.15;
+
+/// The ground that wheels and walkers stand on, and that cameras see: the same triangles for both.
+/// Sidewalk slabs are cut clear of everything that cars drive over; every level of a town with
+/// bridges keeps its own height. A pure function of the town: same bytes every time.
+/// Town 1: about 40 ms and 7,400 triangles.
+GroundMesh build_ground(const TownT& town);
+
+/// Painted lines of the town (Surface::marking): lane dividers, centre lines, edge lines, stop
+/// lines, zebra stripes. Derived, because road networks do not hold them: same-direction neighbours
+/// dashed, opposite directions a solid centre line, stop line where a lane ends at a signal or must
+/// give way.
+GroundMesh build_markings(const TownT& town);
+
+}  // namespace reprise::world

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "world/plan.h"
+
+namespace reprise::world {
+
+/// A region in plan, for unions and differences of whatever road networks hold: shapes may be
+/// concave, cross themselves, repeat points or have no area. Computed on whole millimetres (integer
+/// sweep, Boost.Polygon), so the result is the same on every machine and never fails.
+/// A shape that crosses itself holds what it winds around, whichever way.
+class Area {
+  public:
+    Area();
+    ~Area();
+    Area(Area&&) noexcept;
+    Area& operator=(Area&&) noexcept;
+
+    /// Coordinates are kept relative to `origin` while computing; within 1000 km of it.
+    explicit Area(const Eigen::Vector2d& origin);
+
+    void add(const Loop& loop);
+    void subtract(const Area& other);
+    void intersect(const Area& other);
+
+    double size() const;  ///< [m2]
+
+    /// Convex pieces with 3 or 4 corners, counter-clockwise, that do not overlap.
+    std::vector<Loop> pieces() const;
+
+    /// Borders with the area on their left: outer ones counter-clockwise, holes clockwise.
+    std::vector<Loop> borders() const;
+
+  private:
+    struct Set;
+    std::unique_ptr<Set> set_;
+};
+
+}  // namespace reprise::world

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace reprise::world {
+
+enum class SensorKind : std::uint8_t { rgb, depth, semantic };
+
+/// What to see, from where. Camera frame: optical, x right, y down, z ahead.
+struct SensorSpec {
+    std::string name;
+    SensorKind kind = SensorKind::rgb;
+    int width = 800;                          ///< [px]
+    int height = 600;                         ///< [px]
+    double fov = std::numbers::pi / 2;        ///< [rad] horizontal
+    std::uint32_t actor = 0;                  ///< mounted on; 0: the world
+    Eigen::Vector3d position{1.0, 0.0, 1.4};  ///< [m] in the actor's frame
+    double yaw = 0;                           ///< [rad] left positive
+    double pitch = 0;                         ///< [rad] up positive
+};
+
+using SensorRig = std::vector<SensorSpec>;
+
+enum class PixelType : std::uint8_t { u8, u16, f32 };
+
+/// What was seen: rows from the top, pixels from the left, channels interleaved.
+///   rgb       u8, 3 channels: R, G, B (sRGB)
+///   depth     f32, 1 channel: [m] along the optical axis; infinity where there is only sky
+///   semantic  u8, 1 channel: SemanticClass
+struct SensorFrame {
+    std::string name;
+    SensorKind kind = SensorKind::rgb;
+    std::uint64_t tick = 0;
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    PixelType type = PixelType::u8;
+    std::vector<std::uint8_t> data;
+};
+
+/// CARLA 0.9.14's tags (CityScapes order); colours in render/palette.h.
+enum class SemanticClass : std::uint8_t {
+    unlabeled = 0,
+    road = 1,
+    sidewalk = 2,
+    building = 3,
+    wall = 4,
+    fence = 5,
+    pole = 6,
+    traffic_light = 7,
+    traffic_sign = 8,
+    vegetation = 9,
+    terrain = 10,
+    sky = 11,
+    pedestrian = 12,
+    rider = 13,
+    car = 14,
+    truck = 15,
+    bus = 16,
+    road_line = 24
+};
+
+}  // namespace reprise::world
