@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "replay/compression.h"
+#include "replay/files.h"
+#include "replay/mcap.h"
+
+namespace reprise::replay {
+
+/// The ticks that a chunk says it holds.
+struct TickRange {
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
+};
+
+/// One chunk in memory, unpacked and checked, damaged or not.
+class ChunkReader {
+  public:
+    /// The bytes of one tick's two messages; empty where damage took them.
+    struct Messages {
+        mcap::View tick;
+        mcap::View traffic;
+    };
+
+    /// Reads the chunk's record; `step_ns` turns log times into ticks.
+    void load(const InputFile& file,
+              const mcap::Chunk& chunk,
+              const TickRange& ticks,
+              std::uint64_t step_ns);
+
+    /// What is wrong with it, or nothing.
+    const std::optional<std::string>& damage() const { return damage_; }
+
+    Messages messages(std::uint64_t tick) const { return messages_[tick - ticks_.first]; }
+
+  private:
+    void unpack(const mcap::Chunk& chunk, std::uint32_t crc);
+    void find_messages(mcap::View records, std::uint64_t step_ns);
+
+    Decompressor decompressor_;
+    TickRange ticks_;
+    mcap::Bytes record_;   ///< header and packed bytes
+    mcap::View packed_;    ///< in record_
+    mcap::Bytes records_;  ///< unpacked
+    std::size_t usable_ = 0;
+    std::vector<Messages> messages_;  ///< in records_
+    std::optional<std::string> damage_;
+};
+
+}  // namespace reprise::replay

@@ -1,0 +1,194 @@
+#include "replay/divergence.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+#include "replay/field_difference.h"
+#include "replay/tick_bytes.h"
+#include "world/check.h"
+
+namespace reprise::replay {
+
+namespace {
+
+/// A stage of the step, and what it alone writes.
+struct Stage {
+    const char* name;
+    std::uint64_t (world::Digests::*digest)() const;
+    std::vector<const char*> tick_fields;
+    std::vector<const char*> traffic_fields;
+};
+
+const std::array<Stage, 6>& stages() {
+    static const std::array<Stage, 6> all{{
+        {"scenario", &world::Digests::scenario, {"commands", "weather", "road_friction"}, {}},
+        {"controls", &world::Digests::controls, {"controls"}, {}},
+        {"traffic", &world::Digests::traffic, {"signals"}, {"cars"}},
+        {"pedestrians", &world::Digests::pedestrians, {}, {"walkers"}},
+        {"physics", &world::Digests::physics, {"vehicles", "wheels"}, {}},
+        {"measurements", &world::Digests::measurements, {"measurements"}, {}},
+    }};
+    return all;
+}
+
+/// Which stage raises events of a kind; index in stages().
+std::size_t stage_of(world::EventKind kind) {
+    switch (kind) {
+        case world::EventKind::collision:
+            return 4;
+        case world::EventKind::ran_red_light:
+        case world::EventKind::left_road:
+            return 5;
+        default:
+            return 0;
+    }
+}
+
+/// The first event that differs. Events lie in the order of the stages, so it is also the one of
+/// the earliest stage; those behind it may only have moved along.
+struct EventDifference {
+    std::size_t stage = 0;
+    std::vector<FieldDifference> fields;
+};
+
+std::optional<EventDifference> first_event_difference(const world::Tick& expected,
+                                                      const world::Tick& found) {
+    std::vector<FieldDifference> all =
+        differences(*world::TickTypeTable(), &expected, &found, "events");
+    if (all.empty())
+        return std::nullopt;
+    const std::string& first = all.front().field;
+    const std::string element = first.substr(0, first.find(']') + 1);
+    const auto index = static_cast<flatbuffers::uoffset_t>(std::stoul(element.substr(7)));
+    EventDifference difference;
+    difference.stage = stages().size();
+    for (const world::Tick* tick : {&expected, &found}) {
+        if (index < tick->events()->size())
+            difference.stage =
+                std::min(difference.stage, stage_of(tick->events()->Get(index)->kind()));
+    }
+    std::copy_if(all.begin(),
+                 all.end(),
+                 std::back_inserter(difference.fields),
+                 [&](const FieldDifference& field) { return field.field.starts_with(element); });
+    return difference;
+}
+
+std::vector<FieldDifference> recorded_differences(const Stage& stage,
+                                                  const world::TickView& expected,
+                                                  const world::TickView& found) {
+    std::vector<FieldDifference> all;
+    const auto add = [&](std::vector<FieldDifference> some) {
+        std::move(some.begin(), some.end(), std::back_inserter(all));
+    };
+    for (const char* field : stage.tick_fields)
+        add(differences(*world::TickTypeTable(), expected.tick, found.tick, field));
+    for (const char* field : stage.traffic_fields)
+        add(differences(*world::TrafficTypeTable(), expected.traffic, found.traffic, field));
+    return all;
+}
+
+std::string hex(std::uint64_t value) {
+    return fmt::format("0x{:016x}", value);
+}
+
+Divergence of_fields(const std::vector<FieldDifference>& fields) {
+    const FieldDifference& first = fields.front();
+    Divergence divergence;
+    divergence.field = first.field;
+    divergence.expected = first.expected;
+    divergence.found = first.found;
+    divergence.note = first.distance;
+    divergence.actor_id = first.actor;
+    if (first.actor != 0)
+        divergence.actor = fmt::format("actor {}", first.actor);
+    if (fields.size() > 1)
+        divergence.note += fmt::format("{}{} recorded fields of this stage differ",
+                                       divergence.note.empty() ? "" : "; ",
+                                       fields.size());
+    return divergence;
+}
+
+Divergence of_digest(const Stage& stage, std::uint64_t expected, std::uint64_t found) {
+    Divergence divergence;
+    divergence.field = fmt::format("digests.{}", stage.name);
+    divergence.expected = hex(expected);
+    divergence.found = hex(found);
+    divergence.note =
+        "all recorded fields of this stage agree: its unrounded or unrecorded state differs";
+    return divergence;
+}
+
+/// The bytes differ, but no stage does.
+Divergence of_no_stage(const world::Digests& expected, const world::Digests& found) {
+    Divergence divergence;
+    divergence.stage = "encoding";
+    divergence.field = "bytes";
+    divergence.note = "all recorded values agree: one of the ticks was written by another program";
+    if (!(expected.state() == found.state())) {
+        divergence.field = "digests.state";
+        divergence.note = "all stages agree, their common digest does not: a record was changed";
+    } else if (!(expected.chain() == found.chain())) {
+        divergence.stage = "start";
+        divergence.field = "digests.chain";
+        divergence.note =
+            "this tick agrees; the runs differ before it or in what they started from";
+    }
+    return divergence;
+}
+
+Divergence explain(const world::TickView& expected, const world::TickView& found) {
+    const world::Digests& left = *expected.tick->digests();
+    const world::Digests& right = *found.tick->digests();
+    const auto events = first_event_difference(*expected.tick, *found.tick);
+    for (std::size_t i = 0; i < stages().size(); ++i) {
+        const Stage& stage = stages()[i];
+        std::vector<FieldDifference> fields = recorded_differences(stage, expected, found);
+        if (events && events->stage == i)
+            fields.insert(fields.end(), events->fields.begin(), events->fields.end());
+        const std::uint64_t left_digest = (left.*stage.digest)();
+        const std::uint64_t right_digest = (right.*stage.digest)();
+        if (fields.empty() && left_digest == right_digest)
+            continue;
+        Divergence divergence =
+            fields.empty() ? of_digest(stage, left_digest, right_digest) : of_fields(fields);
+        divergence.stage = stage.name;
+        return divergence;
+    }
+    return of_no_stage(left, right);
+}
+
+}  // namespace
+
+std::string to_text(const Divergence& divergence, std::uint64_t step_ns) {
+    std::string text = divergence.tick == 0 ? fmt::format("stage {}", divergence.stage)
+                                            : fmt::format("tick {} ({:.2f} s), stage {}",
+                                                          divergence.tick,
+                                                          world::seconds(divergence.tick, step_ns),
+                                                          divergence.stage);
+    if (!divergence.actor.empty())
+        text += ", " + divergence.actor;
+    text += "\n";
+    const auto row = [&](const char* key, const std::string& value) {
+        if (!value.empty())
+            text += fmt::format("  {:<10}{}\n", key, value);
+    };
+    row("field", divergence.field);
+    row("expected", divergence.expected);
+    row("found", divergence.found);
+    row("note", divergence.note);
+    return text;
+}
+
+std::optional<Divergence> compare(const RecordedTick& expected, const RecordedTick& found) {
+    if (equal_ticks(expected, found))
+        return std::nullopt;
+    REPRISE_CHECK(expected.view.index() == found.view.index(),
+                  fmt::format("ticks {} and {}", expected.view.index(), found.view.index()));
+    Divergence divergence = explain(expected.view, found.view);
+    divergence.tick = expected.view.index();
+    return divergence;
+}
+
+}  // namespace reprise::replay

@@ -1,0 +1,317 @@
+#include "replay/field_difference.h"
+
+#include <cstring>
+#include <fmt/format.h>
+
+#include <flatbuffers/minireflect.h>
+
+#include "replay/value_text.h"
+
+namespace reprise::replay {
+
+namespace {
+
+using flatbuffers::ElementaryType;
+using flatbuffers::ReadScalar;
+using flatbuffers::TypeTable;
+using Bytes = const std::uint8_t*;
+
+/// One field of a table or struct.
+struct Field {
+    const char* name = "";
+    ElementaryType type{};
+    bool repeating = false;
+    const TypeTable* ref = nullptr;  ///< of an enum, struct or table
+    std::size_t index = 0;
+};
+
+Field field_at(const TypeTable& type, std::size_t index) {
+    const flatbuffers::TypeCode code = type.type_codes[index];
+    return {type.names[index],
+            static_cast<ElementaryType>(code.base_type),
+            code.is_repeating != 0,
+            code.sequence_ref >= 0 ? type.type_refs[code.sequence_ref]() : nullptr,
+            index};
+}
+
+const Field* find_field(const std::vector<Field>& fields, std::string_view name) {
+    for (const Field& field : fields) {
+        if (field.name == name)
+            return &field;
+    }
+    return nullptr;
+}
+
+std::vector<Field> fields_of(const TypeTable& type) {
+    std::vector<Field> fields;
+    for (std::size_t i = 0; i < type.num_elems; ++i)
+        fields.push_back(field_at(type, i));
+    return fields;
+}
+
+/// Where the field lies in the object; null when a table does not have it.
+Bytes address(const TypeTable& type, Bytes object, const Field& field) {
+    if (type.st == flatbuffers::ST_STRUCT)
+        return object + type.values[field.index];
+    return reinterpret_cast<const flatbuffers::Table*>(object)->GetAddressOf(
+        flatbuffers::FieldIndexToOffset(static_cast<flatbuffers::voffset_t>(field.index)));
+}
+
+Bytes follow(Bytes offset) {
+    return offset + ReadScalar<flatbuffers::uoffset_t>(offset);
+}
+
+bool is_table(const Field& field) {
+    return field.type == flatbuffers::ET_SEQUENCE && field.ref->st == flatbuffers::ST_TABLE;
+}
+
+std::string enumerator(std::int64_t value, const TypeTable* type) {
+    const char* name = flatbuffers::EnumName(value, type);
+    return name != nullptr ? std::string(name) : std::to_string(value);
+}
+
+std::string scalar_text(const Field& field, Bytes value) {
+    switch (field.type) {
+        case flatbuffers::ET_BOOL:
+            return ReadScalar<std::uint8_t>(value) != 0 ? "true" : "false";
+        case flatbuffers::ET_UTYPE:
+        case flatbuffers::ET_UCHAR:
+            return enumerator(ReadScalar<std::uint8_t>(value), field.ref);
+        case flatbuffers::ET_CHAR:
+            return enumerator(ReadScalar<std::int8_t>(value), field.ref);
+        case flatbuffers::ET_SHORT:
+            return enumerator(ReadScalar<std::int16_t>(value), field.ref);
+        case flatbuffers::ET_USHORT:
+            return enumerator(ReadScalar<std::uint16_t>(value), field.ref);
+        case flatbuffers::ET_INT:
+            return enumerator(ReadScalar<std::int32_t>(value), field.ref);
+        case flatbuffers::ET_UINT:
+            return enumerator(ReadScalar<std::uint32_t>(value), field.ref);
+        case flatbuffers::ET_LONG:
+            return std::to_string(ReadScalar<std::int64_t>(value));
+        case flatbuffers::ET_ULONG:
+            return std::to_string(ReadScalar<std::uint64_t>(value));
+        case flatbuffers::ET_FLOAT:
+            return value_text(ReadScalar<float>(value));
+        case flatbuffers::ET_DOUBLE:
+            return value_text(ReadScalar<double>(value));
+        default:
+            return "?";
+    }
+}
+
+std::string distance_of(const Field& field, Bytes expected, Bytes found) {
+    if (field.type == flatbuffers::ET_FLOAT)
+        return distance_text(ReadScalar<float>(expected), ReadScalar<float>(found));
+    if (field.type == flatbuffers::ET_DOUBLE)
+        return distance_text(ReadScalar<double>(expected), ReadScalar<double>(found));
+    return "";
+}
+
+/// The fields that tell a vector's structs apart, in sorting order; none: position does.
+std::vector<Field> key_of(const Field& vector) {
+    if (vector.ref == nullptr || vector.ref->st != flatbuffers::ST_STRUCT)
+        return {};
+    const std::vector<Field> fields = fields_of(*vector.ref);
+    for (const char* name : {"id", "actor"}) {
+        if (const Field* field = find_field(fields, name))
+            return {*field};
+    }
+    const Field* vehicle = find_field(fields, "vehicle");
+    const Field* index = find_field(fields, "index");
+    if (vehicle != nullptr && index != nullptr)
+        return {*vehicle, *index};
+    return {};
+}
+
+std::uint64_t key_value(const Field& field, const TypeTable& type, Bytes element) {
+    const Bytes value = address(type, element, field);
+    return field.type == flatbuffers::ET_UINT ? ReadScalar<std::uint32_t>(value)
+                                              : ReadScalar<std::uint8_t>(value);
+}
+
+struct Elements {
+    Bytes first = nullptr;
+    std::size_t count = 0;
+    std::size_t stride = 0;
+
+    Bytes at(std::size_t i) const { return first + i * stride; }
+};
+
+Elements elements_of(const Field& field, Bytes offset) {
+    if (offset == nullptr)
+        return {};
+    const auto* vector = reinterpret_cast<const flatbuffers::Vector<std::uint8_t>*>(follow(offset));
+    return {vector->Data(), vector->size(), flatbuffers::InlineSize(field.type, field.ref)};
+}
+
+/// Walks two objects side by side.
+class Walk {
+  public:
+    std::vector<FieldDifference> result;
+
+    void field(const TypeTable& type,
+               const Field& field,
+               Bytes expected,
+               Bytes found,
+               const std::string& path) {
+        const Bytes left = address(type, expected, field);
+        const Bytes right = address(type, found, field);
+        if (field.repeating)
+            vector(field, elements_of(field, left), elements_of(field, right), path);
+        else if (field.type == flatbuffers::ET_STRING)
+            text(left, right, path);
+        else if (left != nullptr && right != nullptr)
+            value(field, left, right, path);
+        else if (left != right)
+            report(path, left ? "present" : "absent", right ? "present" : "absent");
+    }
+
+  private:
+    void value(const Field& field, Bytes expected, Bytes found, const std::string& path) {
+        if (field.type == flatbuffers::ET_STRING) {
+            text(expected, found, path);
+        } else if (is_table(field)) {
+            object(*field.ref, follow(expected), follow(found), path);
+        } else if (field.type == flatbuffers::ET_SEQUENCE) {
+            object(*field.ref, expected, found, path);
+        } else if (std::memcmp(expected, found, flatbuffers::InlineSize(field.type, nullptr)) !=
+                   0) {
+            report(path, scalar_text(field, expected), scalar_text(field, found));
+            result.back().distance = distance_of(field, expected, found);
+        }
+    }
+
+    void object(const TypeTable& type, Bytes expected, Bytes found, const std::string& path) {
+        for (const Field& member : fields_of(type))
+            field(type, member, expected, found, path + "." + member.name);
+    }
+
+    /// An absent text and an empty one are the same.
+    void text(Bytes expected, Bytes found, const std::string& path) {
+        const auto of = [](Bytes offset) -> std::string_view {
+            if (offset == nullptr)
+                return {};
+            const auto* string = reinterpret_cast<const flatbuffers::String*>(follow(offset));
+            return {string->c_str(), string->size()};
+        };
+        if (of(expected) == of(found))
+            return;
+        const auto [left, right] = text_pair(of(expected), of(found));
+        report(path, left, right);
+    }
+
+    void vector(const Field& field, Elements left, Elements right, const std::string& path) {
+        const std::vector<Field> key = key_of(field);
+        if (key.empty())
+            by_position(field, left, right, path);
+        else
+            by_key(field, key, left, right, path);
+    }
+
+    void by_position(const Field& field, Elements left, Elements right, const std::string& path) {
+        for (std::size_t i = 0; i < std::max(left.count, right.count); ++i) {
+            const std::string here = fmt::format("{}[{}]", path, i);
+            const Bytes expected = i < left.count ? left.at(i) : nullptr;
+            const Bytes found = i < right.count ? right.at(i) : nullptr;
+            actor_ = actor_of(field, expected != nullptr ? expected : found);
+            if (expected != nullptr && found != nullptr)
+                value(field, expected, found, here);
+            else
+                report(here, presence(field, expected), presence(field, found));
+        }
+        actor_ = 0;
+    }
+
+    /// Both sides are sorted, so this is a merge.
+    void by_key(const Field& field,
+                const std::vector<Field>& key,
+                Elements left,
+                Elements right,
+                const std::string& path) {
+        const auto values = [&](Bytes element) {
+            std::vector<std::uint64_t> result_of;
+            for (const Field& part : key)
+                result_of.push_back(key_value(part, *field.ref, element));
+            return result_of;
+        };
+        std::size_t i = 0;
+        std::size_t j = 0;
+        while (i < left.count || j < right.count) {
+            const Bytes a = i < left.count ? left.at(i) : nullptr;
+            const Bytes b = j < right.count ? right.at(j) : nullptr;
+            const bool take_left = b == nullptr || (a != nullptr && values(a) <= values(b));
+            const bool take_right = a == nullptr || (b != nullptr && values(b) <= values(a));
+            const auto ids = values(take_left ? a : b);
+            actor_ = static_cast<std::uint32_t>(ids.front());
+            std::string label;
+            for (std::size_t part = 0; part < key.size(); ++part)
+                label += fmt::format("{}{} {}", part == 0 ? "" : ", ", key[part].name, ids[part]);
+            const std::string here = fmt::format("{}[{}]", path, label);
+            if (take_left && take_right)
+                value(field, a, b, here);
+            else
+                report(here,
+                       presence(field, take_left ? a : nullptr),
+                       presence(field, take_right ? b : nullptr));
+            i += take_left ? 1 : 0;
+            j += take_right ? 1 : 0;
+        }
+        actor_ = 0;
+    }
+
+    /// "absent", "present", or of things that have kinds: "collision".
+    static std::string presence(const Field& field, Bytes element) {
+        if (element == nullptr)
+            return "absent";
+        if (field.type != flatbuffers::ET_SEQUENCE)
+            return field.type == flatbuffers::ET_STRING ? "present" : scalar_text(field, element);
+        const std::vector<Field> fields = fields_of(*field.ref);
+        const Field* kind = find_field(fields, "kind");
+        if (!is_table(field) || kind == nullptr)
+            return "present";
+        const Bytes value = address(*field.ref, follow(element), *kind);
+        return value == nullptr ? "present" : scalar_text(*kind, value);
+    }
+
+    static std::uint32_t actor_of(const Field& field, Bytes element) {
+        if (!is_table(field))
+            return 0;
+        const std::vector<Field> fields = fields_of(*field.ref);
+        const Field* actor = find_field(fields, "actor");
+        if (actor == nullptr || actor->type != flatbuffers::ET_UINT)
+            return 0;
+        const Bytes value = address(*field.ref, follow(element), *actor);
+        return value == nullptr ? 0 : ReadScalar<std::uint32_t>(value);
+    }
+
+    void report(const std::string& path, std::string expected, std::string found) {
+        result.push_back({path, std::move(expected), std::move(found), "", actor_});
+    }
+
+    std::uint32_t actor_ = 0;
+};
+
+}  // namespace
+
+std::vector<FieldDifference> differences(const flatbuffers::TypeTable& type,
+                                         const void* expected,
+                                         const void* found,
+                                         std::string_view field) {
+    Walk walk;
+    for (const Field& candidate : fields_of(type)) {
+        if (candidate.name == field)
+            walk.field(type,
+                       candidate,
+                       static_cast<Bytes>(expected),
+                       static_cast<Bytes>(found),
+                       candidate.name);
+    }
+    return std::move(walk.result);
+}
+
+std::vector<std::string_view> field_names(const flatbuffers::TypeTable& type) {
+    return {type.names, type.names + type.num_elems};
+}
+
+}  // namespace reprise::replay

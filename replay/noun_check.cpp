@@ -1,0 +1,192 @@
+#include "replay/noun_check.h"
+
+#include <fmt/format.h>
+#include <span>
+#include <tuple>
+
+#include "world/catalogue.h"
+#include "world/episode_generated.h"
+#include "world/tick.h"
+#include "world/town_generated.h"
+
+namespace reprise::replay {
+
+namespace {
+
+flatbuffers::Verifier verifier(mcap::View bytes) {
+    // Nothing of ours nests deeper than four tables; a large town has some 10,000 of them.
+    return {bytes.data(), bytes.size(), 8, 1'000'000};
+}
+
+/// Present, and aligned: the verifier checks only a struct vector's length field for alignment.
+/// (Empty ones lie anywhere: the builder aligns only what it writes.)
+template <typename T>
+bool usable(const flatbuffers::Vector<const T*>* vector) {
+    return vector != nullptr &&
+           (vector->size() == 0 ||
+            reinterpret_cast<std::uintptr_t>(vector->Data()) % alignof(T) == 0);
+}
+
+template <typename T>
+bool usable_or_absent(const flatbuffers::Vector<const T*>* vector) {
+    return vector == nullptr || usable(vector);
+}
+
+/// Strictly ascending keys.
+template <typename T, typename Key>
+bool ascending(std::span<const T> range, Key key) {
+    for (std::size_t i = 1; i < range.size(); ++i) {
+        if (!(key(range[i - 1]) < key(range[i])))
+            return false;
+    }
+    return true;
+}
+
+constexpr auto id_of = [](const auto& item) { return item.id(); };
+constexpr auto actor_of = [](const auto& item) { return item.actor(); };
+
+bool vectors_usable(const world::Tick& tick) {
+    return tick.commands() != nullptr && tick.events() != nullptr && tick.signals() != nullptr &&
+           usable(tick.controls()) && usable(tick.vehicles()) && usable(tick.wheels()) &&
+           usable(tick.measurements());
+}
+
+bool sorted(const world::TickView& view) {
+    return ascending(view.controls(), actor_of) && ascending(view.vehicles(), id_of) &&
+           ascending(view.measurements(), actor_of) &&
+           ascending(view.wheels(), [](const world::WheelState& wheel) {
+               return std::tuple(wheel.vehicle(), wheel.index());
+           });
+}
+
+bool known_enumerators(const world::Tick& tick) {
+    for (const auto* command : *tick.commands()) {
+        if (command->kind() > world::CommandKind::MAX || command->driver() > world::Driver::MAX)
+            return false;
+    }
+    for (const auto* event : *tick.events()) {
+        if (event->kind() > world::EventKind::MAX)
+            return false;
+    }
+    for (const std::uint8_t color : std::span(tick.signals()->Data(), tick.signals()->size())) {
+        if (color > static_cast<std::uint8_t>(world::SignalColor::MAX))
+            return false;
+    }
+    return true;
+}
+
+/// A command without its control, say, is one of another kind; but an event always has a place.
+bool structs_present(const world::Tick& tick) {
+    for (const auto* event : *tick.events()) {
+        if (event->position() == nullptr)
+            return false;
+    }
+    for (const auto* command : *tick.commands()) {
+        if (command->target() == nullptr || command->control() == nullptr ||
+            command->weather() == nullptr)
+            return false;
+    }
+    return true;
+}
+
+bool in_range(std::uint32_t index, std::size_t size) {
+    return index == world::none || index < size;
+}
+
+bool lane_is_sound(const world::Lane& lane, const world::Town& town) {
+    const std::size_t lanes = town.lanes()->size();
+    if (!usable(lane.centre()) || lane.centre()->size() < 2 || !usable_or_absent(lane.outline()) ||
+        !usable_or_absent(lane.links()) || lane.kind() > world::LaneKind::MAX)
+        return false;
+    if (!in_range(lane.left(), lanes) || !in_range(lane.right(), lanes) ||
+        !in_range(lane.opposite(), lanes) || !in_range(lane.junction(), town.junctions()->size()))
+        return false;
+    if (lane.links() == nullptr)
+        return true;
+    for (const world::Link* link : *lane.links()) {
+        if (!in_range(link->to(), lanes) || !in_range(link->via(), lanes) ||
+            !in_range(link->signal(), town.signals()->size()) || link->turn() > world::Turn::MAX)
+            return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::optional<std::string> fault_of_tick(mcap::View bytes, std::uint64_t index) {
+    auto check = verifier(bytes);
+    if (!world::VerifyTickBuffer(check))
+        return "not a Tick";
+    const world::Tick& tick = *world::GetTick(bytes.data());
+    if (tick.index() != index)
+        return fmt::format("it says that it is tick {}", tick.index());
+    if (tick.digests() == nullptr || tick.weather() == nullptr || !vectors_usable(tick) ||
+        !structs_present(tick))
+        return "a part of the tick is missing or misplaced";
+    const world::TickView view{&tick, nullptr};
+    if (!sorted(view))
+        return "ids are out of order";
+    if (!known_enumerators(tick))
+        return "unknown kind of command, event or signal";
+    for (const world::VehicleState& vehicle : view.vehicles()) {
+        if (vehicle.model() >= world::vehicle_models().size())
+            return fmt::format("unknown model {} of vehicle {}", vehicle.model(), vehicle.id());
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> fault_of_traffic(mcap::View bytes, std::uint64_t index) {
+    auto check = verifier(bytes);
+    if (!world::VerifyTrafficBuffer(check))
+        return "not a Traffic";
+    const world::Traffic& traffic = *world::GetTraffic(bytes.data());
+    if (traffic.tick() != index)
+        return fmt::format("its traffic says that it is of tick {}", traffic.tick());
+    if (!usable(traffic.cars()) || !usable(traffic.walkers()))
+        return "a part of the traffic is missing or misplaced";
+    const world::TickView view{nullptr, &traffic};
+    if (!ascending(view.cars(), id_of) || !ascending(view.walkers(), id_of))
+        return "ids of the traffic are out of order";
+    for (const world::CarState& car : view.cars()) {
+        if (car.model() >= world::vehicle_models().size())
+            return fmt::format("unknown model {} of car {}", car.model(), car.id());
+    }
+    for (const world::WalkerState& walker : view.walkers()) {
+        if (walker.model() >= world::walker_models().size())
+            return fmt::format("unknown model {} of walker {}", walker.model(), walker.id());
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> fault_of_episode(mcap::View bytes) {
+    auto check = verifier(bytes);
+    if (!world::VerifyEpisodeBuffer(check))
+        return "not an Episode";
+    if (world::GetEpisode(bytes.data())->step_ns() == 0)
+        return "an episode whose step is zero";
+    return std::nullopt;
+}
+
+std::optional<std::string> fault_of_town(mcap::View bytes) {
+    auto check = verifier(bytes);
+    if (!world::VerifyTownBuffer(check))
+        return "not a Town";
+    const world::Town& town = *world::GetTown(bytes.data());
+    for (const world::Lane* lane : *town.lanes()) {
+        if (!lane_is_sound(*lane, town))
+            return fmt::format("lane {} is not sound", lane->name()->str());
+    }
+    for (const world::Junction* junction : *town.junctions()) {
+        if (!usable_or_absent(junction->outline()))
+            return fmt::format("junction {} is not sound", junction->name()->str());
+    }
+    for (const world::Signal* signal : *town.signals()) {
+        if (!in_range(signal->lane(), town.lanes()->size()))
+            return fmt::format("signal {} is not sound", signal->program()->str());
+    }
+    if (!usable_or_absent(town.buildings()) || !usable_or_absent(town.trees()))
+        return "its buildings or trees are not aligned";
+    return std::nullopt;
+}
+
+}  // namespace reprise::replay

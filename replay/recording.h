@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "world/episode_generated.h"
+#include "world/town_generated.h"
+
+namespace reprise::replay {
+
+/// All that a run starts from: what a trace carries so that it can be verified and rendered alone.
+struct Recording {
+    world::EpisodeT episode;
+    world::TownT town;
+    std::string network;  ///< bytes of the SUMO network
+};
+
+/// How a run ended; written when the trace is closed.
+struct Outcome {
+    std::string verdict;  ///< "passed", "failed", "completed" (no checks), "error"
+    std::string reason;   ///< "finished at line 31: arrived", "time limit", a script error, ...
+    std::uint64_t ticks = 0;
+};
+
+/// The chain's value before tick 1: of everything in the recording that decides the run.
+world::Digest128 chain_seed(const Recording& recording);
+
+}  // namespace reprise::replay

@@ -1,0 +1,224 @@
+// Two traces: what they started from, the first tick that differs, how they end.
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "replay/divergence.h"
+#include "replay/field_difference.h"
+#include "replay/tick_bytes.h"
+#include "replay/trace_format.h"
+#include "world/check.h"
+
+namespace reprise::replay {
+
+namespace {
+
+/// Appends to a note whose parts are separated by semicolons.
+void add_note(std::string& note, const std::string& part) {
+    if (!part.empty())
+        note += (note.empty() ? "" : "; ") + part;
+}
+
+/// What may differ without changing the run: where files lay, and who recorded it.
+bool is_information(std::string_view field) {
+    return field == "fingerprint" || field == "scenario_path" || field == "town_path" ||
+           field == "name" || field == "weather_name";
+}
+
+/// "seed 7 / 8, cars 100 / 50".
+std::string list(const std::vector<FieldDifference>& differences) {
+    constexpr std::size_t most = 4;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most, differences.size()); ++i)
+        text += fmt::format("{}{} {} / {}",
+                            i == 0 ? "" : ", ",
+                            differences[i].field,
+                            differences[i].expected,
+                            differences[i].found);
+    if (differences.size() > most)
+        text += fmt::format(" and {} more", differences.size() - most);
+    return text;
+}
+
+/// What two runs did not have in common before the first tick.
+struct StartDifference {
+    std::vector<FieldDifference> deciding;  ///< what can change a run
+    std::string builds;                     ///< lines of the fingerprint that differ
+
+    std::string note() const {
+        std::string text;
+        if (!deciding.empty())
+            add_note(text, "the runs did not start from the same: " + list(deciding));
+        if (!builds.empty())
+            add_note(text, "recorded by different builds: " + builds);
+        return text;
+    }
+};
+
+std::string compare_builds(const world::EpisodeT& expected, const world::EpisodeT& found) {
+    const auto value = [](const world::EpisodeT& episode, const std::string& key) {
+        for (const world::ParameterT& line : episode.fingerprint) {
+            if (line.key == key)
+                return line.value;
+        }
+        return std::string("-");
+    };
+    std::vector<std::string> keys;
+    for (const world::EpisodeT* episode : {&expected, &found}) {
+        for (const world::ParameterT& line : episode->fingerprint) {
+            if (std::find(keys.begin(), keys.end(), line.key) == keys.end())
+                keys.push_back(line.key);
+        }
+    }
+    std::string text;
+    for (const std::string& key : keys) {
+        if (value(expected, key) != value(found, key))
+            text += fmt::format("{}{} {} / {}",
+                                text.empty() ? "" : ", ",
+                                key,
+                                value(expected, key),
+                                value(found, key));
+    }
+    return text;
+}
+
+StartDifference compare_starts(const world::EpisodeT& expected, const world::EpisodeT& found) {
+    StartDifference start;
+    const mcap::Bytes left = format::pack(expected);
+    const mcap::Bytes right = format::pack(found);
+    for (const std::string_view field : field_names(*world::EpisodeTypeTable())) {
+        if (is_information(field))
+            continue;
+        auto some = differences(*world::EpisodeTypeTable(),
+                                world::GetEpisode(left.data()),
+                                world::GetEpisode(right.data()),
+                                field);
+        std::move(some.begin(), some.end(), std::back_inserter(start.deciding));
+    }
+    start.builds = compare_builds(expected, found);
+    return start;
+}
+
+/// The first tick that differs, and nothing when the shorter run is the longer one's beginning.
+std::optional<Divergence> first_different_tick(TraceReader& expected,
+                                               TraceReader& found,
+                                               bool same_start) {
+    const std::uint64_t common = std::min(expected.ticks(), found.ticks());
+    std::uint64_t index = 1;
+    while (index <= common) {
+        const PackedTicks left = expected.packed(index);
+        const PackedTicks right = found.packed(index);
+        const std::uint64_t last = std::min(left.last, right.last);
+        if (left.first == right.first && std::ranges::equal(left.bytes, right.bytes)) {
+            index = last + 1;
+            continue;
+        }
+        for (; index <= std::min(last, common); ++index) {
+            const RecordedTick left_tick = expected.tick(index);
+            const RecordedTick right_tick = found.tick(index);
+            const bool equal = same_start ? equal_ticks(left_tick, right_tick)
+                                          : equal_ticks_but_for_chain(left_tick, right_tick);
+            if (!equal)
+                return compare(left_tick, right_tick);
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<Divergence> compare_ends(const TraceReader& expected, const TraceReader& found) {
+    Divergence divergence;
+    divergence.stage = "end";
+    if (expected.ticks() != found.ticks()) {
+        const auto text = [](const TraceReader& trace) {
+            return fmt::format("{} ({}{}{})",
+                               trace.ticks(),
+                               trace.outcome().verdict,
+                               trace.outcome().reason.empty() ? "" : ": ",
+                               trace.outcome().reason);
+        };
+        divergence.tick = std::min(expected.ticks(), found.ticks()) + 1;
+        divergence.field = "ticks";
+        divergence.expected = text(expected);
+        divergence.found = text(found);
+        divergence.note = "the ticks that both have are equal";
+        return divergence;
+    }
+    divergence.tick = expected.ticks();
+    const auto differs = [&](const char* field, const std::string& left, const std::string& right) {
+        divergence.field = field;
+        divergence.expected = left;
+        divergence.found = right;
+        return left != right;
+    };
+    if (differs("outcome.verdict", expected.outcome().verdict, found.outcome().verdict) ||
+        differs("outcome.reason", expected.outcome().reason, found.outcome().reason))
+        return divergence;
+    return std::nullopt;
+}
+
+/// All ticks are equal though the runs started from different things.
+Divergence only_starts_differ(TraceReader& expected,
+                              TraceReader& found,
+                              const StartDifference& start) {
+    Divergence divergence;
+    divergence.stage = "start";
+    if (!start.deciding.empty()) {
+        divergence.field = start.deciding.front().field;
+        divergence.expected = start.deciding.front().expected;
+        divergence.found = start.deciding.front().found;
+    } else {
+        const bool same_network = expected.recording().network == found.recording().network;
+        divergence.field = same_network ? "town" : "network";
+    }
+    divergence.note = expected.ticks() == 0
+                          ? "neither run has a tick"
+                          : fmt::format("all {} ticks are equal nevertheless", expected.ticks());
+    return divergence;
+}
+
+void check_undamaged(const TraceReader& trace) {
+    if (const auto damage = trace.damage())
+        throw world::Error(trace.path().string() + ": " + *damage);
+}
+
+}  // namespace
+
+std::optional<Divergence> compare(TraceReader& expected, TraceReader& found) {
+    const bool same_start = expected.chain(0) == found.chain(0);
+    const StartDifference start = compare_starts(expected.episode(), found.episode());
+    std::optional<Divergence> divergence = first_different_tick(expected, found, same_start);
+    if (!divergence)
+        divergence = compare_ends(expected, found);
+    if (divergence) {
+        name_actor(*divergence, expected);
+        add_note(divergence->note, start.note());
+        return divergence;
+    }
+    check_undamaged(expected);
+    check_undamaged(found);
+    if (same_start)
+        return std::nullopt;
+    divergence = only_starts_differ(expected, found, start);
+    add_note(divergence->note, start.note());
+    return divergence;
+}
+
+void name_actor(Divergence& divergence, TraceReader& trace) {
+    // Background actors have no names; scenarios spawn theirs in the first ticks, as a rule.
+    if (divergence.actor_id == 0 || divergence.actor_id >= world::first_background_id)
+        return;
+    const std::uint64_t last = std::min(divergence.tick, trace.ticks());
+    for (std::uint64_t index = 1; index <= last; ++index) {
+        if (trace.damage(index))
+            continue;
+        for (const world::Event* event : *trace.tick(index).view.tick->events()) {
+            if (event->kind() != world::EventKind::spawned ||
+                event->actor() != divergence.actor_id || event->text() == nullptr)
+                continue;
+            divergence.actor =
+                fmt::format("{} ({})", event->text()->string_view(), divergence.actor_id);
+            return;
+        }
+    }
+}
+
+}  // namespace reprise::replay

@@ -1,0 +1,246 @@
+#include "replay/trace_file.h"
+
+#include <algorithm>
+
+#include "replay/trace_format.h"
+#include "world/fingerprint.h"
+#include "world/tick_bfbs_generated.h"
+#include "world/traffic_bfbs_generated.h"
+
+namespace reprise::replay {
+
+namespace {
+
+template <typename Schema>
+void encode_schema(mcap::Bytes& out, std::uint16_t id, const std::string& name) {
+    mcap::Encoder record(out);
+    record.begin(mcap::Op::schema);
+    record.number(id);
+    record.text(name);
+    record.text("flatbuffer");
+    record.number(static_cast<std::uint32_t>(Schema::size()));
+    record.raw({Schema::data(), Schema::size()});
+    record.end();
+}
+
+void encode_channel(mcap::Bytes& out, std::uint16_t id, const std::string& topic) {
+    mcap::Encoder record(out);
+    record.begin(mcap::Op::channel);
+    record.number(id);
+    record.number(id);  // its schema has the same number
+    record.text(topic);
+    record.text("flatbuffer");
+    record.texts({});
+    record.end();
+}
+
+}  // namespace
+
+void PendingChunk::add(std::uint16_t channel,
+                       std::uint64_t tick,
+                       std::uint64_t log_time,
+                       mcap::View data) {
+    messages.push_back({channel, log_time, records.size()});
+    mcap::Encoder record(records);
+    record.number(static_cast<std::uint8_t>(mcap::Op::message));
+    record.number(mcap::message_header + data.size());
+    record.number(channel);
+    record.number(static_cast<std::uint32_t>(tick));  // MCAP's sequence has 32 bits
+    record.number(log_time);
+    record.number(log_time);  // publish time
+    record.raw(data);
+}
+
+TraceFile::TraceFile(const std::filesystem::path& path) : file_(path) {
+    try {
+        put(mcap::magic);
+        record_.clear();
+        mcap::Encoder header(record_);
+        header.begin(mcap::Op::header);
+        header.text("");  // no profile
+        header.text("reprise/" + world::build_fingerprint().front().second);
+        header.end();
+        put(record_);
+        describe_channels();
+    } catch (...) {
+        abandon();
+        throw;
+    }
+}
+
+void TraceFile::describe_channels() {
+    encode_schema<world::TickBinarySchema>(schemas_, format::tick_channel, "reprise.world.Tick");
+    encode_schema<world::TrafficBinarySchema>(
+        schemas_, format::traffic_channel, "reprise.world.Traffic");
+    encode_channel(channels_, format::tick_channel, "/sim/tick");
+    encode_channel(channels_, format::traffic_channel, "/sim/traffic");
+    put(schemas_);
+    put(channels_);
+}
+
+void TraceFile::put(mcap::View bytes) {
+    file_.append(bytes);
+    crc_ = mcap::crc32(bytes, crc_);
+}
+
+void TraceFile::metadata(const std::string& name, const std::map<std::string, std::string>& texts) {
+    record_.clear();
+    mcap::Encoder record(record_);
+    record.begin(mcap::Op::metadata);
+    record.text(name);
+    record.texts(format::with_check(texts));
+    record.end();
+    metadata_.push_back({file_.size(), record_.size(), name});
+    put(record_);
+}
+
+void TraceFile::attachment(const std::string& name,
+                           const std::string& media_type,
+                           mcap::View data) {
+    record_.clear();
+    mcap::Encoder record(record_);
+    record.begin(mcap::Op::attachment);
+    record.number(std::uint64_t{0});  // log time
+    record.number(std::uint64_t{0});  // create time: no clock, equal runs give equal files
+    record.text(name);
+    record.text(media_type);
+    record.number(std::uint64_t{data.size()});
+    record.raw(data);
+    record.number(mcap::crc32(mcap::View(record_).subspan(mcap::prefix_size)));
+    record.end();
+    attachments_.push_back({file_.size(), record_.size(), data.size(), name, media_type});
+    put(record_);
+}
+
+void TraceFile::packed_attachment(const std::string& name, mcap::View data) {
+    attachment(name, "application/zstd", compressor_.compress(data));
+}
+
+void TraceFile::chunk(const PendingChunk& pending) {
+    if (pending.messages.empty())
+        return;
+    mcap::Chunk chunk;
+    chunk.start_time = pending.messages.front().log_time;
+    chunk.end_time = pending.messages.back().log_time;
+    chunk.offset = file_.size();
+    chunk.compression = "zstd";
+    chunk.uncompressed_size = pending.records.size();
+    mcap::View data = compressor_.compress(pending.records);
+    if (data.size() >= pending.records.size()) {
+        chunk.compression = "";
+        data = pending.records;
+    }
+    chunk.compressed_size = data.size();
+    chunk.length = mcap::chunk_header_size(chunk) + data.size();
+
+    record_.clear();
+    mcap::encode_chunk_header(record_, chunk, mcap::crc32(pending.records));
+    put(record_);
+    put(data);
+
+    record_.clear();
+    mcap::Encoder record(record_);
+    for (const std::uint16_t channel : {format::tick_channel, format::traffic_channel}) {
+        chunk.message_indexes.emplace_back(channel, file_.size() + record_.size());
+        record.begin(mcap::Op::message_index);
+        record.number(channel);
+        const auto of_channel = [&](const PendingChunk::Message& m) {
+            return m.channel == channel;
+        };
+        const auto count =
+            std::count_if(pending.messages.begin(), pending.messages.end(), of_channel);
+        record.number(static_cast<std::uint32_t>(count * 16));
+        for (const PendingChunk::Message& message : pending.messages) {
+            if (!of_channel(message))
+                continue;
+            record.number(message.log_time);
+            record.number(message.offset);
+        }
+        record.end();
+        messages_of_[channel] += static_cast<std::uint64_t>(count);
+    }
+    chunk.message_index_length = record_.size();
+    put(record_);
+    chunks_.push_back(std::move(chunk));
+    whole_ = file_.size();
+}
+
+mcap::Statistics TraceFile::statistics() const {
+    mcap::Statistics statistics;
+    statistics.schemas = 2;
+    statistics.channels = 2;
+    statistics.attachments = static_cast<std::uint32_t>(attachments_.size());
+    statistics.metadata = static_cast<std::uint32_t>(metadata_.size());
+    statistics.chunks = static_cast<std::uint32_t>(chunks_.size());
+    if (!chunks_.empty()) {
+        statistics.start_time = chunks_.front().start_time;
+        statistics.end_time = chunks_.back().end_time;
+    }
+    for (const auto& [channel, count] : messages_of_) {
+        statistics.messages += count;
+        statistics.messages_of.emplace_back(channel, count);
+    }
+    return statistics;
+}
+
+mcap::Bytes TraceFile::summary() const {
+    const std::uint64_t start = file_.size();
+    mcap::Bytes bytes;
+    mcap::Bytes offsets;
+    const auto group = [&](mcap::Op op, const auto& encode) {
+        const std::uint64_t from = bytes.size();
+        encode();
+        if (bytes.size() == from)
+            return;
+        mcap::Encoder record(offsets);
+        record.begin(mcap::Op::summary_offset);
+        record.number(static_cast<std::uint8_t>(op));
+        record.number(start + from);
+        record.number(std::uint64_t{bytes.size() - from});
+        record.end();
+    };
+    const auto all = [&](const auto& entries) {
+        return [&] {
+            for (const auto& entry : entries)
+                mcap::encode_index(bytes, entry);
+        };
+    };
+    group(mcap::Op::schema, [&] { mcap::Encoder(bytes).raw(schemas_); });
+    group(mcap::Op::channel, [&] { mcap::Encoder(bytes).raw(channels_); });
+    group(mcap::Op::statistics, [&] { mcap::encode(bytes, statistics()); });
+    group(mcap::Op::chunk_index, all(chunks_));
+    group(mcap::Op::attachment_index, all(attachments_));
+    group(mcap::Op::metadata_index, all(metadata_));
+
+    const std::uint64_t offsets_start = start + bytes.size();
+    mcap::Encoder record(bytes);
+    record.raw(offsets);
+    // The footer is covered by its own checksum up to it, length included.
+    record.number(static_cast<std::uint8_t>(mcap::Op::footer));
+    record.number(mcap::footer_size - mcap::prefix_size);
+    record.number(start);
+    record.number(offsets_start);
+    record.number(mcap::crc32(bytes));
+    record.raw(mcap::magic);
+    return bytes;
+}
+
+void TraceFile::finish() {
+    record_.clear();
+    mcap::Encoder record(record_);
+    record.begin(mcap::Op::data_end);
+    record.number(crc_);
+    record.end();
+    put(record_);
+    put(summary());
+    file_.finish();
+}
+
+void TraceFile::abandon() noexcept {
+    if (has_chunks())
+        file_.keep(whole_);
+    else
+        file_.remove();
+}
+
+}  // namespace reprise::replay

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "replay/mcap.h"
+#include "replay/recording.h"
+
+/// What is where in a trace. An MCAP file with, in this order:
+///   metadata    reprise.run        who, where, which seed: for people and tools
+///   attachments episode.bin, scenario/main.lua, town.bin.zst, town.net.xml.zst
+///   chunks      of 64 ticks: /sim/tick and /sim/traffic in turn; log time = tick * step
+///   metadata    reprise.outcome    how it ended, and the last link of the chain
+///   the summary (index) that MCAP asks for
+namespace reprise::replay::format {
+
+inline constexpr std::uint64_t version = 1;
+inline constexpr std::uint64_t ticks_per_chunk = 64;
+inline constexpr std::uint16_t tick_channel = 1;
+inline constexpr std::uint16_t traffic_channel = 2;
+inline constexpr const char* run_metadata = "reprise.run";
+inline constexpr const char* outcome_metadata = "reprise.outcome";
+inline constexpr const char* episode_attachment = "episode.bin";
+inline constexpr const char* scenario_attachment = "scenario/main.lua";
+inline constexpr const char* town_attachment = "town.bin.zst";
+inline constexpr const char* network_attachment = "town.net.xml.zst";
+
+/// MCAP puts no checksum on metadata; ours carry one of their own, under the key "check".
+std::map<std::string, std::string> with_check(std::map<std::string, std::string> texts);
+bool check_holds(const std::map<std::string, std::string>& texts);
+
+/// The FlatBuffers bytes of the episode and the town: equal nouns, equal bytes.
+mcap::Bytes pack(const world::EpisodeT& episode);
+mcap::Bytes pack(const world::TownT& town);
+
+/// 32 hexadecimal digits as world::to_hex writes them. Zero when it is no such text.
+world::Digest128 from_hex(const std::string& text);
+
+}  // namespace reprise::replay::format

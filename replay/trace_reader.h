@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "replay/recording.h"
+#include "world/tick.h"
+
+namespace reprise::replay {
+
+/// One recorded tick's bytes, verified as FlatBuffers. Borrowed from the reader.
+struct RecordedTick {
+    world::TickView view;
+    std::span<const std::uint8_t> tick_bytes;
+    std::span<const std::uint8_t> traffic_bytes;
+};
+
+/// Some ticks as they lie in the file. Equal bytes are equal ticks, without unpacking them.
+struct PackedTicks {
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
+    std::span<const std::uint8_t> bytes;  ///< borrowed from the reader
+};
+
+/// Reads traces: the index first, ticks on demand, one chunk in memory. Every CRC is checked, every
+/// length is distrusted. A trace that is not one, or is cut off, or damaged throws world::Error
+/// with path and byte offset.
+class TraceReader {
+  public:
+    explicit TraceReader(const std::filesystem::path& path);
+
+    /// Opens what a crash left behind (PATH.partial): its whole chunks. The outcome's verdict is
+    /// "error". A whole trace opens as usual.
+    static TraceReader open_partial(const std::filesystem::path& path);
+
+    ~TraceReader();
+    TraceReader(TraceReader&&) noexcept;
+    TraceReader& operator=(TraceReader&&) noexcept;
+
+    const std::filesystem::path& path() const;
+
+    /// Number of ticks; their indices are 1 to ticks().
+    std::uint64_t ticks() const;
+
+    /// The tick with this index, in [1, ticks()]. The view lives until the next call on this
+    /// reader. In order: about 20 us a tick with 100 cars; any other: one chunk is decompressed,
+    /// about 1 ms.
+    RecordedTick tick(std::uint64_t index);
+
+    /// Chain digest at a tick, as recorded; at 0: before the first one.
+    world::Digest128 chain(std::uint64_t index);
+
+    const world::EpisodeT& episode() const;
+    const Outcome& outcome() const;
+
+    /// Town, network and all: read on first use.
+    const Recording& recording();
+
+    /// Bytes of the file, and bytes of all messages before compression.
+    std::uint64_t file_size() const;
+    std::uint64_t message_bytes() const;
+
+    /// Damage found in the chunk that holds this tick (CRC, decompression), or nothing. With
+    /// damage, `tick` throws; `salvaged` gives the tick's bytes as far as they can be had: they are
+    /// sound FlatBuffers of that tick, but their values may be wrong.
+    std::optional<std::string> damage(std::uint64_t index);
+    std::optional<RecordedTick> salvaged(std::uint64_t index);
+
+    /// Damage anywhere in what was recorded, by the checksum of the whole data section: also where
+    /// no tick and no attachment lies. Reads the file once, about 1 GB/s.
+    std::optional<std::string> damage() const;
+
+    /// The chunk that holds this tick, unread by anyone: nothing about it was checked.
+    PackedTicks packed(std::uint64_t index);
+
+  private:
+    struct File;
+    explicit TraceReader(std::unique_ptr<File> file);
+    std::unique_ptr<File> file_;
+};
+
+}  // namespace reprise::replay

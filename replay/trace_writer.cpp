@@ -1,0 +1,148 @@
+#include "replay/trace_writer.h"
+
+#include <fmt/format.h>
+
+#include "replay/chunk_thread.h"
+#include "replay/trace_file.h"
+#include "replay/trace_format.h"
+#include "world/check.h"
+#include "world/digest.h"
+
+namespace reprise::replay {
+
+namespace {
+
+mcap::View bytes_of(const std::string& text) {
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+/// No clock, no host, no path: equal runs give equal files.
+std::map<std::string, std::string> facts(const world::EpisodeT& episode,
+                                         const world::Digest128& seed_of_chain) {
+    std::map<std::string, std::string> facts{
+        {"format", std::to_string(format::version)},
+        {"name", episode.name},
+        {"scenario", episode.scenario_path},
+        {"town", episode.town},
+        {"seed", std::to_string(episode.seed)},
+        {"step_ns", std::to_string(episode.step_ns)},
+        {"substeps", std::to_string(episode.substeps)},
+        {"max_ticks", std::to_string(episode.max_ticks)},
+        {"cars", std::to_string(episode.cars)},
+        {"road_friction", fmt::format("{}", episode.road_friction)},
+        {"weather", episode.weather_name},
+        {"chain_seed", world::to_hex(seed_of_chain)},
+    };
+    for (const world::ParameterT& parameter : episode.parameters)
+        facts["set." + parameter.key] = parameter.value;
+    for (const world::ParameterT& line : episode.fingerprint)
+        facts["build." + line.key] = line.value;
+    return facts;
+}
+
+}  // namespace
+
+struct TraceWriter::File {
+    TraceFile file;
+    std::uint64_t step_ns;
+    std::uint64_t ticks = 0;
+    world::Digest128 chain;  ///< of the last tick
+    bool closed = false;
+    std::unique_ptr<PendingChunk> chunk = std::make_unique<PendingChunk>();
+    std::unique_ptr<ChunkThread> thread;
+
+    File(const std::filesystem::path& path, const Recording& recording)
+        : file(path),
+          step_ns(recording.episode.step_ns),
+          chain(chain_seed(recording)) {
+        try {
+            write_start(recording);
+        } catch (...) {
+            file.abandon();
+            throw;
+        }
+        thread = std::make_unique<ChunkThread>(file);
+    }
+
+    void write_start(const Recording& recording) {
+        const world::EpisodeT& episode = recording.episode;
+        file.metadata(format::run_metadata, facts(episode, chain));
+        file.attachment(
+            format::episode_attachment, "application/x-flatbuffers", format::pack(episode));
+        file.attachment(format::scenario_attachment, "text/x-lua", bytes_of(episode.scenario));
+        file.packed_attachment(format::town_attachment, format::pack(recording.town));
+        file.packed_attachment(format::network_attachment, bytes_of(recording.network));
+    }
+
+    /// Passes an error on with what became of the ticks; no more can be written after it.
+    template <typename Action>
+    void guarded(Action action) {
+        try {
+            action();
+        } catch (const world::Error& error) {
+            thread.reset();  // the file is ours again
+            file.abandon();
+            closed = true;
+            throw world::Error(file.has_chunks()
+                                   ? fmt::format("{}; what was recorded until then is in {}",
+                                                 error.what(),
+                                                 file.partial().string())
+                                   : std::string(error.what()));
+        }
+    }
+};
+
+TraceWriter::TraceWriter(const std::filesystem::path& path, const Recording& recording) {
+    REPRISE_CHECK(recording.episode.step_ns > 0, "an episode needs a step");
+    file_ = std::make_unique<File>(path, recording);
+}
+
+TraceWriter::~TraceWriter() {
+    if (file_->closed)
+        return;
+    // The run stopped early: what it did so far is worth keeping, but must not look whole.
+    try {
+        if (!file_->chunk->messages.empty())
+            file_->thread->exchange(file_->chunk);
+        file_->thread->finish();
+    } catch (...) {
+        // The disk is full or so: what is there is there.
+    }
+    file_->thread.reset();
+    file_->file.abandon();
+}
+
+void TraceWriter::append(const world::SealedTick& tick) {
+    const std::uint64_t index = tick.view().index();
+    REPRISE_CHECK(!file_->closed, fmt::format("tick {} after the end", index));
+    REPRISE_CHECK(index == file_->ticks + 1,
+                  fmt::format("tick {} after tick {}", index, file_->ticks));
+    file_->guarded([&] {
+        file_->thread->check();
+        const std::uint64_t log_time = index * file_->step_ns;
+        file_->chunk->add(format::tick_channel, index, log_time, tick.tick_bytes());
+        file_->chunk->add(format::traffic_channel, index, log_time, tick.traffic_bytes());
+        file_->chain = tick.view().tick->digests()->chain();
+        file_->ticks = index;
+        if (index % format::ticks_per_chunk == 0)
+            file_->thread->exchange(file_->chunk);
+    });
+}
+
+void TraceWriter::close(const Outcome& outcome) {
+    REPRISE_CHECK(!file_->closed, "the trace is closed already");
+    file_->guarded([&] {
+        if (!file_->chunk->messages.empty())
+            file_->thread->exchange(file_->chunk);
+        file_->thread->finish();
+        file_->file.metadata(format::outcome_metadata,
+                             {{"verdict", outcome.verdict},
+                              {"reason", outcome.reason},
+                              {"ticks", std::to_string(file_->ticks)},
+                              {"chain", world::to_hex(file_->chain)}});
+        file_->file.finish();
+    });
+    file_->closed = true;
+}
+
+}  // namespace reprise::replay

@@ -1,0 +1,57 @@
+#include "replay/recording.h"
+
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "tests/replay/synthetic_run.h"
+#include "world/digest.h"
+
+namespace reprise::test {
+
+namespace {
+
+using replay::Recording;
+
+/// The chain's start after one change.
+std::string seed_with(const std::function<void(Recording&)>& change) {
+    Recording changed = recording();
+    change(changed);
+    return world::to_hex(replay::chain_seed(changed));
+}
+
+TEST(ChainSeed, DependsOnAllThatDecidesTheRun) {
+    const std::vector<std::string> seeds{
+        seed_with([](Recording&) {}),
+        seed_with([](Recording& r) { r.episode.seed = 8; }),
+        seed_with([](Recording& r) { r.episode.step_ns = 20'000'000; }),
+        seed_with([](Recording& r) { r.episode.substeps = 3; }),
+        seed_with([](Recording& r) { r.episode.max_ticks += 1; }),
+        seed_with([](Recording& r) { r.episode.cars = 1; }),
+        seed_with([](Recording& r) { r.episode.road_friction = 0.5; }),
+        seed_with([](Recording& r) { r.episode.weather.mutate_rain(3); }),
+        seed_with([](Recording& r) { r.episode.scenario += " "; }),
+        seed_with([](Recording& r) {
+            r.episode.parameters.emplace_back();
+            r.episode.parameters.back().key = "gap";
+        }),
+        seed_with([](Recording& r) { r.network += " "; }),
+        seed_with([](Recording& r) { r.town.lanes[1].width = 3; }),
+    };
+    EXPECT_THAT(std::set<std::string>(seeds.begin(), seeds.end()), testing::SizeIs(seeds.size()));
+}
+
+TEST(ChainSeed, IgnoresPathsAndTheBuild) {
+    const std::string same = seed_with([](Recording&) {});
+    EXPECT_EQ(seed_with([](Recording& r) { r.episode.scenario_path = "/elsewhere/x.lua"; }), same);
+    EXPECT_EQ(seed_with([](Recording& r) { r.episode.town_path = "/elsewhere/net.xml"; }), same);
+    EXPECT_EQ(seed_with([](Recording& r) {
+                  r.episode.fingerprint.emplace_back();
+                  r.episode.fingerprint.back().key = "compiler";
+              }),
+              same);
+}
+
+}  // namespace
+
+}  // namespace reprise::test
