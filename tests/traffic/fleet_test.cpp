@@ -1,0 +1,31 @@
+#include "traffic/fleet.h"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "world/catalogue.h"
+
+namespace reprise::traffic {
+namespace {
+
+TEST(Fleet, IsMostlyCars) {
+    std::array<int, 6> counts{};
+    for (int i = 0; i < 1000; ++i)
+        ++counts.at(demand_model((i + 0.5) / 1000));
+    int cars = 0;
+    for (std::uint16_t i = 0; i < counts.size(); ++i) {
+        EXPECT_GT(counts.at(i), 0) << world::vehicle_models()[i].name;
+        if (std::string_view(world::vehicle_models()[i].sumo_class) == "passenger")
+            cars += counts.at(i);
+    }
+    EXPECT_GT(cars, 800);
+}
+
+TEST(Fleet, EveryModelHasAClassThatSumoKnows) {
+    for (std::uint16_t i = 0; i < world::vehicle_models().size(); ++i)
+        EXPECT_NE(model_class(i), 0U) << world::vehicle_models()[i].name;
+}
+
+}  // namespace
+}  // namespace reprise::traffic

@@ -1,0 +1,138 @@
+#include "traffic/mirrors.h"
+
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/worlds.h"
+#include "tests/traffic/stage.h"
+#include "world/catalogue.h"
+
+namespace reprise::traffic {
+namespace {
+
+using test::lane;
+using test::own_town;
+using test::spawn;
+using test::Stage;
+using test::vehicle_on;
+
+constexpr std::uint32_t ego = 1;
+constexpr std::uint32_t follower = 2;
+constexpr double sumo_gap = 2.5;  // [m] minGap of the fleet's cars
+
+double sedan_front() {
+    const world::VehicleModel& sedan = world::vehicle_models()[0];
+    return sedan.length - sedan.rear_overhang;
+}
+
+TEST(Mirrors, ACarBehindAStandingEgoStopsBeforeIt) {
+    const auto& loaded = own_town("town1");
+    const std::uint32_t road = lane(loaded.town, "l1_b1_1");
+    const world::VehicleState standing = vehicle_on(loaded.town.lanes[road], ego, 80);
+    Stage stage(loaded, 0);
+    stage.step({}, {standing});
+    stage.step({spawn(follower, road, 20, 14)}, {standing});
+    double nearest = 100;
+    for (int i = 0; i < 400; ++i) {
+        stage.step({}, {standing});
+        const world::CarState* car = stage.car(follower);
+        ASSERT_NE(car, nullptr);
+        // Rear bumper of the ego minus front bumper of the follower, along the lane.
+        const double gap =
+            80 - world::vehicle_models()[0].rear_overhang - static_cast<double>(car->lane_s());
+        nearest = std::min(nearest, gap);
+        EXPECT_EQ(stage.draft().traffic.cars.size(), 1U) << "the ego is nobody's car but physics'";
+    }
+    EXPECT_NEAR(nearest, sumo_gap, 0.3);
+    EXPECT_LT(stage.car(follower)->speed(), 0.01F);
+    EXPECT_NE(stage.car(follower)->lamps() & world::lamp_brake, 0);
+}
+
+TEST(Mirrors, ACarFollowsADrivingEgoAtItsSpeed) {
+    const auto& loaded = own_town("town1");
+    const std::uint32_t road = lane(loaded.town, "l1_b1_1");
+    Stage stage(loaded, 0);
+    const double speed = 4;
+    double s = 30;
+    stage.step({}, {vehicle_on(loaded.town.lanes[road], ego, s, speed)});
+    stage.step({spawn(follower, road, 5, 8)}, {vehicle_on(loaded.town.lanes[road], ego, s, speed)});
+    for (int i = 0; i < 400; ++i) {
+        s += speed * 0.05;
+        stage.step({}, {vehicle_on(loaded.town.lanes[road], ego, s, speed)});
+    }
+    ASSERT_NE(stage.car(follower), nullptr);
+    EXPECT_NEAR(static_cast<double>(stage.car(follower)->speed()), speed, 0.3);
+    EXPECT_GT(s - static_cast<double>(stage.car(follower)->lane_s()), sumo_gap);
+}
+
+TEST(Mirrors, TheEgoMayDriveOverAJunctionAnyWay) {
+    const auto& loaded = own_town("town1");
+    const world::TownT& town = loaded.town;
+    for (const auto* const target : {"b1_b2_1", "b1_a1_1"}) {
+        Stage stage(loaded, 60);
+        // From l1_b1 through the junction, with the indicator never set.
+        const std::uint32_t start =
+            lane(town, std::string(target) == "b1_a1_1" ? "l1_b1_2" : "l1_b1_1");
+        const world::LaneT* here = &town.lanes[start];
+        double s = here->length - 30;
+        for (int i = 0; i < 200; ++i) {
+            s += 9 * 0.05;
+            while (s > here->length) {
+                s -= here->length;
+                const world::Link* way = &here->links.front();
+                for (const world::Link& link : here->links)
+                    if (town.lanes[link.to()].name == target)
+                        way = &link;
+                here = &town.lanes[way->via() != world::none ? way->via() : way->to()];
+            }
+            ASSERT_NO_THROW(stage.step({}, {vehicle_on(*here, ego, s, 9)})) << here->name;
+            EXPECT_EQ(stage.draft().traffic.cars.size(), 60U);
+            EXPECT_EQ(stage.car(ego), nullptr);
+        }
+    }
+}
+
+TEST(Mirrors, OffTheRoadNothingHappensToOthers) {
+    const auto& loaded = own_town("town1");
+    Stage stage(loaded, 50);
+    // Across the town in a straight line, over roads, meadows and far out of the map, and back.
+    for (int i = 0; i < 900; ++i) {
+        const double x = i < 450 ? -300.0 + 3 * i : -300.0 + 3 * (900 - i);
+        ASSERT_NO_THROW(stage.step({}, {test::vehicle_at(ego, x, 120 + 0.1 * i, 0.05, 60)}));
+        EXPECT_EQ(stage.draft().traffic.cars.size(), 50U);
+    }
+}
+
+TEST(Mirrors, AVehicleMayGoAndComeBack) {
+    const auto& loaded = own_town("town1");
+    const std::uint32_t road = lane(loaded.town, "l1_b1_1");
+    Stage stage(loaded, 0);
+    const world::VehicleState standing = vehicle_on(loaded.town.lanes[road], ego, 60);
+    for (int round = 0; round < 3; ++round) {
+        stage.step({}, {standing});
+        stage.step({}, {standing});
+        stage.step({}, {});
+        stage.step({}, {});
+    }
+    // Gone: a car drives through the place.
+    stage.step({spawn(follower, road, 20, 10)});
+    stage.steps(120);
+    EXPECT_GT(stage.car(follower)->lane_s(), 60.0F + static_cast<float>(sedan_front()));
+}
+
+TEST(Mirrors, RunsWithMirrorsAreRepeatable) {
+    const auto& loaded = own_town("town1");
+    const std::uint32_t road = lane(loaded.town, "b2_b3_1");
+    auto run = [&] {
+        Stage stage(loaded, 80);
+        for (int i = 0; i < 300; ++i)
+            stage.step({}, {vehicle_on(loaded.town.lanes[road], ego, std::min(60.0, 0.3 * i), 6)});
+        return stage.digest();
+    };
+    EXPECT_EQ(run(), run());
+}
+
+}  // namespace
+}  // namespace reprise::traffic

@@ -1,0 +1,59 @@
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/traffic/stage.h"
+
+namespace reprise::traffic {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Networks that nobody here wrote; those of Debian's sumo-tools are always there.
+fs::path find_net(const std::string& name) {
+    const fs::path maps = fs::path(REPRISE_SOURCE_DIR) / "../shared/maps" / name;
+    return fs::exists(maps) ? maps : fs::path("/usr/share/sumo/tools/game") / name;
+}
+
+std::string short_name(const ::testing::TestParamInfo<const char*>& net) {
+    const std::string name = net.param;
+    return name.substr(0, name.find_first_of("/_"));
+}
+
+class RealNets : public ::testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Nets,
+                         RealNets,
+                         ::testing::Values("Town04_sumo115.net.xml",
+                                           "DRT/osm.net.xml",
+                                           "A10KW/osm.net.xml",
+                                           "cross/cross.net.xml",
+                                           "grid6/grid6.net.xml"),
+                         short_name);
+
+TEST_P(RealNets, CarryACityOfCars) {
+    const fs::path path = find_net(GetParam());
+    if (!fs::exists(path))
+        GTEST_SKIP() << "skipped: no map " << path;
+    const test::Loaded loaded = test::load(path);
+    test::Stage stage(loaded, 100);
+    double driven = 0;
+    for (int i = 0; i < 400; ++i) {
+        const auto& cars = stage.step().traffic.cars;
+        EXPECT_GE(cars.size(), 97U) << "tick " << i + 1;
+        for (const world::CarState& car : cars) {
+            const double sum = car.position().x() + car.position().y() + car.position().z();
+            ASSERT_TRUE(std::isfinite(sum) && std::isfinite(car.yaw()) &&
+                        std::isfinite(car.pitch()));
+            ASSERT_LT(car.lane(), loaded.town.lanes.size());
+            EXPECT_LT(std::abs(car.pitch()), 0.3F);
+            driven += static_cast<double>(car.speed()) * 0.05;
+        }
+    }
+    EXPECT_GT(driven, 100 * 20 * 2.0) << "traffic flows";
+}
+
+}  // namespace
+}  // namespace reprise::traffic

@@ -1,0 +1,85 @@
+#include "traffic/road_graph.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/traffic/stage.h"
+#include "traffic/walk.h"
+
+namespace reprise::traffic {
+namespace {
+
+using test::lane;
+using test::own_town;
+using world::TownT;
+
+RoadGraph graph_of(const TownT& town) {
+    return {town, std::vector<ClassSet>(town.lanes.size(), permitted("", "pedestrian"))};
+}
+
+TEST(RoadGraph, InternalLanesKnowWhereTheyComeFromAndLead) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_of(town);
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
+        if (world::is_for_cars(town.lanes[i])) {
+            ASSERT_NE(graph.edge_of(i), world::none) << town.lanes[i].name;
+            const auto& successors = graph.edge(graph.edge_of(i)).successors;
+            if (town.lanes[i].kind == world::LaneKind::internal) {
+                EXPECT_TRUE(
+                    std::binary_search(successors.begin(), successors.end(), graph.edge_after(i)));
+            }
+        }
+}
+
+TEST(RoadGraph, ShortestWaysAreThoseOfFloydAndWarshall) {
+    const TownT& town = own_town("town2").town;
+    const RoadGraph graph = graph_of(town);
+    const std::size_t count = graph.size();
+    std::vector<std::vector<double>> cost(count, std::vector<double>(count, 1e9));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        for (const std::uint32_t next : graph.edge(i).successors)
+            cost[i][next] = graph.edge(next).length;
+        cost[i][i] = 0;
+    }
+    for (std::size_t via = 0; via < count; ++via)
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t j = 0; j < count; ++j)
+                cost[i][j] = std::min(cost[i][j], cost[i][via] + cost[via][j]);
+    for (std::uint32_t i = 0; i < count; ++i)
+        for (std::uint32_t j = 0; j < count; ++j) {
+            const std::vector<std::uint32_t> way = graph.shortest(i, j);
+            ASSERT_FALSE(way.empty());
+            EXPECT_EQ(way.front(), i);
+            EXPECT_EQ(way.back(), j);
+            double length = 0;
+            for (std::size_t k = 1; k < way.size(); ++k) {
+                const auto& successors = graph.edge(way[k - 1]).successors;
+                EXPECT_TRUE(std::binary_search(successors.begin(), successors.end(), way[k]));
+                length += graph.edge(way[k]).length;
+            }
+            EXPECT_NEAR(length, cost[i][j], 1e-6);
+        }
+}
+
+TEST(RoadGraph, WalksFollowConnections) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_of(town);
+    Car car;
+    car.id = 1'000'003;
+    walk_from(lane(town, "a1_a2_1"), car, graph, class_bit("passenger"), 7, 5000);
+    EXPECT_FALSE(car.dead_end);
+    double length = 0;
+    for (std::size_t i = 1; i < car.route.size(); ++i) {
+        const auto& successors = graph.edge(car.route[i - 1]).successors;
+        EXPECT_TRUE(std::binary_search(successors.begin(), successors.end(), car.route[i]));
+        length += graph.edge(car.route[i]).length;
+    }
+    EXPECT_GE(length, 5000);
+    Car other = car;
+    walk_from(lane(town, "a1_a2_1"), other, graph, class_bit("passenger"), 8, 5000);
+    EXPECT_NE(car.route, other.route);
+}
+
+}  // namespace
+}  // namespace reprise::traffic

@@ -1,0 +1,95 @@
+#include "tests/traffic/stage.h"
+
+#include <cstdlib>
+#include <iostream>
+#include <map>
+
+#include "tests/support/worlds.h"
+
+namespace reprise::test {
+
+Loaded load(const std::filesystem::path& network) {
+    Loaded loaded;
+    loaded.network = traffic::load_network(network);
+    loaded.town = traffic::read_town(loaded.network);
+    return loaded;
+}
+
+const Loaded& own_town(const std::string& name) {
+    static std::map<std::string, Loaded> towns;
+    const auto known = towns.find(name);
+    if (known != towns.end())
+        return known->second;
+    const std::filesystem::path folder = std::string(REPRISE_SOURCE_DIR) + "/scenarios/towns";
+    return towns.emplace(name, load(folder / name / (name + ".net.xml"))).first->second;
+}
+
+std::uint32_t lane(const world::TownT& town, std::string_view name) {
+    const auto found = world::find_lane(town, name);
+    if (!found) {
+        std::cerr << "no lane " << name << " in " << town.name << '\n';
+        std::abort();
+    }
+    return *found;
+}
+
+Stage::Stage(const Loaded& loaded, std::uint32_t cars, std::uint64_t seed)
+    : episode_(episode()),
+      last_(world::seal(draft_, {})) {
+    episode_.town = loaded.town.name;
+    episode_.cars = cars;
+    episode_.seed = seed;
+    background_ = std::make_unique<traffic::Background>(episode_, loaded.town, loaded.network.xml);
+}
+
+const world::TickDraft& Stage::step(const std::vector<world::CommandT>& commands,
+                                    const std::vector<world::VehicleState>& vehicles) {
+    const std::uint64_t index = draft_.tick.index + 1;
+    draft_ = {};
+    draft_.tick.index = index;
+    draft_.tick.commands = commands;
+    background_->advance(last_.view(), draft_);
+    draft_.tick.vehicles = vehicles;
+    last_ = world::seal(draft_, {});
+    return draft_;
+}
+
+void Stage::steps(int count) {
+    for (int i = 0; i < count; ++i)
+        step();
+}
+
+const world::CarState* Stage::car(std::uint32_t id) const {
+    return world::find(draft_.traffic.cars, id);
+}
+
+world::CommandT command(world::CommandKind kind, std::uint32_t actor) {
+    world::CommandT command;
+    command.kind = kind;
+    command.actor = actor;
+    command.line = 12;
+    return command;
+}
+
+world::CommandT spawn(std::uint32_t actor,
+                      std::uint32_t lane,
+                      double s,
+                      double speed,
+                      world::Driver driver,
+                      double offset) {
+    world::CommandT spawn = command(world::CommandKind::spawn, actor);
+    spawn.driver = driver;
+    spawn.lane = lane;
+    spawn.s = s;
+    spawn.speed = speed;
+    spawn.offset = offset;
+    spawn.text = "car" + std::to_string(actor);
+    return spawn;
+}
+
+world::VehicleState vehicle_on(const world::LaneT& lane, std::uint32_t id, double s, double speed) {
+    const world::LanePoint at = world::point_at(lane, s);
+    return vehicle_at(id, at.position.x(), at.position.y(), at.yaw, speed);
+}
+
+}  // namespace reprise::test

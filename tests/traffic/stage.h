@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "traffic/background.h"
+#include "traffic/town_reader.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::test {
+
+/// A network with the town read out of it.
+struct Loaded {
+    traffic::Network network;
+    world::TownT town;
+};
+
+/// scenarios/towns/NAME/NAME.net.xml, read once in the process.
+const Loaded& own_town(const std::string& name);
+
+Loaded load(const std::filesystem::path& network);
+
+/// Index of a lane; fails the process when there is none.
+std::uint32_t lane(const world::TownT& town, std::string_view name);
+
+/// Runs nothing but traffic: tick by tick, with commands and with physics vehicles put where the
+/// test wants them.
+class Stage {
+  public:
+    Stage(const Loaded& loaded, std::uint32_t cars, std::uint64_t seed = 7);
+
+    /// One tick; `commands` are carried out in it. The vehicles are part of its result, so that
+    /// traffic sees them in the tick after.
+    const world::TickDraft& step(const std::vector<world::CommandT>& commands = {},
+                                 const std::vector<world::VehicleState>& vehicles = {});
+
+    void steps(int count);
+
+    /// The car in the last tick, or null.
+    const world::CarState* car(std::uint32_t id) const;
+
+    std::uint64_t digest() const { return background_->digest(); }
+
+    const world::TickDraft& draft() const { return draft_; }
+
+    std::uint64_t tick() const { return draft_.tick.index; }
+
+  private:
+    world::EpisodeT episode_;
+    std::unique_ptr<traffic::Background> background_;
+    world::TickDraft draft_;
+    world::SealedTick last_;
+};
+
+world::CommandT spawn(std::uint32_t actor,
+                      std::uint32_t lane,
+                      double s,
+                      double speed = 0,
+                      world::Driver driver = world::Driver::traffic,
+                      double offset = 0);
+world::CommandT command(world::CommandKind kind, std::uint32_t actor);
+
+/// A sedan of mass on the lane's centre line, its origin at s, heading along it.
+world::VehicleState vehicle_on(const world::LaneT& lane,
+                               std::uint32_t id,
+                               double s,
+                               double speed = 0);
+
+}  // namespace reprise::test

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "world/episode_generated.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::traffic {
+
+/// SUMO's cars and traffic lights. Owns the process's one libsumo simulation: constructing a second
+/// one while the first lives throws. Kept deterministic by listing every SUMO option, one thread, a
+/// fixed seed, and by calling SUMO in the order of ids.
+class Background {
+  public:
+    /// Starts SUMO in this process with the network's bytes (no file is left behind) and places
+    /// `episode.cars` cars, spread over the town by the seed. `town` must outlive this.
+    /// Throws world::Error when SUMO refuses the network.
+    Background(const world::EpisodeT& episode, const world::TownT& town, std::string_view network);
+    ~Background();
+    Background(const Background&) = delete;
+    Background& operator=(const Background&) = delete;
+
+    /// Stage 3. Mirrors the physics vehicles of the last tick into SUMO, carries out next's
+    /// commands for cars that traffic drives (spawn, despawn, set_speed, free_speed, change_lane,
+    /// set_route), makes one SUMO step, and writes next.traffic.cars (sorted by id, parked ones
+    /// among them), next.tick.signals, and spawned/despawned events. Keeps the number of background
+    /// cars.
+    void advance(const world::TickView& last, world::TickDraft& next);
+
+    /// Of the unrounded state: pose, speed, lane position of every car; the signals.
+    std::uint64_t digest() const;
+
+  private:
+    struct Sumo;
+    std::unique_ptr<Sumo> sumo_;
+};
+
+}  // namespace reprise::traffic

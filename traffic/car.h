@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "traffic/trail.h"
+#include "world/tick.h"
+
+namespace reprise::traffic {
+
+/// Who wanted the car, which decides what happens to it at the end of its way.
+enum class Origin : std::uint8_t { demand, scripted, parked };
+
+/// A scripted speed: from `from` at `start`, evenly over `ticks`, then held. [m/s]
+struct SpeedOrder {
+    double from = 0;
+    double to = 0;
+    std::uint64_t start = 0;
+    std::uint64_t ticks = 0;
+};
+
+/// A scripted lane change: asked of SUMO again and again until it is made or `until` has passed.
+struct LaneOrder {
+    std::uint32_t lane = world::none;
+    double duration = 0;  ///< [s]
+    std::uint64_t until = 0;
+};
+
+/// A car that traffic owns. Positions are world, metres.
+struct Car {
+    std::uint32_t id = 0;
+    std::uint16_t model = 0;
+    Origin origin = Origin::demand;
+    std::string sumo;  ///< SUMO's id; empty when SUMO need not know (parked beside the lane)
+
+    // As of the last SUMO step.
+    std::uint32_t lane = world::none;
+    double lane_position = 0;  ///< [m] of the front bumper, in SUMO's measure of the lane
+    double speed = 0;
+    double acceleration = 0;
+    std::uint16_t lamps = 0;
+    Eigen::Vector3d sumo_front = Eigen::Vector3d::Zero();  ///< where SUMO believes the bumper
+    Eigen::Vector2d slip = Eigen::Vector2d::Zero();  ///< [m] ahead and left of there; see smooth()
+    Trail trail;
+    Eigen::Vector3d rear = Eigen::Vector3d::Zero();  ///< the origin: ground below the rear axle
+    double yaw = 0;
+    double pitch = 0;
+    std::uint32_t standing_ticks = 0;
+
+    // Where it goes: edges, the current one first; `last_lane` is where the plan ends.
+    std::vector<std::uint32_t> route;
+    std::uint32_t last_lane = world::none;
+    std::uint32_t draws = 0;  ///< made for its route so far
+    bool dead_end = false;    ///< nothing goes on from last_lane
+
+    std::optional<SpeedOrder> speed_order;
+    std::optional<LaneOrder> lane_order;
+};
+
+}  // namespace reprise::traffic

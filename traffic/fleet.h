@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "traffic/network_xml.h"
+
+namespace reprise::traffic {
+
+/// SUMO's vehicle types: for every catalogue model one that traffic drives with the model's class
+/// and a driver with moods ("d0", "d1", ...), and one for scripted, mirrored and parked cars that
+/// may go wherever a passenger car may and has no moods ("s0", ...).
+std::string vehicle_types_xml();
+
+std::string demand_type(std::uint16_t model);
+std::string scripted_type(std::uint16_t model);
+
+/// What may drive where the model's class is asked for.
+ClassSet model_class(std::uint16_t model);
+
+/// The model for a draw in [0, 1): mostly cars, some vans, few lorries and buses.
+std::uint16_t demand_model(double drawn);
+
+/// Metres from the origin (rear axle) to the front bumper, which is where SUMO's positions lie.
+double origin_to_front(std::uint16_t model);
+
+}  // namespace reprise::traffic

@@ -1,0 +1,220 @@
+#include "traffic/mirrors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include <libsumo/libsumo.h>
+
+#include "traffic/fleet.h"
+#include "traffic/sumo.h"
+#include "world/catalogue.h"
+#include "world/frames.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+constexpr double reach = 4;        // [m] from a centre line: further out is off the road
+constexpr double way_ahead = 250;  // [m] that SUMO's cars may look at
+constexpr int on_its_route = 1;    // moveToXY's keepRoute
+constexpr int anywhere = 2;
+
+double yaw_of(const world::VehicleState& vehicle) {
+    const Eigen::Vector3d ahead = world::to_eigen(vehicle.orientation()) * Eigen::Vector3d::UnitX();
+    return std::atan2(ahead.y(), ahead.x());
+}
+
+/// How well a turn fits the indicators; higher is better.
+int fit(world::Turn turn, std::uint16_t lamps) {
+    const bool to_left = turn == world::Turn::left || turn == world::Turn::partially_left;
+    const bool to_right = turn == world::Turn::right || turn == world::Turn::partially_right;
+    if (turn == world::Turn::around)
+        return 0;
+    if ((lamps & world::lamp_left) != 0)
+        return to_left ? 3 : 1;
+    if ((lamps & world::lamp_right) != 0)
+        return to_right ? 3 : 1;
+    return turn == world::Turn::straight ? 2 : 1;
+}
+
+}  // namespace
+
+Mirrors::Mirrors(const world::TownT& town,
+                 const world::LaneMap& lanes,
+                 const RoadGraph& graph,
+                 double step)
+    : town_(&town),
+      lanes_(&lanes),
+      graph_(&graph),
+      step_(step) {}
+
+bool Mirrors::holds(std::uint32_t id) const {
+    return std::any_of(
+        mirrors_.begin(), mirrors_.end(), [id](const Mirror& m) { return m.id == id; });
+}
+
+void Mirrors::forget(std::uint32_t id) {
+    std::erase_if(mirrors_, [id](const Mirror& mirror) { return mirror.id == id; });
+}
+
+Mirrors::Target Mirrors::target_of(const world::VehicleState& vehicle) const {
+    // The step ends one tick after the last one: there the vehicle will be, up to a centimetre.
+    const double yaw = yaw_of(vehicle) + vehicle.angular_velocity().z() * step_;
+    const Eigen::Vector3d origin =
+        world::to_eigen(vehicle.position()) + world::to_eigen(vehicle.velocity()) * step_;
+    const double ahead = origin_to_front(vehicle.model());
+    const Eigen::Vector3d front = origin + ahead * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0);
+    Target target{front.x(), front.y(), sumo_angle_deg(yaw)};
+    if (const auto found = lanes_->best(front, yaw, reach)) {
+        const world::LaneT& lane = town_->lanes[found->lane];
+        target.lane = found->lane;
+        target.lane_position = found->at.s / lane.length * lane.sumo_length;
+    }
+    return target;
+}
+
+std::vector<std::uint32_t> Mirrors::likely_way(std::uint32_t lane, std::uint16_t lamps) const {
+    std::vector<std::uint32_t> way{graph_->edge_of(lane)};
+    double length = 0;
+    if (graph_->edge_after(lane) != way.front()) {
+        way.push_back(graph_->edge_after(lane));
+        lane = graph_->edge(way.back()).lanes.front();
+    }
+    while (length < way_ahead) {
+        const world::Link* best = nullptr;
+        for (const world::Link& link : town_->lanes[lane].links)
+            if (graph_->edge_of(link.to()) != world::none &&
+                (best == nullptr || fit(link.turn(), lamps) > fit(best->turn(), lamps)))
+                best = &link;
+        if (best == nullptr)
+            break;
+        lane = best->to();
+        lamps = 0;  // indicators are about the next junction
+        way.push_back(graph_->edge_of(lane));
+        length += graph_->edge(way.back()).length;
+    }
+    return way;
+}
+
+Mirrors::Mirror& Mirrors::find_or_add(const world::VehicleState& vehicle, const Target& target) {
+    auto at = std::lower_bound(
+        mirrors_.begin(), mirrors_.end(), vehicle.id(), [](const Mirror& m, std::uint32_t id) {
+            return m.id < id;
+        });
+    if (at != mirrors_.end() && at->id == vehicle.id())
+        return *at;
+    using libsumo::Vehicle;
+    Mirror mirror;
+    mirror.id = vehicle.id();
+    mirror.sumo = sumo_id(vehicle.id());
+    // Off the road it starts on some edge, and is taken away from there at once.
+    const std::uint32_t start =
+        target.lane == world::none ? graph_->edge(0).lanes.front() : target.lane;
+    std::vector<std::uint32_t> way{graph_->edge_of(start)};
+    if (graph_->edge_after(start) != way.front())
+        way.push_back(graph_->edge_after(start));
+    const std::string route = fmt::format("mirror {} {}", vehicle.id(), added_++);
+    libsumo::Route::add(route, graph_->names(way));
+    Vehicle::add(mirror.sumo, route, scripted_type(vehicle.model()), "now");
+    Vehicle::moveTo(mirror.sumo, town_->lanes[start].name, target.lane_position);
+    // SUMO never drives it.
+    Vehicle::setSpeedMode(mirror.sumo, 0);
+    Vehicle::setLaneChangeMode(mirror.sumo, 0);
+    return *mirrors_.insert(at, std::move(mirror));
+}
+
+void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Target& target) {
+    using libsumo::Vehicle;
+    auto place = [&](const std::string& edge, int index, int keep_route) {
+        Vehicle::moveToXY(
+            mirror.sumo, edge, index, target.x, target.y, target.angle_deg, keep_route, reach + 2);
+    };
+    if (target.lane == world::none) {
+        place("", -1, anywhere);
+        mirror.edge = mirror.after = world::none;
+        mirror.route.clear();
+        return;
+    }
+    const world::LaneT& lane = town_->lanes[target.lane];
+    const std::uint32_t edge = graph_->edge_of(target.lane);
+    const std::uint32_t after = graph_->edge_after(target.lane);
+    auto at = std::find(mirror.route.begin(), mirror.route.end(), edge);
+    const bool as_planned = mirror.edge != world::none && at != mirror.route.end() &&
+                            (after == edge || (at + 1 != mirror.route.end() && *(at + 1) == after));
+    if (!as_planned || (edge == mirror.edge && mirror.lamps != vehicle.lamps())) {
+        mirror.route = likely_way(target.lane, vehicle.lamps());
+        std::vector<std::uint32_t> way = mirror.route;
+        const bool goes_on = mirror.edge != world::none && mirror.edge != edge;
+        if (goes_on)  // SUMO still has it on the edge before
+            way.insert(way.begin(), mirror.edge);
+        const auto& successors =
+            graph_->edge(mirror.edge == world::none ? edge : mirror.edge).successors;
+        const bool connected =
+            mirror.edge != world::none &&
+            (!goes_on || std::binary_search(successors.begin(), successors.end(), edge));
+        if (!connected) {
+            // SUMO finds the edge by the place, and takes it for the whole route until the next
+            // tick.
+            place(lane.edge, lane.index, anywhere);
+            mirror.route = {edge};
+            mirror.edge = edge;
+            mirror.after = after;
+            mirror.lamps = 0xffff;
+            return;
+        }
+        Vehicle::setRoute(mirror.sumo, graph_->names(way));
+        mirror.lamps = vehicle.lamps();
+    }
+    place(lane.edge, lane.index, on_its_route);
+    mirror.edge = edge;
+    mirror.after = after;
+    at = std::find(mirror.route.begin(), mirror.route.end(), edge);
+    mirror.route.erase(mirror.route.begin(), at);
+    // The end of the plan comes near: SUMO takes vehicles out at the end of their route.
+    if (mirror.route.size() <= 1)
+        mirror.lamps = 0xffff;
+}
+
+/// SUMO sorts a lane's vehicles when they enter it, and a moved one keeps its place in that order:
+/// one that passes others on their own lane must enter it again, or its followers would not see it.
+void Mirrors::keep_order(const Mirror& mirror,
+                         const Target& target,
+                         std::span<const Car> cars) const {
+    constexpr double abreast = 5;  // [m] closer than cars ever follow each other, front to front
+    const bool passes = std::any_of(cars.begin(), cars.end(), [&target](const Car& car) {
+        return car.lane == target.lane && !car.sumo.empty() &&
+               std::abs(car.lane_position - target.lane_position) < abreast;
+    });
+    if (passes)
+        libsumo::Vehicle::moveTo(mirror.sumo, town_->lanes[target.lane].name, target.lane_position);
+}
+
+void Mirrors::advance(const world::TickView& last, std::span<const Car> cars) {
+    const auto vehicles = last.vehicles();
+    // Gone ones first.
+    for (const Mirror& mirror : mirrors_)
+        if (world::find(vehicles, mirror.id) == nullptr)
+            libsumo::Vehicle::remove(mirror.sumo);
+    std::erase_if(mirrors_, [&vehicles](const Mirror& mirror) {
+        return world::find(vehicles, mirror.id) == nullptr;
+    });
+    for (const world::VehicleState& vehicle : vehicles) {
+        const Target target = target_of(vehicle);
+        Mirror& mirror = find_or_add(vehicle, target);
+        try {
+            move(mirror, vehicle, target);
+            if (mirror.edge != world::none)
+                keep_order(mirror, target, cars);
+        } catch (const libsumo::TraCIException&) {
+            // SUMO's map of the place differs from ours (nets with broken connections): let it look
+            // for itself. The same in every run.
+            mirror.edge = mirror.after = world::none;
+            mirror.route.clear();
+            libsumo::Vehicle::moveToXY(
+                mirror.sumo, "", -1, target.x, target.y, target.angle_deg, anywhere, reach + 2);
+        }
+    }
+}
+
+}  // namespace reprise::traffic

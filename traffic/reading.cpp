@@ -1,0 +1,227 @@
+// What it must do: read SUMO's cars and signals after its step, and write them into the tick.
+// What it assumes: between two steps a car moves by speed times step along its lane (SUMO's Euler
+//   update), unless it changes lanes.
+// How it goes: libsumo's getters, about 30 ns each, and none for what cannot have changed.
+// What it keeps: nothing beside the cars.
+#include <algorithm>
+#include <cmath>
+
+#include <libsumo/libsumo.h>
+
+#include "traffic/background_state.h"
+#include "world/catalogue.h"
+#include "world/digest.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+using libsumo::Vehicle;
+using world::none;
+using world::SignalColor;
+
+SignalColor color_of(char state) {
+    switch (state) {
+        case 'r':
+            return SignalColor::red;
+        case 'u':
+            return SignalColor::red_yellow;
+        case 'y':
+        case 'Y':
+            return SignalColor::yellow;
+        case 'G':
+            return SignalColor::green;
+        case 'g':
+            return SignalColor::green_minor;
+        case 's':
+            return SignalColor::stop;
+        default:
+            return SignalColor::off;  // o: blinking yellow, O: off
+    }
+}
+
+/// SUMO's bits: 1 right indicator, 2 left indicator, 8 brake light.
+std::uint16_t lamps_of(int signals) {
+    int lamps = 0;
+    if ((signals & 1) != 0)
+        lamps |= world::lamp_right;
+    if ((signals & 2) != 0)
+        lamps |= world::lamp_left;
+    if ((signals & 8) != 0)
+        lamps |= world::lamp_brake;
+    return static_cast<std::uint16_t>(lamps);
+}
+
+double rounded(double value, double per_unit) {
+    return std::nearbyint(value * per_unit) / per_unit;
+}
+
+/// SUMO's cars jump when they change lanes on a curve (position along the lane is kept, though the
+/// lanes are not equally long) and when a change is cut short by a junction. Such a jump becomes a
+/// slip, which the car works off while it drives. Returns the bumper's place to show.
+Eigen::Vector3d smooth(Car& car, const Eigen::Vector3d& sumo_front, bool new_lane, double step) {
+    const Eigen::Vector2d ahead(std::cos(car.yaw), std::sin(car.yaw));
+    const Eigen::Vector2d left(-ahead.y(), ahead.x());
+    if (new_lane) {
+        const double driven = car.speed * step;
+        const Eigen::Vector2d jump = (sumo_front - car.sumo_front).head<2>() - ahead * driven;
+        // A bend moves the bumper sideways, too: what one tick of driving can do is no jump.
+        const double along = jump.dot(ahead);
+        const double across = jump.dot(left);
+        constexpr double farthest = 8;  // [m]; further is a new place, not a jump
+        if (std::abs(along) > 0.05 + 0.1 * driven && jump.norm() < farthest)
+            car.slip.x() -= along;
+        if (std::abs(across) > 0.15 + 0.3 * driven && jump.norm() < farthest)
+            car.slip.y() -= across;
+    }
+    car.sumo_front = sumo_front;
+    if (car.slip.isZero(0))
+        return sumo_front;
+    // Shares of the speed, so that a standing car stands.
+    const double along = std::min(std::abs(car.slip.x()), 0.15 * car.speed * step);
+    const double across = std::min(std::abs(car.slip.y()), 0.10 * car.speed * step);
+    car.slip.x() -= std::copysign(along, car.slip.x());
+    car.slip.y() -= std::copysign(across, car.slip.y());
+    const Eigen::Vector2d shift = ahead * car.slip.x() + left * car.slip.y();
+    return sumo_front + Eigen::Vector3d(shift.x(), shift.y(), 0);
+}
+
+}  // namespace
+
+void Background::Sumo::read_car(Car& car) {
+    const double speed = Vehicle::getSpeed(car.sumo);
+    const double position = Vehicle::getLanePosition(car.sumo);
+    // On a road of one lane: who did not move is where it was, and who moved by just its speed is
+    // on the same lane (entering another one would take off the length of the last).
+    const bool alone = car.lane != none && alone_on_edge[car.lane];
+    const bool stands = alone && speed == 0 && car.speed == 0 && position == car.lane_position;
+    const bool keeps_lane = alone && std::abs(position - car.lane_position - speed * step) < 1e-6;
+    car.lane_position = position;
+    car.lamps = lamps_of(Vehicle::getSignals(car.sumo));
+    car.acceleration = (speed - car.speed) / step;
+    car.speed = speed;
+    car.standing_ticks = speed < 0.1 ? car.standing_ticks + 1 : 0;
+
+    if (stands)
+        return;
+
+    const std::string lane = keeps_lane ? town.lanes[car.lane].name : Vehicle::getLaneID(car.sumo);
+    const bool new_lane = car.lane == none || town.lanes[car.lane].name != lane;
+    if (new_lane) {
+        car.lane = lane_index(lane);
+        // What lies behind is no longer part of the plan.
+        const std::uint32_t edge = car.lane == none ? none : graph.edge_of(car.lane);
+        const auto here = std::find(car.route.begin(), car.route.end(), edge);
+        if (here != car.route.end())
+            car.route.erase(car.route.begin(), here);
+    }
+
+    // SUMO writes a height only where the network has one; elsewhere it is a number of its own.
+    const libsumo::TraCIPosition p = Vehicle::getPosition3D(car.sumo);
+    const Eigen::Vector3d front(p.x, p.y, p.z == libsumo::INVALID_DOUBLE_VALUE ? 0.0 : p.z);
+    car.trail.advance(smooth(car, front, new_lane, step));
+    car.rear = car.trail.rear();
+    const Eigen::Vector3d body = car.trail.front() - car.rear;
+    car.yaw = std::atan2(body.y(), body.x());
+    car.pitch = body.z() == 0 ? 0 : std::atan2(body.z(), body.head<2>().norm());
+}
+
+void Background::Sumo::read_cars() {
+    for (Car& car : cars)
+        if (car.origin != Origin::parked)
+            read_car(car);
+}
+
+void Background::Sumo::read_signals(world::TickDraft& next) {
+    for (Program& program : programs) {
+        std::string state = libsumo::TrafficLight::getRedYellowGreenState(program.name);
+        if (state == program.state)
+            continue;
+        program.state = std::move(state);
+        for (std::size_t i = program.first; i < program.first + program.count; ++i) {
+            const std::uint32_t index = town.signals[i].index;
+            signals[i] =
+                index < program.state.size() ? color_of(program.state[index]) : SignalColor::off;
+        }
+    }
+    next.tick.signals = signals;
+}
+
+void Background::Sumo::write_cars(world::TickDraft& next) const {
+    constexpr double per_metre = 1024;
+    constexpr double per_radian = 8192;
+    constexpr double per_acceleration = 64;  // a lamp and a plot need no more
+    auto& out = next.traffic.cars;
+    out.clear();
+    out.reserve(cars.size());
+    for (const Car& car : cars) {
+        double lane_s = 0;
+        if (car.lane != none)
+            lane_s =
+                car.lane_position * town.lanes[car.lane].length / town.lanes[car.lane].sumo_length;
+        double yaw = rounded(car.yaw, per_radian);
+        if (yaw > std::acos(-1.0) || yaw <= -std::acos(-1.0))
+            yaw = std::floor(std::acos(-1.0) * per_radian) / per_radian;
+        out.emplace_back(world::Vec3(rounded(car.rear.x(), per_metre),
+                                     rounded(car.rear.y(), per_metre),
+                                     rounded(car.rear.z(), per_metre)),
+                         static_cast<float>(yaw),
+                         static_cast<float>(rounded(car.pitch, per_radian)),
+                         static_cast<float>(rounded(car.speed, per_metre)),
+                         static_cast<float>(rounded(lane_s, per_metre)),
+                         car.id,
+                         car.lane,
+                         car.model,
+                         car.lamps,
+                         static_cast<float>(rounded(car.acceleration, per_acceleration)));
+    }
+}
+
+std::uint64_t Background::Sumo::digest() const {
+    std::vector<double> numbers;
+    numbers.reserve(cars.size() * 11);
+    std::vector<std::uint32_t> indices{next_id};
+    indices.reserve(cars.size() * 6);
+    for (const Car& car : cars) {
+        const Eigen::Vector3d& front = car.trail.front();
+        for (const double value : {front.x(),
+                                   front.y(),
+                                   front.z(),
+                                   car.rear.x(),
+                                   car.rear.y(),
+                                   car.rear.z(),
+                                   car.speed,
+                                   car.lane_position,
+                                   car.acceleration,
+                                   car.slip.x(),
+                                   car.slip.y()})
+            numbers.push_back(value);
+        for (const std::uint32_t value : {car.id,
+                                          car.lane,
+                                          std::uint32_t{car.lamps},
+                                          car.draws,
+                                          car.standing_ticks,
+                                          car.last_lane})
+            indices.push_back(value);
+    }
+    world::Hasher hasher;
+    hasher.add(std::span<const double>(numbers));
+    hasher.add(std::span<const std::uint32_t>(indices));
+    hasher.add(std::span<const SignalColor>(signals));
+    hasher.add(place_draws);
+    for (const Car& car : cars) {
+        if (car.speed_order) {
+            hasher.add(car.id);
+            hasher.add(car.speed_order->to);
+            hasher.add(car.speed_order->start + car.speed_order->ticks);
+        }
+        if (car.lane_order) {
+            hasher.add(car.id);
+            hasher.add(car.lane_order->lane);
+            hasher.add(car.lane_order->until);
+        }
+    }
+    return hasher.digest64();
+}
+
+}  // namespace reprise::traffic

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "traffic/network_xml.h"
+#include "world/town_generated.h"
+
+namespace reprise::traffic {
+
+/// Where one can drive from where: SUMO's edges (roads) and their lanes, with who may use them.
+class RoadGraph {
+  public:
+    /// `classes` has one set a lane of the town, see ClassSet.
+    RoadGraph(const world::TownT& town, std::vector<ClassSet> classes);
+
+    struct Edge {
+        std::string name;
+        std::vector<std::uint32_t> lanes;       ///< driving lanes only, by index
+        std::vector<std::uint32_t> successors;  ///< edges, ascending
+        double length = 0;
+    };
+
+    const Edge& edge(std::uint32_t index) const { return edges_[index]; }
+
+    std::size_t size() const { return edges_.size(); }
+
+    /// The edge of a driving lane, or the one that an internal lane comes from; none for others.
+    std::uint32_t edge_of(std::uint32_t lane) const { return edge_of_lane_[lane]; }
+
+    /// The edge that an internal lane leads to; for others the same as edge_of.
+    std::uint32_t edge_after(std::uint32_t lane) const { return edge_after_[lane]; }
+
+    bool may_use(std::uint32_t lane, ClassSet car) const { return (classes_[lane] & car) != 0; }
+
+    /// The lanes that a car of this class can go to from the end of `lane`, without a lane change
+    /// where possible; turning around is the last resort. Ascending; empty at a dead end.
+    std::vector<std::uint32_t> ways_on(std::uint32_t lane, ClassSet car) const;
+
+    /// Edges of the shortest way from one edge to another, both included; empty when there is none.
+    std::vector<std::uint32_t> shortest(std::uint32_t from, std::uint32_t to) const;
+
+    std::vector<std::string> names(const std::vector<std::uint32_t>& edges) const;
+
+  private:
+    const world::TownT* town_;
+    std::vector<ClassSet> classes_;
+    std::vector<Edge> edges_;  ///< sorted by name
+    std::vector<std::uint32_t> edge_of_lane_;
+    std::vector<std::uint32_t> edge_after_;
+};
+
+}  // namespace reprise::traffic

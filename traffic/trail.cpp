@@ -1,0 +1,53 @@
+#include "traffic/trail.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+constexpr double spacing = 0.25;          // [m] between points kept: finer is not visible
+constexpr std::size_t spent_points = 16;  // thrown away together
+
+}  // namespace
+
+void Trail::start(const Eigen::Vector3d& front, const Eigen::Vector3d& behind, double distance) {
+    start(std::vector<Eigen::Vector3d>{front + behind * distance, front}, distance);
+}
+
+void Trail::start(const std::vector<Eigen::Vector3d>& from_rear_to_front, double distance) {
+    points_.clear();
+    at_ = 0;
+    travelled_ = 0;
+    distance_ = distance;
+    front_ = from_rear_to_front.front();
+    points_.push_back({front_, 0});
+    for (const Eigen::Vector3d& point : from_rear_to_front) {
+        travelled_ += (point - front_).norm();
+        front_ = point;
+        points_.push_back({front_, travelled_});
+    }
+    advance(front_);
+}
+
+void Trail::advance(const Eigen::Vector3d& front) {
+    travelled_ += (front - front_).norm();
+    front_ = front;
+    if (travelled_ - points_.back().travelled >= spacing)
+        points_.push_back({front_, travelled_});
+    const double wanted = travelled_ - distance_;
+    while (at_ + 1 < points_.size() && points_[at_ + 1].travelled <= wanted)
+        ++at_;
+    if (at_ >= spent_points) {
+        points_.erase(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(at_));
+        at_ = 0;
+    }
+}
+
+Eigen::Vector3d Trail::rear() const {
+    const Point& from = points_[at_];
+    const Point to = at_ + 1 < points_.size() ? points_[at_ + 1] : Point{front_, travelled_};
+    const double length = to.travelled - from.travelled;
+    const double share = length > 0 ? (travelled_ - distance_ - from.travelled) / length : 0;
+    return from.position + share * (to.position - from.position);
+}
+
+}  // namespace reprise::traffic

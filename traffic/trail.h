@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace reprise::traffic {
+
+/// Turns the way of a front bumper into poses: the rear axle follows where the front has been.
+/// SUMO gives the front's place only loosely tied to an angle (in a lane change its angle leaves
+/// the path by tens of degrees); this one is smooth on curves, bends, slopes and lane changes
+/// alike.
+class Trail {
+  public:
+    /// As if the car had come straight: `front` is the bumper, `behind` a unit vector to the rear,
+    /// `distance` [m] from bumper to rear axle.
+    void start(const Eigen::Vector3d& front, const Eigen::Vector3d& behind, double distance);
+
+    /// Puts a point behind the oldest one, to start on a bend.
+    void start(const std::vector<Eigen::Vector3d>& from_rear_to_front, double distance);
+
+    /// The bumper moves on. O(1) on average.
+    void advance(const Eigen::Vector3d& front);
+
+    /// Where the rear axle is, on the ground.
+    Eigen::Vector3d rear() const;
+
+    const Eigen::Vector3d& front() const { return front_; }
+
+  private:
+    struct Point {
+        Eigen::Vector3d position;
+        double travelled = 0;  ///< [m] by the bumper when it was there
+    };
+
+    std::vector<Point> points_;  ///< oldest first
+    std::size_t at_ = 0;         ///< the rear axle lies at or after points_[at_]
+    Eigen::Vector3d front_ = Eigen::Vector3d::Zero();
+    double travelled_ = 0;  ///< [m] by the bumper so far
+    double distance_ = 0;
+};
+
+}  // namespace reprise::traffic
