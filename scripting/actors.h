@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "world/tick.h"
+
+namespace reprise::world {
+class Hasher;
+}
+
+namespace reprise::scripting {
+
+/// What a scenario's actor has touched since it was spawned.
+struct Contacts {
+    bool vehicle = false;
+    bool walker = false;
+    bool fixed = false;              ///< the static world
+    std::set<std::uint32_t> others;  ///< ids of the actors among them
+};
+
+/// Somebody that the scenario spawned.
+struct Actor {
+    enum class Presence : std::uint8_t { coming, here, gone };
+
+    std::uint32_t id = 0;
+    std::string name;
+    world::Driver driver = world::Driver::autopilot;
+    std::uint16_t model = 0;     ///< in the catalogue of its kind
+    std::uint32_t line = 0;      ///< of its spawn in the scenario
+    std::uint64_t asked_at = 0;  ///< tick in which the scenario asked for it
+    Presence presence = Presence::coming;
+    std::uint64_t gone_at = 0;
+    double travelled = 0;               ///< [m] since spawn
+    Eigen::Vector3d position{0, 0, 0};  ///< where it was last seen, world
+    Contacts contacts;
+
+    bool is_walker() const { return driver == world::Driver::walker; }
+};
+
+/// An actor's body at a tick: the recorded nouns, brought to one form.
+struct Body {
+    Eigen::Vector3d position{0, 0, 0};  ///< world; vehicles: on the ground below the rear axle
+    double yaw = 0;                     ///< [rad] counter-clockwise from east
+    double speed = 0;                   ///< [m/s] ahead
+    double acceleration = 0;            ///< [m/s^2] ahead; walkers: 0
+    double front = 0;                   ///< [m] from the position to the front bumper
+    double rear = 0;                    ///< [m] from the position to the rear bumper
+    double half_width = 0;
+    std::uint32_t lane = world::none;  ///< in Town.lanes, where the tick names it
+    std::optional<double> odometer;    ///< [m] where the tick holds it
+
+    Eigen::Vector3d ahead() const;
+    /// Of the bounding box, on the ground.
+    Eigen::Vector3d centre() const;
+};
+
+/// None when the actor is not in the tick. O(log n).
+std::optional<Body> body_of(const world::TickView& tick, const Actor& actor);
+
+/// Everybody that the scenario spawned, in the order of their ids: 1, 2, 3, ...
+class Actors {
+  public:
+    Actor& add(Actor actor);
+
+    Actor& at(std::uint32_t id) { return actors_.at(id - 1); }
+
+    std::uint32_t next_id() const { return static_cast<std::uint32_t>(actors_.size()) + 1; }
+
+    bool has_name(const std::string& name) const;
+
+    /// "sedan", then "sedan_2", ...
+    std::string free_name(const std::string& model) const;
+
+    /// Reads a tick once, in their order: who is there, how far they came, whom they touched.
+    void observe(const world::TickView& tick, double step);
+
+    void digest(world::Hasher& hasher) const;
+
+  private:
+    void observe_contacts(const world::TickView& tick);
+    void touch(const world::TickView& tick, std::uint32_t actor, std::uint32_t other);
+
+    std::vector<Actor> actors_;
+};
+
+}  // namespace reprise::scripting

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scripting/scenario.h"
+
+struct lua_State;
+
+namespace reprise::world {
+class Hasher;
+}
+
+namespace reprise::scripting {
+
+struct Run;
+
+/// What a scenario promises. Three-valued: a check that never had anything to look at did not pass.
+/// Evaluated once a tick, starting with the tick after it was registered; a tick in which an actor
+/// that the predicate asks about is not on the road does not count.
+class Checks {
+  public:
+    enum class Kind : std::uint8_t { never, always, max, min, eventually, at_end };
+
+    /// Registers the check that Lua's check.<kind>(name, function, ...) describes.
+    void add(Run& run, lua_State* L, Kind kind);
+
+    /// Evaluates what is still open on run.last.
+    void evaluate(Run& run);
+
+    /// The last word: on run.last as the final tick.
+    void conclude(Run& run);
+
+    std::vector<Scenario::Check> results() const;
+
+    void digest(world::Hasher& hasher) const;
+
+  private:
+    struct Entry {
+        Kind kind = Kind::never;
+        std::string name;
+        int reference = 0;                      ///< of the predicate, in Lua's registry
+        double limit = 0;                       ///< max, min
+        std::uint64_t since = 0;                ///< tick of its registration
+        std::optional<std::uint64_t> deadline;  ///< eventually: last tick that counts
+        double within = 0;                      ///< [s] as the scenario said it
+        bool stop = false;                      ///< a failure ends the run
+        bool optional = false;                  ///< never evaluated is no fault
+        std::uint32_t line = 0;
+        bool evaluated = false;
+        std::optional<double> extreme;  ///< max, min: the nearest to failing so far
+        bool decided = false;
+        Scenario::Check::Status status = Scenario::Check::Status::not_evaluated;
+        std::uint64_t tick = 0;  ///< of the failure
+        std::string detail;
+    };
+
+    void look(Run& run, Entry& entry);
+    void judge(Run& run, Entry& entry, bool holds);
+    void judge(Run& run, Entry& entry, double value);
+    void fail(Run& run, Entry& entry, double value, const std::string& detail);
+    void settle(Run& run, Entry& entry);
+
+    std::vector<Entry> entries_;
+    bool concluded_ = false;
+};
+
+/// The table `check`, into the table at the top of the stack.
+void add_check_words(lua_State* L);
+
+}  // namespace reprise::scripting

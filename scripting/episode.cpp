@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+
+#include "scripting/header.h"
+#include "scripting/scenario.h"
+#include "scripting/tasks.h"
+#include "scripting/vm.h"
+#include "world/check.h"
+#include "world/weather.h"
+
+namespace reprise::scripting {
+
+namespace {
+
+constexpr std::uint64_t step_ns = 50'000'000;
+constexpr std::uint32_t substeps = 10;
+constexpr std::uintmax_t longest_file = std::uintmax_t{1} << 20U;  // [bytes]
+
+/// Lua files beside a missing one, for the message.
+std::vector<std::string> neighbours(const std::filesystem::path& path) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+        if (entry.path().extension() == ".lua")
+            names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string read_source(const std::filesystem::path& path) {
+    const std::string shown = path.string();
+    std::error_code error;
+    if (!std::filesystem::exists(path, error))
+        throw world::Error(
+            fmt::format("no scenario file '{}'{}",
+                        shown,
+                        world::did_you_mean(path.filename().string(), neighbours(path))));
+    if (!std::filesystem::is_regular_file(path, error))
+        throw world::Error(
+            fmt::format("'{}' is not a file: name a scenario, such as cut_in.lua", shown));
+    if (std::filesystem::file_size(path, error) > longest_file)
+        throw world::Error(fmt::format("'{}' is larger than 1 MB: not a scenario", shown));
+    std::ifstream file(path, std::ios::binary);
+    const std::string source{std::istreambuf_iterator<char>(file), {}};
+    if (!file)
+        throw world::Error(fmt::format("cannot read '{}'", shown));
+    if (source.find_first_not_of(" \t\r\n") == std::string::npos)
+        throw world::Error(
+            fmt::format("'{}' is empty: a scenario file ends with: return scenario "
+                        "'name' {{ ... }}",
+                        shown));
+    if (source.front() == '\x1b')
+        throw world::Error(fmt::format("'{}' is compiled Lua: a scenario is Lua source", shown));
+    return source;
+}
+
+/// The text after `--set key=` as a value of the same type as the scenario's own.
+Value replaced(const Value& own, const std::string& text, const std::string& where) {
+    if (std::holds_alternative<std::string>(own))
+        return text;
+    if (std::holds_alternative<bool>(own)) {
+        if (text != "true" && text != "false")
+            throw world::Error(where + "must be true or false");
+        return text == "true";
+    }
+    const auto number = parse_number(text);
+    if (!number)
+        throw world::Error(where + "must be a number");
+    // Equal numbers become equal texts: 20, 20.0 and 2e1 where the scenario says 12 or 12.5.
+    const auto* integer = std::get_if<std::int64_t>(&*number);
+    const double real =
+        integer != nullptr ? static_cast<double>(*integer) : std::get<double>(*number);
+    if (std::holds_alternative<double>(own))
+        return real;
+    if (integer == nullptr && real == std::floor(real) && std::abs(real) < 0x1p53)
+        return static_cast<std::int64_t>(real);
+    return *number;
+}
+
+void override_parameters(Header& header, const Overrides& overrides, const std::string& script) {
+    std::vector<std::string> names;
+    for (const auto& [key, value] : header.parameters)
+        names.push_back(key);
+    for (const auto& [key, text] : overrides.parameters) {
+        const std::string where =
+            fmt::format("{}:{}: --set {}={}: ", script, header.line, key, text);
+        const auto found = header.parameters.find(key);
+        if (found == header.parameters.end())
+            throw world::Error(where + (names.empty() ? "the scenario has no parameters"
+                                                      : "no parameter '" + key + "'" +
+                                                            world::did_you_mean(key, names)));
+        found->second = replaced(found->second, text, where);
+    }
+}
+
+}  // namespace
+
+world::EpisodeT load_episode(const std::filesystem::path& scenario_lua,
+                             const Overrides& overrides) {
+    world::EpisodeT episode;
+    episode.scenario = read_source(scenario_lua);
+    episode.scenario_path = scenario_lua.filename().string();
+    Vm vm(episode.scenario_path);
+    Header header = read_header(vm, episode.scenario);
+    override_parameters(header, overrides, episode.scenario_path);
+
+    const double duration = overrides.duration.value_or(header.duration);
+    if (!(duration > 0) || duration > 86'400)
+        throw world::Error(fmt::format("--for {}: must be in (0, 86400] s", duration));
+    const world::WeatherPreset& weather = *world::find_weather(header.weather);
+    episode.name = header.name;
+    episode.town = overrides.town.value_or(header.town);
+    episode.seed = overrides.seed.value_or(header.seed);
+    episode.step_ns = step_ns;
+    episode.substeps = substeps;
+    episode.max_ticks = std::max<std::uint64_t>(1, ticks_of(duration, step_ns));
+    episode.cars = header.cars;
+    episode.road_friction = weather.road_friction;
+    episode.weather = weather.weather;
+    episode.weather_name = weather.name;
+    for (const auto& [key, value] : header.parameters) {
+        world::ParameterT parameter;
+        parameter.key = key;
+        parameter.value = literal(value);
+        episode.parameters.push_back(std::move(parameter));
+    }
+    return episode;
+}
+
+}  // namespace reprise::scripting

@@ -1,0 +1,33 @@
+-- The part of the vocabulary that is easiest said in Lua. Runs before every scenario; what it
+-- defines here are the words that a scenario sees.
+
+local give_up_at = _give_up_at
+_give_up_at = nil
+
+--- Tests the condition at once, then in every tick. True when it holds; false after `timeout` seconds.
+function wait_until(condition, options)
+    local last_tick = give_up_at(condition, options)
+    while not condition() do
+        if tick() >= last_tick then
+            return false
+        end
+        wait_ticks(1)
+    end
+    return true
+end
+
+local actor = _actor
+_actor = nil
+
+function actor:speed_kmh()
+    return self:speed() * 3.6
+end
+
+function actor:x()
+    return (self:position())
+end
+
+function actor:y()
+    local _, y = self:position()
+    return y
+end

@@ -1,0 +1,143 @@
+#include "scripting/scenario.h"
+
+#include <fmt/format.h>
+
+#include <lua.hpp>
+
+#include "scripting/arguments.h"
+#include "scripting/binding.h"
+#include "scripting/header.h"
+#include "scripting/literals.h"
+#include "scripting/run.h"
+#include "scripting/sandbox.h"
+#include "world/check.h"
+#include "world/digest.h"
+
+namespace reprise::scripting {
+
+struct Scenario::Machine {
+    Machine(const world::EpisodeT& episode, const world::TownT& town)
+        : vm(episode.scenario_path),
+          run(vm, episode, town) {}
+
+    Vm vm;
+    Run run;
+};
+
+namespace {
+
+/// Pushes the parameters of this run, which know no others.
+void push_parameters(lua_State* L, const world::EpisodeT& episode) {
+    lua_newtable(L);
+    for (const auto& parameter : episode.parameters) {
+        const auto value = parse_literal(parameter.value);
+        if (!value)
+            throw world::Error(fmt::format("{}: parameter '{}' is no literal: {}",
+                                           episode.scenario_path,
+                                           parameter.key,
+                                           parameter.value));
+        push(L, *value);
+        lua_setfield(L, -2, parameter.key.c_str());
+    }
+    refuse_unknown(L, "params");
+}
+
+}  // namespace
+
+world::CommandT& Run::say(lua_State* L, world::CommandKind kind, std::uint32_t actor) {
+    REPRISE_CHECK(next != nullptr, "a command outside of a step");
+    world::CommandT& command = next->tick.commands.emplace_back();
+    command.kind = kind;
+    command.actor = actor;
+    command.lane = world::none;
+    command.line = vm.line(L);
+    return command;
+}
+
+void Run::finish(const std::string& reason, std::uint32_t line) {
+    finished = true;
+    world::CommandT& command = next->tick.commands.emplace_back();
+    command.kind = world::CommandKind::finish;
+    command.lane = world::none;
+    command.text = reason;
+    command.line = line;
+}
+
+Body Run::look_at(const Actor& actor) {
+    const auto body = body_of(last, actor);
+    REPRISE_CHECK(body, fmt::format("actor {} is not in tick {}", actor.name, now()));
+    Body placed = *body;
+    if (placed.lane != world::none)
+        return placed;
+    if (!lanes_)
+        lanes_.emplace(town);
+    if (actor.is_walker()) {
+        const auto walkable = lanes_->walkable_at(placed.position);
+        const auto roads = lanes_->at(placed.position);
+        if (!roads.empty())
+            placed.lane = roads.front().lane;
+        else if (!walkable.empty())
+            placed.lane = walkable.front().lane;
+    } else if (const auto best = lanes_->best(placed.position, placed.yaw)) {
+        placed.lane = best->lane;
+    }
+    return placed;
+}
+
+Scenario::Scenario(const world::EpisodeT& episode, const world::TownT& town)
+    : machine_(std::make_unique<Machine>(episode, town)) {
+    Vm& vm = machine_->vm;
+    const Header header = read_header(vm, episode.scenario);
+    vm.run = &machine_->run;
+    lua_State* L = vm.main();
+    lua_rawgeti(L, LUA_REGISTRYINDEX, header.run);
+    push_parameters(L, episode);
+    machine_->run.tasks.start(L, 1);
+}
+
+Scenario::~Scenario() = default;
+
+void Scenario::advance(const world::TickView& last, world::TickDraft& next) {
+    Run& run = machine_->run;
+    if (run.finished)
+        return;
+    run.last = last;
+    run.next = &next;
+    run.vm.refill();
+    run.actors.observe(last, run.step);
+    run.tasks.advance(run, last.index());
+    run.checks.evaluate(run);
+    run.next = nullptr;
+}
+
+void Scenario::conclude(const world::TickView&, world::TickDraft& next) {
+    // The last tick counts too: the checks see it as it will be recorded.
+    world::TickDraft copy = next;
+    const world::SealedTick final_tick = world::seal(copy, {});
+    Run& run = machine_->run;
+    run.last = final_tick.view();
+    run.next = &next;
+    run.vm.refill();
+    run.actors.observe(run.last, run.step);
+    run.finished = true;
+    run.checks.conclude(run);
+    run.next = nullptr;
+}
+
+std::uint64_t Scenario::digest() const {
+    const Run& run = machine_->run;
+    world::Hasher hasher;
+    hasher.add(run.vm.instructions());
+    hasher.add(static_cast<std::uint8_t>(run.finished));
+    run.actors.digest(hasher);
+    run.tasks.digest(hasher);
+    run.checks.digest(hasher);
+    run.streams.digest(hasher);
+    return hasher.digest64();
+}
+
+std::vector<Scenario::Check> Scenario::checks() const {
+    return machine_->run.checks.results();
+}
+
+}  // namespace reprise::scripting

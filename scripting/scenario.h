@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "world/episode_generated.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::scripting {
+
+/// What the command line may change about a scenario.
+struct Overrides {
+    std::optional<std::string> town;  ///< a name, or the path of a network file
+    std::optional<std::uint64_t> seed;
+    std::optional<double> duration;                               ///< [s] the run's limit
+    std::vector<std::pair<std::string, std::string>> parameters;  ///< --set key=value
+};
+
+/// Runs the scenario file's header (not yet its `run` function) and returns all that the run starts
+/// from. `Episode.town` is as the scenario or the override names it: the caller finds the network.
+/// Throws world::Error, "cut_in.lua:12: ...", for a file that cannot be read, does not compile,
+/// or holds an unknown key, model, weather or parameter.
+world::EpisodeT load_episode(const std::filesystem::path& scenario_lua, const Overrides& overrides);
+
+/// A running scenario: one Lua machine in a sandbox, coroutine tasks resumed once a tick.
+/// Everything it knows of the world is the last tick; everything it says is a Command.
+class Scenario {
+  public:
+    /// Prepares `run`; `episode` and `town` must outlive the scenario.
+    Scenario(const world::EpisodeT& episode, const world::TownT& town);
+    ~Scenario();
+    Scenario(const Scenario&) = delete;
+    Scenario& operator=(const Scenario&) = delete;
+
+    /// Stage 1. Resumes every task that is due, in the order of their start; evaluates the checks;
+    /// appends to next.tick.commands (in the order said) and next.tick.events (printed lines,
+    /// checks that failed or passed). After a finish command it does nothing more. Throws
+    /// world::Error when the script fails: the run ends with a verdict, never silently.
+    void advance(const world::TickView& last, world::TickDraft& next);
+
+    /// Of all hidden state that decides the future: VM instruction count, task and check states,
+    /// draw counts.
+    std::uint64_t digest() const;
+
+    struct Check {
+        std::string name;
+        enum class Status : std::uint8_t { pass, fail, not_evaluated } status;
+        std::uint64_t tick = 0;  ///< of the first failure
+        std::string detail;
+        std::uint32_t line = 0;
+    };
+
+    /// As they stand; final once the run ended (call `conclude` first).
+    std::vector<Check> checks() const;
+
+    /// Settles checks that only the end decides (eventually, at_end): appends their events to the
+    /// last draft. Called once by the kernel in the run's last tick.
+    void conclude(const world::TickView& last, world::TickDraft& next);
+
+  private:
+    struct Machine;
+    std::unique_ptr<Machine> machine_;
+};
+
+}  // namespace reprise::scripting

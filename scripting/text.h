@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+struct lua_State;
+
+namespace reprise::scripting {
+
+/// A number as its shortest text that reads back as the same number: 12, 2.5, 45.0, 1e+300, nan.
+/// Lua's own "%.14g" loses bits.
+std::string number_text(double number);
+
+/// Lua's tostring without addresses: a table is "table", a function "function". Uses __tostring.
+std::string text_of(lua_State* L, int index);
+
+/// string.format without %p; %s goes through text_of.
+int format_text(lua_State* L);
+
+}  // namespace reprise::scripting

@@ -1,0 +1,78 @@
+#include "scripting/vocabulary.h"
+
+#include <fmt/format.h>
+
+#include <lua.hpp>
+
+#include "scripting/arguments.h"
+#include "scripting/binding.h"
+#include "scripting/header.h"
+#include "scripting/run.h"
+#include "scripting/text.h"
+#include "world/weather.h"
+
+namespace reprise::scripting {
+
+namespace {
+
+/// Into the trace, never to the terminal: the program that runs the scenario shows it.
+int print(Run& run, lua_State* L) {
+    std::string text;
+    for (int index = 1; index <= lua_gettop(L); ++index)
+        text += (index == 1 ? "" : " ") + text_of(L, index);
+    world::EventT event;
+    event.kind = world::EventKind::printed;
+    event.text = text;
+    event.line = run.vm.line(L);
+    run.next->tick.events.push_back(std::move(event));
+    return 0;
+}
+
+std::string stream_at(lua_State* L, int index, const char* who) {
+    return lua_isnoneornil(L, index) ? "" : text_at(L, index, who, "the stream's name");
+}
+
+int random(Run& run, lua_State* L) {
+    lua_pushnumber(L, run.streams.draw(stream_at(L, 1, "random")));
+    return 1;
+}
+
+int random_int(Run& run, lua_State* L) {
+    const std::int64_t low = integer_at(L, 1, "random_int", "the lowest");
+    const std::int64_t high = integer_at(L, 2, "random_int", "the highest");
+    constexpr std::int64_t widest = std::int64_t{1} << 53U;  // exact in the drawn double
+    if (high < low || static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low) >= widest)
+        refuse("random_int", fmt::format("no numbers to choose from in [{}, {}]", low, high));
+    lua_pushinteger(L, run.streams.draw_integer(stream_at(L, 3, "random_int"), low, high));
+    return 1;
+}
+
+int set_weather(Run& run, lua_State* L) {
+    const std::string name = text_at(L, 1, "set_weather", "the name");
+    const world::WeatherPreset* preset = world::find_weather(name);
+    if (preset == nullptr)
+        refuse("set_weather",
+               fmt::format(
+                   "no weather '{}'{}", name, world::did_you_mean(name, world::weather_names())));
+    world::CommandT& command = run.say(L, world::CommandKind::set_weather, 0);
+    command.weather = preset->weather;
+    command.road_friction = preset->road_friction;
+    command.text = name;
+    return 0;
+}
+
+}  // namespace
+
+void add_vocabulary(lua_State* L) {
+    add_header_words(L);
+    add_task_words(L);
+    add_check_words(L);
+    add_handle_words(L);
+    add_spawn_words(L);
+    add_function(L, "print", bound<print>);
+    add_function(L, "random", acting<random>);
+    add_function(L, "random_int", acting<random_int>);
+    add_function(L, "set_weather", acting<set_weather>);
+}
+
+}  // namespace reprise::scripting

@@ -1,0 +1,17 @@
+#pragma once
+
+struct lua_State;
+
+namespace reprise::scripting {
+
+/// All words of a scenario that are said in C++, into the table at the top of the stack.
+/// The list for readers is docs/scenarios.md.
+void add_vocabulary(lua_State* L);
+
+/// Parts of it, one a file.
+void add_spawn_words(lua_State* L);   ///< spawning.cpp
+void add_handle_words(lua_State* L);  ///< handles.cpp: an actor's methods that look
+void add_drive_words(lua_State* L);   ///< drives.cpp: an actor's methods that act
+                                      ///< (into the table of methods)
+
+}  // namespace reprise::scripting

@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+
+#include "tests/scripting/stage.h"
+#include "world/check.h"
+
+// Every mistake of a scenario's author is one line that names the place and a way out.
+namespace reprise::scripting {
+
+namespace {
+
+struct Mistake {
+    const char* body;
+    const char* message;
+};
+
+constexpr const char* ego =
+    "local ego = spawn{ name = 'ego', model = 'sedan', lane = 'east_1', s = 20 }\n";
+constexpr const char* child = "local child = spawn{ model = 'child', lane = 'east_0', s = 20 }\n";
+constexpr const char* hand =
+    "local hand = spawn{ model = 'sedan', driver = 'manual', lane = 'east_1' }\n";
+
+void expect(const char* before, const std::vector<Mistake>& table) {
+    for (const auto& [body, message] : table)
+        EXPECT_EQ(test::mistake(std::string(before) + body), std::string("test.lua:2: ") + message)
+            << body;
+}
+
+}  // namespace
+
+TEST(Mistakes, OfSpawn) {
+    expect(
+        "\n",
+        {
+            {"spawn{ modle = 'sedan' }", "spawn: unknown key 'modle' (did you mean 'model'?)"},
+            {"spawn 'sedan'", "spawn: the argument must be a table { key = value }, got 'sedan'"},
+            {"spawn{}",
+             "spawn: 'model' is missing: one of sedan, hatchback, suv, van, lorry, bus, adult, "
+             "child, senior"},
+            {"spawn{ model = 'sedna' }", "spawn: no model 'sedna' (did you mean 'sedan'?)"},
+            {"spawn{ model = 'sedan', driver = 'autopilt' }",
+             "spawn: no driver 'autopilt' (did you mean 'autopilot'?)"},
+            {"spawn{ model = 'sedan', driver = 'walker' }",
+             "spawn: a sedan cannot have the driver 'walker'"},
+            {"spawn{ model = 'child', driver = 'traffic' }",
+             "spawn: a child cannot have the driver 'traffic'"},
+            {"spawn{ model = 'sedan', lane = 'eats_1' }",
+             "spawn: no lane 'eats_1' in straight_road (did you mean 'east_1'?)"},
+            {"spawn{ model = 'sedan', lane = 'east_0' }", "spawn: 'east_0' is not a lane for cars"},
+            {"spawn{ model = 'sedan', lane = 'east_1', s = 401 }",
+             "spawn: 's' must be in [0, 400.00], the length of 'east_1', got 401.0"},
+            {"spawn{ model = 'sedan', lane = 'east_1', s = 'far' }",
+             "spawn: 's' must be a number, got 'far'"},
+            {"spawn{ model = 'sedan', s = 3 }", "spawn: 's' and 'offset' need a 'lane'"},
+            {"spawn{ model = 'van', driver = 'parked' }",
+             "spawn: 'lane' is missing: only who drives is given a free place"},
+            {"spawn{ model = 'sedan', speed = 3, speed_kmh = 3 }",
+             "spawn: give 'speed' or 'speed_kmh', not both"},
+            {"spawn{ model = 'sedan', speed = -3 }",
+             "spawn: the speed must not be below 0, got -3.0"},
+            {"spawn{ model = 'child', lane = 'east_0', speed = 3 }",
+             "spawn: 'child' starts at rest"},
+            {"spawn{ name = 'a', model = 'sedan' } spawn{ name = 'a', model = 'sedan' }",
+             "spawn: the name 'a' is taken"},
+        });
+}
+
+TEST(Mistakes, OfHandles) {
+    expect(ego,
+           {
+               {"ego:sped()", "an actor has no 'sped' (did you mean 'speed'?)"},
+               {"ego.speed()",
+                "actor: an actor is needed as argument 1, got no value: write ego:speed(), "
+                "gap(ego, other)"},
+               {"gap(ego)",
+                "gap: an actor is needed as argument 2, got no value: write ego:speed(), "
+                "gap(ego, other)"},
+               {"ego:change_lane('lft')", "no lane 'lft' in straight_road"},
+               {"ego:change_lane('right')", "change_lane: no lane to the right of 'east_1'"},
+               {"ego:change_lane('left', { ovr = 3 })",
+                "change_lane: unknown key 'ovr' (did you mean 'over'?)"},
+               {"ego:change_lane('east_0')", "change_lane: 'east_0' is not a lane for cars"},
+               {"ego:set_speed()", "set_speed: the speed must be a number, got nothing"},
+               {"ego:set_speed(-1)", "set_speed: the speed must be in [0, 150] m/s, got -1.0"},
+               {"ego:set_speed(1, { over = -1 })", "set_speed: 'over' must be in [0, 3600] s"},
+               {"ego:set_route{ 'west_9' }",
+                "no lane or edge 'west_9' in straight_road (did you mean 'west_1'?)"},
+               {"ego:set_route{}",
+                "set_route: needs a list of lanes or edges: "
+                "ego:set_route{ 'a1_b1', 'b1_b2' }"},
+               {"ego:walk{ to = { 1, 2 } }", "walk: 'ego' is no walker"},
+               {"ego:control{}", "control: 'ego' has a driver: spawn it with driver = 'manual'"},
+               {"ego:collided('car')",
+                "collided: no kind 'car': 'vehicle', 'walker', 'static' or an actor"},
+               {"ego:despawn() wait_ticks(2) ego:speed()",
+                "'ego' left the world in tick 2: ask ego:exists() first"},
+           });
+    expect(
+        child,
+        {
+            {"child:acceleration()", "acceleration: 'child' is a walker: only vehicles have one"},
+            {"child:change_lane('left')", "change_lane: 'child' is a walker"},
+            {"child:walk{}", "walk: 'to' must be a point: to = { x, y }"},
+            {"child:walk{ to = { 1 } }", "walk: y must be a number, got nil"},
+            {"child:walk{ to = { 1, 2 }, speed = 30 }", "walk: nobody runs faster than 12 m/s"},
+            {"child:walk_to{ x = 1 }",
+             "walk_to: needs { x, y }, { lane, s, offset } or { across = lane }"},
+        });
+    expect(
+        hand,
+        {
+            {"hand:set_speed(3)",
+             "set_speed: 'sedan' is driven by hand: only 'autopilot', 'traffic' and walkers obey"},
+            {"hand:control{ throttle = 2 }", "control: 'throttle' must be in [0, 1], got 2"},
+            {"hand:control{ gas = 1 }",
+             "control: unknown key 'gas' (known: throttle, brake, steer, hand_brake, reverse)"},
+        });
+}
+
+TEST(Mistakes, OfWaitsChecksAndPlaces) {
+    expect(
+        "\n",
+        {
+            {"wait()", "wait: the time in seconds must be a number, got nothing"},
+            {"wait(-1)", "wait: the time must be in [0, 1e9] s"},
+            {"wait(1/0)", "wait: the time in seconds must be a finite number, got inf"},
+            {"wait_ticks(1.5)", "wait_ticks: the number of ticks must be a whole number, got 1.5"},
+            {"wait_until(3)", "wait_until: the condition must be a function, got 3"},
+            {"wait_until(print, { timout = 3 })",
+             "wait_until: unknown key 'timout' (did you mean 'timeout'?)"},
+            {"start(3)", "start: the argument must be a function, got 3"},
+            {"finish(3)", "finish: the reason must be a string, got 3"},
+            {"check.nevr('x', print)", "check has no 'nevr' (did you mean 'never'?)"},
+            {"check.never(print)", "check.never: the name must be a string, got function"},
+            {"check.never('x')",
+             "check.never: the second argument must be a function, got nothing"},
+            {"check.max('x', print)", "check.max: the limit must be a number, got nothing"},
+            {"check.never('x', print, { within = 3 })",
+             "check.never: unknown key 'within' (known: stop, optional)"},
+            {"check.eventually('x', print, { within = 0 })",
+             "check.eventually: 'within' must be in (0, 1e9] s"},
+            {"check.never('x', print) check.never('x', print)",
+             "check.never: the name 'x' is taken in line 2"},
+            {"check.max('x', function() return 'a' end, 3) wait(1)",
+             "check 'x': the function must return a number, got string"},
+            {"check.max('x', function() return 0/0 end, 3) wait(1)",
+             "check 'x': the function must return a number, got nan"},
+            {"pick_lane{ lanes = 3, left = true }",
+             "pick_lane: straight_road has no driving lane with length = 0.0, left = true, lanes = "
+             "3"},
+            {"pick_lane{ lenght = 3 }", "pick_lane: unknown key 'lenght' (did you mean 'length'?)"},
+            {"lane_length('east_3')", "no lane 'east_3' in straight_road (did you mean 'east_0'?)"},
+            {"random(3)", "random: the stream's name must be a string, got 3"},
+            {"random_int(3, 1)", "random_int: no numbers to choose from in [3, 1]"},
+            {"set_weather 'clear'", "set_weather: no weather 'clear'"},
+            {"local x = p.gap", "params has no 'gap'"},
+            {"local t = nil; t.x = 1", "attempt to index a nil value (local 't')"},
+            {"assert(false)", "assertion failed!"},
+            {"error('mine')", "mine"},
+            {"error()", "error with a nil instead of a message"},
+            {"string.format('%d', 'x')",
+             "bad argument #2 to 'format' (number expected, got string)"},
+        });
+}
+
+TEST(Mistakes, InCalledFunctionsNameTheInnermostLineOfTheScript) {
+    EXPECT_EQ(test::mistake("local function slow()\nwait(-1)\nend\nslow()"),
+              "test.lua:2: wait: the time must be in [0, 1e9] s");
+    EXPECT_EQ(test::mistake("start(function()\nwait_ticks(2)\nwait(-1)\nend)\nwait(1)"),
+              "test.lua:3: wait: the time must be in [0, 1e9] s");
+    EXPECT_EQ(test::mistake("check.never('x', function()\nreturn nil > 3\nend)\nwait(1)"),
+              "test.lua:2: attempt to compare number with nil");
+}
+
+TEST(Mistakes, CanBeCaughtByTheScript) {
+    EXPECT_EQ(
+        test::printed("print(pcall(wait, -1)) print(pcall(function() spawn{ wheels = 1 } end))")
+            .at(1),
+        "false test.lua:1: spawn: unknown key 'wheels' (known: name, model, driver, lane, s, "
+        "offset, speed, "
+        "speed_kmh)");
+}
+
+TEST(Mistakes, AnActorThatNeverComesIsNamedWithTheLineOfItsSpawn) {
+    const std::string source =
+        test::running("\nlocal ego = spawn{ name = 'ego', model = 'sedan' }\n\nego:speed()");
+    const world::EpisodeT episode = test::episode(source.c_str());
+    const world::TownT town = test::straight_road();
+    Scenario scenario(episode, town);
+    std::string message;
+    for (std::uint64_t tick = 0; tick < 200 && message.empty(); ++tick) {
+        const world::SealedTick empty = test::tick_with({}, {}, {}, tick);
+        world::TickDraft next;
+        try {
+            scenario.advance(empty.view(), next);
+        } catch (const world::Error& error) {
+            message = error.what();
+            EXPECT_EQ(tick, 101U);
+        }
+    }
+    EXPECT_EQ(message, "test.lua:2: spawn: 'ego' did not appear within 100 ticks");
+}
+
+}  // namespace reprise::scripting
