@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "world/episode_generated.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::kernel {
+
+/// The built-in driver: follows lanes with Stanley steering, holds speed with a PID, keeps its
+/// distance (IDM), stops at red and at stop lines, gives way. It sees what any driver sees: the last
+/// tick. Without a route it wanders: at every junction it draws one of the ways that go on.
+class Autopilot {
+  public:
+    /// `town` and `lanes` must outlive the driver. `route` are lanes to pass, may be empty.
+    Autopilot(std::uint32_t actor,
+              std::uint16_t model,
+              const world::EpisodeT& episode,
+              const world::TownT& town,
+              const world::LaneMap& lanes);
+    ~Autopilot();
+    Autopilot(Autopilot&&) noexcept;
+    Autopilot& operator=(Autopilot&&) noexcept;
+
+    void set_route(std::vector<std::uint32_t> lanes);
+
+    /// [m/s]; a cap below the limits of the lanes.
+    void set_speed(double speed);
+
+    /// Back to the lanes' limits.
+    void free_speed();
+
+    /// The control for the next tick. The actor must be in `last`.
+    world::Control decide(const world::TickView& last);
+
+    /// Lane indices of the way ahead, from the one under the car, for mirroring into SUMO and for
+    /// pictures.
+    const std::vector<std::uint32_t>& path() const;
+
+    std::uint64_t digest() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace reprise::kernel

@@ -1,0 +1,193 @@
+#include "kernel/kernel.h"
+
+#include <cmath>
+
+#include "kernel/measurements.h"
+#include "kernel/pedestrians.h"
+#include "kernel/physics.h"
+#include "kernel/roster.h"
+#include "replay/recording.h"
+#include "traffic/background.h"
+#include "world/check.h"
+#include "world/digest.h"
+#include "world/town.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+/// What is before the first tick: an empty world under the episode's weather.
+world::SealedTick genesis(const world::EpisodeT& episode, const world::Digest128& chain_seed) {
+    world::TickDraft draft;
+    draft.tick.weather = episode.weather;
+    draft.tick.road_friction = episode.road_friction;
+    world::SealedTick sealed = world::seal(draft, chain_seed);
+    return sealed;
+}
+
+std::uint64_t digest_commands(const scripting::Scenario& scenario, const world::TickT& tick) {
+    world::Hasher hasher;
+    hasher.add(scenario.digest());
+    for (const world::CommandT& command : tick.commands) {
+        hasher.add(command.kind);
+        hasher.add(command.actor);
+        hasher.add(command.driver);
+        hasher.add(command.model);
+        hasher.add(command.lane);
+        for (const double value : {command.s, command.offset, command.speed, command.duration})
+            hasher.add(value);
+        hasher.add(std::span<const std::uint32_t>(command.lanes));
+        hasher.add(command.target);
+        hasher.add(command.control);
+        hasher.add(command.weather);
+        hasher.add(command.road_friction);
+        hasher.add_text(command.text);
+    }
+    return hasher.digest64();
+}
+
+std::uint64_t digest_controls(const Roster& roster, const world::TickT& tick) {
+    world::Hasher hasher;
+    hasher.add(roster.digest());
+    hasher.add(std::span<const world::Control>(tick.controls));
+    return hasher.digest64();
+}
+
+}  // namespace
+
+struct Kernel::Stages {
+    explicit Stages(const replay::Recording& recording)
+        : episode(recording.episode),
+          town(recording.town),
+          lanes(town),
+          scenario(episode, town),
+          roster(episode, town, lanes),
+          background(episode, town, recording.network),
+          pedestrians(episode, town),
+          physics(episode, town),
+          chain_seed(replay::chain_seed(recording)),
+          last(genesis(episode, chain_seed)) {}
+
+    const world::EpisodeT& episode;
+    const world::TownT& town;
+    world::LaneMap lanes;
+    scripting::Scenario scenario;
+    Roster roster;
+    traffic::Background background;
+    Pedestrians pedestrians;
+    Physics physics;
+    world::Digest128 chain_seed;
+    world::SealedTick last;
+    std::uint64_t nudge_tick = 0;
+    bool finished = false;
+    std::string reason;
+};
+
+Kernel::Kernel(const replay::Recording& recording)
+    : stages_(std::make_unique<Stages>(recording)) {}
+
+Kernel::~Kernel() = default;
+
+/// Advances the world by one fixed step. The whole simulation is this function: every stage reads
+/// the last tick, which no longer changes, and adds its part to the next one.
+const world::SealedTick& Kernel::step(std::span<const world::Control> controls) {
+    Stages& stage = *stages_;
+    const world::TickView last = stage.last.view();
+    REPRISE_CHECK(!stage.finished, "step after the end, at tick " + std::to_string(last.index()));
+    world::TickDraft next;
+    world::Digests& digests = next.tick.digests;
+    next.tick.index = last.index() + 1;
+    next.tick.weather = *last.tick->weather();
+    next.tick.road_friction = last.tick->road_friction();
+
+    // 1. scenario: what should happen
+    stage.scenario.advance(last, next);
+    stage.roster.apply_commands(last, next, stage.physics);
+    note_outcome(next);
+    digests.mutate_scenario(digest_commands(stage.scenario, next.tick));
+
+    // 2. controls: what the drivers want
+    stage.roster.apply_controls(controls, last, next);
+    nudge_controls(next);
+    digests.mutate_controls(digest_controls(stage.roster, next.tick));
+
+    // 3. traffic: background cars and signals
+    stage.background.advance(last, next);
+    digests.mutate_traffic(stage.background.digest());
+
+    // 4. pedestrians
+    stage.pedestrians.advance(last, next);
+    digests.mutate_pedestrians(stage.pedestrians.digest());
+
+    // 5. physics: everything with mass, in equal substeps
+    stage.physics.advance(last, next);
+    digests.mutate_physics(stage.physics.digest());
+
+    // 6. measurements: lanes, gaps, footprints, impulses; in the last tick the checks' verdicts
+    const double step_seconds = static_cast<double>(stage.episode.step_ns) * 1e-9;
+    measure(stage.town, stage.lanes, step_seconds, last, next);
+    if (stage.finished)
+        stage.scenario.conclude(last, next);
+    digests.mutate_measurements(digest_measurements(next));
+
+    // 7. record: from here on the tick never changes
+    stage.last = world::seal(next, last.index() == 0 ? stage.chain_seed
+                                                     : last.tick->digests()->chain());
+    return stage.last;
+}
+
+/// Commands that are about the whole run: the end, and the weather.
+void Kernel::note_outcome(world::TickDraft& next) {
+    Stages& stage = *stages_;
+    for (const world::CommandT& command : next.tick.commands) {
+        if (command.kind == world::CommandKind::set_weather) {
+            next.tick.weather = command.weather;
+            next.tick.road_friction = command.road_friction;
+        }
+        if (command.kind == world::CommandKind::finish && !stage.finished) {
+            stage.finished = true;
+            stage.reason = command.text.empty() ? "finished" : command.text;
+        }
+    }
+    if (!stage.finished && next.tick.index >= stage.episode.max_ticks) {
+        stage.finished = true;
+        stage.reason = "time limit";
+    }
+    if (stage.finished) {
+        world::EventT event;
+        event.kind = world::EventKind::finished;
+        event.text = stage.reason;
+        next.tick.events.push_back(event);
+    }
+}
+
+void Kernel::nudge_controls(world::TickDraft& next) {
+    std::vector<world::Control>& controls = next.tick.controls;
+    if (stages_->nudge_tick != next.tick.index || controls.empty())
+        return;
+    controls.front().mutate_steer(std::nextafter(controls.front().steer(), 2.0));
+}
+
+bool Kernel::finished() const {
+    return stages_->finished;
+}
+
+replay::Outcome Kernel::outcome() const {
+    using Status = scripting::Scenario::Check::Status;
+    const auto all = checks();
+    bool failed = false;
+    for (const auto& check : all)
+        failed = failed || check.status != Status::pass;
+    const std::string verdict = all.empty() ? "completed" : failed ? "failed" : "passed";
+    return {verdict, stages_->reason, stages_->last.view().index()};
+}
+
+std::vector<scripting::Scenario::Check> Kernel::checks() const {
+    return stages_->scenario.checks();
+}
+
+void Kernel::nudge(std::uint64_t tick) {
+    stages_->nudge_tick = tick;
+}
+
+}  // namespace reprise::kernel

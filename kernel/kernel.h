@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "replay/recording.h"
+#include "scripting/scenario.h"
+#include "world/tick.h"
+
+namespace reprise::kernel {
+
+/// The simulation: turns one sealed tick and the drivers' controls into the next sealed tick.
+/// One at a time in a process, because libsumo is one a process.
+class Kernel {
+  public:
+    /// Starts everything; the world is empty until the first step. `recording` must outlive this.
+    explicit Kernel(const replay::Recording& recording);
+    ~Kernel();
+    Kernel(const Kernel&) = delete;
+    Kernel& operator=(const Kernel&) = delete;
+
+    /// One fixed step. `controls` are for vehicles with driver `manual`; those that get none keep
+    /// their last. The result lives until the next step.
+    const world::SealedTick& step(std::span<const world::Control> controls = {});
+
+    /// True once the scenario said finish or the episode's last tick was made.
+    bool finished() const;
+
+    replay::Outcome outcome() const;
+
+    std::vector<scripting::Scenario::Check> checks() const;
+
+    /// A drill: adds one unit in the last place to the first physics vehicle's steering in this
+    /// tick, so that one can see what verify and diff say about it. Not part of the recording.
+    void nudge(std::uint64_t tick);
+
+  private:
+    void note_outcome(world::TickDraft& next);
+    void nudge_controls(world::TickDraft& next);
+
+    struct Stages;
+    std::unique_ptr<Stages> stages_;
+};
+
+}  // namespace reprise::kernel

@@ -1,0 +1,151 @@
+#include "kernel/measurements.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "world/catalogue.h"
+#include "world/digest.h"
+#include "world/frames.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+constexpr double sensing_range = 100;  // [m]
+
+struct FootprintShares {
+    double opposite_lane = 0;
+    double sidewalk = 0;
+};
+
+/// Samples the footprint on a grid of 7 x 3 points. Opposite: a driving lane is there that runs
+/// against the car's heading, and none that runs with it (lanes overlap inside junctions).
+FootprintShares footprint_shares(const world::TownT& town,
+                                 const world::LaneMap& lanes,
+                                 const world::VehicleModel& model,
+                                 const Eigen::Isometry3d& pose_world_vehicle) {
+    constexpr int along = 7;
+    constexpr int across = 3;
+    const Eigen::Vector3d ahead = pose_world_vehicle.linear().col(0);
+    FootprintShares shares;
+    for (int i = 0; i < along; ++i) {
+        for (int j = 0; j < across; ++j) {
+            const double x = -model.rear_overhang + model.length * (i + 0.5) / along;
+            const double y = model.width * ((j + 0.5) / across - 0.5);
+            const Eigen::Vector3d p_world = pose_world_vehicle * Eigen::Vector3d(x, y, 0);
+            const auto found = lanes.at(p_world);
+            bool with = false;
+            bool against = false;
+            for (const auto& [lane, at] : found) {
+                const double yaw = world::point_at(town.lanes[lane], at.s).yaw;
+                const bool same = ahead.x() * std::cos(yaw) + ahead.y() * std::sin(yaw) > 0;
+                with = with || same;
+                against = against || !same;
+            }
+            shares.opposite_lane += against && !with ? 1 : 0;
+            if (found.empty() && !lanes.walkable_at(p_world).empty())
+                shares.sidewalk += 1;
+        }
+    }
+    shares.opposite_lane /= along * across;
+    shares.sidewalk /= along * across;
+    return shares;
+}
+
+/// Free distance ahead, bumper to bumper, in the straight corridor of the vehicle's width.
+double gap_ahead(const world::VehicleModel& model,
+                 const Eigen::Isometry3d& pose_world_vehicle,
+                 std::uint32_t self,
+                 const world::TickDraft& next) {
+    const double front = model.length - model.rear_overhang;
+    const Eigen::Isometry3d pose_vehicle_world = pose_world_vehicle.inverse();
+    double gap = sensing_range;
+    const auto look_at = [&](const world::Vec3& position, const world::VehicleModel& other) {
+        const Eigen::Vector3d p = pose_vehicle_world * world::to_eigen(position);
+        const double reach = (model.width + other.width) / 2;
+        if (p.x() > 0 && p.x() < sensing_range + 20 && std::abs(p.y()) < reach)
+            gap = std::min(gap, std::max(0.0, p.x() - other.rear_overhang - front));
+    };
+    for (const world::CarState& car : next.traffic.cars)
+        look_at(car.position(), world::vehicle_models()[car.model()]);
+    for (const world::VehicleState& vehicle : next.tick.vehicles)
+        if (vehicle.id() != self)
+            look_at(vehicle.position(), world::vehicle_models()[vehicle.model()]);
+    return gap;
+}
+
+struct Impulses {
+    double vehicles = 0;
+    double walkers = 0;
+    double fixed = 0;
+};
+
+Impulses impulses_of(std::uint32_t actor,
+                     const world::Measurement* before,
+                     const world::TickDraft& next) {
+    Impulses sum;
+    if (before != nullptr)
+        sum = {before->impulse_vehicles(), before->impulse_walkers(), before->impulse_static()};
+    for (const world::EventT& event : next.tick.events) {
+        if (event.kind != world::EventKind::collision || event.actor != actor)
+            continue;
+        const bool walker = std::any_of(
+            next.traffic.walkers.begin(),
+            next.traffic.walkers.end(),
+            [&](const world::WalkerState& state) { return state.id() == event.other; });
+        (event.other == 0 ? sum.fixed : walker ? sum.walkers : sum.vehicles) += event.value;
+    }
+    return sum;
+}
+
+}  // namespace
+
+void measure(const world::TownT& town,
+             const world::LaneMap& lanes,
+             double step_seconds,
+             const world::TickView& last,
+             world::TickDraft& next) {
+    for (const world::VehicleState& vehicle : next.tick.vehicles) {
+        const world::VehicleModel& model = world::vehicle_models()[vehicle.model()];
+        const Eigen::Isometry3d pose_world_vehicle =
+            world::pose(vehicle.position(), vehicle.orientation());
+        const Eigen::Vector3d ahead = pose_world_vehicle.linear().col(0);
+        const double speed = ahead.dot(world::to_eigen(vehicle.velocity()));
+        const world::Measurement* before = find(last.measurements(), vehicle.id());
+        const double acceleration =
+            before == nullptr ? 0.0 : (speed - before->speed()) / step_seconds;
+        const auto lane =
+            lanes.best(pose_world_vehicle.translation(), std::atan2(ahead.y(), ahead.x()));
+        const FootprintShares shares = footprint_shares(town, lanes, model, pose_world_vehicle);
+        const Impulses impulses = impulses_of(vehicle.id(), before, next);
+        next.tick.measurements.emplace_back(speed,
+                                            acceleration,
+                                            lane ? lane->at.s : 0.0,
+                                            lane ? lane->at.t : 0.0,
+                                            shares.opposite_lane,
+                                            shares.sidewalk,
+                                            impulses.vehicles,
+                                            impulses.walkers,
+                                            impulses.fixed,
+                                            gap_ahead(model, pose_world_vehicle, vehicle.id(), next),
+                                            vehicle.id(),
+                                            lane ? lane->lane : world::none,
+                                            std::uint64_t{0});
+    }
+}
+
+std::uint64_t digest_measurements(const world::TickDraft& draft) {
+    world::Hasher hasher;
+    hasher.add(std::span<const world::Measurement>(draft.tick.measurements));
+    for (const world::EventT& event : draft.tick.events) {
+        hasher.add(event.kind);
+        hasher.add(event.actor);
+        hasher.add(event.other);
+        hasher.add(event.position);
+        hasher.add(event.value);
+        hasher.add_text(event.text);
+    }
+    return hasher.digest64();
+}
+
+}  // namespace reprise::kernel

@@ -1,0 +1,210 @@
+#include "kernel/pedestrians.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "world/catalogue.h"
+#include "world/check.h"
+#include "world/digest.h"
+#include "world/frames.h"
+#include "world/ground.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+constexpr double walking_acceleration = 2;  // [m/s^2]
+constexpr double leg_share = 0.53;          // of the height
+
+/// As recorded: lengths in 1/1024 m and angles in 1/8192 rad, see world/traffic.fbs.
+double rounded(double value, double per_unit) {
+    return std::round(value * per_unit) / per_unit;
+}
+
+bool is_raised(const world::LaneT& lane) {
+    return lane.kind == world::LaneKind::sidewalk || lane.kind == world::LaneKind::walking_area;
+}
+
+}  // namespace
+
+double walk_cycle_length(double speed, double height) {
+    const double leg = leg_share * height;
+    return 1.346 * std::sqrt(speed / leg) * leg;
+}
+
+Pedestrians::Pedestrians(const world::EpisodeT& episode, const world::TownT& town)
+    : town_(&town),
+      lanes_(town),
+      step_(static_cast<double>(episode.step_ns) * 1e-9) {}
+
+Pedestrians::Walker* Pedestrians::find(std::uint32_t id) {
+    const auto at = std::lower_bound(
+        walkers_.begin(), walkers_.end(), id, [](const Walker& w, std::uint32_t wanted) {
+            return w.id < wanted;
+        });
+    return at != walkers_.end() && at->id == id ? &*at : nullptr;
+}
+
+void Pedestrians::advance(const world::TickView& last, world::TickDraft& next) {
+    for (const world::CommandT& command : next.tick.commands)
+        obey(command, next);
+    lay_down(last);
+    next.traffic.walkers.clear();
+    for (Walker& walker : walkers_) {
+        walk(walker);
+        const world::Vec3 position(rounded(walker.position.x(), 1024),
+                                   rounded(walker.position.y(), 1024),
+                                   rounded(walker.position.z(), 1024));
+        const double phase = std::floor(walker.phase * 8192) / 8192;  // stays below 1
+        next.traffic.walkers.emplace_back(position,
+                                          static_cast<float>(rounded(walker.yaw, 8192)),
+                                          static_cast<float>(rounded(walker.speed, 1024)),
+                                          static_cast<float>(phase),
+                                          walker.id,
+                                          walker.model,
+                                          walker.down,
+                                          std::uint8_t{0},
+                                          std::uint32_t{0});
+    }
+}
+
+void Pedestrians::obey(const world::CommandT& command, world::TickDraft& next) {
+    using world::CommandKind;
+    if (command.kind == CommandKind::spawn) {
+        if (command.driver == world::Driver::walker)
+            spawn(command, next);
+        return;
+    }
+    Walker* walker = find(command.actor);
+    if (walker == nullptr)
+        return;
+    const double own_speed = world::walker_models()[walker->model].walking_speed;
+    switch (command.kind) {
+        case CommandKind::walk:
+            walker->target = world::to_eigen(command.target);
+            walker->wanted_speed = command.speed > 0 ? command.speed : own_speed;
+            walker->walking = true;
+            break;
+        case CommandKind::set_speed:
+            walker->wanted_speed = std::max(command.speed, 0.0);
+            break;
+        case CommandKind::free_speed:
+            walker->wanted_speed = own_speed;
+            break;
+        case CommandKind::despawn:
+            despawn(command, next);
+            break;
+        default:
+            break;
+    }
+}
+
+void Pedestrians::spawn(const world::CommandT& command, world::TickDraft& next) {
+    REPRISE_CHECK(command.model < world::walker_models().size(), std::to_string(command.model));
+    REPRISE_CHECK(find(command.actor) == nullptr, "walker " + std::to_string(command.actor));
+    Walker walker;
+    walker.id = command.actor;
+    walker.model = command.model;
+    walker.wanted_speed = world::walker_models()[walker.model].walking_speed;
+    if (command.lane < town_->lanes.size()) {
+        const world::LanePoint at = world::point_at(town_->lanes[command.lane], command.s);
+        const Eigen::Vector3d left(-std::sin(at.yaw), std::cos(at.yaw), 0);
+        walker.position = at.position + command.offset * left;
+        walker.yaw = at.yaw;
+    } else {
+        walker.position = world::to_eigen(command.target);
+    }
+    walker.position.z() = ground_height(walker.position);
+    const auto place = std::upper_bound(
+        walkers_.begin(), walkers_.end(), walker.id, [](std::uint32_t id, const Walker& w) {
+            return id < w.id;
+        });
+    walkers_.insert(place, walker);
+
+    world::EventT event;
+    event.kind = world::EventKind::spawned;
+    event.actor = walker.id;
+    event.position = world::to_vec3(walker.position);
+    event.text = command.text;
+    event.line = command.line;
+    next.tick.events.push_back(event);
+}
+
+void Pedestrians::despawn(const world::CommandT& command, world::TickDraft& next) {
+    Walker* walker = find(command.actor);
+    world::EventT event;
+    event.kind = world::EventKind::despawned;
+    event.actor = walker->id;
+    event.position = world::to_vec3(walker->position);
+    event.line = command.line;
+    next.tick.events.push_back(event);
+    walkers_.erase(walkers_.begin() + (walker - walkers_.data()));
+}
+
+void Pedestrians::lay_down(const world::TickView& last) {
+    const auto* events = last.tick->events();
+    if (events == nullptr)
+        return;
+    for (const world::Event* event : *events) {
+        if (event->kind() != world::EventKind::collision)
+            continue;
+        Walker* walker = find(event->other());
+        if (walker != nullptr)
+            walker->down = true;
+    }
+}
+
+void Pedestrians::walk(Walker& walker) const {
+    if (walker.down || !walker.walking) {
+        walker.speed = 0;
+        return;
+    }
+    const Eigen::Vector2d way = (walker.target - walker.position).head<2>();
+    const double left = way.norm();
+    const double change = walking_acceleration * step_;
+    walker.speed += std::clamp(walker.wanted_speed - walker.speed, -change, change);
+    const double distance = std::min(walker.speed * step_, left);
+    if (distance > 0) {
+        walker.yaw = std::atan2(way.y(), way.x());
+        walker.position.head<2>() += way * (distance / left);
+        walker.position.z() = ground_height(walker.position);
+        const double height = world::walker_models()[walker.model].height;
+        walker.phase += distance / walk_cycle_length(walker.speed, height);
+        walker.phase -= std::floor(walker.phase);
+    }
+    if (distance == left) {  // arrived
+        walker.speed = 0;
+        walker.walking = false;
+    }
+}
+
+/// Of the road where cars drive, of the sidewalk beside it, of the last ground elsewhere.
+double Pedestrians::ground_height(const Eigen::Vector3d& p_world) const {
+    const auto roads = lanes_.at(p_world);
+    if (!roads.empty())
+        return world::point_at(town_->lanes[roads.front().lane], roads.front().at.s).position.z();
+    const auto walkable = lanes_.walkable_at(p_world);
+    if (walkable.empty())
+        return p_world.z();
+    const world::LaneT& lane = town_->lanes[walkable.front().lane];
+    const double height = world::point_at(lane, walkable.front().at.s).position.z();
+    return height + (is_raised(lane) ? world::kerb_height : 0);
+}
+
+std::uint64_t Pedestrians::digest() const {
+    world::Hasher hasher;
+    hasher.add(static_cast<std::uint64_t>(walkers_.size()));
+    for (const Walker& walker : walkers_) {
+        hasher.add(walker.id);
+        hasher.add(walker.model);
+        hasher.add(world::to_vec3(walker.position));
+        hasher.add(world::to_vec3(walker.target));
+        for (const double value : {walker.yaw, walker.speed, walker.wanted_speed, walker.phase})
+            hasher.add(value);
+        hasher.add(walker.walking);
+        hasher.add(walker.down);
+    }
+    return hasher.digest64();
+}
+
+}  // namespace reprise::kernel

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "world/episode_generated.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::kernel {
+
+/// Length of one walk cycle (two steps). [m]; speed in m/s, height of the walker in m.
+/// Boulic, Thalmann and Thalmann, "A global human walking model with real-time kinematic
+/// personification", The Visual Computer 6 (1990): 1.346 sqrt(v) in leg lengths, v in leg lengths
+/// per second; the leg is 0.53 of the height (Winter, "Biomechanics and Motor Control of Human
+/// Movement", 4th ed., ch. 4).
+double walk_cycle_length(double speed, double height);
+
+/// The walkers that a scenario spawns: each goes in a straight line to where it was told, at the
+/// speed it was told (reached with 2 m/s^2), and stops there. One that a vehicle with mass has hit
+/// lies where it was and does nothing more.
+class Pedestrians {
+  public:
+    /// `town` must outlive this.
+    Pedestrians(const world::EpisodeT& episode, const world::TownT& town);
+
+    /// Stage 4. Carries out next's commands for walkers (spawn, walk, set_speed, free_speed,
+    /// despawn), moves everyone by one tick, and writes next.traffic.walkers (sorted by id) and
+    /// spawned/despawned events.
+    ///
+    /// spawn: at lane, s, offset; without a lane at `target`. walk: to `target` with `speed`; 0 is
+    /// the model's own walking speed. Commands for actors that are no walkers are left to other
+    /// stages.
+    void advance(const world::TickView& last, world::TickDraft& next);
+
+    /// Of the unrounded state of everyone.
+    std::uint64_t digest() const;
+
+  private:
+    struct Walker {
+        std::uint32_t id = 0;
+        std::uint16_t model = 0;
+        Eigen::Vector3d position{0, 0, 0};  ///< world, between the feet
+        Eigen::Vector3d target{0, 0, 0};
+        double yaw = 0;
+        double speed = 0;
+        double wanted_speed = 0;
+        double phase = 0;  ///< of the walk cycle, in [0, 1)
+        bool walking = false;
+        bool down = false;
+    };
+
+    Walker* find(std::uint32_t id);
+    void obey(const world::CommandT& command, world::TickDraft& next);
+    void spawn(const world::CommandT& command, world::TickDraft& next);
+    void despawn(const world::CommandT& command, world::TickDraft& next);
+    void lay_down(const world::TickView& last);
+    void walk(Walker& walker) const;
+    double ground_height(const Eigen::Vector3d& p_world) const;
+
+    const world::TownT* town_;
+    world::LaneMap lanes_;
+    double step_;                  ///< [s]
+    std::vector<Walker> walkers_;  ///< sorted by id
+};
+
+}  // namespace reprise::kernel

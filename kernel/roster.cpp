@@ -1,0 +1,168 @@
+#include "kernel/roster.h"
+
+#include <algorithm>
+
+#include "world/catalogue.h"
+#include "world/check.h"
+#include "world/digest.h"
+#include "world/frames.h"
+#include "world/random.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+bool has_mass(world::Driver driver) {
+    return driver == world::Driver::autopilot || driver == world::Driver::manual;
+}
+
+/// Stands still until its driver says something: nobody at the wheel, foot on the brake.
+world::Control parked_control(std::uint32_t actor) {
+    return {0, 1, 0, actor, 0, false, false};
+}
+
+world::EventT event(world::EventKind kind, std::uint32_t actor, const world::CommandT& command) {
+    world::EventT event;
+    event.kind = kind;
+    event.actor = actor;
+    event.text = command.text;
+    event.line = command.line;
+    return event;
+}
+
+}  // namespace
+
+Roster::Roster(const world::EpisodeT& episode,
+               const world::TownT& town,
+               const world::LaneMap& lanes)
+    : episode_(&episode), town_(&town), lanes_(&lanes) {}
+
+void Roster::apply_commands(const world::TickView& last,
+                            world::TickDraft& next,
+                            Physics& physics) {
+    for (world::CommandT& command : next.tick.commands) {
+        if (command.kind == world::CommandKind::spawn) {
+            if (has_mass(command.driver))
+                spawn(last, command, next, physics);
+            continue;
+        }
+        const auto found = entries_.find(command.actor);
+        if (found == entries_.end())
+            continue;
+        Entry& entry = found->second;
+        switch (command.kind) {
+            case world::CommandKind::despawn:
+                physics.remove_vehicle(command.actor);
+                next.tick.events.push_back(
+                    event(world::EventKind::despawned, command.actor, command));
+                entries_.erase(found);
+                break;
+            case world::CommandKind::set_speed:
+                if (entry.autopilot)
+                    entry.autopilot->set_speed(command.speed);
+                break;
+            case world::CommandKind::free_speed:
+                if (entry.autopilot)
+                    entry.autopilot->free_speed();
+                break;
+            case world::CommandKind::set_route:
+                if (entry.autopilot)
+                    entry.autopilot->set_route(command.lanes);
+                break;
+            case world::CommandKind::control: entry.control = command.control; break;
+            default: break;
+        }
+    }
+}
+
+void Roster::spawn(const world::TickView& last,
+                   world::CommandT& command,
+                   world::TickDraft& next,
+                   Physics& physics) {
+    if (command.lane == world::none)
+        choose_place(last, command);
+    const world::LaneT& lane = town_->lanes.at(command.lane);
+    const world::LanePoint place = world::point_at(lane, command.s);
+    Eigen::Isometry3d pose_world_vehicle =
+        world::pose(world::to_vec3(place.position), place.yaw, place.pitch);
+    pose_world_vehicle = pose_world_vehicle * Eigen::Translation3d(0, command.offset, 0);
+    physics.add_vehicle(command.actor, command.model, pose_world_vehicle, command.speed);
+
+    Entry entry{std::nullopt, parked_control(command.actor), command.text};
+    if (command.driver == world::Driver::autopilot) {
+        entry.autopilot.emplace(command.actor, command.model, *episode_, *town_, *lanes_);
+        if (!command.lanes.empty())
+            entry.autopilot->set_route(command.lanes);
+    }
+    entries_.insert_or_assign(command.actor, std::move(entry));
+    world::EventT spawned = event(world::EventKind::spawned, command.actor, command);
+    spawned.position = world::to_vec3(pose_world_vehicle.translation());
+    next.tick.events.push_back(spawned);
+}
+
+void Roster::choose_place(const world::TickView& last, world::CommandT& command) const {
+    constexpr double shortest_lane = 30;  // [m] room to roll before the first junction
+    constexpr std::uint64_t tries = 256;
+    std::vector<std::uint32_t> candidates;
+    for (std::uint32_t lane = 0; lane < town_->lanes.size(); ++lane)
+        if (town_->lanes[lane].kind == world::LaneKind::driving &&
+            town_->lanes[lane].length >= shortest_lane && !town_->lanes[lane].links.empty())
+            candidates.push_back(lane);
+    if (candidates.empty())
+        throw world::Error(episode_->scenario_path + ":" + std::to_string(command.line) +
+                           ": spawn: " + town_->name + " has no lane of at least 30 m to start on; " +
+                           "name one with lane = '...'");
+    const std::uint64_t item = std::uint64_t{command.actor} * tries * 2;
+    for (std::uint64_t attempt = 0; attempt < tries; ++attempt) {
+        command.lane = candidates[world::draw_index(candidates.size(),
+                                                    episode_->seed,
+                                                    last.index(),
+                                                    world::Purpose::place,
+                                                    item + 2 * attempt)];
+        const world::LaneT& lane = town_->lanes[command.lane];
+        const double share = world::draw(
+            episode_->seed, last.index(), world::Purpose::place, item + 2 * attempt + 1);
+        command.s = 5 + share * (lane.length - shortest_lane + 10);
+        if (is_free(last, world::point_at(lane, command.s).position))
+            return;
+    }
+}
+
+bool Roster::is_free(const world::TickView& last, const Eigen::Vector3d& p_world) const {
+    constexpr double room = 15;  // [m] between rear axles
+    const auto near = [&](const auto& actor) {
+        return (world::to_eigen(actor.position()) - p_world).norm() < room;
+    };
+    return std::none_of(last.cars().begin(), last.cars().end(), near) &&
+           std::none_of(last.vehicles().begin(), last.vehicles().end(), near);
+}
+
+void Roster::apply_controls(std::span<const world::Control> controls,
+                            const world::TickView& last,
+                            world::TickDraft& next) {
+    for (const world::Control& control : controls) {
+        const auto found = entries_.find(control.actor());
+        if (found != entries_.end() && !found->second.autopilot)
+            found->second.control = control;
+    }
+    for (auto& [id, entry] : entries_) {
+        const bool in_last_tick = find(last.vehicles(), id) != nullptr;
+        if (entry.autopilot && in_last_tick)
+            entry.control = entry.autopilot->decide(last);
+        entry.control.mutate_actor(id);
+        next.tick.controls.push_back(entry.control);
+    }
+}
+
+std::uint64_t Roster::digest() const {
+    world::Hasher hasher;
+    for (const auto& [id, entry] : entries_) {
+        hasher.add(id);
+        hasher.add(entry.control);
+        if (entry.autopilot)
+            hasher.add(entry.autopilot->digest());
+    }
+    return hasher.digest64();
+}
+
+}  // namespace reprise::kernel

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+
+#include "kernel/driver.h"
+#include "kernel/physics.h"
+#include "world/episode_generated.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::kernel {
+
+/// The vehicles with mass and who drives them: what the scenario asked for, kept in id order.
+class Roster {
+  public:
+    /// All three must outlive the roster.
+    Roster(const world::EpisodeT& episode, const world::TownT& town, const world::LaneMap& lanes);
+
+    /// Carries out next's commands for vehicles with mass: puts them into physics, takes them out,
+    /// and hands speed, route and control on to their drivers. Writes spawned and despawned events.
+    /// Fills in the place of a vehicle that the scenario left to chance.
+    void apply_commands(const world::TickView& last, world::TickDraft& next, Physics& physics);
+
+    /// Stage 2: writes next.tick.controls, one for each vehicle: the autopilot's decision from the
+    /// last tick, or for manual ones the newest of `controls`.
+    void apply_controls(std::span<const world::Control> controls,
+                        const world::TickView& last,
+                        world::TickDraft& next);
+
+    std::uint64_t digest() const;
+
+  private:
+    struct Entry {
+        std::optional<Autopilot> autopilot;  ///< none: manual
+        world::Control control;              ///< the newest
+        std::string name;
+    };
+
+    void spawn(const world::TickView& last,
+               world::CommandT& command,
+               world::TickDraft& next,
+               Physics& physics);
+    void choose_place(const world::TickView& last, world::CommandT& command) const;
+    bool is_free(const world::TickView& last, const Eigen::Vector3d& p_world) const;
+
+    const world::EpisodeT* episode_;
+    const world::TownT* town_;
+    const world::LaneMap* lanes_;
+    std::map<std::uint32_t, Entry> entries_;
+};
+
+}  // namespace reprise::kernel

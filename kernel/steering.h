@@ -1,0 +1,17 @@
+#pragma once
+
+#include "kernel/ego.h"
+#include "kernel/path.h"
+
+namespace reprise::kernel {
+
+/// The steering wheel, [-1, 1], that keeps the car on its path; a pure function of what is seen.
+///
+/// Stanley's law (Thrun et al., "Stanley: The Robot that Won the DARPA Grand Challenge", J. Field
+/// Robotics 23 (2006), 661; yaw damping from Hoffmann et al., ACC 2007), with the path's curvature
+/// fed forward and with the tracked point between the axles instead of on the front one: in a
+/// corner of 6 m the rear axle of a sedan runs 0.7 m inside the front axle's track, and a lane has
+/// no room for all of that on one side.
+double steer(const Ego& ego, const Path& path);
+
+}  // namespace reprise::kernel

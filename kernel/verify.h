@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "replay/divergence.h"
+#include "replay/trace_reader.h"
+
+namespace reprise::kernel {
+
+/// Runs a trace again from what it carries, with the recorded controls, and compares every tick's
+/// bytes: the first difference, or nothing. `on_tick` is told of each tick that agreed.
+/// A damaged chunk is compared as far as its bytes can be had, so that the first wrong tick is
+/// named, not the chunk.
+std::optional<replay::Divergence> verify(replay::TraceReader& recorded,
+                                         const std::function<void(std::uint64_t)>& on_tick = {});
+
+}  // namespace reprise::kernel

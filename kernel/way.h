@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "kernel/conflicts.h"
+#include "kernel/path.h"
+#include "kernel/route.h"
+#include "world/digest.h"
+
+namespace reprise::kernel {
+
+/// A lane under the path, from `start` to `end` along the path.
+struct PathPiece {
+    std::uint32_t lane = 0;
+    double start = 0;
+    double end = 0;
+};
+
+/// The end of a lane where the path enters a junction.
+struct Gate {
+    double s = 0;       ///< of the lane's end, along the path
+    double exit_s = 0;  ///< where the path leaves the junction
+    std::uint32_t serial = 0;
+    std::uint32_t signal = 0;
+    std::uint32_t to = 0;
+    world::Turn turn = world::Turn::straight;
+    bool yields = false;
+    std::vector<Foe> foes;
+};
+
+/// A change of lanes along the path.
+struct LaneChange {
+    double start = 0;
+    double end = 0;
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
+    double spare = 0;  ///< [m] that it could begin later
+    bool to_left = false;
+};
+
+/// The driver's way ahead: lanes, one after another, with their geometry as one Path and the places
+/// where something must be decided. Grows at the far end, drops what lies behind.
+class Way {
+  public:
+    Way(const LaneGraph& graph, std::uint64_t seed, std::uint32_t actor);
+
+    /// Starts anew at `s` of a lane. `route`: the lanes to come, beginning with this one; may be
+    /// empty. The first change of lanes starts `change_after` metres on at the earliest.
+    void restart(std::uint32_t lane,
+                 double s,
+                 std::vector<std::uint32_t> route,
+                 double change_after);
+
+    /// Makes at least `ahead` metres of path beyond s, unless the way ends.
+    void extend(double s, double ahead);
+
+    /// Forgets lanes that end before s, and in steps of some metres the path more than `kept`
+    /// metres before it.
+    void drop_before(double s, double kept);
+
+    const Path& path() const { return path_; }
+
+    const std::vector<Gate>& gates() const { return gates_; }
+
+    const std::vector<LaneChange>& changes() const { return changes_; }
+
+    /// Lanes of the pieces, from the one at the s of the last drop_before.
+    const std::vector<std::uint32_t>& lanes() const { return lanes_; }
+
+    const std::vector<PathPiece>& pieces() const { return pieces_; }
+
+    /// The lanes from the one at s on, as far as they are decided; of internal lanes only the
+    /// first.
+    std::vector<std::uint32_t> lanes_to_come(double s) const;
+
+    /// Does the way end where the path ends (a dead end), or will it go on?
+    bool ended() const { return ended_; }
+
+    void add_to(world::Hasher& hasher) const;
+
+  private:
+    void name_lanes();
+    void append_next_lane();
+    void append_straight(std::uint32_t lane, double from);
+    void append_change(std::uint32_t lane, double from, std::uint32_t to);
+    void append_junction(std::uint32_t lane, std::uint32_t link);
+    void append_piece(std::uint32_t lane, const std::vector<Eigen::Vector3d>& line, double limit);
+
+    const LaneGraph* graph_;
+    std::uint64_t seed_;
+    std::uint32_t actor_;
+    Path path_;
+    std::vector<PathPiece> pieces_;
+    std::vector<std::uint32_t> lanes_;
+    std::vector<Gate> gates_;
+    std::vector<LaneChange> changes_;
+    std::deque<std::uint32_t> route_;
+    std::uint32_t next_lane_ = world::none;  ///< to be appended from next_s_ on
+    double next_s_ = 0;
+    double change_after_ = 0;
+    std::uint32_t junctions_ = 0;  ///< gates made so far: the draws' tick
+    bool ended_ = false;
+};
+
+}  // namespace reprise::kernel
