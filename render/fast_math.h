@@ -1,0 +1,75 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace reprise::render {
+
+/// Linear light or an albedo: red, green, blue.
+using Color = Eigen::Array3f;
+
+inline constexpr float pi = 3.14159265F;
+
+// The shading loop calls none of libm's transcendental functions: they are slow, and glibc chooses
+// their variant by the processor, so that pictures would differ in the last bit between machines.
+
+inline float clamp01(float x) {
+    return std::min(std::max(x, 0.0F), 1.0F);
+}
+
+inline float mix(float from, float to, float share) {
+    return from + (to - from) * share;
+}
+
+inline Color mix(const Color& from, const Color& to, float share) {
+    return from + (to - from) * share;
+}
+
+/// 0 below `low`, 1 above `high`, smooth between.
+inline float smooth_step(float low, float high, float x) {
+    const float share = clamp01((x - low) / (high - low));
+    return share * share * (3 - 2 * share);
+}
+
+/// As std::floor for |x| < 2^31, without a call.
+inline int floor_int(float x) {
+    const int truncated = static_cast<int>(x);
+    return truncated - static_cast<int>(static_cast<float>(truncated) > x);
+}
+
+/// x modulo 1, in [0, 1).
+inline float fraction(float x) {
+    return x - static_cast<float>(floor_int(x));
+}
+
+/// e^x for x in [-80, 80], relative error below 2e-6.
+inline float fast_exp(float x) {
+    const float scaled = std::min(std::max(x, -80.0F), 80.0F) * 1.44269504F;
+    const int whole = floor_int(scaled);
+    const float f = (scaled - static_cast<float>(whole)) * 0.69314718F;
+    const float power =
+        1 + f * (1 + f * (0.5F + f * (0.16666667F +
+                                      f * (0.041666667F + f * (0.0083333333F + f * 0.0014F)))));
+    return power * std::bit_cast<float>(static_cast<std::uint32_t>(whole + 127) << 23);
+}
+
+inline Color fast_exp(const Color& x) {
+    return {fast_exp(x.x()), fast_exp(x.y()), fast_exp(x.z())};
+}
+
+inline float luminance(const Color& color) {
+    return 0.2126F * color.x() + 0.7152F * color.y() + 0.0722F * color.z();
+}
+
+/// Schlick's approximation of how much a smooth surface mirrors, f0 looking straight at it.
+inline float fresnel(float f0, float cosine) {
+    const float grazing = 1 - clamp01(cosine);
+    const float squared = grazing * grazing;
+    return f0 + (1 - f0) * squared * squared * grazing;
+}
+
+}  // namespace reprise::render

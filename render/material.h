@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "world/sensor.h"
+
+namespace reprise::render {
+
+/// What a triangle is made of. Finer detail - windows, lamps, rims - is decided at the hit from its
+/// place on the surface, see *_look.cpp.
+enum class Material : std::uint8_t {
+    grass,
+    asphalt,
+    pavement,
+    kerb,
+    marking,
+    facade,  ///< tag: index in Town.buildings
+    roof,    ///< tag: index in Town.buildings
+    bark,
+    leaf,  ///< tag: hash of the leaf
+    pole,
+    signal_case,
+    signal_lamp,  ///< tag: 4 * index in Town.signals + SignalLamp
+    car_body,     ///< paint, glass and lamps: tag is unused
+    car_cargo,    ///< the box of a lorry
+    car_under,    ///< black: chassis, wheel housings, mirrors' backs
+    wheel,
+    skin,
+    hair,
+    shirt,
+    trousers,
+    shoe
+};
+
+enum class SignalLamp : std::uint8_t { red, yellow, green };
+
+}  // namespace reprise::render
