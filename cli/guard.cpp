@@ -1,0 +1,41 @@
+#include "cli/guard.h"
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "world/check.h"
+
+namespace reprise::cli {
+
+int guarded(const std::string& command_line, const std::function<int()>& work) {
+    // A file-size limit shall be an error that we can tell, not a signal that ends us.
+    std::signal(SIGXFSZ, SIG_IGN);
+    try {
+        return work();
+    } catch (const world::Error& error) {
+        std::fprintf(stderr, "reprise: %s\n", error.what());
+        return exit_bad_input;
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "reprise: out of memory\n");
+        return exit_bad_input;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr,
+                     "reprise: this is our fault, please report it: %s\n  to come back here: %s\n",
+                     error.what(),
+                     command_line.c_str());
+        return exit_our_fault;
+    }
+}
+
+std::string command_text(int argc, char** argv) {
+    std::string text = "reprise";
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool plain = word.find_first_of(" '\"\\$`;&|<>()*?") == std::string::npos;
+        text += plain ? " " + word : " '" + word + "'";
+    }
+    return text;
+}
+
+}  // namespace reprise::cli

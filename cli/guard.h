@@ -1,0 +1,17 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace reprise::cli {
+
+enum ExitCode : int { exit_good = 0, exit_differs = 1, exit_bad_input = 2, exit_our_fault = 70 };
+
+/// Runs a program's work and turns exceptions into one line on stderr and an exit code: the user's
+/// mistakes into 2, ours into 70 with the command that comes back to the same place.
+int guarded(const std::string& command_line, const std::function<int()>& work);
+
+/// The words of a command line as one would type them.
+std::string command_text(int argc, char** argv);
+
+}  // namespace reprise::cli

@@ -1,0 +1,201 @@
+#include "cli/options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "world/check.h"
+#include "world/fingerprint.h"
+#include "world/weather.h"
+
+namespace reprise::cli {
+
+namespace {
+
+std::string version_text() {
+    std::string text;
+    for (const auto& [key, value] : world::build_fingerprint())
+        text += key + std::string(key.size() < 13 ? 13 - key.size() : 1, ' ') + value + "\n";
+    text.pop_back();
+    return text;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+/// Accepts only words of the list, and suggests the nearest.
+CLI::Validator one_of(std::vector<std::string> words, const std::string& what) {
+    return CLI::Validator(
+        [words, what](std::string& word) -> std::string {
+            if (std::find(words.begin(), words.end(), word) != words.end())
+                return "";
+            return "no " + what + " '" + word + "'" + world::did_you_mean(word, words) +
+                   "; there are " + joined(words);
+        },
+        "");
+}
+
+}  // namespace
+
+struct CommandLine::App {
+    CLI::App app{
+        "Reprise: runs scripted drives in live traffic, records every tick, proves that they replay\n"
+        "bit for bit, and renders what the sensors saw under any weather.",
+        "reprise"};
+    std::vector<std::string> assignments;
+    std::string size = "800x600";
+    std::string mount;
+};
+
+CommandLine::~CommandLine() = default;
+
+namespace {
+
+void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignments) {
+    CLI::App& command = *app.add_subcommand("run", "Run a scenario and record it");
+    command.add_option("scenario", run.scenario, "The scenario, a Lua file")
+        ->required()
+        ->type_name("SCENARIO.lua");
+    command
+        .add_option("-o,--output",
+                    run.output,
+                    "Where the trace goes (default: the scenario's name, in this folder)")
+        ->type_name("T.mcap");
+    command
+        .add_option("--town", run.town, "Another town: its name, or a SUMO network (.net.xml[.gz])")
+        ->type_name("NET");
+    command.add_option("--seed", run.seed, "What decides everything random")->type_name("N");
+    command
+        .add_option("--set", assignments, "Set a parameter of the scenario; may be given again")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command.add_option("--for", run.seconds, "End after this much simulated time")
+        ->type_name("SECONDS")
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option("--nudge",
+                    run.nudge_tick,
+                    "A drill: move the first vehicle's steering by one unit in the last place in "
+                    "this tick, without a word in the recording, to see verify and diff find it")
+        ->type_name("TICK");
+    command.footer(
+        "Exit status: 0 all checks passed, 1 a check failed, 2 bad input.\n"
+        "Example: reprise run scenarios/free_drive.lua -o a.mcap --seed 7 --for 60");
+}
+
+void add_render(CLI::App& app, RenderOptions& render, std::string& size, std::string& mount) {
+    CLI::App& command = *app.add_subcommand("render", "Render what cameras saw, from a trace");
+    command.add_option("trace", render.trace, "The trace")->required()->type_name("T.mcap");
+    command.add_option("-o,--output", render.directory, "Folder for the pictures")
+        ->required()
+        ->type_name("DIR");
+    command
+        .add_option("--weather",
+                    render.weather,
+                    "Another weather than recorded: " + joined(world::weather_names()))
+        ->type_name("NAME")
+        ->check(one_of(world::weather_names(), "weather"));
+    command
+        .add_option("--camera",
+                    render.cameras,
+                    "rgb (default), depth, semantic; several by commas, each into its own folder")
+        ->type_name("KIND")
+        ->delimiter(',')
+        ->check(one_of({"rgb", "depth", "semantic"}, "camera"));
+    command.add_option("--size", size, "Of the pictures (default 800x600)")->type_name("WxH");
+    command.add_option("--fov", render.fov_deg, "Horizontal field of view (default 90)")
+        ->type_name("DEGREES")
+        ->check(CLI::Range(1.0, 170.0));
+    command.add_option("--from", render.from, "First tick, or time such as 2.5s")->type_name("TICK");
+    command.add_option("--to", render.to, "Last tick, or time")->type_name("TICK");
+    command.add_option("--every", render.every, "Every so many ticks, or time (default 1s)")
+        ->type_name("N");
+    command.add_option("--actor", render.actor, "The vehicle that carries the camera (default: the first)")
+        ->type_name("ID");
+    command
+        .add_option("--mount", mount, "Place on it: ahead of the rear axle, left, up (default 1,0,1.4)")
+        ->type_name("X,Y,Z");
+    command.add_option("--pitch", render.pitch_deg, "Camera up by this (default 0)")
+        ->type_name("DEGREES");
+    command.add_option("--yaw", render.yaw_deg, "Camera left by this (default 0)")
+        ->type_name("DEGREES");
+    command.footer(
+        "Pictures are named by tick: DIR/000120.png. depth: 16-bit, millimetres; semantic: 8-bit\n"
+        "class ids (CARLA 0.9.14); DIR/view/ holds versions of these two for people to look at.\n"
+        "Example: reprise render a.mcap -o rain --weather hard_rain_sunset --every 20");
+}
+
+std::pair<std::string, std::string> split_assignment(const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw CLI::ValidationError("--set", "expected KEY=VALUE, got '" + text + "'");
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+void read_size(const std::string& text, RenderOptions& render) {
+    int used = 0;
+    const int found = std::sscanf(text.c_str(), "%dx%d%n", &render.width, &render.height, &used);
+    if (found != 2 || used != static_cast<int>(text.size()) || render.width < 1 ||
+        render.height < 1 || render.width > 16384 || render.height > 16384)
+        throw CLI::ValidationError("--size", "expected WIDTHxHEIGHT such as 800x600, got '" + text + "'");
+}
+
+void read_mount(const std::string& text, RenderOptions& render) {
+    int used = 0;
+    std::vector<double>& at = render.mount;
+    const int found = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &at[0], &at[1], &at[2], &used);
+    if (found != 3 || used != static_cast<int>(text.size()))
+        throw CLI::ValidationError("--mount", "expected X,Y,Z such as 1,0,1.4, got '" + text + "'");
+}
+
+}  // namespace
+
+CommandLine::CommandLine() : app_(std::make_unique<App>()) {
+    CLI::App& app = app_->app;
+    app.require_subcommand(1);
+    app.set_version_flag("--version", version_text());
+    app.get_formatter()->column_width(28);
+    add_run(app, run, app_->assignments);
+
+    CLI::App& verify_command =
+        *app.add_subcommand("verify", "Simulate a trace again and compare every tick");
+    verify_command.add_option("trace", verify.trace, "The trace")->required()->type_name("T.mcap");
+    verify_command.footer(
+        "Needs nothing but the trace. Exit status: 0 equal at every tick, 1 differs, 2 bad input.");
+
+    CLI::App& info_command = *app.add_subcommand("info", "Say what is in a trace");
+    info_command.add_option("trace", info.trace, "The trace")->required()->type_name("T.mcap");
+
+    CLI::App& diff_command = *app.add_subcommand("diff", "Find the first difference of two traces");
+    diff_command.add_option("expected", diff.expected, "A trace")->required()->type_name("A.mcap");
+    diff_command.add_option("found", diff.found, "Another trace")->required()->type_name("B.mcap");
+    diff_command.footer("Exit status: 0 equal, 1 different, 2 bad input.");
+
+    add_render(app, render, app_->size, app_->mount);
+}
+
+std::optional<int> CommandLine::parse(int argc, char** argv) {
+    CLI::App& app = app_->app;
+    try {
+        app.parse(argc, argv);
+        for (const std::string& assignment : app_->assignments)
+            run.parameters.push_back(split_assignment(assignment));
+        read_size(app_->size, render);
+        if (!app_->mount.empty())
+            read_mount(app_->mount, render);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0)
+            return app.exit(error);
+        std::fprintf(stderr, "reprise: %s (reprise --help says more)\n", error.what());
+        return 2;
+    }
+    command = app.get_subcommands().front()->get_name();
+    if (render.cameras.empty())
+        render.cameras = {"rgb"};
+    return std::nullopt;
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace reprise::cli {
+
+struct RunOptions {
+    std::string scenario;
+    std::string output;  ///< empty: the scenario's name in the working directory
+    std::optional<std::string> town;
+    std::optional<std::uint64_t> seed;
+    std::optional<double> seconds;
+    std::vector<std::pair<std::string, std::string>> parameters;
+    std::optional<std::uint64_t> nudge_tick;
+};
+
+struct TraceOptions {
+    std::string trace;
+};
+
+struct DiffOptions {
+    std::string expected;
+    std::string found;
+};
+
+struct RenderOptions {
+    std::string trace;
+    std::string directory;
+    std::string weather;               ///< empty: as recorded
+    std::vector<std::string> cameras;  ///< rgb, depth, semantic
+    int width = 800;
+    int height = 600;
+    double fov_deg = 90;
+    std::string from;   ///< tick, or seconds with an s behind; empty: the first
+    std::string to;     ///< likewise; empty: the last
+    std::string every = "1s";
+    std::uint32_t actor = 0;  ///< 0: the first physics vehicle
+    std::vector<double> mount{1.0, 0.0, 1.4};
+    double pitch_deg = 0;
+    double yaw_deg = 0;
+};
+
+/// The whole command line of all programs in one place: the thin `reprise` parses it, answers help,
+/// versions and mistakes at once, and hands the same words on to the program that does the work.
+class CommandLine {
+  public:
+    CommandLine();
+    ~CommandLine();
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
+
+    /// Returns an exit code when that is all there was to do (help, version, a mistake, which has
+    /// been printed), or nothing when `command` should now be carried out.
+    std::optional<int> parse(int argc, char** argv);
+
+    std::string command;  ///< run, verify, info, diff or render
+    RunOptions run;
+    TraceOptions verify;
+    TraceOptions info;
+    DiffOptions diff;
+    RenderOptions render;
+
+  private:
+    struct App;
+    std::unique_ptr<App> app_;
+};
+
+}  // namespace reprise::cli

@@ -1,0 +1,152 @@
+#include "cli/render.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "cli/guard.h"
+#include "cli/progress.h"
+#include "render/picture.h"
+#include "render/sensors.h"
+#include "replay/trace_reader.h"
+#include "world/check.h"
+#include "world/weather.h"
+
+namespace reprise::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Span {
+    std::uint64_t from = 1;
+    std::uint64_t to = 1;
+    std::uint64_t every = 1;
+};
+
+/// "120" is a tick; "2.5s" a time, rounded to the nearest tick.
+std::uint64_t parse_tick(const std::string& option,
+                         const std::string& text,
+                         std::uint64_t step_ns,
+                         std::uint64_t fallback) {
+    if (text.empty())
+        return fallback;
+    const bool is_time = text.back() == 's';
+    const char* begin = text.data();
+    const char* end = begin + text.size() - (is_time ? 1 : 0);
+    double value = 0;
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    const bool whole = is_time || value == std::floor(value);
+    if (error != std::errc() || stop != end || value < 0 || !whole)
+        throw world::Error(option + ": expected a tick such as 120 or a time such as 2.5s, got '" +
+                           text + "'");
+    return is_time ? static_cast<std::uint64_t>(
+                         std::llround(value * 1e9 / static_cast<double>(step_ns)))
+                   : static_cast<std::uint64_t>(value);
+}
+
+Span ticks_to_render(const RenderOptions& options, const replay::TraceReader& trace) {
+    const std::uint64_t step_ns = trace.episode().step_ns;
+    Span span;
+    span.from = std::max<std::uint64_t>(1, parse_tick("--from", options.from, step_ns, 1));
+    span.to = std::min(trace.ticks(), parse_tick("--to", options.to, step_ns, trace.ticks()));
+    span.every = std::max<std::uint64_t>(1, parse_tick("--every", options.every, step_ns, 1));
+    if (span.from > span.to)
+        throw world::Error(fmt::format("nothing to render: from tick {} to {}; {} holds ticks 1 to {}",
+                                       span.from,
+                                       options.to.empty() ? trace.ticks() : span.to,
+                                       options.trace,
+                                       trace.ticks()));
+    return span;
+}
+
+world::SensorKind kind_of(const std::string& camera) {
+    return camera == "depth"      ? world::SensorKind::depth
+           : camera == "semantic" ? world::SensorKind::semantic
+                                  : world::SensorKind::rgb;
+}
+
+world::SensorRig make_rig(const RenderOptions& options) {
+    world::SensorRig rig;
+    for (const std::string& camera : options.cameras) {
+        world::SensorSpec sensor;
+        sensor.name = camera;
+        sensor.kind = kind_of(camera);
+        sensor.width = options.width;
+        sensor.height = options.height;
+        sensor.fov = options.fov_deg * std::numbers::pi / 180;
+        sensor.position = {options.mount[0], options.mount[1], options.mount[2]};
+        sensor.pitch = options.pitch_deg * std::numbers::pi / 180;
+        sensor.yaw = options.yaw_deg * std::numbers::pi / 180;
+        rig.push_back(sensor);
+    }
+    return rig;
+}
+
+/// The first vehicle of the tick, unless one was named. Nothing when there is none yet.
+std::optional<std::uint32_t> mount_actor(const RenderOptions& options, const world::TickView& tick) {
+    if (options.actor != 0)
+        return options.actor;
+    if (tick.vehicles().empty())
+        return std::nullopt;
+    return tick.vehicles().front().id();
+}
+
+void save(const world::SensorFrame& frame, const fs::path& folder) {
+    const std::string name = fmt::format("{:06}.png", frame.tick);
+    render::write_png(frame, folder / name);
+    if (frame.kind != world::SensorKind::rgb)
+        render::write_png(render::viewable(frame), folder / "view" / name);
+}
+
+void make_folders(const RenderOptions& options) {
+    for (const std::string& camera : options.cameras) {
+        const fs::path folder = options.cameras.size() == 1 ? fs::path(options.directory)
+                                                            : fs::path(options.directory) / camera;
+        std::error_code error;
+        fs::create_directories(camera == "rgb" ? folder : folder / "view", error);
+        if (error)
+            throw world::Error("cannot make the folder " + folder.string() + ": " + error.message());
+    }
+}
+
+}  // namespace
+
+int render(const RenderOptions& options) {
+    replay::TraceReader trace(options.trace);
+    const Span span = ticks_to_render(options, trace);
+    world::SensorRig rig = make_rig(options);
+    make_folders(options);
+    render::Sensors sensors(trace.recording().town);
+    const world::WeatherPreset* other = world::find_weather(options.weather);
+    Progress progress("rendering", "pictures", (span.to - span.from) / span.every + 1);
+    std::uint64_t done = 0;
+    for (std::uint64_t index = span.from; index <= span.to; index += span.every) {
+        const world::TickView tick = trace.tick(index).view;
+        const auto actor = mount_actor(options, tick);
+        if (!actor)
+            continue;
+        for (world::SensorSpec& sensor : rig)
+            sensor.actor = *actor;
+        const world::Weather& weather = other != nullptr ? other->weather : *tick.tick->weather();
+        for (const world::SensorFrame& frame : sensors.observe(tick, rig, weather))
+            save(frame,
+                 rig.size() == 1 ? fs::path(options.directory)
+                                 : fs::path(options.directory) / frame.name);
+        progress.update(++done);
+    }
+    progress.clear();
+    fmt::print("{}: {} pictures of {} in {:.2f} s\n",
+               options.directory,
+               done * rig.size(),
+               other != nullptr ? other->name : trace.episode().weather_name,
+               progress.seconds());
+    if (done == 0)
+        throw world::Error("no vehicle to mount the camera on in these ticks of " + options.trace);
+    return exit_good;
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "cli/options.h"
+
+namespace reprise::cli {
+
+/// Renders pictures of a trace. Returns the exit code.
+int render(const RenderOptions& options);
+
+}  // namespace reprise::cli

@@ -1,0 +1,15 @@
+// `reprise run` and `reprise verify`: the program with SUMO, Bullet and Lua in it.
+#include "cli/guard.h"
+#include "cli/options.h"
+#include "cli/run.h"
+#include "cli/verify.h"
+
+int main(int argc, char** argv) {
+    using namespace reprise::cli;
+    return guarded(command_text(argc, argv), [&] {
+        CommandLine line;
+        if (const auto code = line.parse(argc, argv))
+            return *code;
+        return line.command == "verify" ? verify(line.verify) : run(line.run);
+    });
+}

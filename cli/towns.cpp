@@ -1,0 +1,61 @@
+#include "cli/towns.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Folders that hold towns: beside the scenario, and where this build or installation keeps its own.
+std::vector<fs::path> town_folders(const fs::path& scenario) {
+    const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
+    return {scenario.parent_path() / "towns",
+            program / "../../../scenarios/towns",           // build/<preset>/bin
+            program / "../share/reprise/scenarios/towns",   // PREFIX/bin
+            program / "../../share/reprise/scenarios/towns"  // PREFIX/libexec/reprise
+    };
+}
+
+std::vector<std::string> names_in(const std::vector<fs::path>& folders) {
+    std::vector<std::string> names;
+    for (const fs::path& folder : folders) {
+        std::error_code ignored;
+        for (const auto& entry : fs::directory_iterator(folder, ignored))
+            if (entry.is_directory())
+                names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
+bool looks_like_path(const std::string& town) {
+    return town.find('/') != std::string::npos || town.ends_with(".xml") || town.ends_with(".gz");
+}
+
+}  // namespace
+
+fs::path find_network(const std::string& town, const fs::path& scenario) {
+    if (looks_like_path(town) || fs::is_regular_file(town))
+        return town;
+    const auto folders = town_folders(scenario);
+    for (const fs::path& folder : folders) {
+        const fs::path network = folder / town / (town + ".net.xml");
+        if (fs::exists(network))
+            return network;
+    }
+    const auto names = names_in(folders);
+    std::string list;
+    for (const std::string& name : names)
+        list += (list.empty() ? "" : ", ") + name;
+    throw world::Error("no town '" + town + "'" + world::did_you_mean(town, names) +
+                       "; there are " + (list.empty() ? "none" : list) +
+                       ", or give the path of a SUMO network (.net.xml)");
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,118 @@
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.h"
+
+namespace reprise::test {
+namespace {
+
+using testing::HasSubstr;
+
+struct Mistake {
+    const char* name;
+    const char* scenario;  ///< Lua source; null: free_drive
+    std::vector<std::string> words;
+    std::vector<std::string> said;
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) {
+    *out << mistake.name;
+}
+
+class Mistakes : public testing::TestWithParam<Mistake> {};
+
+/// One line, exit 2, nothing left behind.
+TEST_P(Mistakes, AreToldInOneLine) {
+    const Mistake& mistake = GetParam();
+    const Folder inputs;
+    const Folder folder;
+    std::string scenario = source("scenarios/free_drive.lua");
+    if (mistake.scenario != nullptr) {
+        scenario = inputs / "mine.lua";
+        write_file(scenario, mistake.scenario);
+    }
+    write_file(inputs / "empty.net.xml", "");
+    write_file(inputs / "broken.net.xml", "<net version=\"1.9\">\n  <edge id=\n</net>");
+    write_file(inputs / "other.net.xml", "<html></html>");
+    std::vector<std::string> words{"run", scenario, "-o", folder / "t.mcap", "--for", "1"};
+    for (std::string word : mistake.words) {
+        if (const auto at = word.find("@"); at != std::string::npos)
+            word.replace(at, 1, inputs / "");
+        words.push_back(word);
+    }
+    const Result result = reprise(words, folder.path());
+    EXPECT_EQ(result.code, 2) << result.out;
+    EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+    for (const std::string& text : mistake.said)
+        EXPECT_THAT(result.out, HasSubstr(text));
+    EXPECT_THAT(folder.files(), testing::IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Run,
+    Mistakes,
+    testing::Values(
+        Mistake{"BrokenLua", "return scenario 'x' {\n  run = function(\n}", {}, {"mine.lua:"}},
+        Mistake{"EmptyLua", "", {}, {"mine.lua"}},
+        Mistake{"UnknownHeaderKey",
+                "return scenario 'x' {\n  cras = 5,\n  run = function() end }",
+                {},
+                {"mine.lua:", "cras", "did you mean 'cars'?"}},
+        Mistake{"UnknownModel",
+                "return scenario 'x' { town = 'town1', run = function()\n  spawn{ model = 'sedna', "
+                "driver = 'autopilot' }\nend }",
+                {},
+                {"mine.lua:2", "sedna", "did you mean 'sedan'?"}},
+        Mistake{"UnknownSpawnKey",
+                "return scenario 'x' { town = 'town1', run = function()\n  spawn{ modle = 'sedan' "
+                "}\nend }",
+                {},
+                {"mine.lua:2", "modle", "did you mean 'model'?"}},
+        Mistake{"UnknownParameter", nullptr, {"--set", "gpa=3"}, {"gpa"}},
+        Mistake{"UnknownTown", nullptr, {"--town", "town3"}, {"town3", "town1"}},
+        Mistake{"MissingNetwork", nullptr, {"--town", "@none.net.xml"}, {"none.net.xml"}},
+        Mistake{"EmptyNetwork", nullptr, {"--town", "@empty.net.xml"}, {"empty.net.xml"}},
+        Mistake{"BrokenNetwork", nullptr, {"--town", "@broken.net.xml"}, {"broken.net.xml:"}},
+        Mistake{"NotANetwork", nullptr, {"--town", "@other.net.xml"}, {"other.net.xml"}},
+        Mistake{"UnwritableOutput", nullptr, {"-o", "/proc/t.mcap"}, {"/proc/t.mcap"}},
+        Mistake{"BadSeed", nullptr, {"--seed", "seven"}, {"seed"}},
+        Mistake{"BadDuration", nullptr, {"--for", "-3"}, {"for"}}),
+    [](const testing::TestParamInfo<Mistake>& tested) { return tested.param.name; });
+
+TEST(Mistakes, MissingScenarioIsNamed) {
+    const Result result = reprise({"run", "no_such.lua"});
+    EXPECT_EQ(result.code, 2);
+    EXPECT_THAT(result.out, HasSubstr("no_such.lua"));
+}
+
+TEST(Mistakes, WhatIsNotATraceIsSaidSo) {
+    const Folder folder;
+    write_file(folder / "not.mcap", "this is not a trace at all, only some text that is long enough");
+    write_file(folder / "empty.mcap", "");
+    for (const char* command : {"info", "verify"})
+        for (const char* name : {"not.mcap", "empty.mcap", "missing.mcap"}) {
+            const Result result = reprise({command, folder / name});
+            EXPECT_EQ(result.code, 2) << result.out;
+            EXPECT_THAT(result.out, HasSubstr(name));
+        }
+}
+
+TEST(Mistakes, UnknownCommandsAndOptionsAreUsageErrors) {
+    EXPECT_EQ(reprise({"rnu"}).code, 2);
+    EXPECT_EQ(reprise({}).code, 2);
+    EXPECT_EQ(reprise({"run", "x.lua", "--sede", "3"}).code, 2);
+    const Result weather = reprise({"render", "t.mcap", "-o", "d", "--weather", "clear_nono"});
+    EXPECT_EQ(weather.code, 2);
+    EXPECT_THAT(weather.out, HasSubstr("did you mean 'clear_noon'?"));
+}
+
+TEST(Help, IsEverywhere) {
+    EXPECT_EQ(reprise({"--help"}).code, 0);
+    EXPECT_EQ(reprise({"--version"}).code, 0);
+    for (const char* command : {"run", "verify", "info", "diff", "render"})
+        EXPECT_EQ(reprise({command, "--help"}).code, 0) << command;
+}
+
+}  // namespace
+}  // namespace reprise::test
