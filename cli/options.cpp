@@ -71,6 +71,7 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
     command
         .add_option("--set", assignments, "Set a parameter of the scenario; may be given again")
         ->type_name("KEY=VALUE")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(false);
     command.add_option("--for", run.seconds, "End after this much simulated time")
         ->type_name("SECONDS")
@@ -103,6 +104,7 @@ void add_render(CLI::App& app, RenderOptions& render, std::string& size, std::st
                     render.cameras,
                     "rgb (default), depth, semantic; several by commas, each into its own folder")
         ->type_name("KIND")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->delimiter(',')
         ->check(one_of({"rgb", "depth", "semantic"}, "camera"));
     command.add_option("--size", size, "Of the pictures (default 800x600)")->type_name("WxH");
@@ -158,6 +160,8 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     app.require_subcommand(1);
     app.set_version_flag("--version", version_text());
     app.get_formatter()->column_width(28);
+    // The last word counts, as in every shell alias.
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     add_run(app, run, app_->assignments);
 
     CLI::App& verify_command =

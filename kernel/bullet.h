@@ -1,7 +1,7 @@
 #pragma once
 
-/// Bullet, and what turns its vectors into ours. For kernel/ only, and there only for the physics
-/// files: nothing that another room includes may include this.
+// Private to the room: Bullet, and what turns its vectors into ours. Nothing that another room
+// includes may include this.
 #include <BulletDynamics/Vehicle/btRaycastVehicle.h>
 
 #include <Eigen/Geometry>

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include "render/town_mesh.h"
 #include "world/tick.h"
@@ -38,7 +39,7 @@ void add_lamp(
     // Visor: a half tube above the lamp.
     std::vector<std::vector<Vector3f>> rings(4);
     for (int i = 0; i <= 10; ++i) {
-        const double angle = M_PI * (i / 10.0 * 1.1 - 0.05);
+        const double angle = std::numbers::pi * (i / 10.0 * 1.1 - 0.05);
         const Vector3f across(0,
                               static_cast<float>(std::cos(angle)) * radius * 1.12F,
                               static_cast<float>(std::sin(angle)) * radius * 1.12F);

@@ -1,6 +1,7 @@
 #include "render/sky.h"
 
 #include <cmath>
+#include <numbers>
 #include <tbb/parallel_for.h>
 
 #include "render/noise.h"
@@ -218,7 +219,7 @@ void Sky::project_ambient() {
     for (int half = 0; half < 2; ++half) {
         for (int i = 0; i < rows * columns; ++i) {
             const float z = (static_cast<float>(i / columns) + 0.5F) / rows;
-            const double angle = 2 * M_PI * (i % columns) / columns;
+            const double angle = 2 * std::numbers::pi * (i % columns) / columns;
             const float wide = std::sqrt(1 - z * z);
             const Vector3f d(wide * static_cast<float>(std::cos(angle)),
                              wide * static_cast<float>(std::sin(angle)),
@@ -244,7 +245,7 @@ void Sky::project_ambient() {
             Color sum = Color::Zero();
             for (int i = 0; i < rows * columns; ++i) {
                 const float z = (static_cast<float>(i / columns) + 0.5F) / rows;
-                const double angle = 2 * M_PI * (i % columns) / columns;
+                const double angle = 2 * std::numbers::pi * (i % columns) / columns;
                 const float wide = std::sqrt(1 - z * z);
                 sum += stored({wide * static_cast<float>(std::cos(angle)),
                                wide * static_cast<float>(std::sin(angle)),

@@ -1,4 +1,4 @@
--- A faster car overtakes on the left, then changes into our lane, closer than polite.
+-- A faster car on the left lane changes into ours, closer than polite, and slows down.
 -- We brake, keep our distance again and drive on.
 return scenario 'cut_in' {
     town = 'town1',
@@ -7,40 +7,38 @@ return scenario 'cut_in' {
     cars = 20,
     weather = 'clear_noon',
     params = {
-        gap = 12,         -- [m] between our front and its rear when it begins to change lanes
-        speed_kmh = 45,   -- ours; it is 10 km/h faster until it is in front of us
+        gap = 12,         -- [m] from our front to its rear when it begins to change lanes
+        speed_kmh = 45,   -- ours; it is 10 km/h faster, and 10 km/h slower once in front of us
         over = 2.5,       -- [s] that the lane change takes
     },
 
     run = function(p)
-        -- Who and where: two lanes in one direction; we on the right, the other one a little behind.
-        local right_lane = pick_lane{ length = 90, left = true, optional = true }
+        -- Who and where: two lanes in one direction; we on the right, the other one ahead on the left.
+        local right_lane = pick_lane{ length = 150, left = true, optional = true }
                         or pick_lane{ left = true }
-        local left_lane = lane_left_of(right_lane)
         local ego = spawn{ name = 'ego', model = 'sedan', driver = 'autopilot',
-                           lane = right_lane, s = 14, speed_kmh = p.speed_kmh }
+                           lane = right_lane, s = 8, speed_kmh = p.speed_kmh }
         local other = spawn{ name = 'other', model = 'hatchback', driver = 'traffic',
-                             lane = left_lane, s = 12, speed_kmh = p.speed_kmh + 10 }
+                             lane = lane_left_of(right_lane), s = 8 + p.gap, speed_kmh = p.speed_kmh + 10 }
 
+        local cut_in = false
         check.never('collision', function() return ego:collided() end)
-        check.max('deceleration', function() return -ego:acceleration() end, 8)
-        check.eventually('in front', function() return gap(ego, other) > 4 and other:lane() == ego:lane() end)
+        check.min('gap', function() if cut_in then return gap(ego, other) end end, 2)
+        check.eventually('in front', function() return cut_in and other:lane() == ego:lane() end)
 
-        -- It comes past us ...
+        -- It draws ahead ...
         ego:set_speed_kmh(p.speed_kmh)
         other:set_speed_kmh(p.speed_kmh + 10)
-        local function is_ahead()
-            return gap(ego, other) >= p.gap and gap(ego, other) < 100
-        end
-        wait_until(is_ahead, { timeout = 10 })
+        wait_until(function() return gap(ego, other) >= p.gap end, { timeout = 10 })
 
-        -- ... and cuts in, slower now than we are.
-        print(string.format('%.1f s: cuts in, %.1f m ahead of us', time(), gap(ego, other)))
-        other:change_lane(ego:lane(), { over = p.over })
+        -- ... and cuts in.
+        cut_in = true
+        print(string.format('%.2f s: cuts in, %.1f m ahead of us', time(), gap(ego, other)))
+        other:change_lane(right_lane, { over = p.over })
         other:set_speed_kmh(p.speed_kmh - 10, { over = p.over })
 
         wait(8)
-        print(string.format('%.1f s: %.1f m behind it at %.0f km/h', time(), gap(ego, other), ego:speed_kmh()))
+        print(string.format('%.2f s: %.1f m behind it at %.0f km/h', time(), gap(ego, other), ego:speed_kmh()))
         finish 'cut-in survived'
     end,
 }

@@ -75,17 +75,20 @@ std::vector<std::uint32_t> fitting_lanes(const TownT& town, const LaneWish& wish
 }
 
 std::string describe(const LaneWish& wish) {
-    std::string text = "length = " + number_text(wish.length);
-    const auto add = [&](const char* key, const std::optional<bool>& flag) {
+    std::string text;
+    const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+    const auto add_flag = [&](const char* key, const std::optional<bool>& flag) {
         if (flag)
-            text += fmt::format(", {} = {}", key, *flag);
+            add(fmt::format("{} = {}", key, *flag));
     };
-    add("left", wish.left);
-    add("right", wish.right);
-    add("sidewalk", wish.sidewalk);
-    add("straight", wish.straight);
+    if (wish.length > 0)
+        add("length = " + number_text(wish.length));
+    add_flag("left", wish.left);
+    add_flag("right", wish.right);
+    add_flag("sidewalk", wish.sidewalk);
+    add_flag("straight", wish.straight);
     if (wish.lanes)
-        text += fmt::format(", lanes = {}", *wish.lanes);
+        add(fmt::format("lanes = {}", *wish.lanes));
     return text;
 }
 

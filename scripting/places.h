@@ -22,7 +22,7 @@ struct LaneWish {
 /// The driving lanes that fit and lead on, ascending. O(lanes).
 std::vector<std::uint32_t> fitting_lanes(const world::TownT& town, const LaneWish& wish);
 
-/// "length = 120, left = true".
+/// "length = 120.0, left = true"; empty for a wish that any lane fulfils.
 std::string describe(const LaneWish& wish);
 
 /// The lane of this name, or throws: "no lane 'b1_b2_9' in town1 (did you mean 'b1_b2_1'?)".

@@ -10,7 +10,7 @@ namespace reprise::scripting {
 ///
 /// Left out of Lua, because its answers differ from run to run or it reaches out of the machine:
 /// os, io, debug, package, coroutine, load*, dofile, require, collectgarbage, math.random,
-/// string.dump, addresses in texts, finalizers and weak tables. See docs/scenarios.md.
+/// string.dump, addresses in texts, finalizers and weak tables. See scripting/vocabulary.md.
 void push_sandbox(lua_State* L);
 
 /// Makes the table at the top of the stack refuse words that it does not hold: "check has no

@@ -129,7 +129,8 @@ int pick_lane(Run& run, lua_State* L) {
     if (lanes.empty()) {
         if (!fields.flag("optional").value_or(false))
             refuse("pick_lane",
-                   fmt::format("{} has no driving lane with {}", run.town.name, describe(wish)));
+                   run.town.name + " has no driving lane" +
+                       (describe(wish).empty() ? "" : " with " + describe(wish)));
         lua_pushnil(L);
         return 1;
     }

@@ -197,7 +197,7 @@ void Vm::fail(lua_State* L, int status) {
     if (status == LUA_ERRMEM)
         throw world::Error(script_ + ": the scenario needs more than 64 MB of memory");
     std::string message = with_position(L, message_at_top(L));
-    // A chunk's name is cut at 60 characters by Lua; one line is enough for everybody.
+    // A script's own error() may hold many lines; a message is one.
     if (const auto end = message.find('\n'); end != std::string::npos)
         message.erase(end);
     throw world::Error(message);

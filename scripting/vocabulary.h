@@ -5,7 +5,7 @@ struct lua_State;
 namespace reprise::scripting {
 
 /// All words of a scenario that are said in C++, into the table at the top of the stack.
-/// The list for readers is docs/scenarios.md.
+/// The list for readers is scripting/vocabulary.md.
 void add_vocabulary(lua_State* L);
 
 /// Parts of it, one a file.

@@ -20,7 +20,7 @@ using namespace reprise;
 using Clock = std::chrono::steady_clock;
 
 constexpr int warm_up = 200;  // ticks until queues have formed
-constexpr int measured = 1000;
+constexpr int measured = 400;
 constexpr double near_distance = 60;  // [m] as far as physics keeps bodies
 
 double seconds(Clock::duration duration) {
@@ -66,8 +66,13 @@ Measured whole_tick(const replay::Recording& recording, const std::filesystem::p
     return mean;
 }
 
-/// The same cars in the same town, stepped by libsumo alone.
-double bare_sumo(const replay::Recording& recording) {
+struct BareSumo {
+    double step = 0;  // [s] mean
+    double cars = 0;  // mean; without Reprise nobody refills the town, so it may sink a little
+};
+
+/// The same cars in the same town over the same ticks, stepped by libsumo alone.
+BareSumo bare_sumo(const replay::Recording& recording) {
     traffic::Background background(recording.episode, recording.town, recording.network);
     world::TickDraft genesis;
     world::SealedTick last = world::seal(genesis, {});
@@ -77,10 +82,14 @@ double bare_sumo(const replay::Recording& recording) {
         background.advance(last.view(), next);
         last = world::seal(next, {});
     }
-    const auto begin = Clock::now();
-    for (int i = 0; i < measured; ++i)
+    BareSumo mean;
+    for (int i = 0; i < measured; ++i) {
+        const auto begin = Clock::now();
         libsumo::Simulation::step();
-    return seconds(Clock::now() - begin) / measured;
+        mean.step += seconds(Clock::now() - begin) / measured;
+        mean.cars += static_cast<double>(libsumo::Vehicle::getIDCount()) / measured;
+    }
+    return mean;
 }
 
 double bare_bullet(const replay::Recording& recording, const Measured& whole) {
@@ -100,14 +109,15 @@ void Tick(benchmark::State& state) {
     const auto path = std::filesystem::temp_directory_path() / "reprise_tick_bench.mcap";
     for (auto _ : state) {
         const Measured whole = whole_tick(recording, path);
-        const double sumo = bare_sumo(recording);
+        const BareSumo sumo = bare_sumo(recording);
         const double bullet = bare_bullet(recording, whole);
         state.SetIterationTime(whole.tick);
         state.counters["ticks/s"] = 1 / whole.tick;
         state.counters["tick_us"] = whole.tick * 1e6;
-        state.counters["bare_sumo_us"] = sumo * 1e6;
+        state.counters["bare_sumo_us"] = sumo.step * 1e6;
+        state.counters["bare_cars"] = sumo.cars;
         state.counters["bare_bullet_us"] = bullet * 1e6;
-        state.counters["of_bare"] = whole.tick / (sumo + bullet);
+        state.counters["of_bare"] = whole.tick / (sumo.step + bullet);
         state.counters["record_us"] = whole.record * 1e6;
         state.counters["record_%"] = 100 * whole.record / whole.tick;
         state.counters["near"] = whole.near;

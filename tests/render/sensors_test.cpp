@@ -46,7 +46,7 @@ TEST(Sensors, DepthOfTheRoadIsThatOfThePlane) {
         // lane.
         const double depth = 1.4 * focal / (v + 0.5 - 60);
         for (int u = 75; u < 85; ++u)
-            EXPECT_NEAR(static_cast<double>(depth_at(frame, u, v)), depth, 1e-6 * depth)
+            EXPECT_NEAR(static_cast<double>(depth_at(frame, u, v)), depth, 1e-7 * depth)
                 << u << ' ' << v;
     }
     EXPECT_TRUE(std::isinf(depth_at(frame, 80, 20))) << "sky has no depth";

@@ -35,7 +35,7 @@ TEST(Budget, CannotBeSwallowedByProtectedCalls) {
 
 TEST(Budget, CannotBeEvadedByManyShortTasks) {
     const std::string message = mistake(
-        "local function burst()\nfor i = 1, 900 do local x = i end start(burst) end burst() "
+        "local function burst()\nfor i = 1, 100 do local x = i end start(burst) end burst() "
         "wait(1)");
     EXPECT_EQ(message, std::string("test.lua:2") + spent);
 }

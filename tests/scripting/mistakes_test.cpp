@@ -145,7 +145,7 @@ TEST(Mistakes, OfWaitsChecksAndPlaces) {
             {"check.max('x', function() return 0/0 end, 3) wait(1)",
              "check 'x': the function must return a number, got nan"},
             {"pick_lane{ lanes = 3, left = true }",
-             "pick_lane: straight_road has no driving lane with length = 0.0, left = true, lanes = "
+             "pick_lane: straight_road has no driving lane with left = true, lanes = "
              "3"},
             {"pick_lane{ lenght = 3 }", "pick_lane: unknown key 'lenght' (did you mean 'length'?)"},
             {"lane_length('east_3')", "no lane 'east_3' in straight_road (did you mean 'east_0'?)"},

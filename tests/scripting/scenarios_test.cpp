@@ -62,7 +62,7 @@ TEST(Scenarios, FreeDriveLeavesThePlaceToTheKernel) {
 TEST(Scenarios, CutInChangesLanesOnceTheOtherCarIsAhead) {
     Rehearsal rehearsal("cut_in");
     world::SealedTick last = test::tick_with({}, {}, {}, 0);
-    double x = 12;
+    double x = 20;
     std::vector<world::CommandT> changes;
     for (std::uint64_t tick = 1; tick < 300 && changes.empty(); ++tick) {
         world::TickDraft next;
@@ -71,7 +71,7 @@ TEST(Scenarios, CutInChangesLanesOnceTheOtherCarIsAhead) {
             if (command.kind == world::CommandKind::change_lane)
                 changes.push_back(command);
         x += 15.28 * 0.05;
-        const double ego = 14 + 12.5 * 0.05 * static_cast<double>(tick);
+        const double ego = 8 + 12.5 * 0.05 * static_cast<double>(tick);
         last = test::tick_with({test::vehicle_at(1, ego, -5.25, 0, 12.5)},
                                {test::car_at(2, x, -1.75, 0, 15.28)},
                                {},
