@@ -18,8 +18,32 @@ struct FootprintShares {
     double sidewalk = 0;
 };
 
-/// Samples the footprint on a grid of 7 x 3 points. Opposite: a driving lane is there that runs
-/// against the car's heading, and none that runs with it (lanes overlap inside junctions).
+/// What lies under one point of a vehicle that heads `ahead`.
+struct Under {
+    bool opposite_lane = false;
+    bool sidewalk = false;
+};
+
+/// Opposite: a lane for cars is there that runs against the heading, and none that runs with it
+/// (lanes overlap inside junctions).
+Under look_under(const world::TownT& town,
+                 const world::LaneMap& lanes,
+                 const Eigen::Vector3d& p_world,
+                 const Eigen::Vector3d& ahead) {
+    bool with = false;
+    bool against = false;
+    const auto found = lanes.at(p_world);
+    for (const auto& [lane, at] : found) {
+        const double yaw = world::point_at(town.lanes[lane], at.s).yaw;
+        const bool same = ahead.x() * std::cos(yaw) + ahead.y() * std::sin(yaw) > 0;
+        with = with || same;
+        against = against || !same;
+    }
+    return {against && !with, found.empty() && !lanes.walkable_at(p_world).empty()};
+}
+
+/// Samples the footprint on a grid of 7 x 3 points; of a vehicle whose four corners are where they
+/// belong, on the corners alone: nearly all vehicles, nearly always.
 FootprintShares footprint_shares(const world::TownT& town,
                                  const world::LaneMap& lanes,
                                  const world::VehicleModel& model,
@@ -27,26 +51,26 @@ FootprintShares footprint_shares(const world::TownT& town,
     constexpr int along = 7;
     constexpr int across = 3;
     const Eigen::Vector3d ahead = pose_world_vehicle.linear().col(0);
-    FootprintShares shares;
-    for (int i = 0; i < along; ++i) {
-        for (int j = 0; j < across; ++j) {
-            const double x = -model.rear_overhang + model.length * (i + 0.5) / along;
-            const double y = model.width * ((j + 0.5) / across - 0.5);
-            const Eigen::Vector3d p_world = pose_world_vehicle * Eigen::Vector3d(x, y, 0);
-            const auto found = lanes.at(p_world);
-            bool with = false;
-            bool against = false;
-            for (const auto& [lane, at] : found) {
-                const double yaw = world::point_at(town.lanes[lane], at.s).yaw;
-                const bool same = ahead.x() * std::cos(yaw) + ahead.y() * std::sin(yaw) > 0;
-                with = with || same;
-                against = against || !same;
-            }
-            shares.opposite_lane += against && !with ? 1 : 0;
-            if (found.empty() && !lanes.walkable_at(p_world).empty())
-                shares.sidewalk += 1;
+    const auto under = [&](int i, int j) {
+        const double x = -model.rear_overhang + model.length * (i + 0.5) / along;
+        const double y = model.width * ((j + 0.5) / across - 0.5);
+        return look_under(town, lanes, pose_world_vehicle * Eigen::Vector3d(x, y, 0), ahead);
+    };
+    bool in_place = true;
+    for (const int i : {0, along - 1})
+        for (const int j : {0, across - 1}) {
+            const Under corner = under(i, j);
+            in_place = in_place && !corner.opposite_lane && !corner.sidewalk;
         }
-    }
+    FootprintShares shares;
+    if (in_place)
+        return shares;
+    for (int i = 0; i < along; ++i)
+        for (int j = 0; j < across; ++j) {
+            const Under point = under(i, j);
+            shares.opposite_lane += point.opposite_lane ? 1 : 0;
+            shares.sidewalk += point.sidewalk ? 1 : 0;
+        }
     shares.opposite_lane /= along * across;
     shares.sidewalk /= along * across;
     return shares;
