@@ -1,10 +1,10 @@
 #pragma once
 
 #include <BulletDynamics/Vehicle/btRaycastVehicle.h>
-#include <btBulletDynamicsCommon.h>
-
 #include <memory>
 #include <vector>
+
+#include <btBulletDynamicsCommon.h>
 
 #include "world/ground.h"
 
@@ -14,20 +14,19 @@ namespace reprise::bench {
 /// number of kinematic boxes that move on a circle around it. Nothing of Reprise's in the loop.
 class BareBullet {
   public:
-    BareBullet(const world::GroundMesh& ground, int boxes, const btVector3& place)
-        : place_(place) {
+    BareBullet(const world::GroundMesh& ground, int boxes, const btVector3& place) : place_(place) {
         for (const Eigen::Vector3d& v : ground.vertices)
             vertices_.insert(vertices_.end(), {v.x(), v.y(), v.z()});
         for (const auto& triangle : ground.triangles)
             for (const std::uint32_t index : triangle)
                 indices_.push_back(static_cast<int>(index));
-        mesh_ = std::make_unique<btTriangleIndexVertexArray>(
-            static_cast<int>(ground.triangles.size()),
-            indices_.data(),
-            static_cast<int>(3 * sizeof(int)),
-            static_cast<int>(ground.vertices.size()),
-            vertices_.data(),
-            static_cast<int>(3 * sizeof(btScalar)));
+        mesh_ =
+            std::make_unique<btTriangleIndexVertexArray>(static_cast<int>(ground.triangles.size()),
+                                                         indices_.data(),
+                                                         static_cast<int>(3 * sizeof(int)),
+                                                         static_cast<int>(ground.vertices.size()),
+                                                         vertices_.data(),
+                                                         static_cast<int>(3 * sizeof(btScalar)));
         ground_ = std::make_unique<btBvhTriangleMeshShape>(mesh_.get(), true);
         world_.setGravity({0, 0, -9.81});
         add(0, *ground_, {0, 0, 0});
@@ -39,8 +38,8 @@ class BareBullet {
         }
         vehicle_ = std::make_unique<btRaycastVehicle>(tuning_, chassis_, &caster_);
         vehicle_->setCoordinateSystem(1, 2, 0);
-        // Bullet's default suspension cannot carry a car: it would lie on its belly, and the contacts
-        // would flatter us.
+        // Bullet's default suspension cannot carry a car: it would lie on its belly, and the
+        // contacts would flatter us.
         tuning_.m_suspensionStiffness = 20;
         tuning_.m_suspensionCompression = 3;
         tuning_.m_suspensionDamping = 4;

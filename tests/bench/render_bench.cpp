@@ -1,11 +1,11 @@
 // An 800x600 frame of Town 1 with 100 cars, beside bare Embree: the same number of primary rays, in
 // packets of 8, on the same ground, and nothing else.
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
-
 #include <cmath>
 #include <cstring>
 #include <limits>
+
+#include <embree3/rtcore.h>
 
 #include "kernel/kernel.h"
 #include "render/sensors.h"
@@ -73,7 +73,8 @@ struct BareEmbree {
                                                   RTC_FORMAT_UINT3,
                                                   3 * sizeof(std::uint32_t),
                                                   mesh.triangles.size());
-        std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(std::uint32_t) * 3);
+        std::memcpy(
+            triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(std::uint32_t) * 3);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(ground, geometry);
         rtcReleaseGeometry(geometry);

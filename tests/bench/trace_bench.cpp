@@ -1,11 +1,10 @@
 // Writing and playing a trace of 100 cars, beside a bare zstd pass over the same bytes.
 #include <benchmark/benchmark.h>
-#include <zstd.h>
-
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+#include <zstd.h>
 
 #include "kernel/kernel.h"
 #include "replay/trace_reader.h"
