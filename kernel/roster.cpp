@@ -66,8 +66,10 @@ void Roster::apply_commands(const world::TickView& last,
                     entry.autopilot->free_speed();
                 break;
             case world::CommandKind::set_route:
+            case world::CommandKind::change_lane:  // a route of one lane: the neighbour
                 if (entry.autopilot)
                     entry.autopilot->set_route(command.lanes);
+                entry.route_line = command.line;
                 break;
             case world::CommandKind::control: entry.control = command.control; break;
             default: break;
@@ -88,9 +90,10 @@ void Roster::spawn(const world::TickView& last,
     pose_world_vehicle = pose_world_vehicle * Eigen::Translation3d(0, command.offset, 0);
     physics.add_vehicle(command.actor, command.model, pose_world_vehicle, command.speed);
 
-    Entry entry{std::nullopt, parked_control(command.actor), command.text};
+    Entry entry{std::nullopt, parked_control(command.actor)};
     if (command.driver == world::Driver::autopilot) {
         entry.autopilot.emplace(command.actor, command.model, *episode_, *town_, *lanes_);
+        entry.route_line = command.line;
         if (!command.lanes.empty())
             entry.autopilot->set_route(command.lanes);
     }
@@ -137,6 +140,17 @@ bool Roster::is_free(const world::TickView& last, const Eigen::Vector3d& p_world
            std::none_of(last.vehicles().begin(), last.vehicles().end(), near);
 }
 
+/// The autopilot plans a new route when it next decides; what it then finds impossible is the mistake of
+/// the line that asked for the route.
+world::Control Roster::decide(Entry& entry, const world::TickView& last) const {
+    try {
+        return entry.autopilot->decide(last);
+    } catch (const world::Error& error) {
+        throw world::Error(episode_->scenario_path + ":" + std::to_string(entry.route_line) + ": " +
+                           error.what());
+    }
+}
+
 void Roster::apply_controls(std::span<const world::Control> controls,
                             const world::TickView& last,
                             world::TickDraft& next) {
@@ -148,7 +162,7 @@ void Roster::apply_controls(std::span<const world::Control> controls,
     for (auto& [id, entry] : entries_) {
         const bool in_last_tick = find(last.vehicles(), id) != nullptr;
         if (entry.autopilot && in_last_tick)
-            entry.control = entry.autopilot->decide(last);
+            entry.control = decide(entry, last);
         entry.control.mutate_actor(id);
         next.tick.controls.push_back(entry.control);
     }

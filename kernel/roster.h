@@ -36,9 +36,10 @@ class Roster {
     struct Entry {
         std::optional<Autopilot> autopilot;  ///< none: manual
         world::Control control;              ///< the newest
-        std::string name;
+        std::uint32_t route_line = 0;        ///< of the scenario, that last asked for a route
     };
 
+    world::Control decide(Entry& entry, const world::TickView& last) const;
     void spawn(const world::TickView& last,
                world::CommandT& command,
                world::TickDraft& next,
