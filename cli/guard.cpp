@@ -1,5 +1,7 @@
 #include "cli/guard.h"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -8,9 +10,23 @@
 
 namespace reprise::cli {
 
+namespace {
+
+/// Debian's SUMO and Embree are built with their assertions on and abort when one fails.
+extern "C" void on_abort(int) {
+    constexpr char text[] =
+        "reprise: a library stopped itself (its reason is above); what was recorded until then is "
+        "beside the trace, in .partial\n";
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof(text) - 1);
+    _exit(exit_our_fault);
+}
+
+}  // namespace
+
 int guarded(const std::string& command_line, const std::function<int()>& work) {
     // A file-size limit shall be an error that we can tell, not a signal that ends us.
     std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGABRT, on_abort);
     try {
         return work();
     } catch (const world::Error& error) {

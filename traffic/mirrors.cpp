@@ -166,7 +166,15 @@ void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Tar
         Vehicle::setRoute(mirror.sumo, graph_->names(way));
         mirror.lamps = vehicle.lamps();
     }
-    place(lane.edge, lane.index, on_its_route);
+    if (lane.kind == world::LaneKind::internal) {
+        // Bound to its route, SUMO takes the nearest way through the junction that leads to any
+        // edge of the route; when that is not ours it aborts (an assertion of MSLaneChanger's).
+        // Free to look, it takes the lane that we name, and forgets the rest of the route.
+        place(lane.edge, lane.index, anywhere);
+        mirror.lamps = 0xffff;
+    } else {
+        place(lane.edge, lane.index, on_its_route);
+    }
     mirror.edge = edge;
     mirror.after = after;
     at = std::find(mirror.route.begin(), mirror.route.end(), edge);

@@ -25,7 +25,7 @@ class Mirrors {
             double step);
 
     /// Brings SUMO's copies in line with the last tick: new ones, moved ones, gone ones.
-    /// About 10 us a vehicle on a road; 40 us where it left the way that was expected.
+    /// About 10 us a vehicle on a road; 40 us in a junction or off the way that was expected.
     /// `cars` are those of traffic, sorted by id.
     void advance(const world::TickView& last, std::span<const Car> cars);
 
