@@ -1,10 +1,9 @@
 #include "cli/guard.h"
 
-#include <unistd.h>
-
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <unistd.h>
 
 #include "world/check.h"
 

@@ -21,9 +21,8 @@ std::string reproduce(const replay::TraceReader& trace) {
     std::string text = "reprise run " + episode.scenario_path;
     if (!episode.town_path.empty())
         text += " --town " + episode.town_path;
-    text += fmt::format(" --seed {} --for {}",
-                        episode.seed,
-                        world::seconds(episode.max_ticks, episode.step_ns));
+    text += fmt::format(
+        " --seed {} --for {}", episode.seed, world::seconds(episode.max_ticks, episode.step_ns));
     for (const world::ParameterT& parameter : episode.parameters)
         text += " --set " + parameter.key + "=" + parameter.value;
     return text;
@@ -51,7 +50,8 @@ int info(const TraceOptions& options) {
     row("town", episode.town);
     row("seed", std::to_string(episode.seed));
     row("traffic", fmt::format("{} cars", episode.cars));
-    row("weather", fmt::format("{}, road friction {}", episode.weather_name, episode.road_friction));
+    row("weather",
+        fmt::format("{}, road friction {}", episode.weather_name, episode.road_friction));
     for (const world::ParameterT& parameter : episode.parameters)
         row("", parameter.key + " = " + parameter.value);
     row("length",

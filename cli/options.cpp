@@ -42,7 +42,8 @@ CLI::Validator one_of(std::vector<std::string> words, const std::string& what) {
 
 struct CommandLine::App {
     CLI::App app{
-        "Reprise: runs scripted drives in live traffic, records every tick, proves that they replay\n"
+        "Reprise: runs scripted drives in live traffic, records every tick, proves that they "
+        "replay\n"
         "bit for bit, and renders what the sensors saw under any weather.",
         "reprise"};
     std::vector<std::string> assignments;
@@ -68,8 +69,7 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
         .add_option("--town", run.town, "Another town: its name, or a SUMO network (.net.xml[.gz])")
         ->type_name("NET");
     command.add_option("--seed", run.seed, "What decides everything random")->type_name("N");
-    command
-        .add_option("--set", assignments, "Set a parameter of the scenario; may be given again")
+    command.add_option("--set", assignments, "Set a parameter of the scenario; may be given again")
         ->type_name("KEY=VALUE")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(false);
@@ -111,14 +111,18 @@ void add_render(CLI::App& app, RenderOptions& render, std::string& size, std::st
     command.add_option("--fov", render.fov_deg, "Horizontal field of view (default 90)")
         ->type_name("DEGREES")
         ->check(CLI::Range(1.0, 170.0));
-    command.add_option("--from", render.from, "First tick, or time such as 2.5s")->type_name("TICK");
+    command.add_option("--from", render.from, "First tick, or time such as 2.5s")
+        ->type_name("TICK");
     command.add_option("--to", render.to, "Last tick, or time")->type_name("TICK");
     command.add_option("--every", render.every, "Every so many ticks, or time (default 1s)")
         ->type_name("N");
-    command.add_option("--actor", render.actor, "The vehicle that carries the camera (default: the first)")
+    command
+        .add_option(
+            "--actor", render.actor, "The vehicle that carries the camera (default: the first)")
         ->type_name("ID");
     command
-        .add_option("--mount", mount, "Place on it: ahead of the rear axle, left, up (default 1,0,1.4)")
+        .add_option(
+            "--mount", mount, "Place on it: ahead of the rear axle, left, up (default 1,0,1.4)")
         ->type_name("X,Y,Z");
     command.add_option("--pitch", render.pitch_deg, "Camera up by this (default 0)")
         ->type_name("DEGREES");
@@ -142,7 +146,8 @@ void read_size(const std::string& text, RenderOptions& render) {
     const int found = std::sscanf(text.c_str(), "%dx%d%n", &render.width, &render.height, &used);
     if (found != 2 || used != static_cast<int>(text.size()) || render.width < 1 ||
         render.height < 1 || render.width > 16384 || render.height > 16384)
-        throw CLI::ValidationError("--size", "expected WIDTHxHEIGHT such as 800x600, got '" + text + "'");
+        throw CLI::ValidationError("--size",
+                                   "expected WIDTHxHEIGHT such as 800x600, got '" + text + "'");
 }
 
 void read_mount(const std::string& text, RenderOptions& render) {

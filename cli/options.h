@@ -36,8 +36,8 @@ struct RenderOptions {
     int width = 800;
     int height = 600;
     double fov_deg = 90;
-    std::string from;   ///< tick, or seconds with an s behind; empty: the first
-    std::string to;     ///< likewise; empty: the last
+    std::string from;  ///< tick, or seconds with an s behind; empty: the first
+    std::string to;    ///< likewise; empty: the last
     std::string every = "1s";
     std::uint32_t actor = 0;  ///< 0: the first physics vehicle
     std::vector<double> mount{1.0, 0.0, 1.4};

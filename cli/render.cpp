@@ -1,10 +1,9 @@
 #include "cli/render.h"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <numbers>
 
 #include "cli/guard.h"
@@ -55,11 +54,12 @@ Span ticks_to_render(const RenderOptions& options, const replay::TraceReader& tr
     span.to = std::min(trace.ticks(), parse_tick("--to", options.to, step_ns, trace.ticks()));
     span.every = std::max<std::uint64_t>(1, parse_tick("--every", options.every, step_ns, 1));
     if (span.from > span.to)
-        throw world::Error(fmt::format("nothing to render: from tick {} to {}; {} holds ticks 1 to {}",
-                                       span.from,
-                                       options.to.empty() ? trace.ticks() : span.to,
-                                       options.trace,
-                                       trace.ticks()));
+        throw world::Error(
+            fmt::format("nothing to render: from tick {} to {}; {} holds ticks 1 to {}",
+                        span.from,
+                        options.to.empty() ? trace.ticks() : span.to,
+                        options.trace,
+                        trace.ticks()));
     return span;
 }
 
@@ -87,7 +87,8 @@ world::SensorRig make_rig(const RenderOptions& options) {
 }
 
 /// The first vehicle of the tick, unless one was named. Nothing when there is none yet.
-std::optional<std::uint32_t> mount_actor(const RenderOptions& options, const world::TickView& tick) {
+std::optional<std::uint32_t> mount_actor(const RenderOptions& options,
+                                         const world::TickView& tick) {
     if (options.actor != 0)
         return options.actor;
     if (tick.vehicles().empty())
@@ -109,7 +110,8 @@ void make_folders(const RenderOptions& options) {
         std::error_code error;
         fs::create_directories(camera == "rgb" ? folder : folder / "view", error);
         if (error)
-            throw world::Error("cannot make the folder " + folder.string() + ": " + error.message());
+            throw world::Error("cannot make the folder " + folder.string() + ": " +
+                               error.message());
     }
 }
 

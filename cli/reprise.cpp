@@ -1,13 +1,12 @@
 // The program `reprise`: thin, so that it starts in milliseconds. It reads the command line and
 // traces itself, and leaves the heavy work to programs that lie beside it: linking SUMO and OpenCV
 // in here would load 222 shared libraries at every start.
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <unistd.h>
 
 #include "cli/diff.h"
 #include "cli/guard.h"
@@ -19,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Replaces this process by the helper program of that name: beside this one, or in ../libexec/reprise
-/// where an installation puts it.
+/// Replaces this process by the helper program of that name: beside this one, or in
+/// ../libexec/reprise where an installation puts it.
 [[noreturn]] void become(const std::string& helper, char** argv) {
     const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
     const std::array<fs::path, 2> places{here / helper, here / "../libexec/reprise" / helper};

@@ -1,10 +1,10 @@
 #include "cli/run.h"
 
+#include <filesystem>
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "cli/guard.h"
+#include "cli/portable_math.h"
 #include "cli/progress.h"
 #include "cli/towns.h"
 #include "kernel/kernel.h"
@@ -56,16 +56,20 @@ void print_events(const world::TickView& tick, std::uint64_t step_ns, Progress& 
     for (const world::Event* event : *tick.tick->events()) {
         std::string text = event->text() == nullptr ? "" : event->text()->str();
         switch (event->kind()) {
-            case world::EventKind::printed: break;
-            case world::EventKind::collision:
-                text = fmt::format("collision of {} with {}, {:.0f} N s",
-                                   event->actor(),
-                                   event->other() == 0 ? "something fixed"
-                                                       : std::to_string(event->other()),
-                                   event->value());
+            case world::EventKind::printed:
                 break;
-            case world::EventKind::check_failed: text = "check failed: " + text; break;
-            default: continue;
+            case world::EventKind::collision:
+                text = fmt::format(
+                    "collision of {} with {}, {:.0f} N s",
+                    event->actor(),
+                    event->other() == 0 ? "something fixed" : std::to_string(event->other()),
+                    event->value());
+                break;
+            case world::EventKind::check_failed:
+                text = "check failed: " + text;
+                break;
+            default:
+                continue;
         }
         progress.clear();
         fmt::print("{:8.2f} s  {}\n", world::seconds(tick.index(), step_ns), text);
@@ -74,9 +78,12 @@ void print_events(const world::TickView& tick, std::uint64_t step_ns, Progress& 
 
 const char* word(Check::Status status) {
     switch (status) {
-        case Check::Status::pass: return "pass";
-        case Check::Status::fail: return "FAIL";
-        case Check::Status::not_evaluated: break;
+        case Check::Status::pass:
+            return "pass";
+        case Check::Status::fail:
+            return "FAIL";
+        case Check::Status::not_evaluated:
+            break;
     }
     return "NOT EVALUATED";
 }
@@ -107,6 +114,7 @@ void print_summary(const replay::Recording& recording,
 }  // namespace
 
 int run(const RunOptions& options) {
+    check_portable_math();
     const replay::Recording recording = prepare(options);
     const fs::path path = output_path(options);
     replay::TraceWriter trace(path, recording);

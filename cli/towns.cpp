@@ -11,13 +11,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Folders that hold towns: beside the scenario, and where this build or installation keeps its own.
+/// Folders that hold towns: beside the scenario, and where this build or installation keeps its
+/// own.
 std::vector<fs::path> town_folders(const fs::path& scenario) {
     const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
-    return {scenario.parent_path() / "towns",
-            program / "../../../scenarios/towns",           // build/<preset>/bin
-            program / "../share/reprise/scenarios/towns",   // PREFIX/bin
-            program / "../../share/reprise/scenarios/towns"  // PREFIX/libexec/reprise
+    return {
+        scenario.parent_path() / "towns",
+        program / "../../../scenarios/towns",            // build/<preset>/bin
+        program / "../share/reprise/scenarios/towns",    // PREFIX/bin
+        program / "../../share/reprise/scenarios/towns"  // PREFIX/libexec/reprise
     };
 }
 

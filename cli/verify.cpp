@@ -1,10 +1,10 @@
 #include "cli/verify.h"
 
 #include <fmt/format.h>
-
 #include <map>
 
 #include "cli/guard.h"
+#include "cli/portable_math.h"
 #include "cli/progress.h"
 #include "kernel/verify.h"
 #include "replay/trace_reader.h"
@@ -30,12 +30,12 @@ void print_other_build(const world::EpisodeT& episode) {
         other = true;
         fmt::print("  {:<13}recorded {}, here {}\n", key, recorded[key], value);
     }
-
 }
 
 }  // namespace
 
 int verify(const TraceOptions& options) {
+    check_portable_math();
     replay::TraceReader trace(options.trace);
     print_other_build(trace.episode());
     Progress progress("verifying", "ticks", trace.ticks());
@@ -43,9 +43,7 @@ int verify(const TraceOptions& options) {
         kernel::verify(trace, [&](std::uint64_t tick) { progress.update(tick); });
     progress.clear();
     if (divergence) {
-        fmt::print("{}: differs\n{}",
-                   options.trace,
-                   to_text(*divergence, trace.episode().step_ns));
+        fmt::print("{}: differs\n{}", options.trace, to_text(*divergence, trace.episode().step_ns));
         return exit_differs;
     }
     fmt::print("{}: equal at every one of {} ticks, chain {} ({:.2f} s)\n",

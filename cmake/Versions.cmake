@@ -10,8 +10,8 @@ function(reprise_package_version variable package)
 endfunction()
 
 reprise_package_version(SUMO_VERSION sumo)
-reprise_package_version(LIBM_VERSION libc6)
-string(PREPEND LIBM_VERSION "glibc ")
+reprise_package_version(LIBM_VERSION musl-dev)
+string(PREPEND LIBM_VERSION "musl ")
 
 file(GLOB REPRISE_STATE_SOURCES CONFIGURE_DEPENDS
      ${PROJECT_SOURCE_DIR}/world/*.cpp ${PROJECT_SOURCE_DIR}/world/*.h ${PROJECT_SOURCE_DIR}/world/*.fbs
