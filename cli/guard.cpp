@@ -14,8 +14,8 @@ namespace {
 /// Debian's SUMO and Embree are built with their assertions on and abort when one fails.
 extern "C" void on_abort(int) {
     constexpr char text[] =
-        "reprise: a library stopped itself (its reason is above); what was recorded until then is "
-        "beside the trace, in .partial\n";
+        "reprise: a library stopped itself (its reason is above); what a run recorded until then "
+        "is beside its trace, in .partial\n";
     [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof(text) - 1);
     _exit(exit_our_fault);
 }
@@ -27,7 +27,11 @@ int guarded(const std::string& command_line, const std::function<int()>& work) {
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGABRT, on_abort);
     try {
-        return work();
+        const int code = work();
+        if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)
+            return code;
+        std::fprintf(stderr, "reprise: cannot write to the standard output\n");
+        return exit_bad_input;
     } catch (const world::Error& error) {
         std::fprintf(stderr, "reprise: %s\n", error.what());
         return exit_bad_input;

@@ -21,8 +21,9 @@ std::string reproduce(const replay::TraceReader& trace) {
     std::string text = "reprise run " + episode.scenario_path;
     if (!episode.town_path.empty())
         text += " --town " + episode.town_path;
-    text += fmt::format(
-        " --seed {} --for {}", episode.seed, world::seconds(episode.max_ticks, episode.step_ns));
+    text += fmt::format(" --seed {} --for {}",
+                        episode.seed,
+                        static_cast<double>(episode.max_ticks * episode.step_ns) / 1e9);
     for (const world::ParameterT& parameter : episode.parameters)
         text += " --set " + parameter.key + "=" + parameter.value;
     return text;

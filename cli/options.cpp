@@ -1,7 +1,9 @@
 #include "cli/options.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
+#include <cstdlib>
 
 #include "world/check.h"
 #include "world/fingerprint.h"
@@ -38,6 +40,21 @@ CLI::Validator one_of(std::vector<std::string> words, const std::string& what) {
         "");
 }
 
+/// Decimal digits only: what CLI11 reads as a number may also be octal, negative or too large.
+CLI::Validator whole_number() {
+    return CLI::Validator(
+        [](std::string& text) -> std::string {
+            std::uint64_t value = 0;
+            const char* end = text.data() + text.size();
+            const auto [stop, error] = std::from_chars(text.data(), end, value);
+            if (error != std::errc() || stop != end)
+                return "expected a whole number from 0 to 18446744073709551615, got '" + text + "'";
+            text = std::to_string(value);  // without the leading zeros of an octal number
+            return "";
+        },
+        "");
+}
+
 }  // namespace
 
 struct CommandLine::App {
@@ -68,20 +85,30 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
     command
         .add_option("--town", run.town, "Another town: its name, or a SUMO network (.net.xml[.gz])")
         ->type_name("NET");
-    command.add_option("--seed", run.seed, "What decides everything random")->type_name("N");
+    command.add_option("--seed", run.seed, "What decides everything random")
+        ->type_name("N")
+        ->transform(whole_number());
     command.add_option("--set", assignments, "Set a parameter of the scenario; may be given again")
         ->type_name("KEY=VALUE")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(false);
     command.add_option("--for", run.seconds, "End after this much simulated time")
         ->type_name("SECONDS")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Validator(
+            [](std::string& text) -> std::string {
+                const double seconds = std::strtod(text.c_str(), nullptr);
+                return seconds > 0 && seconds <= 86'400
+                           ? ""
+                           : "expected seconds above 0, 86400 at most, got '" + text + "'";
+            },
+            ""));
     command
         .add_option("--nudge",
                     run.nudge_tick,
                     "A drill: move the first vehicle's steering by one unit in the last place in "
                     "this tick, without a word in the recording, to see verify and diff find it")
-        ->type_name("TICK");
+        ->type_name("TICK")
+        ->transform(whole_number());
     command.footer(
         "Exit status: 0 all checks passed, 1 a check failed, 2 bad input.\n"
         "Example: reprise run scenarios/free_drive.lua -o a.mcap --seed 7 --for 60");

@@ -39,7 +39,8 @@ std::uint64_t parse_tick(const std::string& option,
     double value = 0;
     const auto [stop, error] = std::from_chars(begin, end, value);
     const bool whole = is_time || value == std::floor(value);
-    if (error != std::errc() || stop != end || value < 0 || !whole)
+    constexpr double most = 1e12;
+    if (error != std::errc() || stop != end || !(value >= 0 && value < most) || !whole)
         throw world::Error(option + ": expected a tick such as 120 or a time such as 2.5s, got '" +
                            text + "'");
     return is_time ? static_cast<std::uint64_t>(
@@ -52,7 +53,9 @@ Span ticks_to_render(const RenderOptions& options, const replay::TraceReader& tr
     Span span;
     span.from = std::max<std::uint64_t>(1, parse_tick("--from", options.from, step_ns, 1));
     span.to = std::min(trace.ticks(), parse_tick("--to", options.to, step_ns, trace.ticks()));
-    span.every = std::max<std::uint64_t>(1, parse_tick("--every", options.every, step_ns, 1));
+    span.every = parse_tick("--every", options.every, step_ns, 0);
+    if (span.every < 1)
+        throw world::Error("--every: expected 1 tick at least, got '" + options.every + "'");
     if (span.from > span.to)
         throw world::Error(
             fmt::format("nothing to render: from tick {} to {}; {} holds ticks 1 to {}",

@@ -12,6 +12,7 @@
 #include "replay/trace_writer.h"
 #include "scripting/scenario.h"
 #include "traffic/town_reader.h"
+#include "world/check.h"
 #include "world/digest.h"
 #include "world/fingerprint.h"
 
@@ -32,8 +33,9 @@ replay::Recording prepare(const RunOptions& options) {
     if (!network.notes.empty())
         fmt::print(stderr, "{}", network.notes);
     recording.town = traffic::read_town(network);
+    episode.town_path =
+        episode.town;  // as it was named: equal runs write equal bytes in any folder
     episode.town = network.name;
-    episode.town_path = path.lexically_normal().string();
     episode.town_digest = world::digest128(network.xml);
     for (const auto& [key, value] : world::build_fingerprint()) {
         world::ParameterT line;
@@ -116,6 +118,11 @@ void print_summary(const replay::Recording& recording,
 int run(const RunOptions& options) {
     check_portable_math();
     const replay::Recording recording = prepare(options);
+    if (options.nudge_tick &&
+        (*options.nudge_tick < 1 || *options.nudge_tick > recording.episode.max_ticks))
+        throw world::Error(fmt::format("--nudge {}: the run has ticks 1 to {}",
+                                       *options.nudge_tick,
+                                       recording.episode.max_ticks));
     const fs::path path = output_path(options);
     replay::TraceWriter trace(path, recording);
     kernel::Kernel kernel(recording);

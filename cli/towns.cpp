@@ -43,12 +43,13 @@ bool looks_like_path(const std::string& town) {
 }  // namespace
 
 fs::path find_network(const std::string& town, const fs::path& scenario) {
-    if (looks_like_path(town) || fs::is_regular_file(town))
+    std::error_code ignored;
+    if (looks_like_path(town) || fs::is_regular_file(town, ignored))
         return town;
     const auto folders = town_folders(scenario);
     for (const fs::path& folder : folders) {
         const fs::path network = folder / town / (town + ".net.xml");
-        if (fs::exists(network))
+        if (fs::exists(network, ignored))
             return network;
     }
     const auto names = names_in(folders);

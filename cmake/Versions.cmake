@@ -17,6 +17,7 @@ file(GLOB REPRISE_STATE_SOURCES CONFIGURE_DEPENDS
      ${PROJECT_SOURCE_DIR}/world/*.cpp ${PROJECT_SOURCE_DIR}/world/*.h ${PROJECT_SOURCE_DIR}/world/*.fbs
      ${PROJECT_SOURCE_DIR}/scripting/*.cpp ${PROJECT_SOURCE_DIR}/scripting/*.h
      ${PROJECT_SOURCE_DIR}/scripting/*.lua
+     ${PROJECT_SOURCE_DIR}/replay/*.cpp ${PROJECT_SOURCE_DIR}/replay/*.h
      ${PROJECT_SOURCE_DIR}/traffic/*.cpp ${PROJECT_SOURCE_DIR}/traffic/*.h
      ${PROJECT_SOURCE_DIR}/kernel/*.cpp ${PROJECT_SOURCE_DIR}/kernel/*.h)
 list(SORT REPRISE_STATE_SOURCES)

@@ -1,8 +1,8 @@
-// Records five seconds, then reads the trace back without a kernel: the fastest car of every second.
-#include <fmt/format.h>
-
+// Records five seconds, then reads the trace back without a kernel: the fastest car of every
+// second.
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 
 #include "kernel/kernel.h"
 #include "replay/trace_reader.h"
@@ -35,8 +35,8 @@ int main() {
     reprise::replay::TraceReader trace(path);
     for (std::uint64_t index = 20; index <= trace.ticks(); index += 20) {
         const auto cars = trace.tick(index).view.cars();
-        const auto fastest = std::max_element(
-            cars.begin(), cars.end(), [](const auto& one, const auto& other) {
+        const auto fastest =
+            std::max_element(cars.begin(), cars.end(), [](const auto& one, const auto& other) {
                 return one.speed() < other.speed();
             });
         if (fastest == cars.end())

@@ -10,12 +10,13 @@
 
 namespace reprise::kernel {
 
-/// The built-in driver: follows lanes with Stanley steering, holds speed with a PID, keeps its
-/// distance (IDM), stops at red and at stop lines, gives way. It sees what any driver sees: the last
-/// tick. Without a route it wanders: at every junction it draws one of the ways that go on.
+/// The built-in driver: follows lanes with Stanley steering, holds speed by feed-forward with
+/// proportional and integral terms, keeps its distance (IDM), stops at red and at stop signs, gives
+/// way. It sees what any driver sees: the last tick. Without a route it wanders: at every junction
+/// it draws one of the ways that go on.
 class Autopilot {
   public:
-    /// `town` and `lanes` must outlive the driver. `route` are lanes to pass, may be empty.
+    /// `town` and `lanes` must outlive the driver; it copies what it needs of `episode`.
     Autopilot(std::uint32_t actor,
               std::uint16_t model,
               const world::EpisodeT& episode,
@@ -25,6 +26,8 @@ class Autopilot {
     Autopilot(Autopilot&&) noexcept;
     Autopilot& operator=(Autopilot&&) noexcept;
 
+    /// Lanes to pass in this order. Planned at the next decide, which throws world::Error when one
+    /// cannot be reached.
     void set_route(std::vector<std::uint32_t> lanes);
 
     /// [m/s]; a cap below the limits of the lanes.
@@ -36,8 +39,7 @@ class Autopilot {
     /// The control for the next tick. The actor must be in `last`.
     world::Control decide(const world::TickView& last);
 
-    /// Lane indices of the way ahead, from the one under the car, for mirroring into SUMO and for
-    /// pictures.
+    /// Lane indices of the way ahead, from the one under the car. For tests.
     const std::vector<std::uint32_t>& path() const;
 
     std::uint64_t digest() const;

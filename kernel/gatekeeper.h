@@ -21,8 +21,7 @@ namespace reprise::kernel {
 ///         a car turns.
 /// GOES    through the gates ahead, nearest first, until one says stop.
 /// KEEPS   what was decided at yellow, and how long we have waited: after 12 s it creeps on,
-/// because
-///         several who all give way would wait for ever.
+///         because several who all give way would wait for ever.
 class Gatekeeper {
   public:
     explicit Gatekeeper(const world::TownT& town);

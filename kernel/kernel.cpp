@@ -42,6 +42,7 @@ std::uint64_t digest_commands(const scripting::Scenario& scenario, const world::
         hasher.add(command.weather);
         hasher.add(command.road_friction);
         hasher.add_text(command.text);
+        hasher.add(command.line);
     }
     return hasher.digest64();
 }
@@ -83,8 +84,7 @@ struct Kernel::Stages {
     std::string reason;
 };
 
-Kernel::Kernel(const replay::Recording& recording)
-    : stages_(std::make_unique<Stages>(recording)) {}
+Kernel::Kernel(const replay::Recording& recording) : stages_(std::make_unique<Stages>(recording)) {}
 
 Kernel::~Kernel() = default;
 
@@ -131,8 +131,8 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     digests.mutate_measurements(digest_measurements(next));
 
     // 7. record: from here on the tick never changes
-    stage.last = world::seal(next, last.index() == 0 ? stage.chain_seed
-                                                     : last.tick->digests()->chain());
+    stage.last =
+        world::seal(next, last.index() == 0 ? stage.chain_seed : last.tick->digests()->chain());
     return stage.last;
 }
 
@@ -165,7 +165,8 @@ void Kernel::nudge_controls(world::TickDraft& next) {
     std::vector<world::Control>& controls = next.tick.controls;
     if (stages_->nudge_tick != next.tick.index || controls.empty())
         return;
-    controls.front().mutate_steer(std::nextafter(controls.front().steer(), 2.0));
+    const double steer = controls.front().steer();
+    controls.front().mutate_steer(std::nextafter(steer, steer > 0 ? -1.0 : 1.0));
 }
 
 bool Kernel::finished() const {

@@ -22,8 +22,9 @@ class Kernel {
     Kernel(const Kernel&) = delete;
     Kernel& operator=(const Kernel&) = delete;
 
-    /// One fixed step. `controls` are for vehicles with driver `manual`; those that get none keep
-    /// their last. The result lives until the next step.
+    /// One fixed step; not after finished(). `controls` are for vehicles with driver `manual`;
+    /// those that get none keep their last. The result lives until the next step. Throws
+    /// world::Error for what the scenario asks in vain; the kernel is of no use afterwards.
     const world::SealedTick& step(std::span<const world::Control> controls = {});
 
     /// True once the scenario said finish or the episode's last tick was made.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "world/catalogue.h"
 #include "world/digest.h"
@@ -76,6 +78,25 @@ FootprintShares footprint_shares(const world::TownT& town,
     return shares;
 }
 
+/// How far a box, seen from the vehicle, reaches back into the straight corridor of this half
+/// width: the least x of its corners. Nothing when it stands beside the corridor or behind.
+std::optional<double> near_end(const Eigen::Isometry3d& pose_vehicle_box,
+                               const world::VehicleModel& box,
+                               double half_width) {
+    double near = std::numeric_limits<double>::infinity();
+    double rightmost = near;
+    double leftmost = -near;
+    for (const double x : {-box.rear_overhang, box.length - box.rear_overhang})
+        for (const double y : {-box.width / 2, box.width / 2}) {
+            const Eigen::Vector3d corner = pose_vehicle_box * Eigen::Vector3d(x, y, 0);
+            near = std::min(near, corner.x());
+            rightmost = std::min(rightmost, corner.y());
+            leftmost = std::max(leftmost, corner.y());
+        }
+    const bool beside = rightmost > half_width || leftmost < -half_width;
+    return beside || pose_vehicle_box.translation().x() < 0 ? std::nullopt : std::optional(near);
+}
+
 /// Free distance ahead, bumper to bumper, in the straight corridor of the vehicle's width.
 double gap_ahead(const world::VehicleModel& model,
                  const Eigen::Isometry3d& pose_world_vehicle,
@@ -84,17 +105,20 @@ double gap_ahead(const world::VehicleModel& model,
     const double front = model.length - model.rear_overhang;
     const Eigen::Isometry3d pose_vehicle_world = pose_world_vehicle.inverse();
     double gap = sensing_range;
-    const auto look_at = [&](const world::Vec3& position, const world::VehicleModel& other) {
-        const Eigen::Vector3d p = pose_vehicle_world * world::to_eigen(position);
-        const double reach = (model.width + other.width) / 2;
-        if (p.x() > 0 && p.x() < sensing_range + 20 && std::abs(p.y()) < reach)
-            gap = std::min(gap, std::max(0.0, p.x() - other.rear_overhang - front));
+    const auto look_at = [&](const Eigen::Isometry3d& pose_world_other, std::uint16_t other) {
+        const auto near = near_end(
+            pose_vehicle_world * pose_world_other, world::vehicle_models()[other], model.width / 2);
+        if (near)
+            gap = std::min(gap, std::max(0.0, *near - front));
     };
     for (const world::CarState& car : next.traffic.cars)
-        look_at(car.position(), world::vehicle_models()[car.model()]);
+        if ((world::to_eigen(car.position()) - pose_world_vehicle.translation()).norm() <
+            sensing_range + 20)
+            look_at(world::pose(car.position(), double{car.yaw()}, double{car.pitch()}),
+                    car.model());
     for (const world::VehicleState& vehicle : next.tick.vehicles)
         if (vehicle.id() != self)
-            look_at(vehicle.position(), world::vehicle_models()[vehicle.model()]);
+            look_at(world::pose(vehicle.position(), vehicle.orientation()), vehicle.model());
     return gap;
 }
 
@@ -113,10 +137,10 @@ Impulses impulses_of(std::uint32_t actor,
     for (const world::EventT& event : next.tick.events) {
         if (event.kind != world::EventKind::collision || event.actor != actor)
             continue;
-        const bool walker = std::any_of(
-            next.traffic.walkers.begin(),
-            next.traffic.walkers.end(),
-            [&](const world::WalkerState& state) { return state.id() == event.other; });
+        const bool walker =
+            std::any_of(next.traffic.walkers.begin(),
+                        next.traffic.walkers.end(),
+                        [&](const world::WalkerState& state) { return state.id() == event.other; });
         (event.other == 0 ? sum.fixed : walker ? sum.walkers : sum.vehicles) += event.value;
     }
     return sum;
@@ -142,19 +166,20 @@ void measure(const world::TownT& town,
             lanes.best(pose_world_vehicle.translation(), std::atan2(ahead.y(), ahead.x()));
         const FootprintShares shares = footprint_shares(town, lanes, model, pose_world_vehicle);
         const Impulses impulses = impulses_of(vehicle.id(), before, next);
-        next.tick.measurements.emplace_back(speed,
-                                            acceleration,
-                                            lane ? lane->at.s : 0.0,
-                                            lane ? lane->at.t : 0.0,
-                                            shares.opposite_lane,
-                                            shares.sidewalk,
-                                            impulses.vehicles,
-                                            impulses.walkers,
-                                            impulses.fixed,
-                                            gap_ahead(model, pose_world_vehicle, vehicle.id(), next),
-                                            vehicle.id(),
-                                            lane ? lane->lane : world::none,
-                                            std::uint64_t{0});
+        next.tick.measurements.emplace_back(
+            speed,
+            acceleration,
+            lane ? lane->at.s : 0.0,
+            lane ? lane->at.t : 0.0,
+            shares.opposite_lane,
+            shares.sidewalk,
+            impulses.vehicles,
+            impulses.walkers,
+            impulses.fixed,
+            gap_ahead(model, pose_world_vehicle, vehicle.id(), next),
+            vehicle.id(),
+            lane ? lane->lane : world::none,
+            std::uint64_t{0});
     }
 }
 

@@ -5,15 +5,15 @@
 
 namespace reprise::kernel {
 
-/// Stage 6. Measures every vehicle of `next` (lane, speeds, footprint shares, gap, impulses added to
-/// those of `last`): a pure function of two ticks and the town.
+/// Stage 6. Measures every vehicle of `next` (lane, speeds, footprint shares, gap, impulses added
+/// to those of `last`): a pure function of two ticks and the town.
 void measure(const world::TownT& town,
              const world::LaneMap& lanes,
              double step_seconds,
              const world::TickView& last,
              world::TickDraft& next);
 
-/// XXH3-64 of what this stage wrote and of all events of the tick.
+/// Of what this stage wrote and of all events of the tick.
 std::uint64_t digest_measurements(const world::TickDraft& draft);
 
 }  // namespace reprise::kernel

@@ -35,11 +35,11 @@ world::EventT event(world::EventKind kind, std::uint32_t actor, const world::Com
 Roster::Roster(const world::EpisodeT& episode,
                const world::TownT& town,
                const world::LaneMap& lanes)
-    : episode_(&episode), town_(&town), lanes_(&lanes) {}
+    : episode_(&episode),
+      town_(&town),
+      lanes_(&lanes) {}
 
-void Roster::apply_commands(const world::TickView& last,
-                            world::TickDraft& next,
-                            Physics& physics) {
+void Roster::apply_commands(const world::TickView& last, world::TickDraft& next, Physics& physics) {
     for (world::CommandT& command : next.tick.commands) {
         if (command.kind == world::CommandKind::spawn) {
             if (has_mass(command.driver))
@@ -71,8 +71,11 @@ void Roster::apply_commands(const world::TickView& last,
                     entry.autopilot->set_route(command.lanes);
                 entry.route_line = command.line;
                 break;
-            case world::CommandKind::control: entry.control = command.control; break;
-            default: break;
+            case world::CommandKind::control:
+                entry.control = command.control;
+                break;
+            default:
+                break;
         }
     }
 }
@@ -82,7 +85,7 @@ void Roster::spawn(const world::TickView& last,
                    world::TickDraft& next,
                    Physics& physics) {
     if (command.lane == world::none)
-        choose_place(last, command);
+        choose_place(last, next.tick.commands, command);
     const world::LaneT& lane = town_->lanes.at(command.lane);
     const world::LanePoint place = world::point_at(lane, command.s);
     Eigen::Isometry3d pose_world_vehicle =
@@ -103,7 +106,9 @@ void Roster::spawn(const world::TickView& last,
     next.tick.events.push_back(spawned);
 }
 
-void Roster::choose_place(const world::TickView& last, world::CommandT& command) const {
+void Roster::choose_place(const world::TickView& last,
+                          std::span<const world::CommandT> said,
+                          world::CommandT& command) const {
     constexpr double shortest_lane = 30;  // [m] room to roll before the first junction
     constexpr std::uint64_t tries = 256;
     std::vector<std::uint32_t> candidates;
@@ -113,7 +118,8 @@ void Roster::choose_place(const world::TickView& last, world::CommandT& command)
             candidates.push_back(lane);
     if (candidates.empty())
         throw world::Error(episode_->scenario_path + ":" + std::to_string(command.line) +
-                           ": spawn: " + town_->name + " has no lane of at least 30 m to start on; " +
+                           ": spawn: " + town_->name +
+                           " has no lane of at least 30 m to start on; " +
                            "name one with lane = '...'");
     const std::uint64_t item = std::uint64_t{command.actor} * tries * 2;
     for (std::uint64_t attempt = 0; attempt < tries; ++attempt) {
@@ -126,22 +132,36 @@ void Roster::choose_place(const world::TickView& last, world::CommandT& command)
         const double share = world::draw(
             episode_->seed, last.index(), world::Purpose::place, item + 2 * attempt + 1);
         command.s = 5 + share * (lane.length - shortest_lane + 10);
-        if (is_free(last, world::point_at(lane, command.s).position))
+        if (is_free(last, said, command, world::point_at(lane, command.s).position))
             return;
     }
+    throw world::Error(episode_->scenario_path + ":" + std::to_string(command.line) +
+                       ": spawn: found no free place for '" + command.text + "' in " + town_->name +
+                       "; name one with lane = '...', or take fewer cars");
 }
 
-bool Roster::is_free(const world::TickView& last, const Eigen::Vector3d& p_world) const {
+/// Is nobody near: in the last tick, or among those who are spawned in this one?
+bool Roster::is_free(const world::TickView& last,
+                     std::span<const world::CommandT> said,
+                     const world::CommandT& self,
+                     const Eigen::Vector3d& p_world) const {
     constexpr double room = 15;  // [m] between rear axles
     const auto near = [&](const auto& actor) {
         return (world::to_eigen(actor.position()) - p_world).norm() < room;
     };
+    const auto spawned_near = [&](const world::CommandT& other) {
+        return other.kind == world::CommandKind::spawn && other.actor != self.actor &&
+               other.lane != world::none &&
+               (world::point_at(town_->lanes.at(other.lane), other.s).position - p_world).norm() <
+                   room;
+    };
     return std::none_of(last.cars().begin(), last.cars().end(), near) &&
-           std::none_of(last.vehicles().begin(), last.vehicles().end(), near);
+           std::none_of(last.vehicles().begin(), last.vehicles().end(), near) &&
+           std::none_of(said.begin(), said.end(), spawned_near);
 }
 
-/// The autopilot plans a new route when it next decides; what it then finds impossible is the mistake of
-/// the line that asked for the route.
+/// The autopilot plans a new route when it next decides; what it then finds impossible is the
+/// mistake of the line that asked for the route.
 world::Control Roster::decide(Entry& entry, const world::TickView& last) const {
     try {
         return entry.autopilot->decide(last);

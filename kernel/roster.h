@@ -44,8 +44,13 @@ class Roster {
                world::CommandT& command,
                world::TickDraft& next,
                Physics& physics);
-    void choose_place(const world::TickView& last, world::CommandT& command) const;
-    bool is_free(const world::TickView& last, const Eigen::Vector3d& p_world) const;
+    void choose_place(const world::TickView& last,
+                      std::span<const world::CommandT> said,
+                      world::CommandT& command) const;
+    bool is_free(const world::TickView& last,
+                 std::span<const world::CommandT> said,
+                 const world::CommandT& self,
+                 const Eigen::Vector3d& p_world) const;
 
     const world::EpisodeT* episode_;
     const world::TownT* town_;

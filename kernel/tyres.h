@@ -11,8 +11,7 @@ namespace reprise::kernel {
 /// limit it when the car goes straight, and creep on slopes.
 ///
 /// MUST    bound every wheel's force by grip * load, as a circle; hold a braked car still, also on
-/// a
-///         slope; be a pure function of the body's state and the wheels' settings.
+///         a slope; be a pure function of the body's state and the wheels' settings.
 /// ASSUMES four wheels (front left, front right, rear left, rear right); a Bullet world without
 ///         gravity. The weight is applied here, between springs and tyres: before the springs, the
 ///         dampers would take it for a movement; after the tyres, as Bullet does it, a braked car

@@ -53,7 +53,7 @@ std::optional<replay::Divergence> verify(replay::TraceReader& recorded,
     }
     // Every tick agrees, but the file may still be damaged where no tick lies.
     if (const auto damage = recorded.damage())
-        return unreadable(recorded.ticks(), *damage);
+        return unreadable(0, *damage);
     return std::nullopt;
 }
 

@@ -32,9 +32,12 @@ const std::array<Stage, 6>& stages() {
     return all;
 }
 
-/// Which stage raises events of a kind; index in stages().
-std::size_t stage_of(world::EventKind kind) {
-    switch (kind) {
+/// Which stage raises such an event; index in stages(). Cars of the demand come and go in traffic,
+/// what the scenario spawned belongs to the scenario.
+std::size_t stage_of(const world::Event& event) {
+    if (event.actor() >= world::first_background_id && event.kind() != world::EventKind::collision)
+        return 2;
+    switch (event.kind()) {
         case world::EventKind::collision:
             return 4;
         case world::EventKind::ran_red_light:
@@ -65,8 +68,7 @@ std::optional<EventDifference> first_event_difference(const world::Tick& expecte
     difference.stage = stages().size();
     for (const world::Tick* tick : {&expected, &found}) {
         if (index < tick->events()->size())
-            difference.stage =
-                std::min(difference.stage, stage_of(tick->events()->Get(index)->kind()));
+            difference.stage = std::min(difference.stage, stage_of(*tick->events()->Get(index)));
     }
     std::copy_if(all.begin(),
                  all.end(),

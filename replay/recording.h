@@ -17,8 +17,9 @@ struct Recording {
 
 /// How a run ended; written when the trace is closed.
 struct Outcome {
-    std::string verdict;  ///< "passed", "failed", "completed" (no checks), "error"
-    std::string reason;   ///< "finished at line 31: arrived", "time limit", a script error, ...
+    std::string verdict;  ///< "passed", "failed", "completed" (no checks); "error": cut off
+    std::string reason;   ///< as finish said it, "time limit", "scenario ended", "the trace was cut
+                          ///< off", ...
     std::uint64_t ticks = 0;
 };
 

@@ -9,7 +9,7 @@
 namespace reprise::replay {
 
 /// Writes a trace: an MCAP file with the channels /sim/tick and /sim/traffic, one chunk for 64
-/// ticks, zstd level 1 on a thread of its own. Equal runs give equal files.
+/// ticks, zstd level 1 on a thread of its own. Equal recordings and ticks give equal files.
 ///
 /// It writes to PATH.partial and renames on close, so a file named PATH is always whole; what a
 /// crash leaves behind is PATH.partial, readable up to its last whole chunk.

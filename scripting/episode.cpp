@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <iterator>
 
@@ -90,9 +91,11 @@ void override_parameters(Header& header, const Overrides& overrides, const std::
             fmt::format("{}:{}: --set {}={}: ", script, header.line, key, text);
         const auto found = header.parameters.find(key);
         if (found == header.parameters.end())
-            throw world::Error(where + (names.empty() ? "the scenario has no parameters"
-                                                      : "no parameter '" + key + "'" +
-                                                            world::did_you_mean(key, names)));
+            throw world::Error(where + (names.empty()
+                                            ? "the scenario has no parameters"
+                                            : "no parameter '" + key + "'" +
+                                                  world::did_you_mean(key, names) + "; there are " +
+                                                  fmt::format("{}", fmt::join(names, ", "))));
         found->second = replaced(found->second, text, where);
     }
 }

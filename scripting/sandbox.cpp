@@ -56,14 +56,27 @@ int protected_call(lua_State* L) {
     return after_protected_call(L, status, 0);
 }
 
+/// As above, and hands an error to the handler, which lies at 2. The handler runs after the call,
+/// not inside the error as Lua's own does: there no instruction is counted, and a loop would never
+/// end.
+int after_handled_call(lua_State* L, int status, lua_KContext first) {
+    const int results = after_protected_call(L, status, first);
+    if (status == LUA_OK || status == LUA_YIELD)
+        return results;
+    lua_pushvalue(L, 2);
+    lua_insert(L, -2);
+    lua_call(L, 1, 1);
+    return 2;
+}
+
 int protected_call_with_handler(lua_State* L) {
     want_function(L, 2, "xpcall", "the handler");
     const int arguments = lua_gettop(L) - 2;
     lua_pushboolean(L, 1);
     lua_pushvalue(L, 1);
     lua_rotate(L, 3, 2);
-    const int status = lua_pcallk(L, arguments, LUA_MULTRET, 2, 2, after_protected_call);
-    return after_protected_call(L, status, 2);
+    const int status = lua_pcallk(L, arguments, LUA_MULTRET, 0, 2, after_handled_call);
+    return after_handled_call(L, status, 2);
 }
 
 // --- Metatables: no finalizers, no weak references; both act when memory is collected.

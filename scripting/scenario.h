@@ -40,12 +40,12 @@ class Scenario {
 
     /// Stage 1. Resumes every task that is due, in the order of their start; evaluates the checks;
     /// appends to next.tick.commands (in the order said) and next.tick.events (printed lines,
-    /// checks that failed or passed). After a finish command it does nothing more. Throws
-    /// world::Error when the script fails: the run ends with a verdict, never silently.
+    /// checks that failed). After a finish command it does nothing more. Throws world::Error,
+    /// "cut_in.lua:12: ...", when the script fails.
     void advance(const world::TickView& last, world::TickDraft& next);
 
-    /// Of all hidden state that decides the future: VM instruction count, task and check states,
-    /// draw counts.
+    /// Of VM instruction count, actors, task and check states, draw counts. The script's own
+    /// variables are not read: what they do shows in these and in the commands.
     std::uint64_t digest() const;
 
     struct Check {
@@ -59,8 +59,9 @@ class Scenario {
     /// As they stand; final once the run ended (call `conclude` first).
     std::vector<Check> checks() const;
 
-    /// Settles checks that only the end decides (eventually, at_end): appends their events to the
-    /// last draft. Called once by the kernel in the run's last tick.
+    /// Looks at every open check once more, in the last draft as it will be recorded, and settles
+    /// all: appends their events (passed, failed, not evaluated) to it. Called once by the kernel
+    /// in the run's last tick.
     void conclude(const world::TickView& last, world::TickDraft& next);
 
   private:

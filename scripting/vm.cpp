@@ -67,8 +67,10 @@ void Vm::hook(lua_State* L, lua_Debug*) {
     Vm& vm = of(L);
     vm.charge(L, hook_interval);
     lua_Debug frame;
-    if (lua_getstack(L, deepest_calls, &frame) != 0)
-        vm.raise(L, vm.position(L) + "calls are nested too deeply: an endless recursion?");
+    if (lua_getstack(L, deepest_calls, &frame) != 0) {
+        vm.latch(vm.position(L) + "calls are nested too deeply: an endless recursion?");
+        vm.raise(L, "");
+    }
 }
 
 void Vm::spend(std::uint64_t instructions) {

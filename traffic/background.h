@@ -11,8 +11,8 @@
 namespace reprise::traffic {
 
 /// SUMO's cars and traffic lights. Owns the process's one libsumo simulation: constructing a second
-/// one while the first lives throws. Kept deterministic by listing every SUMO option, one thread, a
-/// fixed seed, and by calling SUMO in the order of ids.
+/// one while the first lives throws. Kept deterministic by naming the SUMO options that decide a
+/// run, one thread, a fixed seed, and by calling SUMO in the order of ids.
 class Background {
   public:
     /// Starts SUMO in this process with the network's bytes (no file is left behind) and places
@@ -30,7 +30,8 @@ class Background {
     /// cars.
     void advance(const world::TickView& last, world::TickDraft& next);
 
-    /// Of the unrounded state: pose, speed, lane position of every car; the signals.
+    /// Of the unrounded state: pose, speed, lane position, orders of every car; the signals. SUMO's
+    /// own memory and the mirrors are not read: what they do shows in the cars.
     std::uint64_t digest() const;
 
   private:

@@ -86,7 +86,7 @@ std::vector<Connection> read_connections(const pugi::xml_node& net, const TownT&
         }
         connections.push_back(std::move(connection));
     }
-    std::sort(connections.begin(), connections.end(), [](const auto& p, const auto& q) {
+    std::stable_sort(connections.begin(), connections.end(), [](const auto& p, const auto& q) {
         return std::tie(p.from, p.to, p.via) < std::tie(q.from, q.to, q.via);
     });
     return connections;

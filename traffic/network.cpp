@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 #include <limits>
@@ -43,15 +44,21 @@ std::string suggestion(const fs::path& path) {
 }
 
 std::string read_bytes(const fs::path& path) {
-    if (!fs::exists(path))
-        fail(path, "no such file" + suggestion(path));
-    if (fs::is_directory(path))
-        fail(path, "is a folder; a SUMO network (.net.xml or .net.xml.gz) was expected");
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status))
+        fail(path,
+             status.type() == fs::file_type::not_found ? "no such file" + suggestion(path)
+                                                       : "cannot be read: " + error.message());
+    if (!fs::is_regular_file(status))
+        fail(path,
+             fmt::format("is {}; a SUMO network (.net.xml or .net.xml.gz) was expected",
+                         fs::is_directory(status) ? "a folder" : "not a file"));
     std::ifstream file(path, std::ios::binary);
     std::ostringstream bytes;
-    if (fs::file_size(path) > 0)
+    if (fs::file_size(path, error) > 0)
         bytes << file.rdbuf();
-    if (!file)
+    if (!file || error)
         fail(path, "cannot be read");
     return std::move(bytes).str();
 }
@@ -146,6 +153,7 @@ bool has_car_lane(pugi::xml_node net) {
 /// are read here first. What is wrong with it, or "".
 std::string fault_of(pugi::xml_node lane) {
     const double nothing = std::numeric_limits<double>::infinity();
+    constexpr double farthest = 1e7;  // [m]
     for (const char* name : {"id", "index", "speed", "length", "shape"})
         if (*lane.attribute(name).value() == '\0')
             return fmt::format("<lane> has no {}", name);
@@ -156,9 +164,21 @@ std::string fault_of(pugi::xml_node lane) {
     for (const std::string_view point : words(lane.attribute("shape").value()))
         for (std::size_t from = 0, to = 0; to != std::string_view::npos; from = to + 1) {
             to = point.find(',', from);
-            if (number(point.substr(from, to - from), nothing) == nothing)
+            const double coordinate = number(point.substr(from, to - from), nothing);
+            if (coordinate == nothing)
                 return fmt::format("<lane>: '{}' in its shape is not a point", point);
+            if (std::abs(coordinate) > farthest)
+                return fmt::format("<lane>: '{}' in its shape is farther than 10,000 km away",
+                                   point);
         }
+    if (words(lane.attribute("shape").value()).size() < 2)
+        return "<lane>: its shape needs two points at least";
+    for (const char* name : {"speed", "length", "width"}) {
+        const char* text = lane.attribute(name).value();
+        const double value = *text == '\0' ? 1 : number(text, nothing);
+        if (value == nothing || value <= 0)
+            return fmt::format("<lane>: {}=\"{}\" is not a number above 0", name, text);
+    }
     return "";
 }
 
@@ -214,6 +234,8 @@ Network load_network(const std::filesystem::path& path) {
 
     if (!has_car_lane(root))
         fail_at(path, root_line, "has no edge that a passenger car may use");
+    if (!root.child("connection"))
+        fail_at(path, root_line, "has no <connection>: its roads lead nowhere");
     check_lanes(path, network.xml, root);
 
     // Words of newer SUMO versions.

@@ -10,8 +10,8 @@
 
 namespace reprise::world {
 
-/// "No such lane, signal or neighbour" in the recorded nouns. In code, absence is std::optional or
-/// a null pointer.
+/// "No such lane, signal or neighbour" in the recorded nouns. Functions that
+/// look something up return std::optional or a null pointer instead.
 inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// Ids below this one are given by the scenario (1 is its first actor), from here on by the traffic

@@ -42,7 +42,8 @@ TEST(Run, TwoProcessesWithOneSeedWriteTheSameBytes) {
 
 TEST(Diff, NamesTickStageAndFieldOfAnotherSeed) {
     const Folder folder;
-    const Result diff = reprise({"diff", record(folder, "a.mcap", "7"), record(folder, "b.mcap", "8")});
+    const Result diff =
+        reprise({"diff", record(folder, "a.mcap", "7"), record(folder, "b.mcap", "8")});
     EXPECT_EQ(diff.code, 1);
     EXPECT_THAT(diff.out, HasSubstr("tick 1"));
     EXPECT_THAT(diff.out, HasSubstr("stage"));
@@ -62,8 +63,7 @@ TEST(Verify, NeedsNothingButTheTrace) {
 
 TEST(Verify, ReportsANudgedInputAtItsTick) {
     const Folder folder;
-    const Result verify =
-        reprise({"verify", record(folder, "a.mcap", "7", {"--nudge", "101"})});
+    const Result verify = reprise({"verify", record(folder, "a.mcap", "7", {"--nudge", "101"})});
     EXPECT_EQ(verify.code, 1);
     EXPECT_THAT(verify.out, HasSubstr("tick 101"));
     EXPECT_THAT(verify.out, HasSubstr("controls"));
@@ -72,9 +72,8 @@ TEST(Verify, ReportsANudgedInputAtItsTick) {
 
 TEST(Diff, ReportsANudgedInputAtItsTick) {
     const Folder folder;
-    const Result diff = reprise({"diff",
-                                 record(folder, "a.mcap", "7"),
-                                 record(folder, "b.mcap", "7", {"--nudge", "77"})});
+    const Result diff = reprise(
+        {"diff", record(folder, "a.mcap", "7"), record(folder, "b.mcap", "7", {"--nudge", "77"})});
     EXPECT_EQ(diff.code, 1);
     EXPECT_THAT(diff.out, HasSubstr("tick 77"));
     EXPECT_THAT(diff.out, HasSubstr("steer"));
@@ -95,7 +94,8 @@ TEST(Info, SaysWhatRanAndHowToRunItAgain) {
     const Folder folder;
     const Result info = reprise({"info", record(folder, "a.mcap", "7")});
     EXPECT_EQ(info.code, 0);
-    for (const char* word : {"free_drive", "town1", "seed", "100 cars", "clear_noon", "160 ticks", "again"})
+    for (const char* word :
+         {"free_drive", "town1", "seed", "100 cars", "clear_noon", "160 ticks", "again"})
         EXPECT_THAT(info.out, HasSubstr(word));
 }
 

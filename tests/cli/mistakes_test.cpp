@@ -35,6 +35,9 @@ TEST_P(Mistakes, AreToldInOneLine) {
     write_file(inputs / "empty.net.xml", "");
     write_file(inputs / "broken.net.xml", "<net version=\"1.9\">\n  <edge id=\n</net>");
     write_file(inputs / "other.net.xml", "<html></html>");
+    std::string wide = read_file(source("scenarios/towns/town1/town1.net.xml"));
+    wide.replace(wide.find("width=\"3.500\"", wide.find("<lane ")), 13, "width=\"-1\"");
+    write_file(inputs / "wide.net.xml", wide);
     std::vector<std::string> words{"run", scenario, "-o", folder / "t.mcap", "--for", "1"};
     for (std::string word : mistake.words) {
         if (const auto at = word.find("@"); at != std::string::npos)
@@ -76,6 +79,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"BrokenNetwork", nullptr, {"--town", "@broken.net.xml"}, {"broken.net.xml:"}},
         Mistake{"NotANetwork", nullptr, {"--town", "@other.net.xml"}, {"other.net.xml"}},
         Mistake{"UnwritableOutput", nullptr, {"-o", "/proc/t.mcap"}, {"/proc/t.mcap"}},
+        Mistake{"NotAFile", nullptr, {"--town", "/dev/zero"}, {"/dev/zero", "not a file"}},
+        Mistake{"ImpossibleWidth",
+                nullptr,
+                {"--town", "@wide.net.xml"},
+                {"wide.net.xml:", "width=\"-1\"", "above 0"}},
+        Mistake{"NudgeBehindTheEnd", nullptr, {"--nudge", "21"}, {"--nudge 21", "1 to 20"}},
+        Mistake{"NegativeSeed", nullptr, {"--seed", "-1"}, {"seed", "whole number"}},
+        Mistake{"SeedTooLarge", nullptr, {"--seed", "18446744073709551616"}, {"whole number"}},
         Mistake{"BadSeed", nullptr, {"--seed", "seven"}, {"seed"}},
         Mistake{"BadDuration", nullptr, {"--for", "-3"}, {"for"}}),
     [](const testing::TestParamInfo<Mistake>& tested) { return tested.param.name; });
@@ -88,7 +99,8 @@ TEST(Mistakes, MissingScenarioIsNamed) {
 
 TEST(Mistakes, WhatIsNotATraceIsSaidSo) {
     const Folder folder;
-    write_file(folder / "not.mcap", "this is not a trace at all, only some text that is long enough");
+    write_file(folder / "not.mcap",
+               "this is not a trace at all, only some text that is long enough");
     write_file(folder / "empty.mcap", "");
     for (const char* command : {"info", "verify"})
         for (const char* name : {"not.mcap", "empty.mcap", "missing.mcap"}) {

@@ -1,6 +1,6 @@
-#include <gmock/gmock.h>
-
 #include <cstdlib>
+
+#include <gmock/gmock.h>
 
 #include "tests/cli/program.h"
 
@@ -34,12 +34,12 @@ TEST(Run, IsNotChangedByAPreloadedMathLibrary) {
     write_file(code, "double sin(double x) { return x; }\n");
     ASSERT_EQ(std::system(("cc -shared -fPIC -o " + (folder / "sin.so") + " " + code).c_str()), 0);
     setenv("LD_PRELOAD", (folder / "sin.so").c_str(), 1);
-    const Result run = reprise(
-        {"run", source("scenarios/free_drive.lua"), "--for", "1", "-o", folder / "t.mcap"});
+    const Result run =
+        reprise({"run", source("scenarios/free_drive.lua"), "--for", "1", "-o", folder / "t.mcap"});
     unsetenv("LD_PRELOAD");
     EXPECT_EQ(run.code, 0) << run.out;
-    const Result plain = reprise(
-        {"run", source("scenarios/free_drive.lua"), "--for", "1", "-o", folder / "u.mcap"});
+    const Result plain =
+        reprise({"run", source("scenarios/free_drive.lua"), "--for", "1", "-o", folder / "u.mcap"});
     EXPECT_EQ(plain.code, 0) << plain.out;
     EXPECT_TRUE(read_file(folder / "t.mcap") == read_file(folder / "u.mcap"));
 }

@@ -73,9 +73,24 @@ TEST(Budget, TooMuchMemoryEndsTheRun) {
                 StartsWith("test.lua: the scenario needs more than 64 MB of memory"));
 }
 
-TEST(Budget, EndlessRecursionIsAnOrdinaryMistake) {
-    EXPECT_THAT(mistake("local function f() return 1 + f() end\nf()"),
-                StartsWith("test.lua:1: calls are nested too deeply: an endless recursion?"));
+TEST(Budget, EndlessRecursionEndsTheRunAndNothingCatchesIt) {
+    for (const char* body : {"local function f() return 1 + f() end\nf()",
+                             "local function f() return 1 + f() end\n"
+                             "xpcall(f, function() while true do end end)"})
+        EXPECT_THAT(mistake(body),
+                    StartsWith("test.lua:1: calls are nested too deeply: an endless recursion?"))
+            << body;
+}
+
+TEST(Budget, ALoopInAnErrorHandlerIsCountedToo) {
+    EXPECT_EQ(mistake("xpcall(function() error 'a' end, function() while true do end end)"),
+              std::string("test.lua:1") + spent);
+}
+
+TEST(Budget, AnErrorHandlerGetsTheErrorAndGivesTheAnswer) {
+    EXPECT_THAT(test::printed("print(xpcall(function() error('a', 0) end, "
+                              "function(e) return 'caught ' .. e end))"),
+                ElementsAre("false caught a"));
 }
 
 TEST(Budget, InstructionCountIsEqualInEqualRuns) {

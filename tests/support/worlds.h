@@ -26,7 +26,8 @@ world::EpisodeT episode(const char* lua_source = "");
 world::CarState car_at(std::uint32_t id, double x, double y, double yaw = 0, double speed = 0);
 
 /// A sedan with mass, level on the plane z = 0.
-world::VehicleState vehicle_at(std::uint32_t id, double x, double y, double yaw = 0, double speed = 0);
+world::VehicleState vehicle_at(
+    std::uint32_t id, double x, double y, double yaw = 0, double speed = 0);
 
 /// A sealed tick that holds these and nothing else.
 world::SealedTick tick_with(std::vector<world::VehicleState> vehicles,
