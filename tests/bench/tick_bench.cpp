@@ -151,8 +151,8 @@ void Tick(benchmark::State& state) {
         state.counters["ticks/s"] = 1 / tick;
         state.counters["sumo_us"] = run.bare_sumo.median() * 1e6;
         state.counters["bullet_us"] = run.bare_bullet.median() * 1e6;
-        state.counters["of_bare"] = tick / bare;
-        state.counters["of_bare_sums"] = ratio;
+        state.counters["of_bare_medians"] = tick / bare;
+        state.counters["of_bare"] = ratio;
         state.counters["sumo_alone_us"] = run.sumo_alone.median() * 1e6;
         state.counters["record_us"] = run.record.median() * 1e6;
         state.counters["record_%"] = 100 * run.record.median() / tick;
