@@ -3,8 +3,9 @@
 #include <filesystem>
 #include <fmt/format.h>
 
+#include "cli/full_fingerprint.h"
 #include "cli/guard.h"
-#include "cli/portable_math.h"
+#include "cli/self_test.h"
 #include "cli/progress.h"
 #include "cli/towns.h"
 #include "kernel/kernel.h"
@@ -14,7 +15,6 @@
 #include "traffic/town_reader.h"
 #include "world/check.h"
 #include "world/digest.h"
-#include "world/fingerprint.h"
 
 namespace reprise::cli {
 
@@ -37,7 +37,7 @@ replay::Recording prepare(const RunOptions& options) {
         episode.town;  // as it was named: equal runs write equal bytes in any folder
     episode.town = network.name;
     episode.town_digest = world::digest128(network.xml);
-    for (const auto& [key, value] : world::build_fingerprint()) {
+    for (const auto& [key, value] : full_fingerprint()) {
         world::ParameterT line;
         line.key = key;
         line.value = value;
@@ -116,7 +116,7 @@ void print_summary(const replay::Recording& recording,
 }  // namespace
 
 int run(const RunOptions& options) {
-    check_portable_math();
+    self_test();
     const replay::Recording recording = prepare(options);
     if (options.nudge_tick &&
         (*options.nudge_tick < 1 || *options.nudge_tick > recording.episode.max_ticks))

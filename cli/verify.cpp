@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "cli/full_fingerprint.h"
 #include "cli/guard.h"
-#include "cli/portable_math.h"
+#include "cli/self_test.h"
 #include "cli/progress.h"
 #include "kernel/verify.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
-#include "world/fingerprint.h"
 
 namespace reprise::cli {
 
@@ -22,7 +22,7 @@ void print_other_build(const world::EpisodeT& episode) {
     for (const world::ParameterT& line : episode.fingerprint)
         recorded[line.key] = line.value;
     bool other = false;
-    for (const auto& [key, value] : world::build_fingerprint()) {
+    for (const auto& [key, value] : full_fingerprint()) {
         if (recorded[key] == value)
             continue;
         if (!other)
@@ -35,7 +35,7 @@ void print_other_build(const world::EpisodeT& episode) {
 }  // namespace
 
 int verify(const TraceOptions& options) {
-    check_portable_math();
+    self_test();
     replay::TraceReader trace(options.trace);
     print_other_build(trace.episode());
     Progress progress("verifying", "ticks", trace.ticks());

@@ -11,18 +11,22 @@ set(portable_functions
 list(TRANSFORM portable_functions PREPEND "--undefined=" OUTPUT_VARIABLE wanted)
 list(TRANSFORM portable_functions PREPEND "--keep-global-symbol=" OUTPUT_VARIABLE kept)
 
-set(object ${PROJECT_BINARY_DIR}/generated/portable_math.o)
+set(portable_math_object ${PROJECT_BINARY_DIR}/generated/portable_math.o)
 add_custom_command(
-  OUTPUT ${object}
-  COMMAND ${CMAKE_LINKER} -r -o ${object}.all ${wanted} ${MUSL_LIBC}
-  COMMAND ${CMAKE_OBJCOPY} ${kept} ${object}.all ${object}
+  OUTPUT ${portable_math_object}
+  COMMAND ${CMAKE_LINKER} -r -o ${portable_math_object}.all ${wanted} ${MUSL_LIBC}
+  COMMAND ${CMAKE_OBJCOPY} ${kept} ${portable_math_object}.all ${portable_math_object}
   DEPENDS ${MUSL_LIBC} VERBATIM)
-add_custom_target(portable_math_object DEPENDS ${object})
+add_custom_target(portable_math_object DEPENDS ${portable_math_object})
 add_library(portable_math OBJECT IMPORTED GLOBAL)
-set_target_properties(portable_math PROPERTIES IMPORTED_OBJECTS ${object})
+set_target_properties(portable_math PROPERTIES IMPORTED_OBJECTS ${portable_math_object})
 
-# Links a program with it.
+# Links a program with it, every function visible to the libraries that the program loads.
 function(reprise_portable_math program)
   target_link_libraries(${program} PRIVATE portable_math)
   add_dependencies(${program} portable_math_object)
+  list(TRANSFORM portable_functions PREPEND "LINKER:--export-dynamic-symbol=" OUTPUT_VARIABLE exported)
+  target_link_options(${program} PRIVATE ${exported})
+  string(JOIN " " names ${portable_functions})
+  target_compile_definitions(${program} PRIVATE REPRISE_PORTABLE_FUNCTIONS="${names}")
 endfunction()

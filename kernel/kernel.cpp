@@ -8,6 +8,7 @@
 #include "kernel/roster.h"
 #include "replay/recording.h"
 #include "traffic/background.h"
+#include "world/arithmetic.h"
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/town.h"
@@ -131,6 +132,10 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     digests.mutate_measurements(digest_measurements(next));
 
     // 7. record: from here on the tick never changes
+    REPRISE_CHECK(world::is_plain_arithmetic(),
+                  "tick " + std::to_string(next.tick.index) +
+                      ": a library left the floating-point " +
+                      "unit in another mode: " + world::unusual_arithmetic());
     stage.last =
         world::seal(next, last.index() == 0 ? stage.chain_seed : last.tick->digests()->chain());
     return stage.last;
