@@ -81,18 +81,15 @@ std::optional<Body> body_of(const world::TickView& tick, const Actor& actor) {
 }
 
 Actor& Actors::add(Actor actor) {
+    names_.insert(actor.name);
     actors_.push_back(std::move(actor));
     return actors_.back();
 }
 
-bool Actors::has_name(const std::string& name) const {
-    return std::any_of(
-        actors_.begin(), actors_.end(), [&](const Actor& actor) { return actor.name == name; });
-}
-
-std::string Actors::free_name(const std::string& model) const {
+std::string Actors::free_name(const std::string& model) {
     std::string name = model;
-    for (int number = 2; has_name(name); ++number)
+    int& number = next_number_.try_emplace(model, 2).first->second;
+    for (; has_name(name); ++number)
         name = model + "_" + std::to_string(number);
     return name;
 }
@@ -153,11 +150,13 @@ void Actors::digest(world::Hasher& hasher) const {
         hasher.add(actor.model);
         hasher.add(actor.asked_at);
         hasher.add(actor.presence);
+        hasher.add(actor.gone_at);
         hasher.add(actor.travelled);
         hasher.add(world::to_vec3(actor.position));
         hasher.add(static_cast<std::uint8_t>(actor.contacts.vehicle));
         hasher.add(static_cast<std::uint8_t>(actor.contacts.walker));
         hasher.add(static_cast<std::uint8_t>(actor.contacts.fixed));
+        hasher.add(static_cast<std::uint64_t>(actor.contacts.others.size()));
         for (const std::uint32_t other : actor.contacts.others)
             hasher.add(other);
     }

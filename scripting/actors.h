@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -72,10 +73,10 @@ class Actors {
 
     std::uint32_t next_id() const { return static_cast<std::uint32_t>(actors_.size()) + 1; }
 
-    bool has_name(const std::string& name) const;
+    bool has_name(const std::string& name) const { return names_.count(name) != 0; }
 
     /// "sedan", then "sedan_2", ...
-    std::string free_name(const std::string& model) const;
+    std::string free_name(const std::string& model);
 
     /// Reads a tick once, in their order: who is there, how far they came, whom they touched.
     void observe(const world::TickView& tick, double step);
@@ -87,6 +88,8 @@ class Actors {
     void touch(const world::TickView& tick, std::uint32_t actor, std::uint32_t other);
 
     std::vector<Actor> actors_;
+    std::set<std::string> names_;
+    std::map<std::string, int> next_number_;  ///< where the search for a free name goes on
 };
 
 }  // namespace reprise::scripting

@@ -6,6 +6,7 @@
 #include <lua.hpp>
 
 #include "scripting/text.h"
+#include "scripting/vm.h"
 #include "world/check.h"
 
 namespace reprise::scripting {
@@ -55,6 +56,18 @@ std::string text_at(lua_State* L, int index, std::string_view who, std::string_v
     return text_of(L, index);
 }
 
+std::string name_at(lua_State* L, int index, std::string_view who, std::string_view what) {
+    constexpr std::size_t longest_name = 100;
+    const std::string name = text_at(L, index, who, what);
+    if (name.empty() || name.size() > longest_name)
+        refuse(who,
+               fmt::format(
+                   "{} must have 1 to {} characters, has {}", what, longest_name, name.size()));
+    if (printable(name) != name)
+        refuse(who, fmt::format("{} holds what cannot be shown: '{}'", what, printable(name)));
+    return name;
+}
+
 void want_function(lua_State* L, int index, std::string_view who, std::string_view what) {
     if (lua_type(L, index) != LUA_TFUNCTION)
         refuse_type(L, index, who, what, "a function");
@@ -78,9 +91,11 @@ Fields::Fields(
 void Fields::refuse_others(const std::vector<std::string>& allowed) const {
     std::optional<std::string> unknown;
     bool positional = false;
+    std::size_t entries = 0;
     lua_pushnil(L_);
     while (lua_next(L_, index_) != 0) {
         lua_pop(L_, 1);
+        ++entries;
         if (lua_type(L_, -1) != LUA_TSTRING) {
             positional = true;
             continue;
@@ -92,6 +107,7 @@ void Fields::refuse_others(const std::vector<std::string>& allowed) const {
         if (!known && (!unknown || key < *unknown))
             unknown = key;
     }
+    Vm::of(L_).charge_walk(L_, entries);
     if (unknown) {
         std::string hint = world::did_you_mean(*unknown, allowed);
         if (hint.empty()) {
@@ -145,6 +161,15 @@ std::optional<std::string> Fields::text(const char* key) const {
     std::optional<std::string> value;
     if (!lua_isnil(L_, -1))
         value = text_at(L_, -1, who_, named(key));
+    lua_pop(L_, 1);
+    return value;
+}
+
+std::optional<std::string> Fields::name(const char* key) const {
+    push(key);
+    std::optional<std::string> value;
+    if (!lua_isnil(L_, -1))
+        value = name_at(L_, -1, who_, named(key));
     lua_pop(L_, 1);
     return value;
 }

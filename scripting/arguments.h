@@ -17,6 +17,9 @@ namespace reprise::scripting {
 double number_at(lua_State* L, int index, std::string_view who, std::string_view what);
 std::int64_t integer_at(lua_State* L, int index, std::string_view who, std::string_view what);
 std::string text_at(lua_State* L, int index, std::string_view who, std::string_view what);
+
+/// A text of 1 to 100 characters, fit to be shown.
+std::string name_at(lua_State* L, int index, std::string_view who, std::string_view what);
 void want_function(lua_State* L, int index, std::string_view who, std::string_view what);
 
 /// Keys of a table as vocabulary: knows which there may be, refuses others with a suggestion.
@@ -33,6 +36,7 @@ class Fields {
     std::optional<double> number(const char* key) const;  ///< finite
     std::optional<std::int64_t> integer(const char* key) const;
     std::optional<std::string> text(const char* key) const;
+    std::optional<std::string> name(const char* key) const;  ///< as name_at
     std::optional<bool> flag(const char* key) const;
 
     /// [m/s] from `speed`, or from `speed_kmh`; not below 0.

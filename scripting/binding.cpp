@@ -2,10 +2,21 @@
 
 #include <lua.hpp>
 
+#include "scripting/limits.h"
+
 namespace reprise::scripting {
+
+namespace {
+
+/// [instructions] of a mistake that the script may catch: an exception, and the search for what was
+/// probably meant.
+constexpr std::uint64_t mistake_cost = 5000;
+
+}  // namespace
 
 int report(lua_State* L, const std::string& message) {
     Vm& vm = Vm::of(L);
+    vm.charge_later(mistake_cost);
     const bool placed = message.rfind(vm.script() + ":", 0) == 0;
     vm.raise(L, placed ? message : vm.position(L) + message);
 }
@@ -17,8 +28,7 @@ int report_ours(lua_State* L, std::exception_ptr ours) {
 }
 
 void add_function(lua_State* L, const char* name, int (*function)(lua_State*)) {
-    lua_pushcfunction(L, function);
-    lua_setfield(L, -2, name);
+    add_closure(L, name, function);
 }
 
 }  // namespace reprise::scripting

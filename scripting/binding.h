@@ -29,12 +29,16 @@ int guarded(lua_State* L) {
     return report(L, message);
 }
 
+/// [instructions] of any word of the vocabulary; those that take longer charge more themselves.
+inline constexpr std::uint64_t word_cost = 30;
+
 /// A function that needs a run: refused while only the header is read.
 template <int (*function)(Run&, lua_State*)>
 int in_run(lua_State* L) {
     Vm& vm = Vm::of(L);
     if (vm.run == nullptr)
         throw world::Error("only the scenario's run function can do this");
+    vm.charge(L, word_cost);
     return function(*vm.run, L);
 }
 

@@ -48,8 +48,9 @@ void Checks::add(Run& run, lua_State* L, Kind kind) {
     const std::string who = names[static_cast<std::size_t>(kind)];
     Entry entry;
     entry.kind = kind;
-    entry.name = text_at(L, 1, who, "the name");
+    entry.name = name_at(L, 1, who, "the name");
     want_function(L, 2, who, "the second argument");
+    run.vm.charge(L, entries_.size() + 100);
     for (const Entry& other : entries_)
         if (other.name == entry.name)
             refuse(who, fmt::format("the name '{}' is taken in line {}", entry.name, other.line));
@@ -199,14 +200,25 @@ std::vector<Scenario::Check> Checks::results() const {
 }
 
 void Checks::digest(world::Hasher& hasher) const {
+    const auto add_flag = [&](bool flag) { hasher.add(static_cast<std::uint8_t>(flag)); };
     hasher.add(static_cast<std::uint64_t>(entries_.size()));
+    add_flag(concluded_);
     for (const Entry& entry : entries_) {
+        hasher.add(entry.kind);
         hasher.add_text(entry.name);
+        hasher.add(entry.limit);
         hasher.add(entry.since);
+        add_flag(entry.deadline.has_value());
+        hasher.add(entry.deadline.value_or(0));
+        add_flag(entry.stop);
+        add_flag(entry.optional);
+        add_flag(entry.evaluated);
+        add_flag(entry.extreme.has_value());
+        hasher.add(entry.extreme.value_or(0));
+        add_flag(entry.decided);
         hasher.add(entry.status);
         hasher.add(entry.tick);
-        hasher.add(static_cast<std::uint8_t>(entry.evaluated));
-        hasher.add(entry.extreme.value_or(0));
+        hasher.add_text(entry.detail);
     }
 }
 

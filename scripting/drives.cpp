@@ -68,9 +68,9 @@ int free_speed(Run& run, lua_State* L) {
 }
 
 /// 'left' and 'right' are of the lane that the actor is on now.
-std::uint32_t target_lane(Run& run, const Actor& actor, const std::string& target) {
+std::uint32_t target_lane(Run& run, lua_State* L, const Actor& actor, const std::string& target) {
     if (target != "left" && target != "right") {
-        const std::uint32_t lane = lane_named(run.town, target);
+        const std::uint32_t lane = run.lane_named(L, target);
         if (run.town.lanes[lane].kind != world::LaneKind::driving)
             refuse("change_lane", "'" + target + "' is not a lane for cars");
         return lane;
@@ -89,7 +89,7 @@ int change_lane(Run& run, lua_State* L) {
     const Actor& actor = driver_of_car(run, L, "change_lane");
     const std::string target = text_at(L, 2, "change_lane", "the target");
     const double duration = over(L, 3, "change_lane");
-    const std::uint32_t lane = target_lane(run, actor, target);
+    const std::uint32_t lane = target_lane(run, L, actor, target);
     world::CommandT& command = run.say(L, CommandKind::change_lane, actor.id);
     command.lanes.push_back(lane);
     command.duration = duration;
@@ -104,6 +104,8 @@ int set_route(Run& run, lua_State* L) {
     const auto count = static_cast<lua_Integer>(lua_rawlen(L, 2));
     for (lua_Integer i = 1; i <= count; ++i) {
         lua_rawgeti(L, 2, i);
+        // An edge is looked for among all lanes.
+        run.vm.charge(L, 50 + run.town.lanes.size());
         lanes.push_back(
             lane_or_edge_named(run.town, text_at(L, -1, "set_route", fmt::format("entry {}", i))));
         lua_pop(L, 1);
@@ -171,9 +173,9 @@ int walk_to(Run& run, lua_State* L) {
     const Body body = *body_of(run.last, actor);
     Eigen::Vector3d target(x.value_or(0), y.value_or(0), body.position.z());
     if (across)
-        target = across_road(run.town, lane_named(run.town, *across), body.position);
+        target = across_road(run.town, run.lane_named(L, *across), body.position);
     if (lane) {
-        const world::LanePoint at = world::point_at(run.town.lanes[lane_named(run.town, *lane)],
+        const world::LanePoint at = world::point_at(run.town.lanes[run.lane_named(L, *lane)],
                                                     fields.number("s").value_or(0));
         target = world::pose(world::to_vec3(at.position), at.yaw, 0) *
                  Eigen::Vector3d(0, fields.number("offset").value_or(0), 0);

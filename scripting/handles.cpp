@@ -18,7 +18,8 @@ namespace {
 
 constexpr const char* handle_type = "actor";    // name of the metatable in Lua's registry
 constexpr const char* handle_list = "handles";  // id -> handle
-constexpr std::uint64_t patience = 100;         // [ticks] for an actor to appear
+constexpr std::uint64_t lane_cost = 50;  // [instructions] of a lane that a search for a way passed
+constexpr std::uint64_t patience = 100;  // [ticks] for an actor to appear
 
 /// 0 when the argument is no handle.
 std::uint32_t handle_id(lua_State* L, int index) {
@@ -137,7 +138,9 @@ int to_string(Run& run, lua_State* L) {
 int gap_between(Run& run, lua_State* L) {
     const Body a = run.look_at(actor_at(run, L, 1, "gap"));
     const Body b = run.look_at(actor_at(run, L, 2, "gap"));
-    lua_pushnumber(L, gap(run.town, a, b).length);
+    const Gap between = gap(run.town, a, b);
+    run.vm.charge(L, between.searched * lane_cost);
+    lua_pushnumber(L, between.length);
     return 1;
 }
 
@@ -151,7 +154,9 @@ int distance_between(Run& run, lua_State* L) {
 int ttc(Run& run, lua_State* L) {
     const Body a = run.look_at(actor_at(run, L, 1, "ttc"));
     const Body b = run.look_at(actor_at(run, L, 2, "ttc"));
-    lua_pushnumber(L, time_to_collision(run.town, a, b));
+    const Gap between = gap(run.town, a, b);
+    run.vm.charge(L, between.searched * lane_cost);
+    lua_pushnumber(L, time_to_collision(between, a, b));
     return 1;
 }
 

@@ -1,7 +1,6 @@
 #include "scripting/limits.h"
 
 #include <cstdint>
-#include <fmt/format.h>
 #include <string>
 
 #include <lua.hpp>
@@ -13,62 +12,70 @@ namespace reprise::scripting {
 
 namespace {
 
-constexpr std::size_t longest_string = std::size_t{1} << 20U;  // [bytes] made in one call
-constexpr lua_Integer most_moved = 1'000'000;                  // elements in one call
-constexpr double most_pattern_steps = 1e8;
+constexpr int call_cost = 5;           // [instructions] of any stock function
+constexpr std::size_t few_bytes = 32;  // texts that cost nothing
 
 /// Upvalue 1: the stock function. Called in this very frame, so that its messages know its name.
 int call_stock(lua_State* L) {
     return lua_tocfunction(L, lua_upvalueindex(1))(L);
 }
 
-/// Matching backtracks: with k repetitions a text of n characters can take n^(k+1) steps.
-double pattern_steps(const std::string& pattern, std::size_t text_size) {
-    double steps = static_cast<double>(text_size) + 1;
-    for (const char c : pattern) {
-        if (c == '*' || c == '+' || c == '-')
-            steps *= static_cast<double>(text_size) + 1;
-        if (c == '?')
-            steps *= 2;
-    }
-    return steps;
+bool is_light_function(lua_State* L, int index) {
+    if (lua_iscfunction(L, index) == 0)
+        return false;
+    const bool has_upvalues = lua_getupvalue(L, index, 1) != nullptr;
+    if (has_upvalues)
+        lua_pop(L, 1);
+    return !has_upvalues;
 }
 
 }  // namespace
+
+template <int first>
+int metered(lua_State* L) {
+    std::uint64_t cost = call_cost;
+    const int arguments = lua_gettop(L);
+    for (int index = first; index <= arguments; ++index)
+        if (lua_type(L, index) == LUA_TSTRING && lua_rawlen(L, index) > few_bytes)
+            cost += lua_rawlen(L, index) / 4;
+    Vm::of(L).charge(L, cost);
+    const int results = call_stock(L);
+    for (int index = lua_gettop(L) - results + 1; index <= lua_gettop(L); ++index)
+        if (is_light_function(L, index)) {
+            lua_pushnil(L);
+            lua_pushcclosure(L, lua_tocfunction(L, index), 1);
+            lua_replace(L, index);
+        }
+    if (results > 1)
+        Vm::of(L).charge(L, static_cast<std::uint64_t>(results));
+    return results;
+}
+
+template int metered<1>(lua_State* L);
+template int metered<2>(lua_State* L);
 
 int repeat_text(lua_State* L) {
     const std::string text = text_at(L, 1, "string.rep", "the text");
     const std::int64_t count = integer_at(L, 2, "string.rep", "the count");
     const std::string separator =
         lua_isnoneornil(L, 3) ? "" : text_at(L, 3, "string.rep", "the separator");
-    const auto longest = static_cast<double>(longest_string);
-    if (static_cast<double>(count) * static_cast<double>(text.size() + separator.size()) > longest)
-        refuse("string.rep", "the result would be longer than 1 MB");
+    const double size =
+        static_cast<double>(count) * static_cast<double>(text.size() + separator.size());
+    if (size > static_cast<double>(longest_text))
+        refuse("string.rep", "the result would be longer than 64 kB");
+    // Of empty texts as many as one likes come to nothing, one by one.
+    if (text.empty() && separator.empty()) {
+        lua_pushliteral(L, "");
+        return 1;
+    }
+    Vm::of(L).charge(L, call_cost);
     return call_stock(L);
 }
 
-int search_text(lua_State* L) {
-    const std::string text = text_at(L, 1, "string", "the text");
-    const std::string pattern = text_at(L, 2, "string", "the pattern");
-    const double steps = pattern_steps(pattern, text.size());
-    if (steps > most_pattern_steps)
-        refuse("string",
-               fmt::format("the pattern '{}' may take too long on {} characters: use fewer "
-                           "repetitions, or shorter texts",
-                           pattern,
-                           text.size()));
-    Vm::of(L).charge(L, static_cast<std::uint64_t>(steps / 1e4));
-    return call_stock(L);
-}
-
-int move_elements(lua_State* L) {
-    const std::int64_t first = integer_at(L, 2, "table.move", "the first position");
-    const std::int64_t last = integer_at(L, 3, "table.move", "the last position");
-    if (static_cast<double>(last) - static_cast<double>(first) > static_cast<double>(most_moved))
-        refuse("table.move", "more than 1,000,000 elements in one call");
-    if (last > first)
-        Vm::of(L).charge(L, static_cast<std::uint64_t>(last - first));
-    return call_stock(L);
+void add_closure(lua_State* L, const char* name, int (*function)(lua_State*)) {
+    lua_pushnil(L);
+    lua_pushcclosure(L, function, 1);
+    lua_setfield(L, -2, name);
 }
 
 }  // namespace reprise::scripting

@@ -18,8 +18,12 @@ constexpr double search_range = 200;  // [m]
 
 /// [m] from a position on `from` to one on `to`, driving on, lane changes included. None when
 /// further than the search range. Dijkstra over lanes; equal distances go by lane index.
-std::optional<double> way(
-    const TownT& town, std::uint32_t from, double s_from, std::uint32_t to, double s_to) {
+std::optional<double> way(const TownT& town,
+                          std::uint32_t from,
+                          double s_from,
+                          std::uint32_t to,
+                          double s_to,
+                          std::uint32_t& searched) {
     const std::string& target = town.lanes[to].edge;
     std::set<std::pair<double, std::uint32_t>> open{
         {-s_from, from}};  // distance to the lane's start
@@ -27,6 +31,7 @@ std::optional<double> way(
     while (!open.empty()) {
         const auto [start, index] = *open.begin();
         open.erase(open.begin());
+        ++searched;
         if (start > search_range || !closed.insert(index).second)
             continue;
         const LaneT& lane = town.lanes[index];
@@ -46,7 +51,10 @@ std::optional<double> way(
 }
 
 /// From a's position to b's along the road; negative when b is behind.
-std::optional<double> along_road(const TownT& town, const Body& a, const Body& b) {
+std::optional<double> along_road(const TownT& town,
+                                 const Body& a,
+                                 const Body& b,
+                                 std::uint32_t& searched) {
     if (a.lane == none || b.lane == none || a.ahead().dot(b.ahead()) < 0)
         return std::nullopt;
     const LaneT& lane_a = town.lanes[a.lane];
@@ -57,9 +65,9 @@ std::optional<double> along_road(const TownT& town, const Body& a, const Body& b
     if (together)
         return world::project(lane_a, b.position).s - s_a;
     const double s_b = world::project(lane_b, b.position).s;
-    if (const auto ahead = way(town, a.lane, s_a, b.lane, s_b))
+    if (const auto ahead = way(town, a.lane, s_a, b.lane, s_b, searched))
         return *ahead;
-    if (const auto behind = way(town, b.lane, s_b, a.lane, s_a))
+    if (const auto behind = way(town, b.lane, s_b, a.lane, s_a, searched))
         return -*behind;
     return std::nullopt;
 }
@@ -79,13 +87,14 @@ std::pair<double, double> extent_along(const Body& a, const Body& b) {
 
 Gap gap(const TownT& town, const Body& a, const Body& b) {
     auto [low, high] = extent_along(a, b);
-    if (const auto road = along_road(town, a, b)) {
+    std::uint32_t searched = 0;
+    if (const auto road = along_road(town, a, b, searched)) {
         low = *road - b.rear;
         high = *road + b.front;
     }
     const bool ahead = (low + high) / 2 >= (a.front - a.rear) / 2;
     const double length = ahead ? low - a.front : -a.rear - high;
-    return {std::max(0.0, length), ahead};
+    return {std::max(0.0, length), ahead, searched};
 }
 
 double distance(const Body& a, const Body& b) {
@@ -93,12 +102,15 @@ double distance(const Body& a, const Body& b) {
 }
 
 double time_to_collision(const TownT& town, const Body& a, const Body& b) {
-    const Gap now = gap(town, a, b);
+    return time_to_collision(gap(town, a, b), a, b);
+}
+
+double time_to_collision(const Gap& between, const Body& a, const Body& b) {
     const double speed_b = b.speed * a.ahead().dot(b.ahead());
-    const double closing = now.ahead ? a.speed - speed_b : speed_b - a.speed;
+    const double closing = between.ahead ? a.speed - speed_b : speed_b - a.speed;
     if (closing <= 0)
         return std::numeric_limits<double>::infinity();
-    return now.length / closing;
+    return between.length / closing;
 }
 
 }  // namespace reprise::scripting

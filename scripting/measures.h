@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "scripting/actors.h"
@@ -13,6 +14,7 @@ namespace reprise::scripting {
 struct Gap {
     double length = 0;  ///< [m] bumper to bumper, 0 while they are side by side
     bool ahead = true;
+    std::uint32_t searched = 0;  ///< lanes that the search for a way looked at
 };
 
 /// Where both are on one road - the same edge, or one reaches the other within 200 m by driving on
@@ -26,5 +28,6 @@ double distance(const Body& a, const Body& b);
 
 /// [s] until the gap is closed when both keep their speed; infinite when it is not closing.
 double time_to_collision(const world::TownT& town, const Body& a, const Body& b);
+double time_to_collision(const Gap& between, const Body& a, const Body& b);
 
 }  // namespace reprise::scripting

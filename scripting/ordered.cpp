@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <lua.hpp>
 
 #include "scripting/arguments.h"
-#include "scripting/text.h"
 #include "scripting/vm.h"
 
 namespace reprise::scripting {
@@ -23,7 +24,7 @@ struct Key {
     bool is_integer = false;
     std::int64_t integer = 0;
     double number = 0;
-    std::string text;
+    std::string_view text;  ///< Lua's own, while the table holds the key
 };
 
 bool less(std::int64_t integer, double number) {
@@ -54,7 +55,7 @@ Key key_at(lua_State* L, int index, const char* who) {
             break;
         case LUA_TSTRING:
             key.rank = Key::Rank::text;
-            key.text = text_of(L, index);
+            key.text = {lua_tostring(L, index), lua_rawlen(L, index)};
             break;
         case LUA_TBOOLEAN:
             key.rank = Key::Rank::boolean;
@@ -84,11 +85,14 @@ void want_table(lua_State* L, int index, const char* who) {
 
 std::vector<Key> sorted_keys(lua_State* L, int table, const char* who) {
     std::vector<Key> keys;
+    std::size_t bytes = 0;
     lua_pushnil(L);
     while (lua_next(L, table) != 0) {
         lua_pop(L, 1);
         keys.push_back(key_at(L, -1, who));
+        bytes += keys.back().text.size();
     }
+    Vm::of(L).charge_walk(L, keys.size() + bytes / 64);
     std::sort(keys.begin(), keys.end());
     return keys;
 }
@@ -155,7 +159,6 @@ void merge_runs(lua_State* L,
 int ordered_pairs(lua_State* L) {
     want_table(L, 1, "pairs");
     const std::vector<Key> keys = sorted_keys(L, 1, "pairs");
-    Vm::of(L).charge(L, keys.size() * 8);
     lua_pushvalue(L, 1);
     lua_createtable(L, static_cast<int>(keys.size()), 0);
     lua_Integer position = 0;
@@ -170,17 +173,25 @@ int ordered_pairs(lua_State* L) {
 
 int ordered_next(lua_State* L) {
     want_table(L, 1, "next");
-    const std::vector<Key> keys = sorted_keys(L, 1, "next");
-    Vm::of(L).charge(L, keys.size() * 8);
-    auto found = keys.begin();
-    if (!lua_isnoneornil(L, 2))
-        found = std::upper_bound(keys.begin(), keys.end(), key_at(L, 2, "next"));
-    if (found == keys.end()) {
+    const bool first = lua_isnoneornil(L, 2);
+    const Key last = first ? Key{} : key_at(L, 2, "next");
+    std::optional<Key> nearest;
+    std::size_t entries = 0;
+    lua_pushnil(L);
+    while (lua_next(L, 1) != 0) {
+        lua_pop(L, 1);
+        const Key key = key_at(L, -1, "next");
+        entries += 1 + key.text.size() / 64;
+        if ((first || last < key) && (!nearest || key < *nearest))
+            nearest = key;
+    }
+    Vm::of(L).charge_walk(L, entries);
+    if (!nearest) {
         lua_pushnil(L);
         return 1;
     }
-    push(L, *found);
-    push(L, *found);
+    push(L, *nearest);
+    push(L, *nearest);
     lua_rawget(L, 1);
     return 2;
 }

@@ -44,6 +44,9 @@ struct Run {
     /// Ends the run: the tick's last command.
     void finish(const std::string& reason, std::uint32_t line);
 
+    /// The lane of this name, or throws with a hint; a search for the hint is charged.
+    std::uint32_t lane_named(lua_State* L, const std::string& name);
+
     /// The body with its lane, found by place where the tick does not name it. The actor must be
     /// present.
     Body look_at(const Actor& actor);

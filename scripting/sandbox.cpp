@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,7 +13,10 @@
 #include "scripting/arguments.h"
 #include "scripting/binding.h"
 #include "scripting/limits.h"
+#include "scripting/lists.h"
+#include "scripting/metatables.h"
 #include "scripting/ordered.h"
+#include "scripting/searches.h"
 #include "scripting/text.h"
 #include "scripting/vm.h"
 
@@ -20,12 +24,13 @@ namespace reprise::scripting {
 
 namespace {
 
-/// Its address is the key under which a metatable's copy holds the original.
-constexpr char original_metatable = 0;
+constexpr std::uint64_t text_cost = 20;    // [instructions] of a number's digits
+constexpr std::uint64_t catch_cost = 300;  // [instructions] of a C++ exception
 
 int to_text(lua_State* L) {
     if (lua_isnone(L, 1))
         throw world::Error("tostring: a value is needed");
+    Vm::of(L).charge(L, text_cost);
     const std::string text = text_of(L, 1);
     lua_pushlstring(L, text.data(), text.size());
     return 1;
@@ -36,12 +41,11 @@ int to_text(lua_State* L) {
 /// Continues after the call: at once, or when a wait in it is over. The results lie above `first`.
 int after_protected_call(lua_State* L, int status, lua_KContext first) {
     Vm& vm = Vm::of(L);
-    if (status == LUA_ERRMEM)
-        vm.latch(vm.script() + ": the scenario needs more than 64 MB of memory");
     if (vm.is_latched())
         vm.raise(L, "");
     if (status == LUA_OK || status == LUA_YIELD)
         return lua_gettop(L) - static_cast<int>(first);
+    vm.charge(L, catch_cost);
     lua_pushboolean(L, 0);
     lua_insert(L, -2);
     return 2;
@@ -77,45 +81,6 @@ int protected_call_with_handler(lua_State* L) {
     lua_rotate(L, 3, 2);
     const int status = lua_pcallk(L, arguments, LUA_MULTRET, 0, 2, after_handled_call);
     return after_handled_call(L, status, 2);
-}
-
-// --- Metatables: no finalizers, no weak references; both act when memory is collected.
-
-/// A metatable is read when it is set: what the script changes in it later has no effect, so that
-/// '__mode' cannot slip in. Returns the table. The original stays reachable for getmetatable.
-int set_metatable(lua_State* L) {
-    if (lua_type(L, 1) != LUA_TTABLE || (!lua_isnil(L, 2) && lua_type(L, 2) != LUA_TTABLE))
-        throw world::Error("setmetatable: needs a table and a metatable (or nil)");
-    if (luaL_getmetafield(L, 1, "__metatable") != LUA_TNIL)
-        throw world::Error("setmetatable: this metatable is protected");
-    lua_settop(L, 2);
-    if (!lua_isnil(L, 2)) {
-        lua_newtable(L);
-        lua_pushnil(L);
-        while (lua_next(L, 2) != 0) {
-            const std::string key = lua_type(L, -2) == LUA_TSTRING ? text_of(L, -2) : "";
-            if (key == "__gc" || key == "__mode")
-                refuse("setmetatable",
-                       key + " acts when memory is collected, which differs from run to run");
-            lua_pushvalue(L, -2);
-            lua_insert(L, -2);
-            lua_rawset(L, 3);
-        }
-        lua_pushvalue(L, 2);
-        lua_rawsetp(L, 3, &original_metatable);
-    }
-    lua_setmetatable(L, 1);
-    lua_settop(L, 1);
-    return 1;
-}
-
-int get_metatable(lua_State* L) {
-    if (lua_type(L, 1) != LUA_TTABLE || lua_getmetatable(L, 1) == 0)
-        return 0;
-    if (lua_getfield(L, -1, "__metatable") != LUA_TNIL)
-        return 1;
-    lua_rawgetp(L, -2, &original_metatable);
-    return 1;
 }
 
 // --- Words that are not there.
@@ -179,6 +144,12 @@ void wrap(lua_State* L, const char* name, int (*function)(lua_State*)) {
     lua_setfield(L, -2, name);
 }
 
+template <int first>
+void meter(lua_State* L, std::initializer_list<const char*> names) {
+    for (const char* const name : names)
+        wrap(L, name, guarded<metered<first>>);
+}
+
 void remove(lua_State* L, const char* name) {
     lua_pushnil(L);
     lua_setfield(L, -2, name);
@@ -195,8 +166,12 @@ void add_string(lua_State* L) {
     remove(L, "dump");
     wrap(L, "format", guarded<format_text>);
     wrap(L, "rep", guarded<repeat_text>);
-    for (const char* name : {"find", "match", "gmatch", "gsub"})
-        wrap(L, name, guarded<search_text>);
+    add_closure(L, "find", guarded<find_text>);
+    add_closure(L, "match", guarded<match_text>);
+    add_closure(L, "gmatch", guarded<match_all>);
+    add_closure(L, "gsub", guarded<replace_text>);
+    meter<1>(L, {"char", "lower", "upper", "reverse", "pack", "unpack", "packsize"});
+    meter<2>(L, {"byte", "len", "sub"});
     refuse_unknown(L, "string");
     // Methods of strings are these; '"10" + 1' is a mistake, not 11.
     lua_pushliteral(L, "");
@@ -208,46 +183,62 @@ void add_string(lua_State* L) {
     lua_setfield(L, -2, "string");
 }
 
-void add_libraries(lua_State* L) {
-    add_string(L);
+void add_table(lua_State* L) {
     open(L, luaopen_table);
-    add_function(L, "sort", guarded<stable_sort>);
-    wrap(L, "move", guarded<move_elements>);
+    add_closure(L, "sort", guarded<stable_sort>);
+    add_closure(L, "insert", guarded<insert_element>);
+    add_closure(L, "remove", guarded<remove_element>);
+    add_closure(L, "concat", guarded<join_elements>);
+    add_closure(L, "unpack", guarded<unpack_elements>);
+    add_closure(L, "move", guarded<move_elements>);
+    meter<1>(L, {"pack"});
     refuse_unknown(L, "table");
     lua_setfield(L, -2, "table");
+}
+
+void add_math(lua_State* L) {
     open(L, luaopen_math);
     remove(L, "random");
     remove(L, "randomseed");
+    meter<1>(
+        L, {"abs", "ceil", "floor", "sqrt", "sin", "cos", "tan", "asin",      "acos", "atan", "exp",
+            "log", "fmod", "modf",  "max",  "min", "deg", "rad", "tointeger", "type", "ult"});
     refuse_unknown(L, "math");
     lua_setfield(L, -2, "math");
+}
+
+void add_utf8(lua_State* L) {
     open(L, luaopen_utf8);
+    meter<1>(L, {"char", "codepoint", "codes", "len", "offset"});
     refuse_unknown(L, "utf8");
     lua_setfield(L, -2, "utf8");
 }
 
 void add_basics(lua_State* L) {
     open(L, luaopen_base);
-    for (const char* name : {"assert",
-                             "error",
-                             "ipairs",
-                             "rawequal",
-                             "rawget",
-                             "rawlen",
-                             "select",
-                             "tonumber",
-                             "type",
-                             "_VERSION"}) {
+    meter<1>(L, {"ipairs", "select", "tonumber"});
+    meter<2>(L, {"assert", "error", "rawequal", "rawget", "rawlen", "type"});
+    for (const char* const name : {"assert",
+                                   "error",
+                                   "ipairs",
+                                   "rawequal",
+                                   "rawget",
+                                   "rawlen",
+                                   "select",
+                                   "tonumber",
+                                   "type",
+                                   "_VERSION"}) {
         lua_getfield(L, -1, name);
         lua_setfield(L, -3, name);
     }
     lua_pop(L, 1);
-    add_function(L, "next", guarded<ordered_next>);
-    add_function(L, "pairs", guarded<ordered_pairs>);
-    add_function(L, "pcall", guarded<protected_call>);
-    add_function(L, "xpcall", guarded<protected_call_with_handler>);
-    add_function(L, "tostring", guarded<to_text>);
-    add_function(L, "setmetatable", guarded<set_metatable>);
-    add_function(L, "getmetatable", guarded<get_metatable>);
+    add_closure(L, "next", guarded<ordered_next>);
+    add_closure(L, "pairs", guarded<ordered_pairs>);
+    add_closure(L, "pcall", guarded<protected_call>);
+    add_closure(L, "xpcall", guarded<protected_call_with_handler>);
+    add_closure(L, "tostring", guarded<to_text>);
+    add_closure(L, "setmetatable", guarded<set_metatable>);
+    add_closure(L, "getmetatable", guarded<get_metatable>);
 }
 
 }  // namespace
@@ -266,7 +257,10 @@ void refuse_unknown(lua_State* L, const char* name) {
 void push_sandbox(lua_State* L) {
     lua_newtable(L);
     add_basics(L);
-    add_libraries(L);
+    add_string(L);
+    add_table(L);
+    add_math(L);
+    add_utf8(L);
     refuse_unknown(L, "");
     lua_newtable(L);  // the environment
     lua_newtable(L);

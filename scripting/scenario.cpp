@@ -8,6 +8,7 @@
 #include "scripting/binding.h"
 #include "scripting/header.h"
 #include "scripting/literals.h"
+#include "scripting/places.h"
 #include "scripting/run.h"
 #include "scripting/sandbox.h"
 #include "world/check.h"
@@ -25,6 +26,10 @@ struct Scenario::Machine {
 };
 
 namespace {
+
+constexpr std::uint64_t command_cost = 1000;      // [instructions]: at most 10,000 in a tick
+constexpr std::uint64_t look_cost = 300;          // [instructions] of a lane by its place
+constexpr std::uint64_t mistaken_lane_cost = 20;  // [instructions] a lane, to find what was meant
 
 /// Pushes the parameters of this run, which know no others.
 void push_parameters(lua_State* L, const world::EpisodeT& episode) {
@@ -46,6 +51,7 @@ void push_parameters(lua_State* L, const world::EpisodeT& episode) {
 
 world::CommandT& Run::say(lua_State* L, world::CommandKind kind, std::uint32_t actor) {
     REPRISE_CHECK(next != nullptr, "a command outside of a step");
+    vm.charge(L, command_cost);
     world::CommandT& command = next->tick.commands.emplace_back();
     command.kind = kind;
     command.actor = actor;
@@ -63,7 +69,14 @@ void Run::finish(const std::string& reason, std::uint32_t line) {
     command.line = line;
 }
 
+std::uint32_t Run::lane_named(lua_State* L, const std::string& name) {
+    if (!world::find_lane(town, name))
+        vm.charge(L, town.lanes.size() * mistaken_lane_cost);
+    return scripting::lane_named(town, name);
+}
+
 Body Run::look_at(const Actor& actor) {
+    vm.charge_later(look_cost);
     const auto body = body_of(last, actor);
     REPRISE_CHECK(body, fmt::format("actor {} is not in tick {}", actor.name, now()));
     Body placed = *body;
@@ -101,6 +114,7 @@ void Scenario::advance(const world::TickView& last, world::TickDraft& next) {
     Run& run = machine_->run;
     if (run.finished)
         return;
+    Vm::check_locale();
     run.last = last;
     run.next = &next;
     run.vm.refill();
@@ -128,6 +142,8 @@ std::uint64_t Scenario::digest() const {
     const Run& run = machine_->run;
     world::Hasher hasher;
     hasher.add(run.vm.instructions());
+    hasher.add(static_cast<std::uint64_t>(run.vm.memory().bytes()));
+    hasher.add(run.vm.memory().requests());
     hasher.add(static_cast<std::uint8_t>(run.finished));
     run.actors.digest(hasher);
     run.tasks.digest(hasher);

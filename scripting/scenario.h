@@ -44,8 +44,10 @@ class Scenario {
     /// "cut_in.lua:12: ...", when the script fails.
     void advance(const world::TickView& last, world::TickDraft& next);
 
-    /// Of VM instruction count, actors, task and check states, draw counts. The script's own
-    /// variables are not read: what they do shows in these and in the commands.
+    /// Of instruction count, memory, actors, task and check states, draw counts. The script's own
+    /// variables are not read: a script that holds other values either goes another way, which
+    /// shows in its instructions and requests for memory, or says other things, which shows in
+    /// the commands.
     std::uint64_t digest() const;
 
     struct Check {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -15,6 +16,9 @@
 namespace reprise::scripting {
 
 namespace {
+
+constexpr double farthest_beside = 50;  // [m] from a lane's centre line
+constexpr double fastest = 150;         // [m/s]
 
 const std::vector<std::string> drivers{"autopilot", "manual", "traffic", "parked", "walker"};
 
@@ -45,15 +49,15 @@ void read_model(const Fields& fields, Actor& actor) {
 }
 
 void read_name(Run& run, const Fields& fields, Actor& actor) {
-    const auto name = fields.text("name");
-    if (name && (name->empty() || run.actors.has_name(*name)))
-        refuse("spawn",
-               fmt::format("the name '{}' is {}", *name, name->empty() ? "empty" : "taken"));
+    const auto name = fields.name("name");
+    if (name && run.actors.has_name(*name))
+        refuse("spawn", fmt::format("the name '{}' is taken", *name));
     actor.name = name ? *name : run.actors.free_name(*fields.text("model"));
 }
 
 /// Lane, s and offset into the command.
-void read_place(Run& run, const Fields& fields, const Actor& actor, world::CommandT& command) {
+void read_place(
+    Run& run, lua_State* L, const Fields& fields, const Actor& actor, world::CommandT& command) {
     const auto name = fields.text("lane");
     if (!name) {
         if (actor.is_walker() || actor.driver == world::Driver::parked)
@@ -64,7 +68,7 @@ void read_place(Run& run, const Fields& fields, const Actor& actor, world::Comma
         return;
     }
     try {
-        command.lane = lane_named(run.town, *name);
+        command.lane = run.lane_named(L, *name);
     } catch (const world::Error& error) {
         refuse("spawn", error.what());
     }
@@ -80,6 +84,15 @@ void read_place(Run& run, const Fields& fields, const Actor& actor, world::Comma
                            *name,
                            number_text(command.s)));
     command.offset = fields.number("offset").value_or(0);
+    // Who drives begins on its lane; who is put down may stand beside it.
+    const double farthest = drives ? lane.width / 2 : farthest_beside;
+    if (std::abs(command.offset) > farthest)
+        refuse("spawn",
+               fmt::format("'offset' must be in [-{:.2f}, {:.2f}]{}, got {}",
+                           farthest,
+                           farthest,
+                           drives ? ", half the width of '" + *name + "'" : "",
+                           number_text(command.offset)));
 }
 
 int spawn(Run& run, lua_State* L) {
@@ -92,8 +105,12 @@ int spawn(Run& run, lua_State* L) {
     read_model(fields, actor);
     read_name(run, fields, actor);
     world::CommandT command;
-    read_place(run, fields, actor, command);
+    read_place(run, L, fields, actor, command);
     const double speed = fields.speed().value_or(0);
+    if (speed > fastest)
+        refuse(
+            "spawn",
+            fmt::format("the speed must be in [0, {}] m/s, got {}", fastest, number_text(speed)));
     if (speed > 0 && (actor.is_walker() || actor.driver == world::Driver::parked))
         refuse("spawn", fmt::format("'{}' starts at rest", actor.name));
 
@@ -142,7 +159,7 @@ int pick_lane(Run& run, lua_State* L) {
 }
 
 const world::LaneT& lane_argument(Run& run, lua_State* L, const char* who) {
-    return run.town.lanes[lane_named(run.town, text_at(L, 1, who, "the lane"))];
+    return run.town.lanes[run.lane_named(L, text_at(L, 1, who, "the lane"))];
 }
 
 int lane_point(Run& run, lua_State* L) {

@@ -8,6 +8,7 @@
 #include "scripting/arguments.h"
 #include "scripting/binding.h"
 #include "scripting/run.h"
+#include "scripting/text.h"
 #include "world/digest.h"
 
 namespace reprise::scripting {
@@ -63,7 +64,7 @@ int start(Run& run, lua_State* L) {
 
 int finish(Run& run, lua_State* L) {
     const std::string reason =
-        lua_isnoneornil(L, 1) ? "finished" : text_at(L, 1, "finish", "the reason");
+        lua_isnoneornil(L, 1) ? "finished" : printable(text_at(L, 1, "finish", "the reason"));
     run.finish(reason, run.vm.line(L));
     // Nothing after it is carried out: a task that never goes on.
     return lua_isyieldable(L) != 0 ? lua_yield(L, 0) : 0;
@@ -117,9 +118,14 @@ void Tasks::advance(Run& run, std::uint64_t now) {
 
 void Tasks::digest(world::Hasher& hasher) const {
     hasher.add(next_id_);
+    hasher.add(static_cast<std::uint64_t>(tasks_.size()));
     for (const Task& task : tasks_) {
         hasher.add(task.id);
         hasher.add(task.wake);
+        hasher.add(static_cast<std::int32_t>(task.arguments));  // has it begun?
+        // What it will do next is its stack's; how deep in calls it sleeps shows without names.
+        hasher.add(static_cast<std::int32_t>(lua_status(task.thread)));
+        hasher.add(static_cast<std::int32_t>(lua_gettop(task.thread)));
     }
 }
 

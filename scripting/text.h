@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 struct lua_State;
 
@@ -13,6 +14,10 @@ std::string number_text(double number);
 
 /// Lua's tostring without addresses: a table is "table", a function "function". Uses __tostring.
 std::string text_of(lua_State* L, int index);
+
+/// With what a terminal would obey or could not show written out: "\x1b", "\xff". For texts of
+/// scenarios that people will read: printed lines, names, messages.
+std::string printable(std::string_view text);
 
 /// string.format without %p; %s goes through text_of.
 int format_text(lua_State* L);

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "scripting/memory.h"
+
 struct lua_State;
 struct lua_Debug;
 
@@ -18,11 +20,9 @@ struct Header;
 /// The part of the vocabulary that is written in Lua: scripting/prelude.lua.
 extern const std::string_view prelude_source;
 
-/// VM instructions that a scenario may use in one tick, all of its tasks and checks together.
+/// VM instructions that a scenario may use in one tick, all of its tasks and checks together. Work
+/// that is not seen in instructions is charged as such: Memory, `charge`.
 inline constexpr std::uint64_t budget_per_tick = 10'000'000;
-
-/// Bytes that a scenario's values may take.
-inline constexpr std::size_t memory_cap = std::size_t{64} << 20U;
 
 /// One Lua machine: its memory, its budget, and how its mistakes become world::Error.
 ///
@@ -31,7 +31,10 @@ inline constexpr std::size_t memory_cap = std::size_t{64} << 20U;
 /// What does it assume? Lua's errors are C++ exceptions (the package lua5.4-c++): destructors run.
 ///                    Lua catches every exception that reaches it, so ours stop at the binding.
 /// How?               A hook every 1000 instructions takes from one account that all coroutines
-///                    share; once it is empty, `latch` holds the reason and every pcall throws on.
+///                    share, as do the allocator and every function of ours; once it is empty,
+///                    `latch` holds the reason and every pcall throws on. Addresses and the seed of
+///                    Lua's hash are the same in every process, so that memory is collected, and
+///                    runs out, at the same instruction.
 /// What does it keep? The account, the latch, and our own exceptions on their way out.
 class Vm {
   public:
@@ -62,15 +65,33 @@ class Vm {
     bool resume(lua_State* coroutine, int arguments);
 
     /// Fills the account for the next tick.
-    void refill() { spent_in_tick_ = 0; }
+    void refill() {
+        account_.in_tick = 0;
+        collections_ = 0;
+    }
 
     /// Takes from the account for work that Lua's instructions do not show; throws a Lua error when
     /// it is empty.
     void charge(lua_State* L, std::uint64_t instructions);
 
-    /// Since the start, in steps of the hook: a witness of what the script did, equal in equal
-    /// runs.
-    std::uint64_t instructions() const { return spent_; }
+    /// As above, without an error: for callers that must not throw. The next hook sees it.
+    void charge_later(std::uint64_t instructions) { account_.take(instructions); }
+
+    /// Charges a walk over a table with so many entries. How many empty ones it passed Lua does not
+    /// say: as many as the largest table has.
+    void charge_walk(lua_State* L, std::size_t entries);
+
+    /// Since the start: a witness of what the script did, equal in equal runs.
+    std::uint64_t instructions() const { return account_.all; }
+
+    const Memory& memory() const { return memory_; }
+
+    /// Lua writes numbers and tells letters as the C library's locale does: throws unless that is
+    /// plain C, or agrees with it in all that Lua asks.
+    static void check_locale();
+
+    /// The machine whose script runs at this moment; null when none does.
+    static Vm* running();
 
     /// The run is over whatever the script tries: raised again at every pcall.
     void latch(std::string reason);
@@ -97,20 +118,26 @@ class Vm {
     bool not_ready = false;
 
   private:
+    /// Notes which stack runs; Lua's allocator and strcoll are not told.
+    class Running;
+
     static void* allocate(void* self, void* block, std::size_t old_size, std::size_t new_size);
+    void latch_refusal(Memory::Refusal refusal);
+    void make_room(lua_State* L);
     static void hook(lua_State* L, lua_Debug* where);
     static int add_position(lua_State* L);
     int call_protected(int arguments, int results);
-    void spend(std::uint64_t instructions);
     [[noreturn]] void fail(lua_State* L, int status);
     std::string message_at_top(lua_State* L) const;
     std::string with_position(lua_State* L, const std::string& message) const;
 
     std::string script_;
     lua_State* main_ = nullptr;
-    std::size_t bytes_ = 0;
-    std::uint64_t spent_ = 0;
-    std::uint64_t spent_in_tick_ = 0;
+    lua_State* current_ = nullptr;  ///< the stack that runs now
+    Account account_;
+    Memory memory_{account_};
+    int collections_ = 0;          ///< of memory, in this tick
+    void* first_block_ = nullptr;  ///< of lua_newstate, until the seed is set
     std::optional<std::string> latched_;
     std::exception_ptr ours_;
 };

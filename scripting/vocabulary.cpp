@@ -1,6 +1,8 @@
 #include "scripting/vocabulary.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <string_view>
 
 #include <lua.hpp>
 
@@ -15,21 +17,35 @@ namespace reprise::scripting {
 
 namespace {
 
+// What is printed is recorded, outside of Lua's memory: at most 1 MB a tick.
+constexpr std::uint64_t line_cost = 200;  // [instructions]
+constexpr std::uint64_t byte_cost = 10;   // [instructions]
+
 /// Into the trace, never to the terminal: the program that runs the scenario shows it.
 int print(Run& run, lua_State* L) {
     std::string text;
-    for (int index = 1; index <= lua_gettop(L); ++index)
+    for (int index = 1; index <= lua_gettop(L); ++index) {
         text += (index == 1 ? "" : " ") + text_of(L, index);
-    world::EventT event;
-    event.kind = world::EventKind::printed;
-    event.text = text;
-    event.line = run.vm.line(L);
-    run.next->tick.events.push_back(std::move(event));
+        if (text.size() > longest_text)
+            refuse("print", "more than 64 kB in one call");
+    }
+    run.vm.charge(L, line_cost + byte_cost * text.size());
+    // One event a line; what it says is shown, and does nothing to the terminal that shows it.
+    for (std::size_t start = 0; start <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', start), text.size());
+        run.vm.charge(L, line_cost);
+        world::EventT event;
+        event.kind = world::EventKind::printed;
+        event.text = printable(std::string_view(text).substr(start, end - start));
+        event.line = run.vm.line(L);
+        run.next->tick.events.push_back(std::move(event));
+        start = end + 1;
+    }
     return 0;
 }
 
 std::string stream_at(lua_State* L, int index, const char* who) {
-    return lua_isnoneornil(L, index) ? "" : text_at(L, index, who, "the stream's name");
+    return lua_isnoneornil(L, index) ? "" : name_at(L, index, who, "the stream's name");
 }
 
 int random(Run& run, lua_State* L) {

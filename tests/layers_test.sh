@@ -12,10 +12,10 @@ declare -A may_include=(
 )
 # Where a library may be named: "room" in its .cpp files only, "room.h" in its headers too.
 declare -A owner=(
-    [lua.hpp]="scripting" [libsumo/]="traffic" [pugixml.hpp]="traffic"
+    [lua.hpp]="scripting" [libsumo/]="traffic" [pugixml.hpp]="traffic cli"
     [bt]="kernel" [BulletDynamics/]="kernel" [BulletCollision/]="kernel" [LinearMath/]="kernel"
     [embree3/]="render" [tbb/]="render" [opencv2/]="render"
-    [zstd.h]="replay" [xxhash.h]="world" [boost/]="world"
+    [zstd.h]="replay" [xxhash.h]="world" [boost/]="world scripting"
     [CLI/]="cli" [Eigen/]="world.h traffic.h render.h kernel.h replay.h scripting.h cli.h"
 )
 

@@ -130,7 +130,8 @@ TEST_F(EpisodeFile, NamesTheParameterThatWasMeant) {
         return mistake(full, overrides);
     };
     EXPECT_EQ(set("gpa", "3"),
-              "story.lua:1: --set gpa=3: no parameter 'gpa' (did you mean 'gap'?); there are gap, name, rain, speed");
+              "story.lua:1: --set gpa=3: no parameter 'gpa' (did you mean 'gap'?); there are gap, "
+              "name, rain, speed");
     EXPECT_EQ(set("gap", "far"), "story.lua:1: --set gap=far: must be a number");
     EXPECT_EQ(set("gap", "nan"), "story.lua:1: --set gap=nan: must be a number");
     EXPECT_EQ(set("rain", "1"), "story.lua:1: --set rain=1: must be true or false");

@@ -45,14 +45,25 @@ TEST(Scenario, DigestShowsEveryKindOfHiddenState) {
         stage.play(3);
         return stage.scenario.digest();
     };
-    const std::vector<std::string> bodies{"wait(1)",
-                                          "wait(2)",
-                                          "start(function() wait(1) end) wait(1)",
-                                          "random() wait(1)",
-                                          "random('a') wait(1)",
-                                          "spawn{ model = 'sedan' } wait(1)",
-                                          "check.never('a', function() end) wait(1)",
-                                          "for i = 1, 5000 do end wait(1)"};
+    const std::vector<std::string> bodies{
+        "wait(1)",
+        "wait(2)",
+        "start(function() wait(1) end) wait(1)",
+        "random() wait(1)",
+        "random('a') wait(1)",
+        "spawn{ model = 'sedan' } wait(1)",
+        "check.never('a', function() end) wait(1)",
+        "check.never('a', function() end, { stop = true }) wait(1)",
+        "check.always('a', function() return 1 end) wait(1)",
+        "check.max('a', function() return 0 end, 1) wait(1)",
+        "check.max('a', function() return 0 end, 2) wait(1)",
+        "check.max('a', function() return nil end, 1) wait(1)",
+        "check.eventually('a', function() return true end) wait(1)",
+        "check.eventually('a', function() end) wait(1)",
+        "check.eventually('a', function() end, { within = 9 }) wait(1)",
+        "local kept = { 1 } wait(1)",
+        "local kept = { 1, 2, 3, 4, 5 } wait(1)",
+        "for i = 1, 5000 do end wait(1)"};
     std::vector<std::uint64_t> digests;
     for (const std::string& body : bodies) {
         EXPECT_EQ(digest_after(body), digest_after(body)) << body;
