@@ -84,8 +84,9 @@ void add_flat_roof(Builder& build, Half half, const Facade& facade, Finish roof)
                 Vector3f(half.x, half.y, deck),
                 Vector3f(-half.x, half.y, deck)},
                roof);
-    // Parapet with a coping that throws a thin shadow.
-    add_ledge(build, {half.x - .25F, half.y - .25F}, 0.25F, deck, facade.eaves, roof);
+    // Parapet with a coping that throws a thin shadow. A little behind the walls: of two faces in
+    // one place none would be the nearer one.
+    add_ledge(build, {half.x - .25F, half.y - .25F}, 0.24F, deck, facade.eaves, roof);
     add_ledge(
         build, {half.x - .27F, half.y - .27F}, 0.33F, facade.eaves, facade.eaves + .09F, roof);
     const float x = half.x * (unit(hash(facade.seed, 71)) - 0.5F);

@@ -63,23 +63,30 @@ struct Scene::Device {
     RTCDevice handle = nullptr;
 };
 
-Scene::Scene(const world::TownT& town)
-    : device_(std::make_unique<Device>()),
+Scene::Scene(const world::TownT& town, bool portable)
+    : device_(portable ? nullptr : std::make_unique<Device>()),
       origin_(whole_metres_amid(town)),
       lanes_(town, origin_) {
     build_town(town);
     build_models();
-    device_->check();
+    if (device_)
+        device_->check();
 }
 
 Scene::~Scene() {
+    if (!device_)
+        return;
     rtcReleaseScene(top_);
     for (const Prototype& prototype : prototypes_)
         rtcReleaseScene(prototype.tree);
 }
 
 const Prototype* Scene::add_prototype(Mesh mesh) {
-    Prototype& prototype = prototypes_.emplace_back(Prototype{std::move(mesh), nullptr});
+    Prototype& prototype = prototypes_.emplace_back(Prototype{std::move(mesh), nullptr, nullptr});
+    if (!device_) {
+        prototype.plain_tree = std::make_unique<MeshTree>(prototype.mesh);
+        return &prototype;
+    }
     prototype.tree = rtcNewScene(device_->handle);
     rtcSetSceneBuildQuality(prototype.tree, RTC_BUILD_QUALITY_MEDIUM);
     // Watertight: else some rays in a picture slip through between two triangles of the ground.
@@ -131,6 +138,10 @@ std::uint32_t Scene::mask_hiding(std::uint32_t actor) const {
 }
 
 void Scene::commit() {
+    if (!device_) {
+        plain_tracer_.emplace(instances_);
+        return;
+    }
     if (top_ != nullptr)
         rtcReleaseScene(top_);
     top_ = rtcNewScene(device_->handle);

@@ -13,6 +13,7 @@
 #include "render/fast_math.h"
 #include "render/lane_raster.h"
 #include "render/mesh.h"
+#include "render/plain_tracer.h"
 #include "render/town_mesh.h"
 #include "world/tick.h"
 #include "world/town_generated.h"
@@ -24,10 +25,11 @@ namespace reprise::render {
 /// What kind of thing an instance is: how its triangles are painted and which class they have.
 enum class Kind : std::uint8_t { ground, marking, town, tree, car_body, wheel, limb };
 
-/// A mesh with Embree's tree over it, placed by any number of instances.
+/// A mesh with a tree over it, Embree's or our own, placed by any number of instances.
 struct Prototype {
     Mesh mesh;
     RTCSceneTy* tree = nullptr;
+    std::unique_ptr<MeshTree> plain_tree;
 };
 
 /// A prototype in its place.
@@ -55,11 +57,12 @@ struct BuildingFrame {
 inline constexpr std::uint32_t solid_bit = 1;
 inline constexpr std::uint32_t marking_bit = 2;  ///< paint casts no shadow
 
-/// All geometry at a tick, in Embree. Owns the device. The scene's frame is the world's, moved to
+/// All geometry at a tick, in Embree, or in our own PlainTracer when pictures must be `portable`
+/// between CPUs. Owns the device. The scene's frame is the world's, moved to
 /// `origin` (whole metres), so that single precision stays exact to 0.1 mm far from the map's zero.
 class Scene {
   public:
-    explicit Scene(const world::TownT& town);
+    Scene(const world::TownT& town, bool portable);
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
@@ -72,6 +75,9 @@ class Scene {
     std::uint32_t mask_hiding(std::uint32_t actor) const;
 
     RTCSceneTy* tree() const { return top_; }
+
+    /// Instead of tree() when pictures must be portable; else none.
+    const PlainTracer* plain_tracer() const { return plain_tracer_ ? &*plain_tracer_ : nullptr; }
 
     std::span<const Instance> instances() const { return instances_; }
 
@@ -104,8 +110,9 @@ class Scene {
     void add_instance(Instance instance, const Eigen::Affine3d& pose_world);
     void commit();
 
-    std::unique_ptr<Device> device_;
+    std::unique_ptr<Device> device_;  // none when portable
     RTCSceneTy* top_ = nullptr;
+    std::optional<PlainTracer> plain_tracer_;
     Eigen::Vector3d origin_;
     LaneRaster lanes_;
     std::deque<Prototype> prototypes_;  // a deque keeps their addresses

@@ -6,7 +6,8 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <tbb/parallel_for.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include "render/frame.h"
 #include "render/scene.h"
@@ -16,7 +17,22 @@ namespace reprise::render {
 
 /// What is kept between calls: the town, the sky of the last weather, and memory for pictures.
 struct Sensors::Scene {
-    explicit Scene(const world::TownT& town) : scene(town) {}
+    Scene(const world::TownT& town, const Options& options) {
+        REPRISE_CHECK(options.threads >= 0, std::to_string(options.threads) + " threads");
+        if (options.threads > 0) {
+            const auto threads = static_cast<std::size_t>(options.threads);
+            limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
+            arena.initialize(options.threads);
+        }
+        arena.execute([&] {
+            const PlainFloats plain;
+            scene.emplace(town, options.portable);
+        });
+    }
+
+    std::vector<world::SensorFrame> observe(const world::TickView& tick,
+                                            const world::SensorRig& rig,
+                                            const world::Weather& weather);
 
     const Sky& sky_of(const world::Weather& weather) {
         if (!sky || !(sky->weather() == weather))
@@ -24,7 +40,11 @@ struct Sensors::Scene {
         return *sky;
     }
 
-    render::Scene scene;
+    // The limit also binds Embree, which has an arena of its own, and allows more threads than
+    // cores.
+    std::optional<tbb::global_control> limit;
+    tbb::task_arena arena;
+    std::optional<render::Scene> scene;
     std::optional<Sky> sky;
     Frame frame;
 };
@@ -83,23 +103,31 @@ std::vector<std::uint8_t> class_bytes(const Scene& scene, const std::vector<Hit>
 
 }  // namespace
 
-Sensors::Sensors(const world::TownT& town) : scene_(std::make_unique<Scene>(town)) {}
+Sensors::Sensors(const world::TownT& town, const Options& options)
+    : scene_(std::make_unique<Scene>(town, options)) {}
 
 Sensors::~Sensors() = default;
 
 std::vector<world::SensorFrame> Sensors::observe(const world::TickView& tick,
                                                  const world::SensorRig& rig,
                                                  const world::Weather& weather) {
-    render::Scene& scene = scene_->scene;
+    return scene_->arena.execute([&] { return scene_->observe(tick, rig, weather); });
+}
+
+std::vector<world::SensorFrame> Sensors::Scene::observe(const world::TickView& tick,
+                                                        const world::SensorRig& rig,
+                                                        const world::Weather& weather) {
+    const PlainFloats plain;
+    render::Scene& placed = *scene;
     // Who carries cameras, and from where they look.
     std::vector<std::uint32_t> mounts;
     std::vector<Camera> cameras;
     for (const world::SensorSpec& spec : rig) {
-        cameras.push_back(camera_of(tick, spec, scene.origin()));
+        cameras.push_back(camera_of(tick, spec, placed.origin()));
         if (spec.actor != 0 && std::find(mounts.begin(), mounts.end(), spec.actor) == mounts.end())
             mounts.push_back(spec.actor);
     }
-    scene.place(tick, mounts);
+    placed.place(tick, mounts);
 
     // Sensors of one place look once, together.
     std::vector<world::SensorFrame> frames(rig.size());
@@ -108,8 +136,8 @@ std::vector<world::SensorFrame> Sensors::observe(const world::TickView& tick,
     for (std::size_t first = 0; first < rig.size(); ++first) {
         if (done[first])
             continue;
-        const std::uint32_t mask = scene.mask_hiding(rig[first].actor);
-        see(scene, cameras[first], mask, hits);
+        const std::uint32_t mask = placed.mask_hiding(rig[first].actor);
+        see(placed, cameras[first], mask, hits);
         for (std::size_t i = first; i < rig.size(); ++i) {
             if (done[i] || rig[i].actor != rig[first].actor || !(cameras[i] == cameras[first]))
                 continue;
@@ -120,13 +148,13 @@ std::vector<world::SensorFrame> Sensors::observe(const world::TickView& tick,
                     frames[i].data = depth_bytes(hits);
                     break;
                 case world::SensorKind::semantic:
-                    frames[i].data = class_bytes(scene, hits);
+                    frames[i].data = class_bytes(placed, hits);
                     break;
                 case world::SensorKind::rgb: {
-                    const Stage stage{scene, scene_->sky_of(weather), tick.index()};
-                    shade(stage, cameras[i], mask, hits, scene_->frame);
-                    draw_rain(stage, cameras[i], hits, scene_->frame);
-                    frames[i].data = develop(scene_->frame, tick.index());
+                    const Stage stage{placed, sky_of(weather), tick.index()};
+                    shade(stage, cameras[i], mask, hits, frame);
+                    draw_rain(stage, cameras[i], hits, frame);
+                    frames[i].data = develop(frame, tick.index());
                     break;
                 }
             }

@@ -31,13 +31,6 @@ void fill(Packet& packet, std::size_t lane, const Ray& ray) {
     packet.flags[lane] = 0;
 }
 
-/// Embree asserts that rays are numbers, and would end the process.
-bool is_valid(const Ray& ray) {
-    constexpr float most = 1e18F;
-    return ray.origin.cwiseAbs().maxCoeff() < most && ray.direction.cwiseAbs().maxCoeff() < most &&
-           ray.direction.squaredNorm() > 1e-12F && ray.far >= 0;
-}
-
 RTCIntersectContext context_of(bool coherent) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -48,10 +41,18 @@ RTCIntersectContext context_of(bool coherent) {
 
 }  // namespace
 
+bool is_valid(const Ray& ray) {
+    constexpr float most = 1e18F;
+    return ray.origin.cwiseAbs().maxCoeff() < most && ray.direction.cwiseAbs().maxCoeff() < most &&
+           ray.direction.squaredNorm() > 1e-12F && ray.far >= 0;
+}
+
 void find_nearest(const Scene& scene,
                   std::span<const Ray> rays,
                   bool coherent,
                   std::span<Hit> hits) {
+    if (scene.plain_tracer() != nullptr)
+        return scene.plain_tracer()->find_nearest(rays, hits);
     RTCIntersectContext context = context_of(coherent);
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         alignas(32) RTCRayHit8 packet;
@@ -82,6 +83,8 @@ void find_nearest(const Scene& scene,
 }
 
 void find_free(const Scene& scene, std::span<const Ray> rays, std::span<std::uint8_t> free) {
+    if (scene.plain_tracer() != nullptr)
+        return scene.plain_tracer()->find_free(rays, free);
     RTCIntersectContext context = context_of(true);
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         alignas(32) RTCRay8 packet;

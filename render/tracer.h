@@ -31,6 +31,9 @@ struct Hit {
     float v = 0;  ///< of its third
 };
 
+/// Embree asserts that rays are numbers, and would end the process: others are not looked up.
+bool is_valid(const Ray& ray);
+
 /// Nearest hits, in packets of 8. `hits` has the size of `rays`.
 void find_nearest(const Scene& scene,
                   std::span<const Ray> rays,

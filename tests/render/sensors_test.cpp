@@ -1,7 +1,6 @@
 #include "render/sensors.h"
 
 #include <cmath>
-#include <tbb/global_control.h>
 
 #include <gmock/gmock.h>
 
@@ -123,29 +122,6 @@ TEST(Sensors, DepthAndClassesAreTheSameUnderEveryWeather) {
     EXPECT_EQ(dry[0].data, wet[0].data);
     EXPECT_EQ(dry[1].data, wet[1].data);
     EXPECT_NE(dry[2].data, wet[2].data);
-}
-
-TEST(Sensors, NumberOfThreadsAndHistoryDoNotMatter) {
-    const world::SealedTick tick = busy_tick();
-    world::SensorRig rig{camera(SensorKind::rgb, {1, 0, 1.4}),
-                         camera(SensorKind::depth, {1, 0, 1.4}),
-                         camera(SensorKind::semantic, {1, 0, 1.4})};
-    for (world::SensorSpec& spec : rig)
-        spec.actor = 1;
-    for (const world::Weather& weather : {test::noon(), test::rain()}) {
-        render::Sensors sensors(test::straight_road(400));
-        const auto many = sensors.observe(tick.view(), rig, weather);
-        sensors.observe(
-            tick_with({}, {car_at(5, 44, 0)}).view(), {camera(SensorKind::rgb)}, test::noon());
-        const auto again = sensors.observe(tick.view(), rig, weather);
-        const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-        render::Sensors lonely(test::straight_road(400));
-        const auto single = lonely.observe(tick.view(), rig, weather);
-        for (std::size_t i = 0; i < rig.size(); ++i) {
-            EXPECT_EQ(many[i].data, again[i].data);
-            EXPECT_EQ(many[i].data, single[i].data);
-        }
-    }
 }
 
 TEST(Sensors, SharedAndSingleLooksAgree) {

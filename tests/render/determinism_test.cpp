@@ -1,0 +1,106 @@
+#include <cmath>
+#include <map>
+
+#include <gmock/gmock.h>
+
+#include "tests/render/street.h"
+
+namespace reprise {
+
+namespace {
+
+using world::SensorFrame;
+
+void expect_equal(const std::vector<SensorFrame>& expected,
+                  const std::vector<SensorFrame>& found,
+                  const std::string& what) {
+    ASSERT_EQ(expected.size(), found.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        EXPECT_TRUE(expected[i].data == found[i].data) << what << ": frame " << i;
+}
+
+}  // namespace
+
+TEST(Sensors, EveryNumberOfThreadsAndEveryRepeatGiveTheSameBytes) {
+    const world::TownT town = test::street();
+    const world::SealedTick tick = test::street_tick();
+    const world::SensorRig rig = test::street_rig(240, 180);
+    for (const bool portable : {false, true}) {
+        std::map<std::string, std::vector<SensorFrame>> expected;  // by weather
+        for (const int threads : {1, 2, 4}) {
+            render::Sensors sensors(town, {.threads = threads, .portable = portable});
+            for (int repeat = 0; repeat < threads; ++repeat) {
+                for (const auto& [name, weather] : test::weathers()) {
+                    const auto found = sensors.observe(tick.view(), rig, weather);
+                    const auto first = expected.try_emplace(name, found).first;
+                    expect_equal(first->second,
+                                 found,
+                                 std::string(name) + ", portable " + std::to_string(portable) +
+                                     ", threads " + std::to_string(threads));
+                    EXPECT_GT(test::mean(found[0], 1, 0, 0, 239, 179), 20) << "there is light";
+                }
+            }
+        }
+    }
+}
+
+TEST(Sensors, HistoryDoesNotMatter) {
+    const world::TownT town = test::street();
+    const world::SealedTick tick = test::street_tick();
+    const world::SensorRig rig = test::street_rig();
+    for (const bool portable : {false, true}) {
+        render::Sensors fresh(town, {.portable = portable});
+        const auto expected = fresh.observe(tick.view(), rig, test::rain());
+        render::Sensors used(town, {.portable = portable});
+        used.observe(test::tick_with({}, {test::car_at(5, 44, 0)}).view(),
+                     {test::camera(world::SensorKind::rgb)},
+                     test::noon());
+        expect_equal(expected, used.observe(tick.view(), rig, test::rain()), "after another tick");
+    }
+}
+
+/// Two ways to the same picture: Embree's arithmetic and ours. They may part at edges only.
+TEST(Sensors, PortablePicturesShowWhatOthersShow) {
+    const world::TownT town = test::street();
+    const world::SealedTick tick = test::street_tick();
+    const world::SensorRig rig = test::street_rig(320, 240);
+    const std::size_t pixels = 320 * 240;
+    for (const auto& [name, weather] : test::weathers()) {
+        const auto normal = render::Sensors(town).observe(tick.view(), rig, weather);
+        const auto portable =
+            render::Sensors(town, {.portable = true}).observe(tick.view(), rig, weather);
+        std::size_t other_color = 0;
+        std::size_t other_depth = 0;
+        std::size_t other_class = 0;
+        for (std::size_t i = 0; i < pixels; ++i) {
+            for (std::size_t channel = 3 * i; channel < 3 * i + 3; ++channel)
+                if (std::abs(normal[0].data[channel] - portable[0].data[channel]) > 2) {
+                    ++other_color;
+                    break;
+                }
+            const auto x = static_cast<int>(i % 320);
+            const auto y = static_cast<int>(i / 320);
+            const auto here = static_cast<double>(test::depth_at(normal[1], x, y));
+            const auto there = static_cast<double>(test::depth_at(portable[1], x, y));
+            other_depth +=
+                static_cast<std::size_t>(!(here == there || std::abs(here - there) <= 1e-6 * here));
+            other_class += static_cast<std::size_t>(normal[2].data[i] != portable[2].data[i]);
+        }
+        EXPECT_LE(other_color, pixels / 1000) << name;
+        EXPECT_LE(other_depth, pixels / 5000) << name;
+        EXPECT_LE(other_class, pixels / 5000) << name;
+    }
+}
+
+TEST(Sensors, PortablePicturesHideTheCarThatCarriesTheCamera) {
+    render::Sensors sensors(test::straight_road(400), {.portable = true});
+    const world::SealedTick tick = test::street_tick();
+    world::SensorSpec inside = test::camera(world::SensorKind::semantic, {1, 0, 0.9});
+    inside.actor = 1;
+    const auto behind = test::camera(world::SensorKind::semantic, {32, -1.75, 1.4});
+    const auto frames = sensors.observe(tick.view(), {inside, behind}, test::noon());
+    EXPECT_EQ(test::class_at(frames[0], 80, 118), world::SemanticClass::road);
+    EXPECT_EQ(test::class_at(frames[1], 80, 70), world::SemanticClass::car);
+}
+
+}  // namespace reprise
