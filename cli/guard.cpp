@@ -5,6 +5,7 @@
 #include <exception>
 #include <unistd.h>
 
+#include "cli/reproduce.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -49,11 +50,8 @@ int guarded(const std::string& command_line, const std::function<int()>& work) {
 
 std::string command_text(int argc, char** argv) {
     std::string text = "reprise";
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const bool plain = word.find_first_of(" '\"\\$`;&|<>()*?") == std::string::npos;
-        text += plain ? " " + word : " '" + word + "'";
-    }
+    for (int i = 1; i < argc; ++i)
+        text += " " + shell_word(argv[i]);
     return text;
 }
 

@@ -5,7 +5,13 @@
 
 namespace reprise::cli {
 
-enum ExitCode : int { exit_good = 0, exit_differs = 1, exit_bad_input = 2, exit_our_fault = 70 };
+enum ExitCode : int {
+    exit_good = 0,
+    exit_differs = 1,
+    exit_bad_input = 2,
+    exit_nondeterministic = 3,
+    exit_our_fault = 70
+};
 
 /// Runs a program's work and turns exceptions into one line on stderr and an exit code: the user's
 /// mistakes into 2, ours into 70 with the command that comes back to the same place.

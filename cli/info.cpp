@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/guard.h"
+#include "cli/reproduce.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
 #include "world/tick.h"
@@ -13,20 +14,6 @@ namespace {
 
 void row(const std::string& key, const std::string& value) {
     fmt::print("  {:<12}{}\n", key, value);
-}
-
-/// The command that makes this trace again.
-std::string reproduce(const replay::TraceReader& trace) {
-    const world::EpisodeT& episode = trace.episode();
-    std::string text = "reprise run " + episode.scenario_path;
-    if (!episode.town_path.empty())
-        text += " --town " + episode.town_path;
-    text += fmt::format(" --seed {} --for {}",
-                        episode.seed,
-                        static_cast<double>(episode.max_ticks * episode.step_ns) / 1e9);
-    for (const world::ParameterT& parameter : episode.parameters)
-        text += " --set " + parameter.key + "=" + parameter.value;
-    return text;
 }
 
 void print_sizes(const replay::TraceReader& trace) {
@@ -68,7 +55,7 @@ int info(const TraceOptions& options) {
     for (const world::ParameterT& line : episode.fingerprint)
         build += (build.empty() ? "" : ", ") + line.key + " " + line.value;
     row("build", build);
-    row("again", reproduce(trace));
+    row("again", run_command(episode, episode.max_ticks));
     return exit_good;
 }
 

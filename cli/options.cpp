@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "cli/golden_options.h"
 #include "world/check.h"
 #include "world/fingerprint.h"
 #include "world/weather.h"
@@ -64,24 +65,18 @@ struct CommandLine::App {
         "bit for bit, and renders what the sensors saw under any weather.",
         "reprise"};
     std::vector<std::string> assignments;
+    std::vector<std::string> accept_assignments;
     std::string size = "800x600";
     std::string mount;
+    std::string threads;
 };
 
 CommandLine::~CommandLine() = default;
 
 namespace {
 
-void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignments) {
-    CLI::App& command = *app.add_subcommand("run", "Run a scenario and record it");
-    command.add_option("scenario", run.scenario, "The scenario, a Lua file")
-        ->required()
-        ->type_name("SCENARIO.lua");
-    command
-        .add_option("-o,--output",
-                    run.output,
-                    "Where the trace goes (default: the scenario's name, in this folder)")
-        ->type_name("T.mcap");
+/// What a run may be given besides its scenario.
+void add_start(CLI::App& command, RunOptions& run, std::vector<std::string>& assignments) {
     command
         .add_option("--town", run.town, "Another town: its name, or a SUMO network (.net.xml[.gz])")
         ->type_name("NET");
@@ -102,19 +97,45 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
                            : "expected seconds above 0, 86400 at most, got '" + text + "'";
             },
             ""));
+}
+
+void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignments) {
+    CLI::App& command = *app.add_subcommand("run", "Run a scenario and record it");
+    command
+        .add_option("scenario",
+                    run.scenario,
+                    "The scenario, a Lua file; or a trace, whose run is made again from what it "
+                    "carries")
+        ->required()
+        ->type_name("SCENARIO.lua");
+    command
+        .add_option("-o,--output",
+                    run.output,
+                    "Where the trace goes (default: the scenario's name, in this folder)")
+        ->type_name("T.mcap")
+        ->check(CLI::Validator(
+            [](std::string& path) -> std::string {
+                return path.empty() ? "expected the path of a file, got ''" : "";
+            },
+            ""));
+    add_start(command, run, assignments);
     command
         .add_option("--nudge",
-                    run.nudge_tick,
-                    "A drill: move the first vehicle's steering by one unit in the last place in "
-                    "this tick, without a word in the recording, to see verify and diff find it")
-        ->type_name("TICK")
-        ->transform(whole_number());
+                    run.nudge,
+                    "A drill: in this tick move one recorded number (default: the first vehicle's "
+                    "steering) by so many units in the last place (default 1), without a word in "
+                    "the recording, to see verify and diff find it; such as 600:ego.velocity.x")
+        ->type_name("TICK[:ACTOR.FIELD[:N]]");
     command.footer(
         "Exit status: 0 all checks passed, 1 a check failed, 2 bad input.\n"
         "Example: reprise run scenarios/free_drive.lua -o a.mcap --seed 7 --for 60");
 }
 
-void add_render(CLI::App& app, RenderOptions& render, std::string& size, std::string& mount) {
+void add_render(CLI::App& app,
+                RenderOptions& render,
+                std::string& size,
+                std::string& mount,
+                std::string& threads) {
     CLI::App& command = *app.add_subcommand("render", "Render what cameras saw, from a trace");
     command.add_option("trace", render.trace, "The trace")->required()->type_name("T.mcap");
     command.add_option("-o,--output", render.directory, "Folder for the pictures")
@@ -155,10 +176,33 @@ void add_render(CLI::App& app, RenderOptions& render, std::string& size, std::st
         ->type_name("DEGREES");
     command.add_option("--yaw", render.yaw_deg, "Camera left by this (default 0)")
         ->type_name("DEGREES");
+    command
+        .add_option("--threads",
+                    threads,
+                    "How many work on a picture (default: all cores); the bytes stay the same")
+        ->type_name("N");
+    command.add_flag(
+        "--portable",
+        render.portable,
+        "Make pictures whose bytes are the same on every x86-64 CPU (depth and semantic take "
+        "twice as long, rgb 10 to 20 % longer)");
     command.footer(
         "Pictures are named by tick: DIR/000120.png. depth: 16-bit, millimetres; semantic: 8-bit\n"
         "class ids (CARLA 0.9.14); DIR/view/ holds versions of these two for people to look at.\n"
         "Example: reprise render a.mcap -o rain --weather hard_rain_sunset --every 20");
+}
+
+/// CLI11 would only say that a command is missing.
+void check_command(const CLI::App& app, const std::string& word) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    if (word.empty() || word.starts_with('-') ||
+        std::find(names.begin(), names.end(), word) != names.end())
+        return;
+    throw CLI::ExtrasError("no command '" + word + "'" + world::did_you_mean(word, names) +
+                               "; there are " + joined(names),
+                           CLI::ExitCodes::ExtrasError);
 }
 
 std::pair<std::string, std::string> split_assignment(const std::string& text) {
@@ -175,6 +219,23 @@ void read_size(const std::string& text, RenderOptions& render) {
         render.height < 1 || render.width > 16384 || render.height > 16384)
         throw CLI::ValidationError("--size",
                                    "expected WIDTHxHEIGHT such as 800x600, got '" + text + "'");
+}
+
+void read_threads(const std::string& text, RenderOptions& render) {
+    constexpr int most = 1024;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, render.threads);
+    if (error != std::errc() || stop != end || render.threads < 1 || render.threads > most)
+        throw CLI::ValidationError("--threads",
+                                   "expected a number of threads from 1 to " +
+                                       std::to_string(most) + ", got '" + text + "'");
+}
+
+/// Each kind has one folder.
+void check_cameras(const std::vector<std::string>& cameras) {
+    for (auto camera = cameras.begin(); camera != cameras.end(); ++camera)
+        if (std::find(cameras.begin(), camera, *camera) != camera)
+            throw CLI::ValidationError("--camera", "'" + *camera + "' is there twice");
 }
 
 void read_mount(const std::string& text, RenderOptions& render) {
@@ -210,18 +271,27 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     diff_command.add_option("found", diff.found, "Another trace")->required()->type_name("B.mcap");
     diff_command.footer("Exit status: 0 equal, 1 different, 2 bad input.");
 
-    add_render(app, render, app_->size, app_->mount);
+    add_render(app, render, app_->size, app_->mount, app_->threads);
+    add_golden_commands(app, test, accept, golden_list, [&](CLI::App& to) {
+        add_start(to, accept.start, app_->accept_assignments);
+    });
 }
 
 std::optional<int> CommandLine::parse(int argc, char** argv) {
     CLI::App& app = app_->app;
     try {
+        check_command(app, argc > 1 ? argv[1] : "");
         app.parse(argc, argv);
         for (const std::string& assignment : app_->assignments)
             run.parameters.push_back(split_assignment(assignment));
+        for (const std::string& assignment : app_->accept_assignments)
+            accept.start.parameters.push_back(split_assignment(assignment));
         read_size(app_->size, render);
         if (!app_->mount.empty())
             read_mount(app_->mount, render);
+        if (app.get_subcommand("render")->count("--threads") > 0)
+            read_threads(app_->threads, render);
+        check_cameras(render.cameras);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0)
             return app.exit(error);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,7 +17,7 @@ struct RunOptions {
     std::optional<std::uint64_t> seed;
     std::optional<double> seconds;
     std::vector<std::pair<std::string, std::string>> parameters;
-    std::optional<std::uint64_t> nudge_tick;
+    std::string nudge;  ///< TICK[:ACTOR.FIELD[:UNITS]]; empty: none
 };
 
 struct TraceOptions {
@@ -43,6 +44,31 @@ struct RenderOptions {
     std::vector<double> mount{1.0, 0.0, 1.4};
     double pitch_deg = 0;
     double yaw_deg = 0;
+    int threads = 0;  ///< 0: one a core
+    bool portable = false;
+};
+
+struct TestOptions {
+    std::vector<std::string> paths;
+    std::size_t jobs = 0;  ///< 0: one a core
+    std::string junit;     ///< empty: none
+    std::string output = "reprise-test";
+    std::string keep;  ///< empty: nowhere
+    bool list = false;
+};
+
+struct AcceptOptions {
+    std::vector<std::string> names;
+    std::string because;
+    std::string name;  ///< of the case; empty: the scenario as it stands
+    RunOptions start;  ///< town, seed, seconds and parameters only
+    std::size_t jobs = 0;
+    std::string keep;
+};
+
+struct GoldenListOptions {
+    std::vector<std::string> paths;
+    bool orphans = false;
 };
 
 /// The whole command line of all programs in one place: the thin `reprise` parses it, answers help,
@@ -58,12 +84,15 @@ class CommandLine {
     /// been printed), or nothing when `command` should now be carried out.
     std::optional<int> parse(int argc, char** argv);
 
-    std::string command;  ///< run, verify, info, diff or render
+    std::string command;  ///< run, verify, info, diff, render, test, accept or golden
     RunOptions run;
     TraceOptions verify;
     TraceOptions info;
     DiffOptions diff;
     RenderOptions render;
+    TestOptions test;
+    AcceptOptions accept;
+    GoldenListOptions golden_list;
 
   private:
     struct App;

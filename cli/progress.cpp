@@ -26,7 +26,7 @@ Progress::~Progress() {
 }
 
 void Progress::update(std::uint64_t done) {
-    if (!on_terminal_)
+    if (!on_terminal_ || done == 0)  // nothing to tell the speed by
         return;
     const auto now = Clock::now();
     if (now < next_)

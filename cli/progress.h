@@ -6,8 +6,8 @@
 
 namespace reprise::cli {
 
-/// A bar on stderr when that is a terminal, nothing otherwise. The only clock in the project: it
-/// never touches what is simulated.
+/// A bar on stderr when that is a terminal, nothing otherwise. Clocks are in cli/ only: they
+/// never touch what is simulated.
 class Progress {
   public:
     /// `what` such as "running"; `unit` such as "ticks".

@@ -125,7 +125,8 @@ int render(const RenderOptions& options) {
     const Span span = ticks_to_render(options, trace);
     world::SensorRig rig = make_rig(options);
     make_folders(options);
-    render::Sensors sensors(trace.recording().town);
+    render::Sensors sensors(trace.recording().town,
+                            {.threads = options.threads, .portable = options.portable});
     const world::WeatherPreset* other = world::find_weather(options.weather);
     Progress progress("rendering", "pictures", (span.to - span.from) / span.every + 1);
     std::uint64_t done = 0;

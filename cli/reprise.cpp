@@ -1,33 +1,28 @@
 // The program `reprise`: thin, so that it starts in milliseconds. It reads the command line and
 // traces itself, and leaves the heavy work to programs that lie beside it: linking SUMO and OpenCV
 // in here would load 222 shared libraries at every start.
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <unistd.h>
 
+#include "cli/accept.h"
 #include "cli/diff.h"
+#include "cli/golden_list.h"
 #include "cli/guard.h"
+#include "cli/helper_program.h"
 #include "cli/info.h"
 #include "cli/options.h"
+#include "cli/test.h"
 #include "world/check.h"
 
 namespace {
 
-namespace fs = std::filesystem;
-
-/// Replaces this process by the helper program of that name: beside this one, or in
-/// ../libexec/reprise where an installation puts it.
+/// Replaces this process by the helper program of that name.
 [[noreturn]] void become(const std::string& helper, char** argv) {
-    const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-    const std::array<fs::path, 2> places{here / helper, here / "../libexec/reprise" / helper};
-    for (const fs::path& place : places)
-        if (fs::exists(place))
-            execv(place.c_str(), argv);
-    throw reprise::world::Error("cannot start " + places[0].string() + ": " + std::strerror(errno) +
-                                "; is the installation complete?");
+    const std::filesystem::path program = reprise::cli::helper_program(helper);
+    execv(program.c_str(), argv);
+    throw reprise::world::Error("cannot start " + program.string() + ": " + std::strerror(errno));
 }
 
 }  // namespace
@@ -42,6 +37,12 @@ int main(int argc, char** argv) {
             return info(line.info);
         if (line.command == "diff")
             return diff(line.diff);
+        if (line.command == "test")
+            return test(line.test);
+        if (line.command == "accept")
+            return accept(line.accept);
+        if (line.command == "golden")
+            return golden_list(line.golden_list);
         become(line.command == "render" ? "reprise-render" : "reprise-run", argv);
     });
 }

@@ -1,15 +1,17 @@
 #include "cli/run.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 
 #include "cli/full_fingerprint.h"
 #include "cli/guard.h"
-#include "cli/self_test.h"
 #include "cli/progress.h"
+#include "cli/self_test.h"
 #include "cli/towns.h"
 #include "kernel/kernel.h"
 #include "replay/recording.h"
+#include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "scripting/scenario.h"
 #include "traffic/town_reader.h"
@@ -22,6 +24,37 @@ namespace {
 
 namespace fs = std::filesystem;
 using Check = scripting::Scenario::Check;
+
+bool is_trace(const fs::path& path) {
+    return path.extension() == ".mcap";
+}
+
+void note_build(world::EpisodeT& episode) {
+    episode.fingerprint.clear();
+    for (const auto& [key, value] : full_fingerprint()) {
+        world::ParameterT line;
+        line.key = key;
+        line.value = value;
+        episode.fingerprint.push_back(line);
+    }
+}
+
+/// What a recorded run started from; of this only its length may be another.
+replay::Recording prepare_again(const RunOptions& options, replay::TraceReader& trace) {
+    if (options.town || options.seed || !options.parameters.empty())
+        throw world::Error(options.scenario +
+                           ": a recorded run is run again as it was: --town, --seed and --set are "
+                           "for scenarios; to change them run its scenario");
+    replay::Recording recording = trace.recording();
+    world::EpisodeT& episode = recording.episode;
+    if (options.seconds)
+        episode.max_ticks = std::max<std::uint64_t>(
+            1,
+            static_cast<std::uint64_t>(
+                std::llround(*options.seconds * 1e9 / static_cast<double>(episode.step_ns))));
+    note_build(episode);
+    return recording;
+}
 
 replay::Recording prepare(const RunOptions& options) {
     replay::Recording recording;
@@ -37,12 +70,7 @@ replay::Recording prepare(const RunOptions& options) {
         episode.town;  // as it was named: equal runs write equal bytes in any folder
     episode.town = network.name;
     episode.town_digest = world::digest128(network.xml);
-    for (const auto& [key, value] : full_fingerprint()) {
-        world::ParameterT line;
-        line.key = key;
-        line.value = value;
-        episode.fingerprint.push_back(line);
-    }
+    note_build(episode);
     recording.network = std::move(network.xml);
     return recording;
 }
@@ -50,7 +78,36 @@ replay::Recording prepare(const RunOptions& options) {
 fs::path output_path(const RunOptions& options) {
     if (!options.output.empty())
         return options.output;
-    return fs::path(options.scenario).stem().string() + ".mcap";
+    const fs::path scenario = options.scenario;
+    return scenario.stem().string() + (is_trace(scenario) ? "_again.mcap" : ".mcap");
+}
+
+/// Where a link leads: it stays, and what it names is written.
+fs::path behind_links(fs::path path) {
+    constexpr int deepest = 40;  // as Linux has it
+    std::error_code ignored;
+    for (int i = 0; i < deepest && fs::is_symlink(path, ignored); ++i)
+        path = path.parent_path() / fs::read_symlink(path);  // an absolute target stands alone
+    return path;
+}
+
+std::optional<kernel::Nudge> planned_nudge(const RunOptions& options,
+                                           const world::EpisodeT& episode) {
+    if (options.nudge.empty())
+        return std::nullopt;
+    const kernel::Nudge nudge = kernel::parse_nudge(options.nudge);
+    if (nudge.tick < 1 || nudge.tick > episode.max_ticks)
+        throw world::Error(
+            fmt::format("--nudge {}: the run has ticks 1 to {}", options.nudge, episode.max_ticks));
+    return nudge;
+}
+
+/// What the drivers of a recorded run did in a tick; nothing for a new run.
+std::span<const world::Control> inputs(std::optional<replay::TraceReader>& before,
+                                       std::uint64_t tick) {
+    if (!before || tick > before->ticks())
+        return {};
+    return before->tick(tick).view.controls();
 }
 
 /// What happened, as it happens: printed lines, collisions, checks.
@@ -117,27 +174,31 @@ void print_summary(const replay::Recording& recording,
 
 int run(const RunOptions& options) {
     self_test();
-    const replay::Recording recording = prepare(options);
-    if (options.nudge_tick &&
-        (*options.nudge_tick < 1 || *options.nudge_tick > recording.episode.max_ticks))
-        throw world::Error(fmt::format("--nudge {}: the run has ticks 1 to {}",
-                                       *options.nudge_tick,
-                                       recording.episode.max_ticks));
+    std::optional<replay::TraceReader> before;  // when it is a recorded run
+    if (is_trace(options.scenario))
+        before.emplace(options.scenario);
+    const replay::Recording recording = before ? prepare_again(options, *before) : prepare(options);
+    const std::optional<kernel::Nudge> nudge = planned_nudge(options, recording.episode);
     const fs::path path = output_path(options);
-    replay::TraceWriter trace(path, recording);
+    replay::TraceWriter trace(behind_links(path), recording);
     kernel::Kernel kernel(recording);
-    if (options.nudge_tick)
-        kernel.nudge(*options.nudge_tick);
+    if (nudge)
+        kernel.nudge(*nudge);
     Progress progress("running", "ticks", recording.episode.max_ticks);
+    std::uint64_t index = 0;
     while (!kernel.finished()) {
-        const world::SealedTick& tick = kernel.step();
+        const world::SealedTick& tick = kernel.step(inputs(before, ++index));
         trace.append(tick);
         print_events(tick.view(), recording.episode.step_ns, progress);
-        progress.update(tick.view().index());
+        progress.update(index);
     }
     progress.clear();
     trace.close(kernel.outcome());
     print_summary(recording, kernel, path, progress.seconds());
+    if (nudge && nudge->tick > kernel.outcome().ticks)
+        throw world::Error(fmt::format("--nudge {}: the run ended at tick {}; nothing was nudged",
+                                       nudge->text,
+                                       kernel.outcome().ticks));
     return kernel.outcome().verdict == "failed" ? exit_differs : exit_good;
 }
 

@@ -1,12 +1,13 @@
 #include "cli/verify.h"
 
 #include <fmt/format.h>
-#include <map>
 
 #include "cli/full_fingerprint.h"
 #include "cli/guard.h"
-#include "cli/self_test.h"
+#include "cli/other_build.h"
 #include "cli/progress.h"
+#include "cli/reproduce.h"
+#include "cli/self_test.h"
 #include "kernel/verify.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
@@ -15,21 +16,14 @@ namespace reprise::cli {
 
 namespace {
 
-/// Names each line in which this build differs from the one that recorded the trace: with another
-/// build, equal bytes are not promised.
-void print_other_build(const world::EpisodeT& episode) {
-    std::map<std::string, std::string> recorded;
-    for (const world::ParameterT& line : episode.fingerprint)
-        recorded[line.key] = line.value;
-    bool other = false;
+replay::Fingerprint this_build() {
+    replay::Fingerprint lines;
     for (const auto& [key, value] : full_fingerprint()) {
-        if (recorded[key] == value)
-            continue;
-        if (!other)
-            fmt::print("another build recorded this; equal bytes are not promised\n");
-        other = true;
-        fmt::print("  {:<13}recorded {}, here {}\n", key, recorded[key], value);
+        lines.emplace_back();
+        lines.back().key = key;
+        lines.back().value = value;
     }
+    return lines;
 }
 
 }  // namespace
@@ -37,12 +31,16 @@ void print_other_build(const world::EpisodeT& episode) {
 int verify(const TraceOptions& options) {
     self_test();
     replay::TraceReader trace(options.trace);
-    print_other_build(trace.episode());
+    print_other_build("another build recorded this",
+                      "recorded",
+                      trace.episode().fingerprint,
+                      "here",
+                      this_build());
     Progress progress("verifying", "ticks", trace.ticks());
-    const auto divergence =
-        kernel::verify(trace, [&](std::uint64_t tick) { progress.update(tick); });
+    auto divergence = kernel::verify(trace, [&](std::uint64_t tick) { progress.update(tick); });
     progress.clear();
     if (divergence) {
+        divergence->again = "reprise verify " + shell_path(options.trace);
         fmt::print("{}: differs\n{}", options.trace, to_text(*divergence, trace.episode().step_ns));
         return exit_differs;
     }

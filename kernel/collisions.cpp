@@ -63,18 +63,23 @@ void Collisions::add(std::uint32_t actor,
 }
 
 void Collisions::write(std::vector<world::EventT>& events) const {
-    const std::size_t first = events.size();
-    for (const Pair& both : pairs_) {
-        const double least = both.ground ? least_ground_impulse : least_impulse;
-        if (both.impulse < least && !both.always)
-            continue;
+    const auto counts = [](const Pair& pair) {
+        return pair.always || pair.impulse >= (pair.ground ? least_ground_impulse : least_impulse);
+    };
+    for (auto pair = pairs_.begin(); pair != pairs_.end(); ++pair) {
+        Pair both = *pair;
+        bool is_event = counts(both);
         // Ground and obstacles are both the static world: they follow each other in the order.
-        const bool merge = events.size() > first && events.back().actor == both.actor &&
-                           events.back().other == both.other;
-        if (merge) {
-            events.back().value += both.impulse;
-            continue;
+        const auto next = pair + 1;
+        if (next != pairs_.end() && next->actor == both.actor && next->other == both.other) {
+            is_event = is_event || counts(*next);
+            both.impulse += next->impulse;
+            if (next->strongest > both.strongest)
+                both.position = next->position;
+            pair = next;
         }
+        if (!is_event)
+            continue;
         world::EventT event;
         event.kind = world::EventKind::collision;
         event.actor = both.actor;

@@ -16,7 +16,8 @@ namespace reprise::kernel {
 /// contact point with the largest. Wheels are rays and make none.
 ///
 /// Not events: less than 20 N s in a tick (a touch that goes on, 1.5 ton at 1 cm/s); against the
-/// ground less than 200 N s (a bumper that scrapes over a kerb).
+/// ground less than 200 N s (a bumper that scrapes over a kerb). Ground and obstacles together are
+/// one event, of all their impulses, when either of them is one.
 class Collisions {
   public:
     static constexpr double least_impulse = 20;

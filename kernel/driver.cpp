@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "kernel/car_model.h"
 #include "kernel/ego.h"
 #include "kernel/gatekeeper.h"
 #include "kernel/hazards.h"
@@ -31,15 +32,22 @@ constexpr double indicate_before = 30;  // [m]
 constexpr double low_sun = 0.1;         // [rad]
 constexpr double longest_wait = 12;     // [s] for room on the next lane
 
+CarModel model_with(std::uint16_t index) {
+    REPRISE_CHECK(index < world::vehicle_models().size(), "model " + std::to_string(index));
+    return car_model(world::vehicle_models()[index]);
+}
+
 }  // namespace
 
 struct Autopilot::State {
     State(std::uint32_t actor_id,
+          std::uint16_t model,
           const world::EpisodeT& episode,
           const world::TownT& town,
           const world::LaneMap& lane_map)
         : actor(actor_id),
           step(static_cast<double>(episode.step_ns) * 1e-9),
+          car(model_with(model)),
           lanes(&lane_map),
           graph(town),
           way(graph, episode.seed, actor_id),
@@ -58,6 +66,7 @@ struct Autopilot::State {
 
     std::uint32_t actor;
     double step;  ///< [s] of a tick
+    CarModel car;
     const world::LaneMap* lanes;
     LaneGraph graph;
     Way way;
@@ -67,8 +76,8 @@ struct Autopilot::State {
     DrivingStyle style;
     std::optional<std::vector<std::uint32_t>> new_route;  ///< given, not planned yet
     std::optional<double> speed_cap;
-    double rear_axle_s = 0;      ///< only grows while the way stays
-    double waited_for_lane = 0;  ///< [s] beside cars on the lane that we want
+    double rear_axle_s = 0;           ///< only grows while the way stays
+    std::uint32_t waiting_ticks = 0;  ///< beside cars on the lane that we want
     bool on_way = false;
 };
 
@@ -77,9 +86,7 @@ Autopilot::Autopilot(std::uint32_t actor,
                      const world::EpisodeT& episode,
                      const world::TownT& town,
                      const world::LaneMap& lanes)
-    : state_(std::make_unique<State>(actor, episode, town, lanes)) {
-    REPRISE_CHECK(model < world::vehicle_models().size(), "model " + std::to_string(model));
-}
+    : state_(std::make_unique<State>(actor, model, episode, town, lanes)) {}
 
 Autopilot::~Autopilot() = default;
 Autopilot::Autopilot(Autopilot&&) noexcept = default;
@@ -129,7 +136,7 @@ world::Control Autopilot::decide(const world::TickView& last) {
 
     // Hands and feet.
     const Pedals::Position pedals =
-        state.pedals.press(acceleration, ego.speed, *ego.model, state.step);
+        state.pedals.press(acceleration, ego.speed, state.car, state.step);
     control.mutate_throttle(pedals.throttle);
     control.mutate_brake(pedals.brake);
     control.mutate_steer(steer(ego, state.way.path()));
@@ -243,9 +250,9 @@ double Autopilot::State::change_lanes(const world::TickView& last, Ego& ego) {
         const double before = change.start - ego.front_s();
         if (before < 0 || before > 2 + ego.speed)
             continue;
-        if (is_clear(last, ego, graph.town(), change.to) || waited_for_lane > longest_wait) {
+        if (is_clear(last, ego, graph.town(), change.to) || waiting_ticks * step > longest_wait) {
             if (before < 1)
-                waited_for_lane = 0;
+                waiting_ticks = 0;
             return infinity;
         }
         if (change.spare > 5) {
@@ -254,7 +261,7 @@ double Autopilot::State::change_lanes(const world::TickView& last, Ego& ego) {
             start_over(ego, way.lanes_to_come(ego.rear_axle_s), front + later);
             return infinity;
         }
-        waited_for_lane += ego.speed < 0.5 ? step : 0;
+        waiting_ticks += ego.speed < 0.5 ? 1 : 0;
         return stop_acceleration(before, ego.speed, style.comfortable_braking, style);
     }
     return infinity;
@@ -325,9 +332,9 @@ std::uint64_t Autopilot::digest() const {
     hasher.add(state.new_route.has_value());
     if (state.new_route)
         hasher.add(std::span<const std::uint32_t>(*state.new_route));
-    hasher.add(state.speed_cap.value_or(-1));
+    hasher.add(state.speed_cap.value_or(-1));  // a cap is never negative
     hasher.add(state.rear_axle_s);
-    hasher.add(state.waited_for_lane);
+    hasher.add(state.waiting_ticks);
     hasher.add(state.on_way);
     return hasher.digest64();
 }

@@ -23,10 +23,6 @@ struct Ego {
     double steering_angle = 0;
     double rear_axle_s = 0;  ///< along the path
 
-    double front_overhang() const {
-        return model->length - model->rear_overhang - model->wheelbase;
-    }
-
     /// The front bumper along the path.
     double front_s() const { return rear_axle_s + model->length - model->rear_overhang; }
 

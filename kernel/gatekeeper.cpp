@@ -99,7 +99,7 @@ Gatekeeper::Gatekeeper(const world::TownT& town) : town_(&town) {}
 
 void Gatekeeper::reset() {
     yellow_gate_ = waiting_gate_ = stopped_gate_ = creeping_gate_ = world::none;
-    waited_ = 0;
+    waited_ticks_ = 0;
 }
 
 double Gatekeeper::decide(const world::TickView& last,
@@ -158,11 +158,11 @@ bool Gatekeeper::must_stop(const world::TickView& last,
         const bool give_way = sign || !has_gap(last, ego, way, gate);
         if (gate.serial != waiting_gate_) {
             waiting_gate_ = gate.serial;
-            waited_ = 0;
+            waited_ticks_ = 0;
         }
         if (give_way && ego.speed < 0.5 && to_line < 5)
-            waited_ += step;
-        if (waited_ > patience)
+            ++waited_ticks_;
+        if (waited_ticks_ * step > patience)
             creeping_gate_ = gate.serial;
         stop = stop || (give_way && gate.serial != creeping_gate_);
     }
@@ -251,7 +251,7 @@ void Gatekeeper::add_to(world::Hasher& hasher) const {
     hasher.add(yellow_gate_);
     hasher.add(yellow_stop_);
     hasher.add(waiting_gate_);
-    hasher.add(waited_);
+    hasher.add(waited_ticks_);
     hasher.add(stopped_gate_);
     hasher.add(creeping_gate_);
 }

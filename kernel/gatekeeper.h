@@ -56,7 +56,7 @@ class Gatekeeper {
     std::uint32_t yellow_gate_ = world::none;  ///< serial of the gate that the next field is about
     bool yellow_stop_ = false;
     std::uint32_t waiting_gate_ = world::none;
-    double waited_ = 0;                         ///< [s]
+    std::uint32_t waited_ticks_ = 0;
     std::uint32_t stopped_gate_ = world::none;  ///< where a stop sign was obeyed
     std::uint32_t creeping_gate_ = world::none;
 };

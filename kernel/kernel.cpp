@@ -1,8 +1,8 @@
 #include "kernel/kernel.h"
 
-#include <cmath>
-
+#include "kernel/digests.h"
 #include "kernel/measurements.h"
+#include "kernel/nudger.h"
 #include "kernel/pedestrians.h"
 #include "kernel/physics.h"
 #include "kernel/roster.h"
@@ -10,7 +10,6 @@
 #include "traffic/background.h"
 #include "world/arithmetic.h"
 #include "world/check.h"
-#include "world/digest.h"
 #include "world/town.h"
 
 namespace reprise::kernel {
@@ -24,35 +23,6 @@ world::SealedTick genesis(const world::EpisodeT& episode, const world::Digest128
     draft.tick.road_friction = episode.road_friction;
     world::SealedTick sealed = world::seal(draft, chain_seed);
     return sealed;
-}
-
-std::uint64_t digest_commands(const scripting::Scenario& scenario, const world::TickT& tick) {
-    world::Hasher hasher;
-    hasher.add(scenario.digest());
-    for (const world::CommandT& command : tick.commands) {
-        hasher.add(command.kind);
-        hasher.add(command.actor);
-        hasher.add(command.driver);
-        hasher.add(command.model);
-        hasher.add(command.lane);
-        for (const double value : {command.s, command.offset, command.speed, command.duration})
-            hasher.add(value);
-        hasher.add(std::span<const std::uint32_t>(command.lanes));
-        hasher.add(command.target);
-        hasher.add(command.control);
-        hasher.add(command.weather);
-        hasher.add(command.road_friction);
-        hasher.add_text(command.text);
-        hasher.add(command.line);
-    }
-    return hasher.digest64();
-}
-
-std::uint64_t digest_controls(const Roster& roster, const world::TickT& tick) {
-    world::Hasher hasher;
-    hasher.add(roster.digest());
-    hasher.add(std::span<const world::Control>(tick.controls));
-    return hasher.digest64();
 }
 
 }  // namespace
@@ -80,7 +50,7 @@ struct Kernel::Stages {
     Physics physics;
     world::Digest128 chain_seed;
     world::SealedTick last;
-    std::uint64_t nudge_tick = 0;
+    Nudger nudger;
     bool finished = false;
     std::string reason;
 };
@@ -105,31 +75,36 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     stage.scenario.advance(last, next);
     stage.roster.apply_commands(last, next, stage.physics);
     note_outcome(next);
-    digests.mutate_scenario(digest_commands(stage.scenario, next.tick));
+    stage.nudger.after_scenario(next);
+    digests.mutate_scenario(digest_of(stage.scenario, next));
 
     // 2. controls: what the drivers want
     stage.roster.apply_controls(controls, last, next);
-    nudge_controls(next);
-    digests.mutate_controls(digest_controls(stage.roster, next.tick));
+    stage.nudger.after_controls(next, stage.roster);
+    digests.mutate_controls(digest_of(stage.roster, next));
 
     // 3. traffic: background cars and signals
     stage.background.advance(last, next);
-    digests.mutate_traffic(stage.background.digest());
+    stage.nudger.after_traffic(next);
+    digests.mutate_traffic(digest_of(stage.background, next));
 
     // 4. pedestrians
     stage.pedestrians.advance(last, next);
-    digests.mutate_pedestrians(stage.pedestrians.digest());
+    stage.nudger.after_pedestrians(next, stage.pedestrians);
+    digests.mutate_pedestrians(digest_of(stage.pedestrians, next));
 
     // 5. physics: everything with mass, in equal substeps
     stage.physics.advance(last, next);
-    digests.mutate_physics(stage.physics.digest());
+    stage.nudger.after_physics(next, stage.physics);
+    digests.mutate_physics(digest_of(stage.physics, next));
 
     // 6. measurements: lanes, gaps, footprints, impulses; in the last tick the checks' verdicts
     const double step_seconds = static_cast<double>(stage.episode.step_ns) * 1e-9;
     measure(stage.town, stage.lanes, step_seconds, last, next);
     if (stage.finished)
         stage.scenario.conclude(last, next);
-    digests.mutate_measurements(digest_measurements(next));
+    stage.nudger.after_measurements(next);
+    digests.mutate_measurements(digest_of_measurements(next));
 
     // 7. record: from here on the tick never changes
     REPRISE_CHECK(world::is_plain_arithmetic(),
@@ -166,14 +141,6 @@ void Kernel::note_outcome(world::TickDraft& next) {
     }
 }
 
-void Kernel::nudge_controls(world::TickDraft& next) {
-    std::vector<world::Control>& controls = next.tick.controls;
-    if (stages_->nudge_tick != next.tick.index || controls.empty())
-        return;
-    const double steer = controls.front().steer();
-    controls.front().mutate_steer(std::nextafter(steer, steer > 0 ? -1.0 : 1.0));
-}
-
 bool Kernel::finished() const {
     return stages_->finished;
 }
@@ -192,8 +159,8 @@ std::vector<scripting::Scenario::Check> Kernel::checks() const {
     return stages_->scenario.checks();
 }
 
-void Kernel::nudge(std::uint64_t tick) {
-    stages_->nudge_tick = tick;
+void Kernel::nudge(const Nudge& nudge) {
+    stages_->nudger.plan(nudge);
 }
 
 }  // namespace reprise::kernel

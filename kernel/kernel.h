@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/nudge.h"
 #include "replay/recording.h"
 #include "scripting/scenario.h"
 #include "world/tick.h"
@@ -34,13 +35,11 @@ class Kernel {
 
     std::vector<scripting::Scenario::Check> checks() const;
 
-    /// A drill: adds one unit in the last place to the first physics vehicle's steering in this
-    /// tick, so that one can see what verify and diff say about it. Not part of the recording.
-    void nudge(std::uint64_t tick);
+    /// A drill, to be asked for before its tick. Not part of the recording.
+    void nudge(const Nudge& nudge);
 
   private:
     void note_outcome(world::TickDraft& next);
-    void nudge_controls(world::TickDraft& next);
 
     struct Stages;
     std::unique_ptr<Stages> stages_;

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "world/catalogue.h"
-#include "world/digest.h"
 #include "world/frames.h"
 
 namespace reprise::kernel {
@@ -181,20 +180,6 @@ void measure(const world::TownT& town,
             lane ? lane->lane : world::none,
             std::uint64_t{0});
     }
-}
-
-std::uint64_t digest_measurements(const world::TickDraft& draft) {
-    world::Hasher hasher;
-    hasher.add(std::span<const world::Measurement>(draft.tick.measurements));
-    for (const world::EventT& event : draft.tick.events) {
-        hasher.add(event.kind);
-        hasher.add(event.actor);
-        hasher.add(event.other);
-        hasher.add(event.position);
-        hasher.add(event.value);
-        hasher.add_text(event.text);
-    }
-    return hasher.digest64();
 }
 
 }  // namespace reprise::kernel

@@ -13,7 +13,4 @@ void measure(const world::TownT& town,
              const world::TickView& last,
              world::TickDraft& next);
 
-/// Of what this stage wrote and of all events of the tick.
-std::uint64_t digest_measurements(const world::TickDraft& draft);
-
 }  // namespace reprise::kernel

@@ -141,4 +141,13 @@ double Path::project(const Eigen::Vector3d& p_world, double from, double reach) 
     return std::max(best, from);
 }
 
+void Path::add_to(world::Hasher& hasher) const {
+    static_assert(sizeof(PathPoint) == 9 * sizeof(double), "no padding");
+    hasher.add(std::uint64_t{first_});
+    hasher.add(std::uint64_t{points_.size()});
+    hasher.add_bytes(points_.data(), points_.size() * sizeof(PathPoint));
+    for (const double number : {end_, rest_, tail_.x(), tail_.y(), tail_.z()})
+        hasher.add(number);
+}
+
 }  // namespace reprise::kernel

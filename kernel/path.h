@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "world/digest.h"
+
 namespace reprise::kernel {
 
 /// A sample of the driver's path. Yaw runs on without wrapping, so that differences are turns.
@@ -60,6 +62,8 @@ class Path {
 
     /// Index in points() of the last sample at or before s, clamped.
     std::size_t index(double s) const;
+
+    void add_to(world::Hasher& hasher) const;
 
     double s_of(std::size_t index) const { return static_cast<double>(first_ + index) * spacing; }
 

@@ -7,10 +7,6 @@ namespace reprise::kernel {
 
 namespace {
 
-constexpr double air_density = 1.225;         // [kg/m^3]
-constexpr double rolling_resistance = 0.012;  // force / load, car tyres on asphalt
-constexpr double gravity = 9.81;
-constexpr double full_braking = 9;    // [m/s^2] at full pedal on dry asphalt
 constexpr double settling = 0.5;      // [s] of the last metre before a stop
 constexpr double speed_gain = 1.2;    // [1/s]
 constexpr double braking_beyond = 3;  // [m/s^2] more than this only to avoid a collision
@@ -52,10 +48,7 @@ double travel_time(double distance, double speed, double acceleration, double to
     return (top_speed - start) / acceleration + (distance - ramp) / top_speed;
 }
 
-Pedals::Position Pedals::press(double wanted,
-                               double speed,
-                               const world::VehicleModel& model,
-                               double step) {
+Pedals::Position Pedals::press(double wanted, double speed, const CarModel& car, double step) {
     // What became of the last wish?
     if (started_ && !holding_ && !saturated_ && speed > 1) {
         const double got = (speed - last_speed_) / step;
@@ -78,15 +71,16 @@ Pedals::Position Pedals::press(double wanted,
     }
     holding_ = false;
 
+    const world::VehicleModel& model = *car.catalogue;
     const double resistance = 0.5 * air_density * model.drag_area * speed * speed +
-                              (speed > 0.1 ? rolling_resistance * model.mass * gravity : 0);
+                              (speed > 0.1 ? car.rolling_resistance * model.mass * gravity : 0);
     const double force = model.mass * (asked_ + correction_) + resistance;
     Position pedals;
     if (force > 0) {
         const double most = std::min(model.max_drive_force, model.power / std::max(speed, 1.0));
         pedals.throttle = std::min(force / most, 1.0);
     } else {
-        pedals.brake = std::min(-force / (model.mass * full_braking), 1.0);
+        pedals.brake = std::min(-force / (model.mass * car.brake_deceleration), 1.0);
     }
     saturated_ = pedals.throttle >= 1 || pedals.brake >= 1;
     return pedals;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "world/catalogue.h"
+#include "kernel/car_model.h"
 #include "world/digest.h"
 
 namespace reprise::kernel {
@@ -41,7 +41,7 @@ class Pedals {
         double brake = 0;
     };
 
-    Position press(double wanted, double speed, const world::VehicleModel& model, double step);
+    Position press(double wanted, double speed, const CarModel& car, double step);
 
     void add_to(world::Hasher& hasher) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/nudge.h"
 #include "world/catalogue.h"
 #include "world/check.h"
 #include "world/digest.h"
@@ -13,13 +14,10 @@ namespace reprise::kernel {
 
 namespace {
 
+using world::rounded;
+
 constexpr double walking_acceleration = 2;  // [m/s^2]
 constexpr double leg_share = 0.53;          // of the height
-
-/// As recorded: lengths in 1/1024 m and angles in 1/8192 rad, see world/traffic.fbs.
-double rounded(double value, double per_unit) {
-    return std::round(value * per_unit) / per_unit;
-}
 
 bool is_raised(const world::LaneT& lane) {
     return lane.kind == world::LaneKind::sidewalk || lane.kind == world::LaneKind::walking_area;
@@ -189,6 +187,21 @@ double Pedestrians::ground_height(const Eigen::Vector3d& p_world) const {
     const world::LaneT& lane = town_->lanes[walkable.front().lane];
     const double height = world::point_at(lane, walkable.front().at.s).position.z();
     return height + (is_raised(lane) ? world::kerb_height : 0);
+}
+
+void Pedestrians::nudge(std::uint32_t id, std::string_view field, std::int64_t units) {
+    Walker* walker = find(id);
+    REPRISE_CHECK(walker != nullptr, "walker " + std::to_string(id));
+    const auto move = [&](std::string_view name, double& number) {
+        if (field == name)
+            number = moved_by_units(number, units);
+    };
+    move("position.x", walker->position.x());
+    move("position.y", walker->position.y());
+    move("position.z", walker->position.z());
+    move("yaw", walker->yaw);
+    move("speed", walker->speed);
+    move("phase", walker->phase);
 }
 
 std::uint64_t Pedestrians::digest() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "world/episode_generated.h"
@@ -32,6 +33,10 @@ class Pedestrians {
     /// the model's own walking speed. Commands for actors that are no walkers are left to other
     /// stages.
     void advance(const world::TickView& last, world::TickDraft& next);
+
+    /// A drill's: moves the unrounded number behind a recorded one by so many units in the last
+    /// place.
+    void nudge(std::uint32_t id, std::string_view field, std::int64_t units);
 
     /// Of the unrounded state of everyone.
     std::uint64_t digest() const;

@@ -46,7 +46,21 @@ struct Bullet {
     btDiscreteDynamicsWorld world;
 };
 
-/// The impulses that the solver starts from in the next substep, and the points that they act at.
+/// The order in which Bullet walks over its bodies, and the numbers by which it sorts pairs of
+/// them: both tell who came and went before.
+void add_order(world::Hasher& hasher, const btDiscreteDynamicsWorld& world) {
+    const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+    std::vector<int> order;
+    for (int i = 0; i < objects.size(); ++i) {
+        order.push_back(objects[i]->getUserIndex());
+        order.push_back(objects[i]->getUserIndex2());
+        order.push_back(objects[i]->getBroadphaseHandle()->getUid());
+    }
+    hasher.add(std::span<const int>(order));
+}
+
+/// What the solver starts from in the next substep, in the order in which it will: points, normals
+/// (kept while a point lives) and impulses.
 void add_manifolds(world::Hasher& hasher, btCollisionDispatcher& dispatcher) {
     const int count = dispatcher.getNumManifolds();
     hasher.add(count);
@@ -61,6 +75,7 @@ void add_manifolds(world::Hasher& hasher, btCollisionDispatcher& dispatcher) {
             const btManifoldPoint& point = manifold.getContactPoint(k);
             add_vector(hasher, point.m_localPointA);
             add_vector(hasher, point.m_localPointB);
+            add_vector(hasher, point.m_normalWorldOnB);
             hasher.add(point.m_appliedImpulse);
             hasher.add(point.m_appliedImpulseLateral1);
             hasher.add(point.m_appliedImpulseLateral2);
@@ -129,12 +144,14 @@ void Physics::add_vehicle(std::uint32_t id,
         std::make_unique<Vehicle>(id, model, w.bullet.world, w.ground, pose_world_vehicle, speed));
 }
 
-void Physics::remove_vehicle(std::uint32_t id) {
+world::Vec3 Physics::remove_vehicle(std::uint32_t id) {
     World& w = *world_;
     const auto place = w.place(id);
     REPRISE_CHECK(place != w.vehicles.end() && (*place)->id() == id,
                   "vehicle " + std::to_string(id));
+    const world::Vec3 position = (*place)->position();
     w.vehicles.erase(place);
+    return position;
 }
 
 void Physics::advance(const world::TickView& last, world::TickDraft& next) {
@@ -185,6 +202,13 @@ void Physics::World::write(world::TickT& tick) {
     collisions.write(tick.events);
 }
 
+void Physics::nudge(std::uint32_t id, std::string_view field, std::int64_t units) {
+    const auto place = world_->place(id);
+    REPRISE_CHECK(place != world_->vehicles.end() && (*place)->id() == id,
+                  "vehicle " + std::to_string(id));
+    (*place)->nudge(field, units);
+}
+
 std::uint64_t Physics::digest() const {
     World& w = *world_;
     world::Hasher hasher;
@@ -194,6 +218,7 @@ std::uint64_t Physics::digest() const {
     w.obstacles.add_to(hasher);
     w.cars.add_to(hasher);
     w.walkers.add_to(hasher);
+    add_order(hasher, w.bullet.world);
     add_manifolds(hasher, w.bullet.dispatcher);
     return hasher.digest64();
 }

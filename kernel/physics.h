@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string_view>
 
 #include <Eigen/Geometry>
 
@@ -38,15 +39,22 @@ class Physics {
                      std::uint16_t model,
                      const Eigen::Isometry3d& pose_world_vehicle,
                      double speed);
-    void remove_vehicle(std::uint32_t id);
+
+    /// Takes it out again; returns where it was.
+    world::Vec3 remove_vehicle(std::uint32_t id);
 
     /// Stage 5. Applies next.tick.controls, moves the kinematic bodies from `last` to `next` in
     /// equal substeps, steps Bullet, and writes next.tick.vehicles and wheels (sorted) and
     /// collision events (sorted by actor, other; one a pair and tick, with the summed impulse).
     void advance(const world::TickView& last, world::TickDraft& next);
 
-    /// Of all bodies' transforms and velocities, wheels, and contact impulses kept for warm
-    /// starting.
+    /// A drill's: moves what lies behind a recorded number of a vehicle or of its wheels by so many
+    /// units in the last place.
+    void nudge(std::uint32_t id, std::string_view field, std::int64_t units);
+
+    /// Of all bodies' transforms and velocities, their order in Bullet, wheels, and contacts with
+    /// the impulses kept for warm starting. Bullet's trees of bounding boxes are not read: they
+    /// find the same pairs in any shape, and pairs are sorted.
     std::uint64_t digest() const;
 
   private:

@@ -52,10 +52,7 @@ void Roster::apply_commands(const world::TickView& last, world::TickDraft& next,
         Entry& entry = found->second;
         switch (command.kind) {
             case world::CommandKind::despawn:
-                physics.remove_vehicle(command.actor);
-                next.tick.events.push_back(
-                    event(world::EventKind::despawned, command.actor, command));
-                entries_.erase(found);
+                despawn(command, next, physics);
                 break;
             case world::CommandKind::set_speed:
                 if (entry.autopilot)
@@ -78,6 +75,13 @@ void Roster::apply_commands(const world::TickView& last, world::TickDraft& next,
                 break;
         }
     }
+}
+
+void Roster::despawn(const world::CommandT& command, world::TickDraft& next, Physics& physics) {
+    world::EventT despawned = event(world::EventKind::despawned, command.actor, command);
+    despawned.position = physics.remove_vehicle(command.actor);
+    next.tick.events.push_back(despawned);
+    entries_.erase(command.actor);
 }
 
 void Roster::spawn(const world::TickView& last,
@@ -188,11 +192,17 @@ void Roster::apply_controls(std::span<const world::Control> controls,
     }
 }
 
+void Roster::replace_control(const world::Control& control) {
+    entries_.at(control.actor()).control = control;
+}
+
 std::uint64_t Roster::digest() const {
     world::Hasher hasher;
+    hasher.add(std::uint64_t{entries_.size()});
     for (const auto& [id, entry] : entries_) {
         hasher.add(id);
         hasher.add(entry.control);
+        hasher.add(entry.autopilot.has_value());
         if (entry.autopilot)
             hasher.add(entry.autopilot->digest());
     }

@@ -30,6 +30,9 @@ class Roster {
                         const world::TickView& last,
                         world::TickDraft& next);
 
+    /// A drill's: takes the place of the newest control of this actor.
+    void replace_control(const world::Control& control);
+
     std::uint64_t digest() const;
 
   private:
@@ -40,6 +43,7 @@ class Roster {
     };
 
     world::Control decide(Entry& entry, const world::TickView& last) const;
+    void despawn(const world::CommandT& command, world::TickDraft& next, Physics& physics);
     void spawn(const world::TickView& last,
                world::CommandT& command,
                world::TickDraft& next,

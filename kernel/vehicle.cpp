@@ -7,6 +7,7 @@
 
 #include "kernel/bullet.h"
 #include "kernel/ground.h"
+#include "kernel/nudge.h"
 #include "kernel/tyres.h"
 #include "world/frames.h"
 
@@ -234,6 +235,56 @@ world::WheelState Vehicle::wheel(int index) const {
             0};
 }
 
+void Vehicle::nudge(std::string_view field, std::int64_t units) {
+    constexpr std::string_view wheels = "wheels[";
+    if (field.starts_with(wheels)) {
+        const int index = field[wheels.size()] - '0';
+        nudge_wheel(index, field.substr(field.find('.') + 1), units);
+        return;
+    }
+    const auto move = [units](btScalar& number) { number = moved_by_units(number, units); };
+    if (field == "steering_angle")
+        move(steering_angle_);
+    if (field == "odometer")
+        move(odometer_);
+    btTransform pose = body().getCenterOfMassTransform();
+    btQuaternion turn = pose.getRotation();
+    btVector3 velocity = body().getLinearVelocity();
+    btVector3 spin = body().getAngularVelocity();
+    if (field == "orientation.w")
+        move(turn[3]);
+    constexpr std::array axes{"x", "y", "z"};
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string end = std::string(".") + axes[static_cast<std::size_t>(axis)];
+        if (field == "position" + end)
+            move(pose.getOrigin()[axis]);
+        if (field == "orientation" + end)
+            move(turn[axis]);
+        if (field == "velocity" + end)
+            move(velocity[axis]);
+        if (field == "angular_velocity" + end)
+            move(spin[axis]);
+    }
+    if (field.starts_with("orientation"))
+        pose.setRotation(turn);
+    body().setCenterOfMassTransform(pose);
+    body().setLinearVelocity(velocity);
+    body().setAngularVelocity(spin);
+}
+
+void Vehicle::nudge_wheel(int index, std::string_view field, std::int64_t units) {
+    btWheelInfo& wheel = chassis_->car.m_wheelInfo[index];
+    const auto move = [units](btScalar& number) { number = moved_by_units(number, units); };
+    if (field == "suspension_length")
+        move(wheel.m_raycastInfo.m_suspensionLength);
+    if (field == "rotation")
+        move(wheel.m_rotation);
+    if (field == "steering_angle")
+        move(wheel.m_steering);
+    if (field == "suspension_force")
+        move(wheel.m_wheelsSuspensionForce);
+}
+
 void Vehicle::add_to(world::Hasher& hasher) const {
     hasher.add(id_);
     hasher.add(model_index_);
@@ -243,6 +294,7 @@ void Vehicle::add_to(world::Hasher& hasher) const {
     hasher.add(control_);
     hasher.add(steering_angle_);
     hasher.add(odometer_);
+    hasher.add(last_position_);
     hasher.add(last_velocity_);
     for (int i = 0; i < 4; ++i) {
         hasher.add(wheel(i));

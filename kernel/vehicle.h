@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string_view>
 
 #include <Eigen/Geometry>
 
@@ -63,6 +64,9 @@ class Vehicle {
 
     btRigidBody& body() const;
 
+    /// World, of the origin, after the last tick.
+    const world::Vec3& position() const { return last_position_; }
+
     /// Holds until the next one.
     void set_control(const world::Control& control);
 
@@ -76,10 +80,15 @@ class Vehicle {
     /// The wheel with this index: front left, front right, rear left, rear right.
     world::WheelState wheel(int index) const;
 
+    /// See Physics::nudge.
+    void nudge(std::string_view field, std::int64_t units);
+
     void add_to(world::Hasher& hasher) const;
 
   private:
     struct Chassis;
+
+    void nudge_wheel(int index, std::string_view field, std::int64_t units);
 
     void steer(double step);
     void press_pedals(double road_friction);

@@ -11,6 +11,8 @@ namespace reprise::kernel {
 
 /// Runs a trace again from what it carries, with the recorded controls, and compares every tick's
 /// bytes: the first difference, or nothing. `on_tick` is told of each tick that agreed.
+/// What differs only in a digest is followed until it shows in the record. The network in the trace
+/// must be the one that its episode names by digest.
 /// A damaged chunk is compared as far as its bytes can be had, so that the first wrong tick is
 /// named, not the chunk.
 std::optional<replay::Divergence> verify(replay::TraceReader& recorded,

@@ -59,6 +59,7 @@ void Way::restart(std::uint32_t lane,
     next_s_ = s;
     change_after_ = change_after;
     ended_ = false;
+    note_plan();
 }
 
 void Way::extend(double s, double ahead) {
@@ -71,6 +72,7 @@ void Way::extend(double s, double ahead) {
         return;
     path_.finish({});
     name_lanes();
+    note_plan();
 }
 
 void Way::drop_before(double s, double kept) {
@@ -85,6 +87,7 @@ void Way::drop_before(double s, double kept) {
     path_.drop_before(end);
     std::erase_if(gates_, [end](const Gate& gate) { return gate.exit_s < end; });
     std::erase_if(changes_, [end](const LaneChange& change) { return change.end < end; });
+    note_plan();
 }
 
 void Way::name_lanes() {
@@ -225,23 +228,47 @@ std::vector<std::uint32_t> Way::lanes_to_come(double s) const {
 }
 
 void Way::add_to(world::Hasher& hasher) const {
+    hasher.add(plan_digest_);
+    hasher.add(std::uint64_t{pieces_.size()});
     for (const PathPiece& piece : pieces_) {
         hasher.add(piece.lane);
         hasher.add(piece.start);
         hasher.add(piece.end);
     }
-    for (const LaneChange& change : changes_) {
-        hasher.add(change.start);
-        hasher.add(change.to);
-    }
+    hasher.add(std::uint64_t{route_.size()});
     for (const std::uint32_t lane : route_)
         hasher.add(lane);
-    hasher.add(path_.start());
     hasher.add(next_lane_);
     hasher.add(next_s_);
     hasher.add(change_after_);
     hasher.add(junctions_);
     hasher.add(ended_);
+}
+
+/// The long part of the digest: 20 kB of path, which changes a few times a minute only. Foes follow
+/// from their gate and the town.
+void Way::note_plan() {
+    world::Hasher hasher;
+    path_.add_to(hasher);
+    hasher.add(std::uint64_t{gates_.size()});
+    for (const Gate& gate : gates_) {
+        hasher.add(gate.s);
+        hasher.add(gate.exit_s);
+        for (const std::uint32_t number : {gate.serial, gate.signal, gate.to})
+            hasher.add(number);
+        hasher.add(gate.turn);
+        hasher.add(gate.yields);
+        hasher.add(std::uint64_t{gate.foes.size()});
+    }
+    hasher.add(std::uint64_t{changes_.size()});
+    for (const LaneChange& change : changes_) {
+        for (const double number : {change.start, change.end, change.spare})
+            hasher.add(number);
+        hasher.add(change.from);
+        hasher.add(change.to);
+        hasher.add(change.to_left);
+    }
+    plan_digest_ = hasher.digest64();
 }
 
 }  // namespace reprise::kernel

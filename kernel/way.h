@@ -82,6 +82,7 @@ class Way {
 
   private:
     void name_lanes();
+    void note_plan();
     void append_next_lane();
     void append_straight(std::uint32_t lane, double from);
     void append_change(std::uint32_t lane, double from, std::uint32_t to);
@@ -102,6 +103,7 @@ class Way {
     double change_after_ = 0;
     std::uint32_t junctions_ = 0;  ///< gates made so far: the draws' tick
     bool ended_ = false;
+    std::uint64_t plan_digest_ = 0;  ///< of path, gates and changes, as of their last change
 };
 
 }  // namespace reprise::kernel

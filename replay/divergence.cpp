@@ -114,6 +114,7 @@ Divergence of_fields(const std::vector<FieldDifference>& fields) {
 
 Divergence of_digest(const Stage& stage, std::uint64_t expected, std::uint64_t found) {
     Divergence divergence;
+    divergence.unrecorded = true;
     divergence.field = fmt::format("digests.{}", stage.name);
     divergence.expected = hex(expected);
     divergence.found = hex(found);
@@ -140,25 +141,31 @@ Divergence of_no_stage(const world::Digests& expected, const world::Digests& fou
     return divergence;
 }
 
-Divergence explain(const world::TickView& expected, const world::TickView& found) {
-    const world::Digests& left = *expected.tick->digests();
-    const world::Digests& right = *found.tick->digests();
+/// Stages in their order; `digests`: what shows only in them counts, too.
+std::optional<Divergence> first_stage(const world::TickView& expected,
+                                      const world::TickView& found,
+                                      bool digests) {
     const auto events = first_event_difference(*expected.tick, *found.tick);
     for (std::size_t i = 0; i < stages().size(); ++i) {
         const Stage& stage = stages()[i];
         std::vector<FieldDifference> fields = recorded_differences(stage, expected, found);
         if (events && events->stage == i)
             fields.insert(fields.end(), events->fields.begin(), events->fields.end());
-        const std::uint64_t left_digest = (left.*stage.digest)();
-        const std::uint64_t right_digest = (right.*stage.digest)();
-        if (fields.empty() && left_digest == right_digest)
+        const std::uint64_t left = (expected.tick->digests()->*stage.digest)();
+        const std::uint64_t right = (found.tick->digests()->*stage.digest)();
+        if (fields.empty() && (!digests || left == right))
             continue;
-        Divergence divergence =
-            fields.empty() ? of_digest(stage, left_digest, right_digest) : of_fields(fields);
+        Divergence divergence = fields.empty() ? of_digest(stage, left, right) : of_fields(fields);
         divergence.stage = stage.name;
+        divergence.tick = expected.index();
         return divergence;
     }
-    return of_no_stage(left, right);
+    return std::nullopt;
+}
+
+void check_same_index(const RecordedTick& expected, const RecordedTick& found) {
+    REPRISE_CHECK(expected.view.index() == found.view.index(),
+                  fmt::format("ticks {} and {}", expected.view.index(), found.view.index()));
 }
 
 }  // namespace
@@ -180,17 +187,27 @@ std::string to_text(const Divergence& divergence, std::uint64_t step_ns) {
     row("expected", divergence.expected);
     row("found", divergence.found);
     row("note", divergence.note);
+    row("script", divergence.script.empty() ? "" : "last said at " + divergence.script);
+    row("again", divergence.again);
     return text;
 }
 
 std::optional<Divergence> compare(const RecordedTick& expected, const RecordedTick& found) {
     if (equal_ticks(expected, found))
         return std::nullopt;
-    REPRISE_CHECK(expected.view.index() == found.view.index(),
-                  fmt::format("ticks {} and {}", expected.view.index(), found.view.index()));
-    Divergence divergence = explain(expected.view, found.view);
+    check_same_index(expected, found);
+    if (auto divergence = first_stage(expected.view, found.view, true))
+        return divergence;
+    Divergence divergence =
+        of_no_stage(*expected.view.tick->digests(), *found.view.tick->digests());
     divergence.tick = expected.view.index();
     return divergence;
+}
+
+std::optional<Divergence> compare_recorded(const RecordedTick& expected,
+                                           const RecordedTick& found) {
+    check_same_index(expected, found);
+    return first_stage(expected.view, found.view, false);
 }
 
 }  // namespace reprise::replay

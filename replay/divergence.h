@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "replay/trace_reader.h"
 #include "world/tick.h"
@@ -22,8 +23,25 @@ struct Divergence {
     std::string found;     ///< value in the second run
     std::string note;      ///< how far apart; when the recorded fields agree and only the unrounded
                            ///< state differs; what the runs did not have in common at the start
+    std::string script;    ///< the last thing the scenario said before it: "tick 598 (29.90 s):
+                           ///< set_speed of ego (1), cut_in.lua:31"; "" when nothing
+    std::string again;     ///< the command that comes back to it; filled in by programs
     std::uint32_t actor_id = 0;  ///< 0: none
+    bool unrecorded = false;     ///< only a stage's digest differs
 };
+
+/// A line in which two builds' fingerprints differ; "-" where one of them has no such line.
+struct BuildDifference {
+    std::string key;
+    std::string expected;
+    std::string found;
+};
+
+using Fingerprint = std::vector<world::ParameterT>;  ///< as in Episode.fingerprint
+
+/// In the order of `expected`, then what only `found` has.
+std::vector<BuildDifference> build_differences(const Fingerprint& expected,
+                                               const Fingerprint& found);
 
 /// A few lines for a person.
 std::string to_text(const Divergence& divergence, std::uint64_t step_ns);
@@ -32,14 +50,29 @@ std::string to_text(const Divergence& divergence, std::uint64_t step_ns);
 /// their order.
 std::optional<Divergence> compare(const RecordedTick& expected, const RecordedTick& found);
 
+/// The first recorded field that differs, whatever the digests say; nothing when all agree.
+std::optional<Divergence> compare_recorded(const RecordedTick& expected, const RecordedTick& found);
+
+/// How many ticks behind a difference that shows only in a digest are searched for one in the
+/// record.
+inline constexpr std::uint64_t longest_search = 1200;
+
+/// Adds to the note where such a difference first shows in the record; nothing: within `searched`
+/// ticks nowhere.
+void add_first_recorded(Divergence& divergence,
+                        const std::optional<Divergence>& recorded,
+                        std::uint64_t searched);
+
 /// Finds the first difference of two traces: the first tick whose digests or bytes differ, then the
 /// lengths and how they ended. Chunks with equal bytes are passed over without unpacking: an hour
 /// takes about 0.2 s. Of runs with different starts (another seed, say) the chain is left out of
 /// the comparison, because it differs from the first tick on; the note says what was different.
+/// What differs only in a digest is followed until it shows in the record.
 /// "Equal" includes that neither file was damaged; otherwise this throws world::Error.
 std::optional<Divergence> compare(TraceReader& expected, TraceReader& found);
 
-/// Fills in the actor's name ("ego (1)") from the run's spawned events up to that tick.
-void name_actor(Divergence& divergence, TraceReader& trace);
+/// Fills in what the run was doing: the actor's name ("ego (1)") from the spawned events up to that
+/// tick, and the last thing that its scenario said.
+void add_context(Divergence& divergence, TraceReader& trace);
 
 }  // namespace reprise::replay

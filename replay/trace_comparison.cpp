@@ -39,47 +39,14 @@ std::string list(const std::vector<FieldDifference>& differences) {
     return text;
 }
 
-/// What two runs did not have in common before the first tick.
+/// What two runs did not have in common before the first tick, of what can change a run.
 struct StartDifference {
-    std::vector<FieldDifference> deciding;  ///< what can change a run
-    std::string builds;                     ///< lines of the fingerprint that differ
+    std::vector<FieldDifference> deciding;
 
     std::string note() const {
-        std::string text;
-        if (!deciding.empty())
-            add_note(text, "the runs did not start from the same: " + list(deciding));
-        if (!builds.empty())
-            add_note(text, "recorded by different builds: " + builds);
-        return text;
+        return deciding.empty() ? "" : "the runs did not start from the same: " + list(deciding);
     }
 };
-
-std::string compare_builds(const world::EpisodeT& expected, const world::EpisodeT& found) {
-    const auto value = [](const world::EpisodeT& episode, const std::string& key) {
-        for (const world::ParameterT& line : episode.fingerprint) {
-            if (line.key == key)
-                return line.value;
-        }
-        return std::string("-");
-    };
-    std::vector<std::string> keys;
-    for (const world::EpisodeT* episode : {&expected, &found}) {
-        for (const world::ParameterT& line : episode->fingerprint) {
-            if (std::find(keys.begin(), keys.end(), line.key) == keys.end())
-                keys.push_back(line.key);
-        }
-    }
-    std::string text;
-    for (const std::string& key : keys) {
-        if (value(expected, key) != value(found, key))
-            text += fmt::format("{}{} {} / {}",
-                                text.empty() ? "" : ", ",
-                                key,
-                                value(expected, key),
-                                value(found, key));
-    }
-    return text;
-}
 
 StartDifference compare_starts(const world::EpisodeT& expected, const world::EpisodeT& found) {
     StartDifference start;
@@ -94,7 +61,6 @@ StartDifference compare_starts(const world::EpisodeT& expected, const world::Epi
                                 field);
         std::move(some.begin(), some.end(), std::back_inserter(start.deciding));
     }
-    start.builds = compare_builds(expected, found);
     return start;
 }
 
@@ -122,6 +88,19 @@ std::optional<Divergence> first_different_tick(TraceReader& expected,
         }
     }
     return std::nullopt;
+}
+
+/// Follows a difference that shows only in a digest until it shows in the record.
+void find_first_recorded(Divergence& divergence, TraceReader& expected, TraceReader& found) {
+    const std::uint64_t common = std::min(expected.ticks(), found.ticks());
+    const std::uint64_t last = std::min(common, divergence.tick + longest_search);
+    std::optional<Divergence> recorded;
+    std::uint64_t index = divergence.tick;
+    while (!recorded && index < last && !expected.damage(index + 1) && !found.damage(index + 1)) {
+        ++index;
+        recorded = compare_recorded(expected.tick(index), found.tick(index));
+    }
+    add_first_recorded(divergence, recorded, index - divergence.tick);
 }
 
 std::optional<Divergence> compare_ends(const TraceReader& expected, const TraceReader& found) {
@@ -189,7 +168,9 @@ std::optional<Divergence> compare(TraceReader& expected, TraceReader& found) {
     if (!divergence)
         divergence = compare_ends(expected, found);
     if (divergence) {
-        name_actor(*divergence, expected);
+        if (divergence->unrecorded)
+            find_first_recorded(*divergence, expected, found);
+        add_context(*divergence, expected);
         add_note(divergence->note, start.note());
         return divergence;
     }
@@ -200,25 +181,6 @@ std::optional<Divergence> compare(TraceReader& expected, TraceReader& found) {
     divergence = only_starts_differ(expected, found, start);
     add_note(divergence->note, start.note());
     return divergence;
-}
-
-void name_actor(Divergence& divergence, TraceReader& trace) {
-    // Background actors have no names; scenarios spawn theirs in the first ticks, as a rule.
-    if (divergence.actor_id == 0 || divergence.actor_id >= world::first_background_id)
-        return;
-    const std::uint64_t last = std::min(divergence.tick, trace.ticks());
-    for (std::uint64_t index = 1; index <= last; ++index) {
-        if (trace.damage(index))
-            continue;
-        for (const world::Event* event : *trace.tick(index).view.tick->events()) {
-            if (event->kind() != world::EventKind::spawned ||
-                event->actor() != divergence.actor_id || event->text() == nullptr)
-                continue;
-            divergence.actor =
-                fmt::format("{} ({})", event->text()->string_view(), divergence.actor_id);
-            return;
-        }
-    }
 }
 
 }  // namespace reprise::replay

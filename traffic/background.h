@@ -30,8 +30,9 @@ class Background {
     /// cars.
     void advance(const world::TickView& last, world::TickDraft& next);
 
-    /// Of the unrounded state: pose, speed, lane position, orders of every car; the signals. SUMO's
-    /// own memory and the mirrors are not read: what they do shows in the cars.
+    /// Of all that this keeps: every car unrounded, with its way, trail and orders; the signals;
+    /// the mirrors. SUMO's own memory cannot be read: what it holds (its drivers' moods and random
+    /// streams, say) shows in the cars and signals, in the tick in which it first matters.
     std::uint64_t digest() const;
 
   private:

@@ -49,11 +49,6 @@ Mirrors::Mirrors(const world::TownT& town,
       graph_(&graph),
       step_(step) {}
 
-bool Mirrors::holds(std::uint32_t id) const {
-    return std::any_of(
-        mirrors_.begin(), mirrors_.end(), [id](const Mirror& m) { return m.id == id; });
-}
-
 void Mirrors::forget(std::uint32_t id) {
     std::erase_if(mirrors_, [id](const Mirror& mirror) { return mirror.id == id; });
 }
@@ -222,6 +217,17 @@ void Mirrors::advance(const world::TickView& last, std::span<const Car> cars) {
             libsumo::Vehicle::moveToXY(
                 mirror.sumo, "", -1, target.x, target.y, target.angle_deg, anywhere, reach + 2);
         }
+    }
+}
+
+void Mirrors::add_to(world::Hasher& hasher) const {
+    hasher.add(added_);
+    hasher.add(std::uint64_t{mirrors_.size()});
+    for (const Mirror& mirror : mirrors_) {
+        for (const std::uint32_t number : {mirror.id, mirror.edge, mirror.after})
+            hasher.add(number);
+        hasher.add(mirror.lamps);
+        hasher.add(std::span<const std::uint32_t>(mirror.route));
     }
 }
 

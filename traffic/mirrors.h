@@ -7,6 +7,7 @@
 
 #include "traffic/car.h"
 #include "traffic/road_graph.h"
+#include "world/digest.h"
 #include "world/tick.h"
 #include "world/town.h"
 
@@ -32,7 +33,7 @@ class Mirrors {
     /// SUMO took this vehicle out of the simulation; it is put back at the next advance.
     void forget(std::uint32_t id);
 
-    bool holds(std::uint32_t id) const;
+    void add_to(world::Hasher& hasher) const;
 
   private:
     struct Mirror {

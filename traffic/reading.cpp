@@ -4,6 +4,7 @@
 // How it goes: libsumo's getters, about 30 ns each, and none for what cannot have changed.
 // What it keeps: nothing beside the cars.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <libsumo/libsumo.h>
@@ -18,6 +19,7 @@ namespace {
 
 using libsumo::Vehicle;
 using world::none;
+using world::rounded;
 using world::SignalColor;
 
 SignalColor color_of(char state) {
@@ -50,10 +52,6 @@ std::uint16_t lamps_of(int signals) {
     if ((signals & 8) != 0)
         lamps |= world::lamp_brake;
     return static_cast<std::uint16_t>(lamps);
-}
-
-double rounded(double value, double per_unit) {
-    return std::nearbyint(value * per_unit) / per_unit;
 }
 
 /// SUMO's cars jump when they change lanes on a curve (position along the lane is kept, though the
@@ -179,50 +177,85 @@ void Background::Sumo::write_cars(world::TickDraft& next) const {
     }
 }
 
+namespace {
+
+/// What a car is and has been told, in one number.
+std::uint32_t flags_of(const Car& car) {
+    return static_cast<std::uint32_t>(car.origin) + (std::uint32_t{car.dead_end} << 2U) +
+           (std::uint32_t{car.sumo.empty()} << 3U) +
+           (std::uint32_t{car.speed_order.has_value()} << 4U) +
+           (std::uint32_t{car.lane_order.has_value()} << 5U) + (std::uint32_t{car.model} << 8U) +
+           (std::uint32_t{car.lamps} << 16U);
+}
+
+/// What every car keeps. Left out is what nothing is computed from (acceleration, pitch) or what
+/// follows (SUMO's name of a car).
+struct CarDigest {
+    std::array<double, 12> numbers;
+    std::uint64_t trail;
+    std::array<std::uint32_t, 8> indices;
+};
+
+static_assert(sizeof(CarDigest) == 136, "no padding");
+
+CarDigest kept_of(const Car& car) {
+    return {{car.rear.x(),
+             car.rear.y(),
+             car.rear.z(),
+             car.yaw,
+             car.speed,
+             car.lane_position,
+             car.sumo_front.x(),
+             car.sumo_front.y(),
+             car.sumo_front.z(),
+             car.slip.x(),
+             car.slip.y(),
+             car.trail.travelled()},
+            car.trail.points_digest(),
+            {car.id,
+             car.lane,
+             flags_of(car),
+             car.draws,
+             car.standing_ticks,
+             car.last_lane,
+             static_cast<std::uint32_t>(car.route.size()),
+             0}};
+}
+
+}  // namespace
+
+/// Gathered first: a digest of many small pieces costs more than of few large ones.
 std::uint64_t Background::Sumo::digest() const {
-    std::vector<double> numbers;
-    numbers.reserve(cars.size() * 11);
-    std::vector<std::uint32_t> indices{next_id};
-    indices.reserve(cars.size() * 6);
+    std::vector<CarDigest> kept;
+    kept.reserve(cars.size());
+    std::vector<std::uint32_t> routes;
+    routes.reserve(cars.size() * 24);
     for (const Car& car : cars) {
-        const Eigen::Vector3d& front = car.trail.front();
-        for (const double value : {front.x(),
-                                   front.y(),
-                                   front.z(),
-                                   car.rear.x(),
-                                   car.rear.y(),
-                                   car.rear.z(),
-                                   car.speed,
-                                   car.lane_position,
-                                   car.acceleration,
-                                   car.slip.x(),
-                                   car.slip.y()})
-            numbers.push_back(value);
-        for (const std::uint32_t value : {car.id,
-                                          car.lane,
-                                          std::uint32_t{car.lamps},
-                                          car.draws,
-                                          car.standing_ticks,
-                                          car.last_lane})
-            indices.push_back(value);
+        kept.push_back(kept_of(car));
+        routes.insert(routes.end(), car.route.begin(), car.route.end());
     }
     world::Hasher hasher;
-    hasher.add(std::span<const double>(numbers));
-    hasher.add(std::span<const std::uint32_t>(indices));
-    hasher.add(std::span<const SignalColor>(signals));
-    hasher.add(place_draws);
+    hasher.add(std::span<const CarDigest>(kept));
+    hasher.add(std::span<const std::uint32_t>(routes));
     for (const Car& car : cars) {
         if (car.speed_order) {
-            hasher.add(car.id);
+            hasher.add(car.speed_order->from);
             hasher.add(car.speed_order->to);
-            hasher.add(car.speed_order->start + car.speed_order->ticks);
+            hasher.add(car.speed_order->start);
+            hasher.add(car.speed_order->ticks);
         }
         if (car.lane_order) {
-            hasher.add(car.id);
             hasher.add(car.lane_order->lane);
+            hasher.add(car.lane_order->duration);
             hasher.add(car.lane_order->until);
         }
     }
+    hasher.add(next_id);
+    hasher.add(place_draws);
+    hasher.add(std::span<const SignalColor>(signals));
+    for (const Program& program : programs)
+        hasher.add_text(program.state);
+    mirrors.add_to(hasher);
     return hasher.digest64();
 }
 

@@ -1,5 +1,9 @@
 #include "traffic/trail.h"
 
+#include <array>
+
+#include "world/digest.h"
+
 namespace reprise::traffic {
 
 namespace {
@@ -18,21 +22,28 @@ void Trail::start(const std::vector<Eigen::Vector3d>& from_rear_to_front, double
     at_ = 0;
     travelled_ = 0;
     distance_ = distance;
+    points_digest_ = 0;
     front_ = from_rear_to_front.front();
-    points_.push_back({front_, 0});
+    add_point();
     for (const Eigen::Vector3d& point : from_rear_to_front) {
         travelled_ += (point - front_).norm();
         front_ = point;
-        points_.push_back({front_, travelled_});
+        add_point();
     }
     advance(front_);
+}
+
+void Trail::add_point() {
+    points_.push_back({front_, travelled_});
+    const std::array<double, 4> numbers{front_.x(), front_.y(), front_.z(), travelled_};
+    points_digest_ = world::digest64(points_digest_, numbers.data(), sizeof(numbers));
 }
 
 void Trail::advance(const Eigen::Vector3d& front) {
     travelled_ += (front - front_).norm();
     front_ = front;
     if (travelled_ - points_.back().travelled >= spacing)
-        points_.push_back({front_, travelled_});
+        add_point();
     const double wanted = travelled_ - distance_;
     while (at_ + 1 < points_.size() && points_[at_ + 1].travelled <= wanted)
         ++at_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -27,7 +28,16 @@ class Trail {
 
     const Eigen::Vector3d& front() const { return front_; }
 
+    /// [m] by the bumper so far.
+    double travelled() const { return travelled_; }
+
+    /// Of every point so far: with the bumper's place and travelled() it tells all that decides
+    /// where the rear axle will be.
+    std::uint64_t points_digest() const { return points_digest_; }
+
   private:
+    void add_point();
+
     struct Point {
         Eigen::Vector3d position;
         double travelled = 0;  ///< [m] by the bumper when it was there
@@ -38,6 +48,7 @@ class Trail {
     Eigen::Vector3d front_ = Eigen::Vector3d::Zero();
     double travelled_ = 0;  ///< [m] by the bumper so far
     double distance_ = 0;
+    std::uint64_t points_digest_ = 0;  ///< of every point so far, in their order
 };
 
 }  // namespace reprise::traffic

@@ -41,6 +41,9 @@ void check_failed(const char* condition, const char* file, int line, const std::
 }
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
+    constexpr std::size_t longest_word = 100;
+    if (word.size() > longest_word)
+        return "";
     std::size_t best = 1 + word.size() / 3;
     const std::string* nearest = nullptr;
     for (const std::string& candidate : candidates) {

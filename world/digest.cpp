@@ -37,6 +37,10 @@ Digest128 Hasher::digest128() const {
     return {hash.low64, hash.high64};
 }
 
+std::uint64_t digest64(std::uint64_t before, const void* bytes, std::size_t size) {
+    return XXH3_64bits_withSeed(bytes, size, before);
+}
+
 Digest128 digest128(std::string_view bytes) {
     const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
     return {hash.low64, hash.high64};

@@ -13,8 +13,7 @@ enum class Purpose : std::uint32_t {
     demand_model,  ///< which model it is
     demand_route,  ///< which way it turns
     driver_route,  ///< which way the autopilot turns
-    walker_gait,
-    building,
+    building = 7,  ///< 6 was given away once
     tree,
     camera_noise,
     rain_drop

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -73,6 +74,11 @@ const CarState* find(std::span<const CarState> cars, std::uint32_t id);
 const WalkerState* find(std::span<const WalkerState> walkers, std::uint32_t id);
 const Measurement* find(std::span<const Measurement> measurements, std::uint32_t actor);
 const Control* find(std::span<const Control> controls, std::uint32_t actor);
+
+/// To the record's grid of `per_unit` steps a unit (see traffic.fbs), ties to the even step.
+inline double rounded(double value, double per_unit) {
+    return std::nearbyint(value * per_unit) / per_unit;
+}
 
 /// Seconds since the start of the episode, computed from the index: never added up.
 inline double seconds(std::uint64_t tick, std::uint64_t step_ns) {

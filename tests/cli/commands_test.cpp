@@ -79,6 +79,116 @@ TEST(Diff, ReportsANudgedInputAtItsTick) {
     EXPECT_THAT(diff.out, HasSubstr("steer"));
 }
 
+/// The whole of an option's promise, through the programs.
+TEST(Drill, OneUnitInOneNumberIsReportedAsExactlyThat) {
+    const Folder folder;
+    const std::string base = record(folder, "a.mcap", "7");
+    const std::string nudged =
+        record(folder, "b.mcap", "7", {"--nudge", "131:ego.angular_velocity.z"});
+    for (const Result& report : {reprise({"verify", nudged}), reprise({"diff", base, nudged})}) {
+        EXPECT_EQ(report.code, 1);
+        for (const char* text : {"tick 131 (6.55 s), stage physics, ego (1)\n",
+                                 "  field     vehicles[id 1].angular_velocity.z\n",
+                                 " (0x",
+                                 "  note      1 unit in the last place apart\n",
+                                 "  script    last said at tick 1 (0.05 s): spawn of ego (1), "
+                                 "free_drive.lua:"})
+            EXPECT_THAT(report.out, HasSubstr(text));
+    }
+}
+
+TEST(Drill, ThatNeverCameIsSaid) {
+    const Folder folder;
+    write_file(folder / "short.lua",
+               "return scenario 'short' { town = 'town1', run = function() wait(1) finish() end }");
+    const Result run =
+        reprise({"run", folder / "short.lua", "--nudge", "100:road_friction"}, folder.path());
+    EXPECT_EQ(run.code, 2);
+    EXPECT_THAT(run.out, HasSubstr("--nudge 100:road_friction: the run ended at tick"));
+}
+
+/// What a report says after "again".
+std::string again(const Result& report) {
+    const std::string key = "  again     ";
+    const std::size_t at = report.out.find(key);
+    EXPECT_NE(at, std::string::npos) << report.out;
+    const std::size_t from = at + key.size();
+    return at == std::string::npos ? ""
+                                   : report.out.substr(from, report.out.find('\n', from) - from);
+}
+
+/// Types it into a shell in that folder.
+std::string typed(const std::string& command, const Folder& folder) {
+    const std::string bin = std::filesystem::path(REPRISE_PROGRAM).parent_path().string();
+    write_file(folder / "again.sh",
+               "cd '" + folder.path().string() + "'\nPATH='" + bin + "':$PATH\n" + command + "\n");
+    const std::string out = folder / "again.txt";
+    EXPECT_NE(std::system(("sh '" + (folder / "again.sh") + "' > '" + out + "' 2>&1").c_str()), -1);
+    return read_file(out);
+}
+
+TEST(Again, IsACommandThatComesBackToTheDifference) {
+    const Folder folder;
+    const std::string scenario = folder / "it's my drive.lua";
+    write_file(
+        scenario,
+        "return scenario 'drive' { town = 'town1', seed = 3, params = { text = 'a', n = 1 },\n"
+        "run = function(p)\n"
+        "  assert(p.text == \"it's $HOME; 'b'\" and p.n == 2)\n"
+        "  spawn{ name = 'ego', model = 'sedan', driver = 'autopilot' }\n"
+        "  wait(9)\nend }");
+    const auto run = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"run",
+                                       scenario,
+                                       "-o",
+                                       folder / name,
+                                       "--for",
+                                       "5",
+                                       "--set",
+                                       "n=2",
+                                       "--set",
+                                       "text=it's $HOME; 'b'"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Result result = reprise(words);
+        EXPECT_EQ(result.code, 0) << result.out;
+    };
+    run("base.mcap", {});
+    run("-nudged one.mcap", {"--nudge", "40:ego.velocity.x"});
+
+    // verify: the same command, the same report.
+    const Result verify = reprise({"verify", "./-nudged one.mcap"}, folder.path());
+    EXPECT_EQ(again(verify), "reprise verify './-nudged one.mcap'");
+    EXPECT_EQ(typed(again(verify), folder), verify.out);
+
+    // diff: a new run up to just behind the difference, and what it says to the first trace.
+    const Result diff = reprise({"diff", "./-nudged one.mcap", "base.mcap"}, folder.path());
+    EXPECT_THAT(again(diff), HasSubstr("--for 2.05"));
+    const std::string out = typed(again(diff), folder);
+    EXPECT_THAT(out, HasSubstr("tick 40 (2.00 s), stage physics, ego (1)"));
+    EXPECT_THAT(out, HasSubstr("1 unit in the last place apart"));
+}
+
+TEST(Run, MakesARecordedRunAgainFromTheTraceAlone) {
+    const Folder folder;
+    const std::string first = record(folder, "a.mcap", "7");
+    const Result again = reprise({"run", "a.mcap"}, folder.path());
+    EXPECT_EQ(again.code, 0) << again.out;
+    EXPECT_TRUE(read_file(folder / "a_again.mcap") == read_file(first));
+    const Result other = reprise({"run", "a.mcap", "--seed", "8", "-o", "b.mcap"}, folder.path());
+    EXPECT_EQ(other.code, 2);
+    EXPECT_THAT(other.out, HasSubstr("a recorded run is run again as it was"));
+    EXPECT_THAT(folder.files(), testing::ElementsAre("a.mcap", "a_again.mcap"));
+}
+
+TEST(Run, WritesThroughALinkAndLeavesItOne) {
+    const Folder folder;
+    std::filesystem::create_directory(folder / "far");
+    std::filesystem::create_symlink("far/real.mcap", folder / "link.mcap");
+    record(folder, "link.mcap", "7");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.mcap"));
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder / "far/real.mcap"));
+}
+
 TEST(Verify, ReportsAFlippedBit) {
     const Folder folder;
     const std::string path = record(folder, "a.mcap", "7");

@@ -85,6 +85,12 @@ INSTANTIATE_TEST_SUITE_P(
                 {"--town", "@wide.net.xml"},
                 {"wide.net.xml:", "width=\"-1\"", "above 0"}},
         Mistake{"NudgeBehindTheEnd", nullptr, {"--nudge", "21"}, {"--nudge 21", "1 to 20"}},
+        Mistake{"NudgeOfNoField",
+                nullptr,
+                {"--nudge", "5:ego.velocty.x"},
+                {"no recorded number is called 'velocty.x'", "did you mean 'velocity.x'?"}},
+        Mistake{"NudgeOfNoTick", nullptr, {"--nudge", "ego.speed"}, {"TICK"}},
+        Mistake{"EmptyOutput", nullptr, {"-o", ""}, {"--output", "path"}},
         Mistake{"NegativeSeed", nullptr, {"--seed", "-1"}, {"seed", "whole number"}},
         Mistake{"SeedTooLarge", nullptr, {"--seed", "18446744073709551616"}, {"whole number"}},
         Mistake{"BadSeed", nullptr, {"--seed", "seven"}, {"seed"}},
@@ -111,7 +117,9 @@ TEST(Mistakes, WhatIsNotATraceIsSaidSo) {
 }
 
 TEST(Mistakes, UnknownCommandsAndOptionsAreUsageErrors) {
-    EXPECT_EQ(reprise({"rnu"}).code, 2);
+    const Result command = reprise({"rnu"});
+    EXPECT_EQ(command.code, 2);
+    EXPECT_THAT(command.out, HasSubstr("no command 'rnu' (did you mean 'run'?)"));
     EXPECT_EQ(reprise({}).code, 2);
     EXPECT_EQ(reprise({"run", "x.lua", "--sede", "3"}).code, 2);
     const Result weather = reprise({"render", "t.mcap", "-o", "d", "--weather", "clear_nono"});
@@ -122,7 +130,8 @@ TEST(Mistakes, UnknownCommandsAndOptionsAreUsageErrors) {
 TEST(Help, IsEverywhere) {
     EXPECT_EQ(reprise({"--help"}).code, 0);
     EXPECT_EQ(reprise({"--version"}).code, 0);
-    for (const char* command : {"run", "verify", "info", "diff", "render"})
+    for (const char* command :
+         {"run", "verify", "info", "diff", "render", "test", "accept", "golden"})
         EXPECT_EQ(reprise({command, "--help"}).code, 0) << command;
 }
 

@@ -25,7 +25,13 @@ std::string quoted(const std::string& word) {
 }  // namespace
 
 Result reprise(const std::vector<std::string>& words, const fs::path& folder) {
-    std::string command = "cd " + quoted(folder.string()) + " && " + quoted(REPRISE_PROGRAM);
+    return run_program(REPRISE_PROGRAM, words, folder);
+}
+
+Result run_program(const std::string& program,
+                   const std::vector<std::string>& words,
+                   const fs::path& folder) {
+    std::string command = "cd " + quoted(folder.string()) + " && " + quoted(program);
     for (const std::string& word : words)
         command += " " + quoted(word);
     FILE* pipe = popen((command + " 2>&1").c_str(), "r");

@@ -14,6 +14,11 @@ struct Result {
 /// Runs `reprise` with these words in `folder` and waits.
 Result reprise(const std::vector<std::string>& words, const std::filesystem::path& folder = ".");
 
+/// Likewise, another program.
+Result run_program(const std::string& program,
+                   const std::vector<std::string>& words,
+                   const std::filesystem::path& folder = ".");
+
 /// A file of the source tree.
 std::string source(const std::string& path);
 

@@ -1,3 +1,6 @@
+#include <cstdlib>
+#include <utility>
+
 #include <gmock/gmock.h>
 
 #include "tests/cli/program.h"
@@ -43,6 +46,36 @@ class Rendering : public testing::Test {
         return out;
     }
 
+    /// All pictures of a small rendering of all three kinds in hard rain, one after the other.
+    std::string pictures(const std::vector<std::string>& more) {
+        const Folder out;
+        std::vector<std::string> words{"render",
+                                       folder_ / "t.mcap",
+                                       "-o",
+                                       out.path().string(),
+                                       "--camera",
+                                       "rgb,depth,semantic",
+                                       "--weather",
+                                       "hard_rain_sunset",
+                                       "--size",
+                                       "160x120",
+                                       "--from",
+                                       "40",
+                                       "--to",
+                                       "80",
+                                       "--every",
+                                       "40"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Result result = reprise(words);
+        EXPECT_EQ(result.code, 0) << result.out;
+        const std::vector<std::string> files = out.files();
+        EXPECT_EQ(files.size(), 10U) << "two of rgb, four of the others";
+        std::string bytes;
+        for (const std::string& file : files)
+            bytes += file + read_file(out / file);
+        return bytes;
+    }
+
     Folder folder_;
 };
 
@@ -68,6 +101,52 @@ TEST_F(Rendering, WorksInAnEmptyFolder) {
     EXPECT_EQ(result.code, 0) << result.out;
     EXPECT_THAT(empty.files(),
                 testing::ElementsAre("pictures/000001.png", "pictures/000041.png", "t.mcap"));
+}
+
+TEST_F(Rendering, NeitherThreadsNorRepeatsChangeAByte) {
+    for (const std::vector<std::string>& mode :
+         {std::vector<std::string>{}, std::vector<std::string>{"--portable"}}) {
+        const std::string expected = pictures(mode);
+        for (const std::string threads : {"1", "2", "4", "4"}) {
+            std::vector<std::string> words = mode;
+            words.insert(words.end(), {"--threads", threads});
+            EXPECT_TRUE(pictures(words) == expected) << threads << " threads";
+        }
+    }
+}
+
+/// What glibc does on a CPU without these features; Embree and our own code ask the CPU itself, so
+/// tests/render/portable_pictures_test.sh emulates one.
+TEST_F(Rendering, PortablePicturesDoNotAskForTheCpusFeatures) {
+    const std::string expected = pictures({"--portable"});
+    for (const char* mask : {"-FMA,-FMA4", "-AVX,-AVX2,-FMA,-FMA4,-SSE4_1,-SSE4_2"}) {
+        setenv("GLIBC_TUNABLES", (std::string("glibc.cpu.hwcaps=") + mask).c_str(), 1);
+        EXPECT_TRUE(pictures({"--portable"}) == expected) << mask;
+        unsetenv("GLIBC_TUNABLES");
+    }
+}
+
+TEST(RenderingMistakes, AreOneClearLineAndMakeNoFolder) {
+    const Folder folder;
+    const std::string threads = "--threads: expected a number of threads from 1 to 1024, got '";
+    const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes{
+        {{"--threads", "0"}, threads + "0'"},
+        {{"--threads", "x"}, threads + "x'"},
+        {{"--threads", "-2"}, threads + "-2'"},
+        {{"--threads", "2.5"}, threads + "2.5'"},
+        {{"--threads", ""}, threads + "'"},
+        {{"--threads", "99999999999"}, threads + "99999999999'"},
+        {{"--camera", "rgb,rgb"}, "--camera: 'rgb' is there twice"},
+        {{"--camera", "depth", "--camera", "rgb,depth"}, "--camera: 'depth' is there twice"},
+    };
+    for (const auto& [words, message] : mistakes) {
+        std::vector<std::string> all{"render", "t.mcap", "-o", "pictures"};
+        all.insert(all.end(), words.begin(), words.end());
+        const Result result = reprise(all, folder.path());
+        EXPECT_EQ(result.code, 2) << message;
+        EXPECT_EQ(result.out, "reprise: " + message + " (reprise --help says more)\n");
+        EXPECT_THAT(folder.files(), testing::IsEmpty());
+    }
 }
 
 }  // namespace

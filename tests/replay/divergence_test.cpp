@@ -193,6 +193,70 @@ TEST_F(Traces, DifferWhereABytesDoesThoughAllDigestsAgree) {
     EXPECT_EQ(divergence->field, "weather.fog_extinction");
 }
 
+/// From `hidden` on only the digest of traffic differs, from `shown` on a recorded field too.
+Change diverging(std::uint64_t hidden, std::uint64_t shown) {
+    return [=](world::TickDraft& draft) {
+        if (draft.tick.index >= hidden)
+            draft.tick.digests.mutate_traffic(draft.tick.digests.traffic() + 1);
+        if (draft.tick.index >= shown)
+            draft.traffic.cars[2].mutate_lane_s(1);
+    };
+}
+
+TEST_F(Traces, FollowWhatOnlyADigestShowsUntilTheRecordDoes) {
+    const auto divergence = compared({}, {.change = diverging(60, 130)});
+    ASSERT_TRUE(divergence);
+    EXPECT_EQ(divergence->tick, 60u);
+    EXPECT_EQ(divergence->field, "digests.traffic");
+    EXPECT_THAT(divergence->note,
+                HasSubstr("it first shows at tick 130, stage traffic: cars[id 1000002].lane_s"));
+    EXPECT_THAT(compared({}, {.change = diverging(60, 1000)})->note,
+                HasSubstr("nothing in the record shows it in the next 90 ticks"));
+}
+
+/// The scenario sets a speed at tick 70 in line 31, and prints in line 35 at tick 80.
+void say(world::TickDraft& draft) {
+    if (draft.tick.index == 70) {
+        world::CommandT command;
+        command.kind = world::CommandKind::set_speed;
+        command.actor = 1;
+        command.line = 31;
+        draft.tick.commands.push_back(command);
+    }
+    if (draft.tick.index == 80) {
+        world::EventT event;
+        event.kind = world::EventKind::printed;
+        event.line = 35;
+        draft.tick.events.push_back(event);
+    }
+}
+
+TEST_F(Traces, NameWhatTheScenarioSaidLastBeforeTheirDifference) {
+    const auto script_before = [&](std::uint64_t tick) {
+        const auto found = compared({.change = say}, {.change = [&](world::TickDraft& draft) {
+                                        say(draft);
+                                        if (draft.tick.index == tick)
+                                            draft.tick.vehicles[0].mutate_odometer(1e9);
+                                    }});
+        return found.value().script;
+    };
+    EXPECT_EQ(script_before(69), "");
+    EXPECT_THAT(script_before(70), testing::EndsWith(":31"));
+    EXPECT_THAT(script_before(79), HasSubstr("tick 70 (3.50 s): set_speed of ego (1), "));
+    EXPECT_THAT(script_before(90), HasSubstr("tick 80 (4.00 s): printed, "));
+}
+
+TEST_F(Traces, DoNotTakeAChangedCommandForWhatWasBeforeIt) {
+    const auto found = compared({.change = say}, {.change = [](world::TickDraft& draft) {
+                                    say(draft);
+                                    for (world::CommandT& command : draft.tick.commands)
+                                        command.speed = 5;
+                                }});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->field, "commands[0].speed");
+    EXPECT_EQ(found->script, "");
+}
+
 TEST_F(Traces, OfOtherSeedsDifferWhereTheirTicksDoNotWhereTheirChainsDo) {
     const auto divergence = compared(
         {.seed = 7},
@@ -222,7 +286,7 @@ TEST_F(Traces, DifferInTheirEndWhenOneGoesOn) {
     EXPECT_THAT(divergence->found, HasSubstr("101 (passed"));
 }
 
-TEST_F(Traces, OfOtherBuildsSayWhichLinesOfTheFingerprintDiffer) {
+TEST_F(Traces, OfOtherBuildsAreEqualWhenTheirRunsAre) {
     const auto write = [&](const std::string& name, const std::string& compiler, double speed) {
         replay::Recording start = recording();
         start.episode.fingerprint.emplace_back();
@@ -239,8 +303,26 @@ TEST_F(Traces, OfOtherBuildsSayWhichLinesOfTheFingerprintDiffer) {
     write("found.mcap", "GNU 13.1.0", 1);
     EXPECT_EQ(compared(), std::nullopt);
     write("found.mcap", "GNU 13.1.0", 2);
-    EXPECT_THAT(compared()->note,
-                HasSubstr("recorded by different builds: compiler GNU 12.2.0 / GNU 13.1.0"));
+    EXPECT_EQ(compared()->field, "measurements[actor 1].speed");
+}
+
+TEST(BuildDifferences, AreTheLinesThatDifferOrAreMissing) {
+    const auto lines = [](const std::vector<std::pair<std::string, std::string>>& pairs) {
+        replay::Fingerprint print;
+        for (const auto& [key, value] : pairs) {
+            print.emplace_back();
+            print.back().key = key;
+            print.back().value = value;
+        }
+        return print;
+    };
+    const auto expected = lines({{"compiler", "GNU 12"}, {"sumo", "1.15.0"}, {"old", "1"}});
+    const auto found = lines({{"new", "2"}, {"compiler", "GNU 13"}, {"sumo", "1.15.0"}});
+    std::string text;
+    for (const replay::BuildDifference& line : replay::build_differences(expected, found))
+        text += line.key + " " + line.expected + " " + line.found + "\n";
+    EXPECT_EQ(text, "compiler GNU 12 GNU 13\nold 1 -\nnew - 2\n");
+    EXPECT_TRUE(replay::build_differences(expected, expected).empty());
 }
 
 TEST_F(Traces, AreNotCalledEqualWhenOneIsDamaged) {
@@ -253,14 +335,17 @@ TEST_F(Traces, AreNotCalledEqualWhenOneIsDamaged) {
 }
 
 TEST(DivergenceText, IsAFewLinesForAPerson) {
-    const std::string text = to_text(
-        difference([](world::TickDraft& draft) { draft.tick.controls[0].mutate_brake(0.5); }),
-        50'000'000);
-    EXPECT_EQ(text,
+    Divergence found =
+        difference([](world::TickDraft& draft) { draft.tick.controls[0].mutate_brake(0.5); });
+    found.script = "tick 1 (0.05 s): spawn of ego (1), cut_in.lua:20";
+    found.again = "reprise verify a.mcap";
+    EXPECT_EQ(to_text(found, 50'000'000),
               "tick 1 (0.05 s), stage controls, actor 1\n"
               "  field     controls[actor 1].brake\n"
               "  expected  0 (0x0000000000000000)\n"
-              "  found     0.5 (0x3fe0000000000000)\n");
+              "  found     0.5 (0x3fe0000000000000)\n"
+              "  script    last said at tick 1 (0.05 s): spawn of ego (1), cut_in.lua:20\n"
+              "  again     reprise verify a.mcap\n");
 }
 
 }  // namespace

@@ -84,7 +84,6 @@ TEST(Purpose, KeepsItsNumbers) {
     EXPECT_EQ(static_cast<int>(Purpose::demand_model), 3);
     EXPECT_EQ(static_cast<int>(Purpose::demand_route), 4);
     EXPECT_EQ(static_cast<int>(Purpose::driver_route), 5);
-    EXPECT_EQ(static_cast<int>(Purpose::walker_gait), 6);
     EXPECT_EQ(static_cast<int>(Purpose::building), 7);
     EXPECT_EQ(static_cast<int>(Purpose::tree), 8);
     EXPECT_EQ(static_cast<int>(Purpose::camera_noise), 9);

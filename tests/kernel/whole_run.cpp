@@ -1,0 +1,60 @@
+#include "tests/kernel/whole_run.h"
+
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+#include "scripting/scenario.h"
+#include "traffic/town_reader.h"
+#include "world/check.h"
+#include "world/digest.h"
+
+namespace reprise::test {
+
+replay::Recording in_town1(const std::string& body, unsigned cars, double seconds) {
+    static const traffic::Network network =
+        traffic::load_network(std::string(REPRISE_SOURCE) + "/scenarios/towns/town1/town1.net.xml");
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("reprise_whole_run_" + std::to_string(getpid()) + ".lua");
+    std::ofstream(path) << "return scenario 'test' { town = 'town1', seed = 7, cars = " << cars
+                        << ",\nrun = function()\n"
+                        << body << "\nend }\n";
+    replay::Recording recording;
+    recording.episode = scripting::load_episode(path, {{}, {}, seconds, {}});
+    recording.episode.scenario_path = "test.lua";
+    std::filesystem::remove(path);
+    recording.town = traffic::read_town(network);
+    recording.network = network.xml;
+    recording.episode.town_digest = world::digest128(recording.network);
+    return recording;
+}
+
+KeptTick::KeptTick(const world::SealedTick& tick)
+    : tick_(tick.tick_bytes().begin(), tick.tick_bytes().end()),
+      traffic_(tick.traffic_bytes().begin(), tick.traffic_bytes().end()) {}
+
+replay::RecordedTick KeptTick::recorded() const {
+    return {{world::GetTick(tick_.data()), world::GetTraffic(traffic_.data())}, tick_, traffic_};
+}
+
+std::vector<KeptTick> run(const replay::Recording& recording,
+                          const std::function<void(kernel::Kernel&)>& prepare) {
+    kernel::Kernel kernel(recording);
+    if (prepare)
+        prepare(kernel);
+    std::vector<KeptTick> ticks;
+    while (!kernel.finished())
+        ticks.emplace_back(kernel.step());
+    return ticks;
+}
+
+std::string error_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const world::Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace reprise::test

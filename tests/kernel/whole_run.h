@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "kernel/kernel.h"
+#include "replay/recording.h"
+#include "replay/trace_reader.h"
+
+/// Whole runs in Town 1, from a scenario's text.
+namespace reprise::test {
+
+/// Town 1 with this scenario; `body` is what its run function does.
+replay::Recording in_town1(const std::string& body, unsigned cars, double seconds);
+
+/// A tick's bytes, kept.
+class KeptTick {
+  public:
+    explicit KeptTick(const world::SealedTick& tick);
+
+    replay::RecordedTick recorded() const;
+
+  private:
+    std::vector<std::uint8_t> tick_;
+    std::vector<std::uint8_t> traffic_;
+};
+
+/// Runs it to its end. `prepare` may ask the kernel for a drill.
+std::vector<KeptTick> run(const replay::Recording& recording,
+                          const std::function<void(kernel::Kernel&)>& prepare = {});
+
+/// What `action` throws as world::Error, or "" when it does not.
+std::string error_of(const std::function<void()>& action);
+
+}  // namespace reprise::test
