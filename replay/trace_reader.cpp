@@ -46,29 +46,39 @@ struct TraceReader::File {
     bool has_town = false;  ///< recording.town and .network are read
     Outcome outcome;
     world::Digest128 first_chain;
+    std::string loss;  ///< what a salvage left out
     ChunkReader loaded_chunk;
     std::uint64_t loaded = none_loaded;  ///< first tick of the chunk in memory
     mcap::Bytes packed;                  ///< as handed out by packed()
     AlignedCopy tick_copy;
     AlignedCopy traffic_copy;
 
-    File(const std::filesystem::path& path, bool partial) : input(path) {
-        auto found = read_index(input);
-        const bool whole = found.has_value();
-        index = whole ? std::move(*found) : scan(input);
-        if (!whole && find_attachment(index, format::episode_attachment) == nullptr)
+    File(const std::filesystem::path& path, bool salvage) : input(path) {
+        index = find_index(salvage);
+        if (!index.whole && find_attachment(index, format::episode_attachment) == nullptr)
             input.fail(index.data_end,
                        "cut off before the first tick: nothing in it can be used; record again");
         read_start();
-        if (whole) {
+        if (index.whole && !salvage) {
             find_ranges();
             read_outcome();
             return;
         }
         drop_broken_end();
-        if (!partial)
+        if (!salvage)
             input.fail(index.data_end, cut_off());
-        outcome = {"error", "the trace was cut off", ticks()};
+        salvage_outcome();
+    }
+
+    TraceIndex find_index(bool salvage) const {
+        try {
+            if (auto found = read_index(input))
+                return std::move(*found);
+        } catch (const world::Error&) {
+            if (!salvage)
+                throw;
+        }
+        return scan(input);
     }
 
     std::uint64_t ticks() const { return ranges.empty() ? 0 : ranges.back().last; }
@@ -130,18 +140,40 @@ struct TraceReader::File {
         return range;
     }
 
-    /// Of a file without its end: the chunks up to the first that is not sound.
+    /// Keeps the chunks up to the first that is not sound.
     void drop_broken_end() {
         for (std::size_t i = 0; i < index.chunks.size(); ++i) {
             const auto range = range_of(index.chunks[i]);
             if (range)
                 loaded_chunk.load(input, index.chunks[i], *range, step_ns());
             if (!range || loaded_chunk.damage()) {
+                const std::string fault = range ? *loaded_chunk.damage() : "other times than due";
+                loss = fmt::format(
+                    "byte {}: the chunk behind tick {} is damaged ({}); {} whole or "
+                    "damaged chunks from there on are left out",
+                    index.chunks[i].offset,
+                    ticks(),
+                    fault,
+                    index.chunks.size() - i);
                 index.data_end = index.chunks[i].offset;
                 index.chunks.resize(i);
+                index.whole = false;
                 return;
             }
             ranges.push_back(*range);
+        }
+    }
+
+    /// How the run ended, when that was written and all its ticks are there.
+    void salvage_outcome() {
+        try {
+            read_outcome();
+        } catch (const world::Error&) {
+            index.whole = false;
+            if (loss.empty())
+                loss =
+                    fmt::format("byte {}: the file ends behind tick {}", index.data_end, ticks());
+            outcome = {"error", "the trace was cut off", ticks()};
         }
     }
 
@@ -233,8 +265,12 @@ TraceReader::TraceReader(const std::filesystem::path& path)
 
 TraceReader::TraceReader(std::unique_ptr<File> file) : file_(std::move(file)) {}
 
-TraceReader TraceReader::open_partial(const std::filesystem::path& path) {
+TraceReader TraceReader::salvage(const std::filesystem::path& path) {
     return TraceReader(std::make_unique<File>(path, true));
+}
+
+const std::string& TraceReader::loss() const {
+    return file_->loss;
 }
 
 TraceReader::~TraceReader() = default;

@@ -34,9 +34,12 @@ class TraceReader {
   public:
     explicit TraceReader(const std::filesystem::path& path);
 
-    /// Opens what a crash left behind (PATH.partial): its whole chunks. The outcome's verdict is
-    /// "error". A whole trace opens as usual.
-    static TraceReader open_partial(const std::filesystem::path& path);
+    /// Opens whatever still has its start: all ticks up to the first that is not sound, whether the
+    /// end is missing (a crash left PATH.partial behind) or the index or a chunk is damaged. `loss`
+    /// says what was left out, "" for nothing but the index. Without its outcome the verdict is
+    /// "error".
+    static TraceReader salvage(const std::filesystem::path& path);
+    const std::string& loss() const;
 
     ~TraceReader();
     TraceReader(TraceReader&&) noexcept;

@@ -113,16 +113,20 @@ TraceWriter::~TraceWriter() {
 }
 
 void TraceWriter::append(const world::SealedTick& tick) {
-    const std::uint64_t index = tick.view().index();
+    append(RecordedTick{tick.view(), tick.tick_bytes(), tick.traffic_bytes()});
+}
+
+void TraceWriter::append(const RecordedTick& tick) {
+    const std::uint64_t index = tick.view.index();
     REPRISE_CHECK(!file_->closed, fmt::format("tick {} after the end", index));
     REPRISE_CHECK(index == file_->ticks + 1,
                   fmt::format("tick {} after tick {}", index, file_->ticks));
     file_->guarded([&] {
         file_->thread->check();
         const std::uint64_t log_time = index * file_->step_ns;
-        file_->chunk->add(format::tick_channel, index, log_time, tick.tick_bytes());
-        file_->chunk->add(format::traffic_channel, index, log_time, tick.traffic_bytes());
-        file_->chain = tick.view().tick->digests()->chain();
+        file_->chunk->add(format::tick_channel, index, log_time, tick.tick_bytes);
+        file_->chunk->add(format::traffic_channel, index, log_time, tick.traffic_bytes);
+        file_->chain = tick.view.tick->digests()->chain();
         file_->ticks = index;
         if (index % format::ticks_per_chunk == 0)
             file_->thread->exchange(file_->chunk);

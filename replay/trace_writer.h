@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "replay/recording.h"
+#include "replay/trace_reader.h"
 #include "world/tick.h"
 
 namespace reprise::replay {
@@ -23,6 +24,7 @@ class TraceWriter {
 
     /// Ticks in order, the first has index 1. Costs the caller one copy, about 2 us.
     void append(const world::SealedTick& tick);
+    void append(const RecordedTick& tick);
 
     /// Writes outcome, index and footer, and gives the file its name.
     void close(const Outcome& outcome);

@@ -119,7 +119,7 @@ TEST_F(DamagedTrace, GivesTheTicksOfItsWholeChunksWhenOpenedAsPartial) {
     write_file(
         path_,
         {whole_.begin(), whole_.begin() + static_cast<std::ptrdiff_t>(chunks[2].first + 99)});
-    auto trace = TraceReader::open_partial(path_);
+    auto trace = TraceReader::salvage(path_);
     ASSERT_EQ(trace.ticks(), 128u);
     for (std::uint64_t index = 1; index <= 128; ++index)
         EXPECT_EQ(bytes_of(trace.tick(index)), ticks_[index - 1]);

@@ -70,7 +70,7 @@ TEST(TraceWriter, KeepsEveryTickOfARunThatStoppedEarlyInThePartialFile) {
             writer.append(tick);
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "run.mcap"));
-    auto rest = TraceReader::open_partial(folder / "run.mcap.partial");
+    auto rest = TraceReader::salvage(folder / "run.mcap.partial");
     ASSERT_EQ(rest.ticks(), 70u);
     EXPECT_EQ(rest.outcome().verdict, "error");
     for (std::uint64_t index = 1; index <= 70; ++index)
@@ -112,7 +112,7 @@ TEST(TraceWriter, ReportsAFullDiskAndKeepsTheWholeChunks) {
     EXPECT_THAT(error, HasSubstr("run.mcap: cannot write the trace: File too large"));
     EXPECT_THAT(error, HasSubstr("run.mcap.partial"));
     EXPECT_FALSE(std::filesystem::exists(folder / "run.mcap"));
-    auto rest = TraceReader::open_partial(folder / "run.mcap.partial");
+    auto rest = TraceReader::salvage(folder / "run.mcap.partial");
     EXPECT_GE(rest.ticks(), 64u);
     EXPECT_EQ(rest.ticks() % 64, 0u);
     EXPECT_EQ(bytes_of(rest.tick(rest.ticks())), bytes_of(ticks[rest.ticks() - 1]));
