@@ -1,8 +1,13 @@
 #include "cli/guard.h"
 
+#include <array>
+#include <atomic>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include "cli/reproduce.h"
@@ -12,13 +17,52 @@ namespace reprise::cli {
 
 namespace {
 
-/// Debian's SUMO and Embree are built with their assertions on and abort when one fails.
-extern "C" void on_abort(int) {
-    constexpr char text[] =
-        "reprise: a library stopped itself (its reason is above); what a run recorded until then "
-        "is beside its trace, in .partial\n";
-    [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof(text) - 1);
+/// What a crash says last; written before anything can crash, read in the handler.
+std::array<char, 4096> last_words{};
+std::atomic<std::size_t> last_words_size = 0;
+
+/// A crash may be a stack that ran over.
+alignas(16) std::array<std::byte, 64 << 10> handler_stack;
+
+const char* meaning(int signal) {
+    switch (signal) {
+        case SIGABRT:
+            // Debian's SUMO and Embree are built with their assertions on.
+            return "reprise: a library stopped itself (its reason is above)";
+        case SIGSEGV:
+            return "reprise: crashed: invalid memory access (SIGSEGV)";
+        case SIGBUS:
+            return "reprise: crashed: memory that is not there (SIGBUS)";
+        default:
+            return "reprise: crashed: impossible arithmetic (SIGFPE)";
+    }
+}
+
+/// Only calls that POSIX allows in a signal handler.
+extern "C" void on_crash(int signal) {
+    const char* what = meaning(signal);
+    const std::array<iovec, 3> parts{{{const_cast<char*>(what), strlen(what)},
+                                      {last_words.data(), last_words_size},
+                                      {const_cast<char*>("\n"), 1}}};
+    [[maybe_unused]] const auto written =
+        writev(STDERR_FILENO, parts.data(), static_cast<int>(parts.size()));
     _exit(exit_our_fault);
+}
+
+void catch_crashes() {
+    const stack_t stack{handler_stack.data(), 0, handler_stack.size()};
+
+    struct sigaction action {};
+
+    action.sa_handler = on_crash;
+    // The next crash, in the handler, ends the process the ordinary way.
+    action.sa_flags =
+        static_cast<int>(SA_RESETHAND) | (sigaltstack(&stack, nullptr) == 0 ? SA_ONSTACK : 0);
+    sigaction(SIGABRT, &action, nullptr);
+#ifndef __SANITIZE_ADDRESS__  // whose own report says more
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE})
+        sigaction(signal, &action, nullptr);
+#endif
 }
 
 }  // namespace
@@ -26,7 +70,7 @@ extern "C" void on_abort(int) {
 int guarded(const std::string& command_line, const std::function<int()>& work) {
     // A file-size limit shall be an error that we can tell, not a signal that ends us.
     std::signal(SIGXFSZ, SIG_IGN);
-    std::signal(SIGABRT, on_abort);
+    catch_crashes();
     try {
         const int code = work();
         if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)
@@ -46,6 +90,11 @@ int guarded(const std::string& command_line, const std::function<int()>& work) {
                      command_line.c_str());
         return exit_our_fault;
     }
+}
+
+void say_when_crashing(const std::string& text) {
+    last_words_size = 0;
+    last_words_size = text.copy(last_words.data(), last_words.size());
 }
 
 std::string command_text(int argc, char** argv) {

@@ -192,6 +192,23 @@ void add_render(CLI::App& app,
         "Example: reprise render a.mcap -o rain --weather hard_rain_sunset --every 20");
 }
 
+void add_recover(CLI::App& app, RecoverOptions& recover) {
+    CLI::App& command = *app.add_subcommand(
+        "recover", "Make a whole trace of what a crash, a full disk or damage left of one");
+    command
+        .add_option("damaged", recover.damaged, "What is left, such as a.mcap.partial; only read")
+        ->required()
+        ->type_name("IN");
+    command.add_option("-o,--output", recover.output, "Where the whole trace goes")
+        ->required()
+        ->type_name("OUT.mcap");
+    command.footer(
+        "Keeps every tick up to the first that is not sound; a running simulation writes whole\n"
+        "chunks of 64 ticks. Exit status: 0 nothing was lost, 1 nothing can be recovered,\n"
+        "2 bad input, 3 recovered with loss.\n"
+        "Example: reprise recover a.mcap.partial -o a.mcap");
+}
+
 /// CLI11 would only say that a command is missing.
 void check_command(const CLI::App& app, const std::string& word) {
     std::vector<std::string> names;
@@ -271,6 +288,7 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     diff_command.add_option("found", diff.found, "Another trace")->required()->type_name("B.mcap");
     diff_command.footer("Exit status: 0 equal, 1 different, 2 bad input.");
 
+    add_recover(app, recover);
     add_render(app, render, app_->size, app_->mount, app_->threads);
     add_golden_commands(app, test, accept, golden_list, [&](CLI::App& to) {
         add_start(to, accept.start, app_->accept_assignments);

@@ -24,6 +24,11 @@ struct TraceOptions {
     std::string trace;
 };
 
+struct RecoverOptions {
+    std::string damaged;
+    std::string output;
+};
+
 struct DiffOptions {
     std::string expected;
     std::string found;
@@ -84,11 +89,12 @@ class CommandLine {
     /// been printed), or nothing when `command` should now be carried out.
     std::optional<int> parse(int argc, char** argv);
 
-    std::string command;  ///< run, verify, info, diff, render, test, accept or golden
+    std::string command;  ///< run, verify, info, diff, recover, render, test, accept or golden
     RunOptions run;
     TraceOptions verify;
     TraceOptions info;
     DiffOptions diff;
+    RecoverOptions recover;
     RenderOptions render;
     TestOptions test;
     AcceptOptions accept;

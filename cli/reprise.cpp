@@ -13,6 +13,7 @@
 #include "cli/helper_program.h"
 #include "cli/info.h"
 #include "cli/options.h"
+#include "cli/recover.h"
 #include "cli/test.h"
 #include "world/check.h"
 
@@ -37,6 +38,8 @@ int main(int argc, char** argv) {
             return info(line.info);
         if (line.command == "diff")
             return diff(line.diff);
+        if (line.command == "recover")
+            return recover(line.recover);
         if (line.command == "test")
             return test(line.test);
         if (line.command == "accept")

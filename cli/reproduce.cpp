@@ -78,4 +78,13 @@ std::uint64_t length_beyond(const world::EpisodeT& episode, std::uint64_t tick) 
     return std::min(tick + 1, episode.max_ticks);
 }
 
+std::string recover_command(const std::filesystem::path& damaged) {
+    std::filesystem::path out = damaged;
+    if (damaged.extension() == ".partial")
+        out.replace_extension();
+    else
+        out.replace_filename(damaged.stem().string() + "_recovered.mcap");
+    return "reprise recover " + shell_path(damaged) + " -o " + shell_path(out);
+}
+
 }  // namespace reprise::cli

@@ -26,4 +26,7 @@ std::string rerun_command(const std::filesystem::path& trace,
 /// Just beyond this tick, and no further than the run went.
 std::uint64_t length_beyond(const world::EpisodeT& episode, std::uint64_t tick);
 
+/// reprise recover IN -o OUT: for a.mcap.partial OUT is a.mcap, else a_recovered.mcap.
+std::string recover_command(const std::filesystem::path& damaged);
+
 }  // namespace reprise::cli

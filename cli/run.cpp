@@ -7,6 +7,7 @@
 #include "cli/full_fingerprint.h"
 #include "cli/guard.h"
 #include "cli/progress.h"
+#include "cli/reproduce.h"
 #include "cli/self_test.h"
 #include "cli/towns.h"
 #include "kernel/kernel.h"
@@ -180,7 +181,10 @@ int run(const RunOptions& options) {
     const replay::Recording recording = before ? prepare_again(options, *before) : prepare(options);
     const std::optional<kernel::Nudge> nudge = planned_nudge(options, recording.episode);
     const fs::path path = output_path(options);
-    replay::TraceWriter trace(behind_links(path), recording);
+    const fs::path target = behind_links(path);
+    replay::TraceWriter trace(target, recording);
+    say_when_crashing("; what was recorded until then is in " + target.string() +
+                      ".partial: " + recover_command(target.string() + ".partial"));
     kernel::Kernel kernel(recording);
     if (nudge)
         kernel.nudge(*nudge);
@@ -194,6 +198,7 @@ int run(const RunOptions& options) {
     }
     progress.clear();
     trace.close(kernel.outcome());
+    say_when_crashing("");
     print_summary(recording, kernel, path, progress.seconds());
     if (nudge && nudge->tick > kernel.outcome().ticks)
         throw world::Error(fmt::format("--nudge {}: the run ended at tick {}; nothing was nudged",

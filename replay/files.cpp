@@ -18,8 +18,9 @@ std::string reason(int error) {
     return std::generic_category().message(error);
 }
 
-/// Only plain files: renaming over a device or a pipe would replace it.
-void check_target(const std::filesystem::path& path) {
+}  // namespace
+
+void check_output(const std::filesystem::path& path) {
     std::error_code ignored;
     const auto status = std::filesystem::status(path, ignored);
     if (std::filesystem::is_directory(status))
@@ -33,8 +34,6 @@ void check_target(const std::filesystem::path& path) {
         throw world::Error(fmt::format(
             "{}: cannot write the trace: there is no folder {}", path.string(), folder.string()));
 }
-
-}  // namespace
 
 InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
     // O_NONBLOCK: a pipe must be refused, not waited for.
@@ -90,8 +89,8 @@ void InputFile::fail(std::uint64_t offset, const std::string& what) const {
 OutputFile::OutputFile(const std::filesystem::path& path)
     : path_(path),
       partial_(path.string() + ".partial") {
-    check_target(path_);
-    check_target(partial_);
+    check_output(path_);
+    check_output(partial_);
     open();
 }
 

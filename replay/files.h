@@ -33,6 +33,10 @@ class InputFile {
     std::uint64_t size_ = 0;
 };
 
+/// Throws world::Error when this is no place for a trace. Only plain files: renaming over a device
+/// or a pipe would replace it.
+void check_output(const std::filesystem::path& path);
+
 /// A file that grows as PATH.partial and gets its name when it is whole. One process at a time:
 /// the partial file is locked.
 class OutputFile {

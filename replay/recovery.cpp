@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <optional>
 
+#include "replay/files.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "world/check.h"
@@ -11,6 +12,8 @@
 namespace reprise::replay {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 /// The last tick up to which all links of the chain hold, and what is wrong with the next one.
 /// Checksums tell what the disk did; the chain also tells of bytes from another recording.
@@ -39,26 +42,77 @@ Links follow_chain(TraceReader& trace) {
     return links;
 }
 
+/// OUT must be another plain file, and its folder must be there: told before anything is read.
+void check_paths(const fs::path& damaged, const fs::path& out) {
+    const InputFile readable(damaged);
+    std::error_code ignored;
+    if (fs::equivalent(damaged, out, ignored))
+        throw world::Error(fmt::format(
+            "{}: this is the damaged trace itself; name another file for what is recovered",
+            out.string()));
+    check_output(out);
+}
+
+TraceReader open(const fs::path& damaged) {
+    try {
+        TraceReader trace = TraceReader::salvage(damaged);
+        if (trace.ticks() > 0) {
+            trace.recording();  // the town and the network, which verify and render need
+            return trace;
+        }
+    } catch (const world::Error& error) {
+        throw NothingToRecover(error.what());
+    }
+    throw NothingToRecover(
+        fmt::format("{}: no whole chunk of ticks is left in it", damaged.string()));
+}
+
+/// Writes the trace; removes what is there of it when that fails.
+void write(const fs::path& path, TraceReader& trace, const Outcome& outcome) {
+    try {
+        TraceWriter writer(path, trace.recording());
+        try {
+            for (std::uint64_t index = 1; index <= outcome.ticks; ++index)
+                writer.append(trace.tick(index));
+            writer.close(outcome);
+        } catch (const world::Error&) {
+            // Its text promises a rest that is worth keeping; this one is not.
+            throw world::Error(
+                fmt::format("{}: cannot write all of it; is there room for {:.1f} MB?",
+                            path.string(),
+                            static_cast<double>(trace.file_size()) / 1e6));
+        }
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove(path.string() + ".partial", ignored);
+        throw;
+    }
+}
+
 }  // namespace
 
-Recovery recover(const std::filesystem::path& damaged, const std::filesystem::path& out) {
-    TraceReader trace = TraceReader::salvage(damaged);
-    if (trace.ticks() == 0)
-        throw world::Error(fmt::format("{}: nothing to recover: no whole chunk of ticks is left",
-                                       damaged.string()));
-    Recovery recovery{trace.outcome(), trace.loss()};
+Recovery recover(const fs::path& damaged, const fs::path& out) {
+    check_paths(damaged, out);
+    TraceReader trace = open(damaged);
+    Recovery recovery{trace.episode(), trace.outcome(), trace.loss()};
     const Links links = follow_chain(trace);
+    if (links.sound == 0)
+        throw NothingToRecover(fmt::format("{}: {}", damaged.string(), links.loss));
     if (links.sound < trace.ticks()) {
-        if (links.sound == 0)
-            throw world::Error(
-                fmt::format("{}: nothing to recover: {}", damaged.string(), links.loss));
         recovery.loss = links.loss + (recovery.loss.empty() ? "" : "; " + recovery.loss);
         recovery.outcome = {"error", "the trace was cut off", links.sound};
     }
-    TraceWriter writer(out, trace.recording());
-    for (std::uint64_t index = 1; index <= links.sound; ++index)
-        writer.append(trace.tick(index));
-    writer.close(recovery.outcome);
+    // Not OUT.partial: that may be what is recovered.
+    const fs::path grown = out.string() + ".recovered";
+    write(grown, trace, recovery.outcome);
+    std::error_code error;
+    fs::rename(grown, out, error);
+    if (error) {
+        std::error_code ignored;
+        fs::remove(grown, ignored);
+        throw world::Error(
+            fmt::format("{}: cannot write the trace: {}", out.string(), error.message()));
+    }
     return recovery;
 }
 

@@ -153,7 +153,7 @@ std::optional<TraceIndex> read_index(const InputFile& file) {
     } catch (const mcap::Malformed& error) {
         const bool found = footer.summary_start > 0 && footer.summary_start < file.size();
         file.fail(found ? footer.summary_start : file.size() - mcap::tail_size,
-                  fmt::format("the index is damaged ({}); record the run again or use a copy",
+                  fmt::format("the index is damaged ({}); `reprise recover` makes it anew",
                               error.what()));
     }
 }

@@ -149,12 +149,12 @@ struct TraceReader::File {
             if (!range || loaded_chunk.damage()) {
                 const std::string fault = range ? *loaded_chunk.damage() : "other times than due";
                 loss = fmt::format(
-                    "byte {}: the chunk behind tick {} is damaged ({}); {} whole or "
-                    "damaged chunks from there on are left out",
+                    "byte {}: the chunk behind tick {} is damaged ({}); it and the {} chunks "
+                    "behind it are left out, because a trace has no holes",
                     index.chunks[i].offset,
                     ticks(),
                     fault,
-                    index.chunks.size() - i);
+                    index.chunks.size() - i - 1);
                 index.data_end = index.chunks[i].offset;
                 index.chunks.resize(i);
                 index.whole = false;
@@ -182,7 +182,7 @@ struct TraceReader::File {
             return "cut off before the first whole chunk of ticks; record the run again";
         return fmt::format(
             "cut off after tick {}: the end of the trace is missing, those {} ticks are whole; "
-            "record the run again",
+            "`reprise recover` makes a trace of them",
             ticks(),
             ticks());
     }
@@ -291,7 +291,8 @@ RecordedTick TraceReader::tick(std::uint64_t index) {
     if (file_->loaded_chunk.damage())
         file_->input.fail(offset,
                           file_->describe_damage(index) +
-                              "; `reprise verify` names the first tick that is wrong");
+                              "; `reprise verify` names the first tick that is wrong, `reprise "
+                              "recover` keeps those before");
     RecordedTick tick;
     if (const auto fault = file_->take(index, tick))
         file_->input.fail(offset, fmt::format("tick {} is damaged ({})", index, *fault));

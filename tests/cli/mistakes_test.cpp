@@ -131,7 +131,7 @@ TEST(Help, IsEverywhere) {
     EXPECT_EQ(reprise({"--help"}).code, 0);
     EXPECT_EQ(reprise({"--version"}).code, 0);
     for (const char* command :
-         {"run", "verify", "info", "diff", "render", "test", "accept", "golden"})
+         {"run", "verify", "info", "diff", "recover", "render", "test", "accept", "golden"})
         EXPECT_EQ(reprise({command, "--help"}).code, 0) << command;
 }
 
