@@ -1,6 +1,8 @@
 #include "cli/diff.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/guard.h"
 #include "cli/other_build.h"
@@ -31,26 +33,125 @@ std::string commands_again(const DiffOptions& options,
            " -o found.mcap; reprise diff expected.mcap found.mcap";
 }
 
+/// What became of the comparison.
+struct Comparison {
+    std::optional<replay::Divergence> divergence;
+    std::optional<replay::Tolerance> tolerance;  ///< what was given, and the largest within it
+};
+
+Comparison compare(const DiffOptions& options,
+                   replay::TraceReader& expected,
+                   replay::TraceReader& found) {
+    Comparison result;
+    if (options.tolerance) {
+        result.tolerance.emplace(replay::Tolerance{*options.tolerance});
+        result.divergence = replay::compare(expected, found, *result.tolerance);
+    } else {
+        result.divergence = replay::compare(expected, found);
+    }
+    if (result.divergence)
+        result.divergence->again =
+            commands_again(options, expected, found, result.divergence->tick);
+    return result;
+}
+
+/// "largest difference 3e-09: ..." or that there was none.
+std::string largest(const replay::Tolerance& tolerance) {
+    if (tolerance.largest == 0)
+        return "no recorded value differs";
+    return fmt::format("largest difference {:.3g}: {} {} / {}",
+                       tolerance.largest,
+                       tolerance.field,
+                       tolerance.expected,
+                       tolerance.found);
+}
+
+void print_text(const Comparison& result,
+                replay::TraceReader& expected,
+                replay::TraceReader& found) {
+    if (result.divergence) {
+        fmt::print("different\n{}", to_text(*result.divergence, expected.episode().step_ns));
+    } else if (result.tolerance) {
+        fmt::print("equal within tolerance {:g}: {} ticks, {}\n",
+                   result.tolerance->bound,
+                   expected.ticks(),
+                   largest(*result.tolerance));
+        if (const std::string note = start_difference(expected, found); !note.empty())
+            fmt::print("  note      {}\n", note);
+    } else {
+        fmt::print("equal: {} ticks, chain {}\n",
+                   expected.ticks(),
+                   world::to_hex(expected.chain(expected.ticks())));
+    }
+}
+
+using Json = nlohmann::ordered_json;
+
+/// What has 64 bits is text: many readers of JSON keep 53.
+Json json_of(const replay::Divergence& divergence, std::uint64_t step_ns) {
+    return {{"tick", std::to_string(divergence.tick)},
+            {"seconds", world::seconds(divergence.tick, step_ns)},
+            {"stage", divergence.stage},
+            {"actor", divergence.actor},
+            {"actor_id", divergence.actor_id},
+            {"field", divergence.field},
+            {"expected", divergence.expected},
+            {"found", divergence.found},
+            {"note", divergence.note},
+            {"script", divergence.script},
+            {"again", divergence.again}};
+}
+
+void print_json(const DiffOptions& options,
+                const Comparison& result,
+                replay::TraceReader& expected,
+                replay::TraceReader& found) {
+    const auto side = [](const std::string& path, replay::TraceReader& trace) {
+        return Json{{"path", path},
+                    {"ticks", std::to_string(trace.ticks())},
+                    {"chain", world::to_hex(trace.chain(trace.ticks()))}};
+    };
+    Json out{{"result",
+              result.divergence  ? "different"
+              : result.tolerance ? "within_tolerance"
+                                 : "equal"},
+             {"expected", side(options.expected, expected)},
+             {"found", side(options.found, found)},
+             {"start", start_difference(expected, found)},
+             {"builds", Json::array()}};
+    for (const replay::BuildDifference& line :
+         replay::build_differences(expected.episode().fingerprint, found.episode().fingerprint))
+        out["builds"].push_back(
+            {{"key", line.key}, {"expected", line.expected}, {"found", line.found}});
+    if (result.tolerance)
+        out["tolerance"] = {{"bound", result.tolerance->bound},
+                            {"largest", result.tolerance->largest},
+                            {"field", result.tolerance->field},
+                            {"expected", result.tolerance->expected},
+                            {"found", result.tolerance->found}};
+    if (result.divergence)
+        out["divergence"] = json_of(*result.divergence, expected.episode().step_ns);
+    // Names may be no UTF-8: JSON must be.
+    fmt::print("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
 }  // namespace
 
 int diff(const DiffOptions& options) {
     replay::TraceReader expected(options.expected);
     replay::TraceReader found(options.found);
-    print_other_build("recorded by different builds",
-                      "expected",
-                      expected.episode().fingerprint,
-                      "found",
-                      found.episode().fingerprint);
-    auto divergence = replay::compare(expected, found);
-    if (!divergence) {
-        fmt::print("equal: {} ticks, chain {}\n",
-                   expected.ticks(),
-                   world::to_hex(expected.chain(expected.ticks())));
-        return exit_good;
-    }
-    divergence->again = commands_again(options, expected, found, divergence->tick);
-    fmt::print("different\n{}", to_text(*divergence, expected.episode().step_ns));
-    return exit_differs;
+    if (!options.json)
+        print_other_build("recorded by different builds",
+                          "expected",
+                          expected.episode().fingerprint,
+                          "found",
+                          found.episode().fingerprint);
+    const Comparison result = compare(options, expected, found);
+    if (options.json)
+        print_json(options, result, expected, found);
+    else
+        print_text(result, expected, found);
+    return result.divergence ? exit_differs : exit_good;
 }
 
 }  // namespace reprise::cli

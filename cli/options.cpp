@@ -192,6 +192,30 @@ void add_render(CLI::App& app,
         "Example: reprise render a.mcap -o rain --weather hard_rain_sunset --every 20");
 }
 
+void add_diff(CLI::App& app, DiffOptions& diff) {
+    CLI::App& command = *app.add_subcommand("diff", "Find the first difference of two traces");
+    command.add_option("expected", diff.expected, "A trace")->required()->type_name("A.mcap");
+    command.add_option("found", diff.found, "Another trace")->required()->type_name("B.mcap");
+    command
+        .add_option("--tolerance",
+                    diff.tolerance,
+                    "For traces of different builds: how far recorded reals may be apart, in their "
+                    "unit; of those larger than 1, as a share. Digests do not count then; events, "
+                    "ids, texts and verdicts must be equal")
+        ->type_name("T")
+        ->check(CLI::Validator(
+            [](std::string& text) -> std::string {
+                char* end = nullptr;
+                const double bound = std::strtod(text.c_str(), &end);
+                return end != text.c_str() && *end == '\0' && bound >= 0 && bound <= 1e6
+                           ? ""
+                           : "expected a number of 0 or more such as 1e-6, got '" + text + "'";
+            },
+            ""));
+    command.add_flag("--json", diff.json, "For programs: one JSON object");
+    command.footer("Exit status: 0 equal (within the tolerance), 1 different, 2 bad input.");
+}
+
 void add_recover(CLI::App& app, RecoverOptions& recover) {
     CLI::App& command = *app.add_subcommand(
         "recover", "Make a whole trace of what a crash, a full disk or damage left of one");
@@ -283,11 +307,7 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     CLI::App& info_command = *app.add_subcommand("info", "Say what is in a trace");
     info_command.add_option("trace", info.trace, "The trace")->required()->type_name("T.mcap");
 
-    CLI::App& diff_command = *app.add_subcommand("diff", "Find the first difference of two traces");
-    diff_command.add_option("expected", diff.expected, "A trace")->required()->type_name("A.mcap");
-    diff_command.add_option("found", diff.found, "Another trace")->required()->type_name("B.mcap");
-    diff_command.footer("Exit status: 0 equal, 1 different, 2 bad input.");
-
+    add_diff(app, diff);
     add_recover(app, recover);
     add_render(app, render, app_->size, app_->mount, app_->threads);
     add_golden_commands(app, test, accept, golden_list, [&](CLI::App& to) {

@@ -32,6 +32,8 @@ struct RecoverOptions {
 struct DiffOptions {
     std::string expected;
     std::string found;
+    std::optional<double> tolerance;
+    bool json = false;
 };
 
 struct RenderOptions {

@@ -56,9 +56,10 @@ struct EventDifference {
 };
 
 std::optional<EventDifference> first_event_difference(const world::Tick& expected,
-                                                      const world::Tick& found) {
+                                                      const world::Tick& found,
+                                                      Tolerance* tolerance) {
     std::vector<FieldDifference> all =
-        differences(*world::TickTypeTable(), &expected, &found, "events");
+        differences(*world::TickTypeTable(), &expected, &found, "events", tolerance);
     if (all.empty())
         return std::nullopt;
     const std::string& first = all.front().field;
@@ -79,15 +80,17 @@ std::optional<EventDifference> first_event_difference(const world::Tick& expecte
 
 std::vector<FieldDifference> recorded_differences(const Stage& stage,
                                                   const world::TickView& expected,
-                                                  const world::TickView& found) {
+                                                  const world::TickView& found,
+                                                  Tolerance* tolerance) {
     std::vector<FieldDifference> all;
     const auto add = [&](std::vector<FieldDifference> some) {
         std::move(some.begin(), some.end(), std::back_inserter(all));
     };
     for (const char* field : stage.tick_fields)
-        add(differences(*world::TickTypeTable(), expected.tick, found.tick, field));
+        add(differences(*world::TickTypeTable(), expected.tick, found.tick, field, tolerance));
     for (const char* field : stage.traffic_fields)
-        add(differences(*world::TrafficTypeTable(), expected.traffic, found.traffic, field));
+        add(differences(
+            *world::TrafficTypeTable(), expected.traffic, found.traffic, field, tolerance));
     return all;
 }
 
@@ -144,11 +147,13 @@ Divergence of_no_stage(const world::Digests& expected, const world::Digests& fou
 /// Stages in their order; `digests`: what shows only in them counts, too.
 std::optional<Divergence> first_stage(const world::TickView& expected,
                                       const world::TickView& found,
-                                      bool digests) {
-    const auto events = first_event_difference(*expected.tick, *found.tick);
+                                      bool digests,
+                                      Tolerance* tolerance = nullptr) {
+    const auto events = first_event_difference(*expected.tick, *found.tick, tolerance);
     for (std::size_t i = 0; i < stages().size(); ++i) {
         const Stage& stage = stages()[i];
-        std::vector<FieldDifference> fields = recorded_differences(stage, expected, found);
+        std::vector<FieldDifference> fields =
+            recorded_differences(stage, expected, found, tolerance);
         if (events && events->stage == i)
             fields.insert(fields.end(), events->fields.begin(), events->fields.end());
         const std::uint64_t left = (expected.tick->digests()->*stage.digest)();
@@ -187,7 +192,8 @@ std::string to_text(const Divergence& divergence, std::uint64_t step_ns) {
     row("expected", divergence.expected);
     row("found", divergence.found);
     row("note", divergence.note);
-    row("script", divergence.script.empty() ? "" : "last said at " + divergence.script);
+    row("script",
+        (divergence.script.starts_with("tick") ? "last said at " : "") + divergence.script);
     row("again", divergence.again);
     return text;
 }
@@ -205,9 +211,10 @@ std::optional<Divergence> compare(const RecordedTick& expected, const RecordedTi
 }
 
 std::optional<Divergence> compare_recorded(const RecordedTick& expected,
-                                           const RecordedTick& found) {
+                                           const RecordedTick& found,
+                                           Tolerance* tolerance) {
     check_same_index(expected, found);
-    return first_stage(expected.view, found.view, false);
+    return first_stage(expected.view, found.view, false, tolerance);
 }
 
 }  // namespace reprise::replay

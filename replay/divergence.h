@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "replay/field_difference.h"
 #include "replay/trace_reader.h"
 #include "world/tick.h"
 
@@ -24,7 +25,7 @@ struct Divergence {
     std::string note;      ///< how far apart; when the recorded fields agree and only the unrounded
                            ///< state differs; what the runs did not have in common at the start
     std::string script;    ///< the last thing the scenario said before it: "tick 598 (29.90 s):
-                           ///< set_speed of ego (1), cut_in.lua:31"; "" when nothing
+                           ///< set_speed of ego (1), cut_in.lua:31"; "" when nothing ever
     std::string again;     ///< the command that comes back to it; filled in by programs
     std::uint32_t actor_id = 0;  ///< 0: none
     bool unrecorded = false;     ///< only a stage's digest differs
@@ -50,11 +51,14 @@ std::string to_text(const Divergence& divergence, std::uint64_t step_ns);
 /// their order.
 std::optional<Divergence> compare(const RecordedTick& expected, const RecordedTick& found);
 
-/// The first recorded field that differs, whatever the digests say; nothing when all agree.
-std::optional<Divergence> compare_recorded(const RecordedTick& expected, const RecordedTick& found);
+/// The first recorded field that differs, by more than is tolerated, whatever the digests say;
+/// nothing when all agree.
+std::optional<Divergence> compare_recorded(const RecordedTick& expected,
+                                           const RecordedTick& found,
+                                           Tolerance* tolerance = nullptr);
 
 /// How many ticks behind a difference that shows only in a digest are searched for one in the
-/// record.
+/// record, and how many before one for what the scenario said last.
 inline constexpr std::uint64_t longest_search = 1200;
 
 /// Adds to the note where such a difference first shows in the record; nothing: within `searched`
@@ -63,13 +67,24 @@ void add_first_recorded(Divergence& divergence,
                         const std::optional<Divergence>& recorded,
                         std::uint64_t searched);
 
-/// Finds the first difference of two traces: the first tick whose digests or bytes differ, then the
-/// lengths and how they ended. Chunks with equal bytes are passed over without unpacking: an hour
-/// takes about 0.2 s. Of runs with different starts (another seed, say) the chain is left out of
-/// the comparison, because it differs from the first tick on; the note says what was different.
+/// Finds the first difference of two traces: the first tick whose digests differ, by binary search
+/// along the chains; else the first whose bytes differ, then the lengths and how they ended. Equal
+/// chains mean equal histories, so a difference in a trace of an hour takes about 20 ms. Equality
+/// takes a look at every byte, about 0.2 s: of two packed chunks that are equal, neither is
+/// unpacked. It includes that neither file was damaged; otherwise this throws world::Error.
+/// Of runs with different starts (another seed, say) the chain is left out of the comparison,
+/// because it differs from the first tick on; the note says what was different.
 /// What differs only in a digest is followed until it shows in the record.
-/// "Equal" includes that neither file was damaged; otherwise this throws world::Error.
 std::optional<Divergence> compare(TraceReader& expected, TraceReader& found);
+
+/// Two traces that need not be equal to the bit, such as those of different builds: the first
+/// recorded value outside of the tolerance. Digests are not compared; events, commands, ids,
+/// counts, texts, lengths and verdicts must be equal. What the runs started from may be different:
+/// `start_difference` says in what. Every tick of both is read and checked: about 0.1 ms a tick.
+std::optional<Divergence> compare(TraceReader& expected, TraceReader& found, Tolerance& tolerance);
+
+/// "the runs did not start from the same: seed 7 / 8", or "".
+std::string start_difference(const TraceReader& expected, const TraceReader& found);
 
 /// Fills in what the run was doing: the actor's name ("ego (1)") from the spawned events up to that
 /// tick, and the last thing that its scenario said.

@@ -8,19 +8,44 @@ namespace reprise::replay {
 
 namespace {
 
+bool is_there(std::uint32_t actor, const world::TickView& tick) {
+    return world::find(tick.vehicles(), actor) != nullptr ||
+           world::find(tick.cars(), actor) != nullptr ||
+           world::find(tick.walkers(), actor) != nullptr;
+}
+
+/// The first tick in which an actor stands that stands in tick `until`: ids are never reused, so a
+/// binary search finds it. Damaged ticks are passed over.
+std::uint64_t spawn_tick(std::uint32_t actor, TraceReader& trace, std::uint64_t until) {
+    std::uint64_t low = 0;  // not there yet
+    std::uint64_t high = until;
+    while (high - low > 1) {
+        const std::uint64_t middle = low + (high - low) / 2;
+        const bool there = !trace.damage(middle) && is_there(actor, trace.tick(middle).view);
+        (there ? high : low) = middle;
+    }
+    return high;
+}
+
 /// "ego (1)", from the run's spawned events up to that tick; "actor 1" when there is no name.
 std::string name_of(std::uint32_t actor, TraceReader& trace, std::uint64_t until) {
-    // Background actors have no names; scenarios spawn theirs in the first ticks, as a rule.
-    const std::uint64_t last = actor < world::first_background_id ? until : 0;
-    for (std::uint64_t index = 1; index <= last; ++index) {
-        if (trace.damage(index))
+    const std::string number = fmt::format("actor {}", actor);
+    if (actor >= world::first_background_id)
+        return number;  // nobody named those
+    // Most stand in the first ticks. Where one does not (any more) the search ends nowhere.
+    constexpr std::uint64_t first_ticks = 64;
+    const std::uint64_t spawned = spawn_tick(actor, trace, until);
+    const std::uint64_t early = std::min(first_ticks, until);
+    for (std::uint64_t index = 1; index <= early + 1; ++index) {
+        const std::uint64_t tick = index <= early ? index : spawned;
+        if (trace.damage(tick))
             continue;
-        for (const world::Event* event : *trace.tick(index).view.tick->events())
+        for (const world::Event* event : *trace.tick(tick).view.tick->events())
             if (event->kind() == world::EventKind::spawned && event->actor() == actor &&
                 event->text() != nullptr)
                 return fmt::format("{} ({})", event->text()->string_view(), actor);
     }
-    return fmt::format("actor {}", actor);
+    return number;
 }
 
 /// What a line of the scenario did last in a tick.
@@ -47,8 +72,9 @@ std::string script_before(const Divergence& divergence, TraceReader& trace) {
     // A command or an event that differs is not before itself.
     const bool itself =
         divergence.field.starts_with("commands") || divergence.field.starts_with("events");
-    std::uint64_t index = std::min(divergence.tick - (itself ? 1 : 0), trace.ticks());
-    for (; index >= 1; --index) {
+    const std::uint64_t from = std::min(divergence.tick - (itself ? 1 : 0), trace.ticks());
+    const std::uint64_t to = from > longest_search ? from - longest_search : 0;
+    for (std::uint64_t index = from; index > to; --index) {
         if (trace.damage(index))
             continue;
         const auto said = last_said(*trace.tick(index).view.tick);
@@ -62,7 +88,7 @@ std::string script_before(const Divergence& divergence, TraceReader& trace) {
                            trace.episode().scenario_path,
                            said->line);
     }
-    return "";
+    return to == 0 ? "" : fmt::format("said nothing in the {} ticks before", longest_search);
 }
 
 }  // namespace

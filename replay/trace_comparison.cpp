@@ -64,6 +64,31 @@ StartDifference compare_starts(const world::EpisodeT& expected, const world::Epi
     return start;
 }
 
+/// The first tick whose chain differs, by binary search: equal chains mean equal histories. Nothing
+/// when the last common one is equal, or when damage or another's hand spoils the search.
+std::optional<Divergence> first_different_link(TraceReader& expected, TraceReader& found) {
+    std::uint64_t low = 0;  // equal here
+    std::uint64_t high = std::min(expected.ticks(), found.ticks());
+    const auto equal = [&](std::uint64_t tick) {
+        return expected.chain(tick) == found.chain(tick);
+    };
+    const auto damaged = [&](std::uint64_t tick) {
+        return expected.damage(tick) || found.damage(tick);
+    };
+    if (high == 0 || damaged(high) || equal(high))
+        return std::nullopt;
+    while (high - low > 1) {
+        const std::uint64_t middle = low + (high - low) / 2;
+        if (damaged(middle))
+            return std::nullopt;
+        (equal(middle) ? low : high) = middle;
+    }
+    auto divergence = compare(expected.tick(high), found.tick(high));
+    if (divergence && divergence->stage == "start")
+        return std::nullopt;  // a tick with the right state and the wrong chain
+    return divergence;
+}
+
 /// The first tick that differs, and nothing when the shorter run is the longer one's beginning.
 std::optional<Divergence> first_different_tick(TraceReader& expected,
                                                TraceReader& found,
@@ -164,7 +189,11 @@ void check_undamaged(const TraceReader& trace) {
 std::optional<Divergence> compare(TraceReader& expected, TraceReader& found) {
     const bool same_start = expected.chain(0) == found.chain(0);
     const StartDifference start = compare_starts(expected.episode(), found.episode());
-    std::optional<Divergence> divergence = first_different_tick(expected, found, same_start);
+    std::optional<Divergence> divergence;
+    if (same_start)
+        divergence = first_different_link(expected, found);
+    if (!divergence)
+        divergence = first_different_tick(expected, found, same_start);
     if (!divergence)
         divergence = compare_ends(expected, found);
     if (divergence) {
@@ -181,6 +210,31 @@ std::optional<Divergence> compare(TraceReader& expected, TraceReader& found) {
     divergence = only_starts_differ(expected, found, start);
     add_note(divergence->note, start.note());
     return divergence;
+}
+
+std::optional<Divergence> compare(TraceReader& expected, TraceReader& found, Tolerance& tolerance) {
+    const std::uint64_t common = std::min(expected.ticks(), found.ticks());
+    std::optional<Divergence> divergence;
+    for (std::uint64_t index = 1; index <= common && !divergence; ++index) {
+        const RecordedTick left = expected.tick(index);
+        const RecordedTick right = found.tick(index);
+        if (!equal_ticks(left, right))
+            divergence = compare_recorded(left, right, &tolerance);
+    }
+    if (!divergence)
+        divergence = compare_ends(expected, found);
+    if (divergence) {
+        add_context(*divergence, expected);
+        add_note(divergence->note, start_difference(expected, found));
+        return divergence;
+    }
+    check_undamaged(expected);
+    check_undamaged(found);
+    return std::nullopt;
+}
+
+std::string start_difference(const TraceReader& expected, const TraceReader& found) {
+    return compare_starts(expected.episode(), found.episode()).note();
 }
 
 }  // namespace reprise::replay

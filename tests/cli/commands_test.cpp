@@ -79,6 +79,23 @@ TEST(Diff, ReportsANudgedInputAtItsTick) {
     EXPECT_THAT(diff.out, HasSubstr("steer"));
 }
 
+TEST(Diff, OfTwoBuildsIsEqualWithinATolerance) {
+    const Folder folder;
+    const std::string base = record(folder, "a.mcap", "7");
+    const std::string nudged = record(folder, "b.mcap", "7", {"--nudge", "131:ego.velocity.x"});
+    const Result within = reprise({"diff", base, nudged, "--tolerance", "1e-3"});
+    EXPECT_EQ(within.code, 0) << within.out;
+    EXPECT_THAT(within.out,
+                HasSubstr("equal within tolerance 0.001: 160 ticks, largest difference "));
+    const Result outside = reprise({"diff", base, nudged, "--tolerance", "0", "--json"});
+    EXPECT_EQ(outside.code, 1);
+    EXPECT_THAT(outside.out, HasSubstr("\"result\": \"different\""));
+    EXPECT_THAT(outside.out, HasSubstr("\"tick\": \"131\""));
+    EXPECT_THAT(outside.out, HasSubstr("\"field\": \"vehicles[id 1].velocity.x\""));
+    EXPECT_EQ(reprise({"diff", base, nudged, "--tolerance", "-1"}).code, 2);
+    EXPECT_EQ(reprise({"diff", base, nudged, "--tolerance", "nan"}).code, 2);
+}
+
 /// The whole of an option's promise, through the programs.
 TEST(Drill, OneUnitInOneNumberIsReportedAsExactlyThat) {
     const Folder folder;

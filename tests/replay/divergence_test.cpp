@@ -184,6 +184,93 @@ TEST_F(Traces, DifferAtTheVeryTickThatWasNudgedWhereverThatIs) {
     }
 }
 
+/// As a kernel does: what differs, differs in its stage's digest, and for ever.
+Change parted(std::uint64_t tick) {
+    return [=](world::TickDraft& draft) {
+        if (draft.tick.index < tick)
+            return;
+        draft.tick.vehicles[0].mutate_odometer(1e9);
+        draft.tick.digests.mutate_physics(draft.tick.digests.physics() + 1);
+    };
+}
+
+TEST_F(Traces, AreSearchedAlongTheirChains) {
+    constexpr std::uint64_t ticks = 64 * 9 + 5;
+    write_trace(folder_ / "expected.mcap", {.ticks = ticks});
+    for (const std::uint64_t tick : {1ul, 2ul, 64ul, 65ul, 333ul, ticks - 1, ticks}) {
+        write_trace(folder_ / "found.mcap", {.ticks = ticks, .change = parted(tick)});
+        const auto divergence = compared();
+        ASSERT_TRUE(divergence);
+        EXPECT_EQ(divergence->tick, tick);
+        EXPECT_EQ(divergence->field, "vehicles[id 1].odometer");
+        EXPECT_EQ(divergence->actor, "ego (1)");
+    }
+    // Of different lengths, and beyond the shorter one's end.
+    write_trace(folder_ / "found.mcap", {.ticks = 200, .change = parted(150)});
+    EXPECT_EQ(compared()->tick, 150u);
+    write_trace(folder_ / "found.mcap", {.ticks = 200, .change = parted(201)});
+    EXPECT_EQ(compared()->stage, "end");
+}
+
+TEST_F(Traces, AreSearchedThoughAChunkOnTheWayIsDamaged) {
+    write_trace(folder_ / "expected.mcap", {.ticks = 300});
+    write_trace(folder_ / "found.mcap", {.ticks = 300, .change = parted(40)});
+    auto bytes = read_file(folder_ / "found.mcap");
+    bytes[bytes.size() / 2] ^= 1;
+    write_file(folder_ / "found.mcap", bytes);
+    EXPECT_EQ(compared()->tick, 40u);
+}
+
+TEST_F(Traces, AreEqualWithinAToleranceThatCoversAllTheirReals) {
+    const auto moved = [](double by) {
+        return [=](world::TickDraft& draft) {
+            auto& odometer = draft.tick.vehicles[0];
+            odometer.mutate_odometer(1000 * (1 + by));
+            draft.traffic.cars[1].mutate_yaw(-3.14159f);  // else +3.14159: nearly the same
+            draft.tick.digests.mutate_physics(1);
+        };
+    };
+    write_trace(folder_ / "expected.mcap", {.change = moved(0)});
+    write_trace(folder_ / "found.mcap", {.change = [&](world::TickDraft& draft) {
+                    moved(1e-9)(draft);
+                    draft.traffic.cars[1].mutate_yaw(3.14159f);
+                    draft.tick.digests.mutate_physics(2);
+                }});
+    const auto within = [&](double bound, replay::Tolerance& tolerance) {
+        TraceReader expected(folder_ / "expected.mcap");
+        TraceReader found(folder_ / "found.mcap");
+        tolerance.bound = bound;
+        return replay::compare(expected, found, tolerance);
+    };
+    replay::Tolerance wide;
+    EXPECT_EQ(within(1e-5, wide), std::nullopt);
+    EXPECT_GT(wide.largest, 1e-6);  // of the yaw, the short way round
+    EXPECT_EQ(wide.field, "cars[id 1000001].yaw");
+    replay::Tolerance narrow;
+    EXPECT_EQ(within(1e-7, narrow)->field, "cars[id 1000001].yaw");
+    replay::Tolerance none;
+    EXPECT_EQ(within(0, none)->tick, 1u);
+}
+
+TEST_F(Traces, AreNeverEqualWithinAToleranceWhenAnEventOrAnIdDiffers) {
+    const auto first_with = [&](const Change& change) {
+        write_trace(folder_ / "expected.mcap");
+        write_trace(folder_ / "found.mcap", {.change = change});
+        TraceReader expected(folder_ / "expected.mcap");
+        TraceReader found(folder_ / "found.mcap");
+        replay::Tolerance tolerance{1e6};
+        return replay::compare(expected, found, tolerance).value_or(Divergence{});
+    };
+    EXPECT_EQ(first_with(at(80, [](auto& draft) { draft.tick.events.clear(); })).tick, 80u);
+    EXPECT_EQ(first_with(at(40, [](auto& d) { d.tick.events[0].text = "x"; })).field,
+              "events[0].text");
+    EXPECT_EQ(first_with(at(7, [](auto& d) { d.traffic.cars.pop_back(); })).found, "absent");
+    EXPECT_EQ(first_with(at(7, [](auto& d) { d.traffic.cars[0].mutate_lane(5); })).field,
+              "cars[id 1000000].lane");
+    EXPECT_EQ(first_with(at(7, [](auto& d) { d.tick.vehicles[0].mutate_odometer(NAN); })).field,
+              "vehicles[id 1].odometer");
+}
+
 TEST_F(Traces, DifferWhereABytesDoesThoughAllDigestsAgree) {
     const auto divergence = compared(
         {},
