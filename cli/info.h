@@ -5,6 +5,6 @@
 namespace reprise::cli {
 
 /// Prints what a trace holds, on one screen. Returns the exit code.
-int info(const TraceOptions& options);
+int info(const InfoOptions& options);
 
 }  // namespace reprise::cli

@@ -306,6 +306,9 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
 
     CLI::App& info_command = *app.add_subcommand("info", "Say what is in a trace");
     info_command.add_option("trace", info.trace, "The trace")->required()->type_name("T.mcap");
+    info_command.add_flag(
+        "--long", info.long_form, "All lines of the build; events of long traces, too");
+    info_command.add_flag("--json", info.json, "For programs: one JSON object");
 
     add_diff(app, diff);
     add_recover(app, recover);

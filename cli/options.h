@@ -24,6 +24,12 @@ struct TraceOptions {
     std::string trace;
 };
 
+struct InfoOptions {
+    std::string trace;
+    bool long_form = false;
+    bool json = false;
+};
+
 struct RecoverOptions {
     std::string damaged;
     std::string output;
@@ -94,7 +100,7 @@ class CommandLine {
     std::string command;  ///< run, verify, info, diff, recover, render, test, accept or golden
     RunOptions run;
     TraceOptions verify;
-    TraceOptions info;
+    InfoOptions info;
     DiffOptions diff;
     RecoverOptions recover;
     RenderOptions render;

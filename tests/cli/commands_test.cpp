@@ -96,6 +96,45 @@ TEST(Diff, OfTwoBuildsIsEqualWithinATolerance) {
     EXPECT_EQ(reprise({"diff", base, nudged, "--tolerance", "nan"}).code, 2);
 }
 
+/// A trace that another program recorded long ago: what it says never changes.
+const std::string old_trace = source("tests/replay/traces/v1_small.mcap");
+
+TEST(Info, TellsARunOnOneScreen) {
+    const Result info = reprise({"info", old_trace});
+    EXPECT_EQ(info.code, 0);
+    EXPECT_LE(std::count(info.out.begin(), info.out.end(), '\n'), 24);
+    for (const char* row : {"  town      small, 1 cars of traffic\n",
+                            "  seed      11\n",
+                            "  outcome   failed: time limit\n",
+                            "            failed  hit the van: it happened, at 2.25 s\n",
+                            "            passed  hit the child\n",
+                            "10 collision\n",
+                            "  2.20 s  ego (1) with van (2), 12246 N s\n",
+                            "  3.30 s  ego (1) with van (2), 238 N s\n",
+                            "  actors    ego (1), van (2), other (4), child (3), ",
+                            "  chain     849d92d3650c90733f72210ce6038d58\n",
+                            "  again     reprise run v1_small.lua --town small.net.xml --seed 11 "
+                            "--for 3.3 --set throttle=0.8\n"})
+        EXPECT_THAT(info.out, HasSubstr(row));
+    EXPECT_THAT(info.out, Not(HasSubstr("\033")));  // colours are for terminals
+    EXPECT_THAT(info.out, Not(HasSubstr("libsumocpp")));
+    EXPECT_THAT(reprise({"info", old_trace, "--long"}).out, HasSubstr("libsumocpp 8aae586"));
+}
+
+TEST(Info, IsJsonForPrograms) {
+    const Result info = reprise({"info", old_trace, "--json"});
+    EXPECT_EQ(info.code, 0);
+    for (const char* text : {"\"seed\": \"11\"",
+                             "\"verdict\": \"failed\"",
+                             "\"chain\": \"849d92d3650c90733f72210ce6038d58\"",
+                             "\"count\": \"10\"",
+                             "\"throttle\": \"0.8\""})
+        EXPECT_THAT(info.out, HasSubstr(text));
+    const Folder folder;
+    write_file(folder / "info.json", info.out);
+    EXPECT_EQ(run_program("/usr/bin/python3", {"-m", "json.tool", folder / "info.json"}).code, 0);
+}
+
 /// The whole of an option's promise, through the programs.
 TEST(Drill, OneUnitInOneNumberIsReportedAsExactlyThat) {
     const Folder folder;
