@@ -9,6 +9,7 @@
 #include "cli/guard.h"
 #include "cli/reproduce.h"
 #include "cli/trace_story.h"
+#include "replay/level.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
 #include "world/tick.h"
@@ -65,6 +66,11 @@ struct Screen {
                         trace.ticks(),
                         episode.step_ns / 1'000'000,
                         time(trace.ticks())));
+        if (trace.level() != replay::Level::full)
+            row("level",
+                fmt::format("{}: {}",
+                            replay::to_word(trace.level()),
+                            replay::lacks_text(shell_path(trace.path()), trace.level())));
     }
 
     void print_outcome() const {

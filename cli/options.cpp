@@ -99,6 +99,47 @@ void add_start(CLI::App& command, RunOptions& run, std::vector<std::string>& ass
             ""));
 }
 
+CLI::Option& add_level(CLI::App& command,
+                       std::string& level,
+                       const std::vector<std::string>& words) {
+    return *command
+                .add_option("--level",
+                            level,
+                            "How much of each tick is kept: inputs (what was driven by hand, and "
+                            "digests), core (all but the traffic), keyed (the traffic once a "
+                            "second)" +
+                                std::string(words.front() == "full" ? ", full (default)" : ""))
+                ->type_name("LEVEL")
+                ->check(one_of(words, "level"));
+}
+
+void add_strip(CLI::App& app, StripOptions& strip) {
+    CLI::App& command = *app.add_subcommand(
+        "strip", "Leave out of a trace what can be simulated again: expand brings it back");
+    command.add_option("trace", strip.trace, "The trace")->required()->type_name("T.mcap");
+    command.add_option("-o,--output", strip.output, "Where the smaller trace goes")
+        ->required()
+        ->type_name("S.mcap");
+    add_level(command, strip.level, {"inputs", "core", "keyed"}).required();
+    command.footer(
+        "verify and diff work on the smaller trace; render needs the traffic.\n"
+        "Example: reprise strip a.mcap -o small.mcap --level inputs");
+}
+
+void add_expand(CLI::App& app, ExpandOptions& expand) {
+    CLI::App& command = *app.add_subcommand(
+        "expand", "Simulate again what strip left out of a trace, checking every tick");
+    command.add_option("trace", expand.trace, "The stripped trace")
+        ->required()
+        ->type_name("S.mcap");
+    command.add_option("-o,--output", expand.output, "Where the full trace goes")
+        ->required()
+        ->type_name("T.mcap");
+    command.footer(
+        "The result is, byte for byte, the trace before it was stripped. Exit status: 0 done, 1 a\n"
+        "tick came out differently (nothing is written), 2 bad input.");
+}
+
 void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignments) {
     CLI::App& command = *app.add_subcommand("run", "Run a scenario and record it");
     command
@@ -119,6 +160,7 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
             },
             ""));
     add_start(command, run, assignments);
+    add_level(command, run.level, {"full", "keyed", "core", "inputs"});
     command
         .add_option("--nudge",
                     run.nudge,
@@ -312,6 +354,8 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
 
     add_diff(app, diff);
     add_recover(app, recover);
+    add_strip(app, strip);
+    add_expand(app, expand);
     add_render(app, render, app_->size, app_->mount, app_->threads);
     add_golden_commands(app, test, accept, golden_list, [&](CLI::App& to) {
         add_start(to, accept.start, app_->accept_assignments);

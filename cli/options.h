@@ -17,7 +17,8 @@ struct RunOptions {
     std::optional<std::uint64_t> seed;
     std::optional<double> seconds;
     std::vector<std::pair<std::string, std::string>> parameters;
-    std::string nudge;  ///< TICK[:ACTOR.FIELD[:UNITS]]; empty: none
+    std::string level = "full";  ///< how much of each tick is kept
+    std::string nudge;           ///< TICK[:ACTOR.FIELD[:UNITS]]; empty: none
 };
 
 struct TraceOptions {
@@ -28,6 +29,17 @@ struct InfoOptions {
     std::string trace;
     bool long_form = false;
     bool json = false;
+};
+
+struct StripOptions {
+    std::string trace;
+    std::string output;
+    std::string level;
+};
+
+struct ExpandOptions {
+    std::string trace;
+    std::string output;
 };
 
 struct RecoverOptions {
@@ -97,12 +109,14 @@ class CommandLine {
     /// been printed), or nothing when `command` should now be carried out.
     std::optional<int> parse(int argc, char** argv);
 
-    std::string command;  ///< run, verify, info, diff, recover, render, test, accept or golden
+    std::string command;  ///< run, verify, info, diff, recover, strip, expand, render, test, ...
     RunOptions run;
     TraceOptions verify;
     InfoOptions info;
     DiffOptions diff;
     RecoverOptions recover;
+    StripOptions strip;
+    ExpandOptions expand;
     RenderOptions render;
     TestOptions test;
     AcceptOptions accept;

@@ -14,6 +14,7 @@
 #include "cli/info.h"
 #include "cli/options.h"
 #include "cli/recover.h"
+#include "cli/strip.h"
 #include "cli/test.h"
 #include "world/check.h"
 
@@ -40,6 +41,8 @@ int main(int argc, char** argv) {
             return diff(line.diff);
         if (line.command == "recover")
             return recover(line.recover);
+        if (line.command == "strip")
+            return strip(line.strip);
         if (line.command == "test")
             return test(line.test);
         if (line.command == "accept")

@@ -4,13 +4,14 @@
 #include <filesystem>
 #include <fmt/format.h>
 
-#include "cli/full_fingerprint.h"
 #include "cli/guard.h"
 #include "cli/progress.h"
 #include "cli/reproduce.h"
 #include "cli/self_test.h"
+#include "cli/this_build.h"
 #include "cli/towns.h"
 #include "kernel/kernel.h"
+#include "replay/level.h"
 #include "replay/recording.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
@@ -30,16 +31,6 @@ bool is_trace(const fs::path& path) {
     return path.extension() == ".mcap";
 }
 
-void note_build(world::EpisodeT& episode) {
-    episode.fingerprint.clear();
-    for (const auto& [key, value] : full_fingerprint()) {
-        world::ParameterT line;
-        line.key = key;
-        line.value = value;
-        episode.fingerprint.push_back(line);
-    }
-}
-
 /// What a recorded run started from; of this only its length may be another.
 replay::Recording prepare_again(const RunOptions& options, replay::TraceReader& trace) {
     if (options.town || options.seed || !options.parameters.empty())
@@ -53,7 +44,7 @@ replay::Recording prepare_again(const RunOptions& options, replay::TraceReader& 
             1,
             static_cast<std::uint64_t>(
                 std::llround(*options.seconds * 1e9 / static_cast<double>(episode.step_ns))));
-    note_build(episode);
+    episode.fingerprint = this_build();
     return recording;
 }
 
@@ -71,7 +62,7 @@ replay::Recording prepare(const RunOptions& options) {
         episode.town;  // as it was named: equal runs write equal bytes in any folder
     episode.town = network.name;
     episode.town_digest = world::digest128(network.xml);
-    note_build(episode);
+    episode.fingerprint = this_build();
     recording.network = std::move(network.xml);
     return recording;
 }
@@ -108,7 +99,7 @@ std::span<const world::Control> inputs(std::optional<replay::TraceReader>& befor
                                        std::uint64_t tick) {
     if (!before || tick > before->ticks())
         return {};
-    return before->tick(tick).view.controls();
+    return before->recorded(tick).view.controls();
 }
 
 /// What happened, as it happens: printed lines, collisions, checks.
@@ -182,7 +173,7 @@ int run(const RunOptions& options) {
     const std::optional<kernel::Nudge> nudge = planned_nudge(options, recording.episode);
     const fs::path path = output_path(options);
     const fs::path target = behind_links(path);
-    replay::TraceWriter trace(target, recording);
+    replay::TraceWriter trace(target, recording, *replay::level_named(options.level));
     say_when_crashing("; what was recorded until then is in " + target.string() +
                       ".partial: " + recover_command(target.string() + ".partial"));
     kernel::Kernel kernel(recording);

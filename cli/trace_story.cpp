@@ -81,11 +81,15 @@ TraceStory read_story(replay::TraceReader& trace, bool all) {
     for (std::uint64_t index = 1; index <= ticks; ++index) {
         if (!teller.story.whole && index == chunk + 1)
             index = ticks - chunk + 1;
-        for (const world::Event* event : *trace.tick(index).view.tick->events())
+        const auto* events = trace.recorded(index).view.tick->events();
+        if (events == nullptr)  // the trace's level leaves them out
+            break;
+        for (const world::Event* event : *events)
             teller.hear(*event, index);
     }
-    if (ticks > 0) {
-        const world::TickView last = trace.tick(ticks).view;
+    const bool has_traffic = ticks > 0 && trace.level() == replay::Level::full;
+    if (has_traffic) {
+        const world::TickView last = trace.recorded(ticks).view;
         const auto of_demand = [](const auto& actor) {
             return actor.id() >= world::first_background_id;
         };
@@ -104,7 +108,7 @@ ChannelBytes sample_channels(replay::TraceReader& trace) {
     const std::uint64_t samples = std::min(most, ticks);
     ChannelBytes bytes;
     for (std::uint64_t i = 0; i < samples; ++i) {
-        const replay::RecordedTick tick = trace.tick(1 + i * ticks / samples);
+        const replay::RecordedTick tick = trace.recorded(1 + i * ticks / samples);
         bytes.tick += tick.tick_bytes.size();
         bytes.traffic += tick.traffic_bytes.size();
     }

@@ -2,31 +2,17 @@
 
 #include <fmt/format.h>
 
-#include "cli/full_fingerprint.h"
 #include "cli/guard.h"
 #include "cli/other_build.h"
 #include "cli/progress.h"
 #include "cli/reproduce.h"
 #include "cli/self_test.h"
+#include "cli/this_build.h"
 #include "kernel/verify.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
 
 namespace reprise::cli {
-
-namespace {
-
-replay::Fingerprint this_build() {
-    replay::Fingerprint lines;
-    for (const auto& [key, value] : full_fingerprint()) {
-        lines.emplace_back();
-        lines.back().key = key;
-        lines.back().value = value;
-    }
-    return lines;
-}
-
-}  // namespace
 
 int verify(const TraceOptions& options) {
     self_test();
@@ -37,7 +23,8 @@ int verify(const TraceOptions& options) {
                       "here",
                       this_build());
     Progress progress("verifying", "ticks", trace.ticks());
-    auto divergence = kernel::verify(trace, [&](std::uint64_t tick) { progress.update(tick); });
+    auto divergence = kernel::verify(
+        trace, [&](const world::SealedTick& tick) { progress.update(tick.view().index()); });
     progress.clear();
     if (divergence) {
         divergence->again = "reprise verify " + shell_path(options.trace);

@@ -60,7 +60,7 @@ void find_first_recorded(replay::Divergence& divergence,
     std::uint64_t index = divergence.tick;
     try {
         while (!first && index < last && !kernel.finished() && !recorded.damage(index + 1)) {
-            const replay::RecordedTick expected = recorded.tick(++index);
+            const replay::RecordedTick expected = recorded.recorded(++index);
             const world::SealedTick& found = kernel.step(expected.view.controls());
             first = replay::compare_recorded(expected, as_recorded(found));
         }
@@ -72,14 +72,14 @@ void find_first_recorded(replay::Divergence& divergence,
 
 }  // namespace
 
-std::optional<replay::Divergence> verify(replay::TraceReader& recorded,
-                                         const std::function<void(std::uint64_t)>& on_tick) {
+std::optional<replay::Divergence> verify(
+    replay::TraceReader& recorded, const std::function<void(const world::SealedTick&)>& on_tick) {
     if (auto divergence = wrong_network(recorded.recording()))
         return divergence;
     Kernel kernel(recorded.recording());
     for (std::uint64_t index = 1; index <= recorded.ticks(); ++index) {
         const auto damage = recorded.damage(index);
-        const auto expected = damage ? recorded.salvaged(index) : recorded.tick(index);
+        const auto expected = damage ? recorded.salvaged(index) : recorded.recorded(index);
         if (!expected)
             return unreadable(index, *damage);
         if (kernel.finished())
@@ -94,7 +94,7 @@ std::optional<replay::Divergence> verify(replay::TraceReader& recorded,
             return divergence;
         }
         if (on_tick)
-            on_tick(index);
+            on_tick(found);
     }
     // Every tick agrees, but the file may still be damaged where no tick lies.
     if (const auto damage = recorded.damage())

@@ -10,12 +10,14 @@
 namespace reprise::kernel {
 
 /// Runs a trace again from what it carries, with the recorded controls, and compares every tick's
-/// bytes: the first difference, or nothing. `on_tick` is told of each tick that agreed.
+/// bytes, as far as the trace's level keeps them, and digests: the first difference, or nothing.
+/// `on_tick` is given each tick that agreed, whole.
 /// What differs only in a digest is followed until it shows in the record. The network in the trace
 /// must be the one that its episode names by digest.
 /// A damaged chunk is compared as far as its bytes can be had, so that the first wrong tick is
 /// named, not the chunk.
-std::optional<replay::Divergence> verify(replay::TraceReader& recorded,
-                                         const std::function<void(std::uint64_t)>& on_tick = {});
+std::optional<replay::Divergence> verify(
+    replay::TraceReader& recorded,
+    const std::function<void(const world::SealedTick&)>& on_tick = {});
 
 }  // namespace reprise::kernel

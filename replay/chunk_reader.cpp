@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "replay/level.h"
 #include "replay/trace_format.h"
 
 namespace reprise::replay {
@@ -17,10 +18,15 @@ bool header_agrees(mcap::View header, const mcap::Chunk& chunk, std::uint32_t cr
 
 }  // namespace
 
+bool ChunkReader::Messages::complete(Level level, std::uint64_t index) const {
+    return !tick.empty() && (!traffic.empty() || !holds_traffic(level, index));
+}
+
 void ChunkReader::load(const InputFile& file,
                        const mcap::Chunk& chunk,
                        const TickRange& ticks,
-                       std::uint64_t step_ns) {
+                       std::uint64_t step_ns,
+                       Level level) {
     damage_.reset();
     ticks_ = ticks;
     record_.resize(chunk.length);
@@ -33,7 +39,7 @@ void ChunkReader::load(const InputFile& file,
     const mcap::View header = mcap::View(record_).first(mcap::chunk_header_size(chunk));
     if (!damage_ && !header_agrees(header, chunk, crc))
         damage_ = "its header differs from the index";
-    find_messages(mcap::View(records_).first(usable_), step_ns);
+    find_messages(mcap::View(records_).first(usable_), step_ns, level);
 }
 
 void ChunkReader::unpack(const mcap::Chunk& chunk, std::uint32_t crc) {
@@ -55,7 +61,7 @@ void ChunkReader::unpack(const mcap::Chunk& chunk, std::uint32_t crc) {
         damage_ = "its checksum differs";
 }
 
-void ChunkReader::find_messages(mcap::View records, std::uint64_t step_ns) {
+void ChunkReader::find_messages(mcap::View records, std::uint64_t step_ns, Level level) {
     messages_.assign(ticks_.last - ticks_.first + 1, {});
     const auto keep = [&](const mcap::Record& record) {
         if (record.op != mcap::Op::message)
@@ -79,9 +85,10 @@ void ChunkReader::find_messages(mcap::View records, std::uint64_t step_ns) {
         if (!damage_)
             damage_ = error.what();
     }
-    const auto complete = [](const Messages& m) { return !m.tick.empty() && !m.traffic.empty(); };
-    if (!damage_ && !std::all_of(messages_.begin(), messages_.end(), complete))
-        damage_ = "it lacks a tick";
+    std::uint64_t tick = ticks_.first;
+    for (const Messages& messages : messages_)
+        if (!messages.complete(level, tick++) && !damage_)
+            damage_ = "it lacks a tick";
 }
 
 }  // namespace reprise::replay

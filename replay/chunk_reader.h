@@ -8,6 +8,7 @@
 #include "replay/compression.h"
 #include "replay/files.h"
 #include "replay/mcap.h"
+#include "replay/trace_reader.h"
 
 namespace reprise::replay {
 
@@ -20,17 +21,21 @@ struct TickRange {
 /// One chunk in memory, unpacked and checked, damaged or not.
 class ChunkReader {
   public:
-    /// The bytes of one tick's two messages; empty where damage took them.
+    /// The bytes of one tick's messages; empty where damage took them, or there are none.
     struct Messages {
         mcap::View tick;
         mcap::View traffic;
+
+        /// All that a trace of this level has of this tick.
+        bool complete(Level level, std::uint64_t index) const;
     };
 
     /// Reads the chunk's record; `step_ns` turns log times into ticks.
     void load(const InputFile& file,
               const mcap::Chunk& chunk,
               const TickRange& ticks,
-              std::uint64_t step_ns);
+              std::uint64_t step_ns,
+              Level level);
 
     /// What is wrong with it, or nothing.
     const std::optional<std::string>& damage() const { return damage_; }
@@ -39,7 +44,7 @@ class ChunkReader {
 
   private:
     void unpack(const mcap::Chunk& chunk, std::uint32_t crc);
-    void find_messages(mcap::View records, std::uint64_t step_ns);
+    void find_messages(mcap::View records, std::uint64_t step_ns, Level level);
 
     Decompressor decompressor_;
     TickRange ticks_;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "replay/field_difference.h"
+#include "replay/level.h"
 #include "replay/tick_bytes.h"
 #include "world/check.h"
 
@@ -88,6 +89,8 @@ std::vector<FieldDifference> recorded_differences(const Stage& stage,
     };
     for (const char* field : stage.tick_fields)
         add(differences(*world::TickTypeTable(), expected.tick, found.tick, field, tolerance));
+    if (expected.traffic == nullptr || found.traffic == nullptr)
+        return all;  // their level leaves it out
     for (const char* field : stage.traffic_fields)
         add(differences(
             *world::TrafficTypeTable(), expected.traffic, found.traffic, field, tolerance));
@@ -115,14 +118,26 @@ Divergence of_fields(const std::vector<FieldDifference>& fields) {
     return divergence;
 }
 
-Divergence of_digest(const Stage& stage, std::uint64_t expected, std::uint64_t found) {
+/// Level `inputs` has fields of one stage only; below `keyed` the traffic's are missing.
+bool has_fields(const Stage& stage, const world::TickView& tick) {
+    const bool inputs = is_inputs_only(*tick.tick);
+    return (!inputs || stage.digest == &world::Digests::controls) &&
+           (stage.traffic_fields.empty() || tick.traffic != nullptr);
+}
+
+Divergence of_digest(const Stage& stage,
+                     std::uint64_t expected,
+                     std::uint64_t found,
+                     bool has_fields) {
     Divergence divergence;
     divergence.unrecorded = true;
     divergence.field = fmt::format("digests.{}", stage.name);
     divergence.expected = hex(expected);
     divergence.found = hex(found);
     divergence.note =
-        "all recorded fields of this stage agree: its unrounded or unrecorded state differs";
+        has_fields
+            ? "all recorded fields of this stage agree: its unrounded or unrecorded state differs"
+            : "at its level the trace leaves this stage's fields out";
     return divergence;
 }
 
@@ -160,7 +175,9 @@ std::optional<Divergence> first_stage(const world::TickView& expected,
         const std::uint64_t right = (found.tick->digests()->*stage.digest)();
         if (fields.empty() && (!digests || left == right))
             continue;
-        Divergence divergence = fields.empty() ? of_digest(stage, left, right) : of_fields(fields);
+        Divergence divergence = fields.empty()
+                                    ? of_digest(stage, left, right, has_fields(stage, expected))
+                                    : of_fields(fields);
         divergence.stage = stage.name;
         divergence.tick = expected.index();
         return divergence;
@@ -202,7 +219,8 @@ std::optional<Divergence> compare(const RecordedTick& expected, const RecordedTi
     if (equal_ticks(expected, found))
         return std::nullopt;
     check_same_index(expected, found);
-    if (auto divergence = first_stage(expected.view, found.view, true))
+    const CommonPart common(expected, found);
+    if (auto divergence = first_stage(common.expected.view, common.found.view, true))
         return divergence;
     Divergence divergence =
         of_no_stage(*expected.view.tick->digests(), *found.view.tick->digests());
@@ -214,7 +232,8 @@ std::optional<Divergence> compare_recorded(const RecordedTick& expected,
                                            const RecordedTick& found,
                                            Tolerance* tolerance) {
     check_same_index(expected, found);
-    return first_stage(expected.view, found.view, false, tolerance);
+    const CommonPart common(expected, found);
+    return first_stage(common.expected.view, common.found.view, false, tolerance);
 }
 
 }  // namespace reprise::replay

@@ -21,7 +21,7 @@ std::uint64_t spawn_tick(std::uint32_t actor, TraceReader& trace, std::uint64_t 
     std::uint64_t high = until;
     while (high - low > 1) {
         const std::uint64_t middle = low + (high - low) / 2;
-        const bool there = !trace.damage(middle) && is_there(actor, trace.tick(middle).view);
+        const bool there = !trace.damage(middle) && is_there(actor, trace.recorded(middle).view);
         (there ? high : low) = middle;
     }
     return high;
@@ -30,8 +30,8 @@ std::uint64_t spawn_tick(std::uint32_t actor, TraceReader& trace, std::uint64_t 
 /// "ego (1)", from the run's spawned events up to that tick; "actor 1" when there is no name.
 std::string name_of(std::uint32_t actor, TraceReader& trace, std::uint64_t until) {
     const std::string number = fmt::format("actor {}", actor);
-    if (actor >= world::first_background_id)
-        return number;  // nobody named those
+    if (actor >= world::first_background_id || trace.level() == Level::inputs)
+        return number;  // nobody named those, or not in this trace
     // Most stand in the first ticks. Where one does not (any more) the search ends nowhere.
     constexpr std::uint64_t first_ticks = 64;
     const std::uint64_t spawned = spawn_tick(actor, trace, until);
@@ -40,7 +40,7 @@ std::string name_of(std::uint32_t actor, TraceReader& trace, std::uint64_t until
         const std::uint64_t tick = index <= early ? index : spawned;
         if (trace.damage(tick))
             continue;
-        for (const world::Event* event : *trace.tick(tick).view.tick->events())
+        for (const world::Event* event : *trace.recorded(tick).view.tick->events())
             if (event->kind() == world::EventKind::spawned && event->actor() == actor &&
                 event->text() != nullptr)
                 return fmt::format("{} ({})", event->text()->string_view(), actor);
@@ -77,7 +77,7 @@ std::string script_before(const Divergence& divergence, TraceReader& trace) {
     for (std::uint64_t index = from; index > to; --index) {
         if (trace.damage(index))
             continue;
-        const auto said = last_said(*trace.tick(index).view.tick);
+        const auto said = last_said(*trace.recorded(index).view.tick);
         if (!said)
             continue;
         return fmt::format("tick {} ({:.2f} s): {}{}, {}:{}",
@@ -99,7 +99,8 @@ void add_context(Divergence& divergence, TraceReader& trace) {
     if (divergence.actor_id != 0)
         divergence.actor =
             name_of(divergence.actor_id, trace, std::min(divergence.tick, trace.ticks()));
-    divergence.script = script_before(divergence, trace);
+    if (trace.level() != Level::inputs)
+        divergence.script = script_before(divergence, trace);
 }
 
 void add_first_recorded(Divergence& divergence,

@@ -135,6 +135,25 @@ std::optional<std::string> fault_of_tick(mcap::View bytes, std::uint64_t index) 
     return std::nullopt;
 }
 
+/// A tick of which the trace holds inputs only: nothing in it that was not looked at.
+std::optional<std::string> fault_of_inputs(mcap::View bytes, std::uint64_t index) {
+    auto check = verifier(bytes);
+    if (!world::VerifyTickBuffer(check))
+        return "not a Tick";
+    const world::Tick& tick = *world::GetTick(bytes.data());
+    if (tick.index() != index)
+        return fmt::format("it says that it is tick {}", tick.index());
+    if (tick.digests() == nullptr || !usable_or_absent(tick.controls()))
+        return "a part of the tick is missing or misplaced";
+    if (tick.weather() != nullptr || tick.commands() != nullptr || tick.vehicles() != nullptr ||
+        tick.wheels() != nullptr || tick.signals() != nullptr || tick.measurements() != nullptr ||
+        tick.events() != nullptr)
+        return "it holds more than inputs";
+    if (!ascending(world::TickView{&tick, nullptr}.controls(), actor_of))
+        return "ids are out of order";
+    return std::nullopt;
+}
+
 std::optional<std::string> fault_of_traffic(mcap::View bytes, std::uint64_t index) {
     auto check = verifier(bytes);
     if (!world::VerifyTrafficBuffer(check))

@@ -27,7 +27,7 @@ Links follow_chain(TraceReader& trace) {
     world::Digest128 chain = trace.chain(0);
     for (std::uint64_t index = 1; index <= trace.ticks(); ++index) {
         try {
-            const world::Digests& digests = *trace.tick(index).view.tick->digests();
+            const world::Digests& digests = *trace.recorded(index).view.tick->digests();
             chain = world::chain(chain, digests.state());
             if (!(chain == digests.chain())) {
                 links.loss = fmt::format("tick {} does not continue the digest chain", index);
@@ -70,10 +70,10 @@ TraceReader open(const fs::path& damaged) {
 /// Writes the trace; removes what is there of it when that fails.
 void write(const fs::path& path, TraceReader& trace, const Outcome& outcome) {
     try {
-        TraceWriter writer(path, trace.recording());
+        TraceWriter writer(path, trace.recording(), trace.level());
         try {
             for (std::uint64_t index = 1; index <= outcome.ticks; ++index)
-                writer.append(trace.tick(index));
+                writer.append(trace.recorded(index));
             writer.close(outcome);
         } catch (const world::Error&) {
             // Its text promises a rest that is worth keeping; this one is not.

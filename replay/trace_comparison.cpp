@@ -83,7 +83,7 @@ std::optional<Divergence> first_different_link(TraceReader& expected, TraceReade
             return std::nullopt;
         (equal(middle) ? low : high) = middle;
     }
-    auto divergence = compare(expected.tick(high), found.tick(high));
+    auto divergence = compare(expected.recorded(high), found.recorded(high));
     if (divergence && divergence->stage == "start")
         return std::nullopt;  // a tick with the right state and the wrong chain
     return divergence;
@@ -104,8 +104,8 @@ std::optional<Divergence> first_different_tick(TraceReader& expected,
             continue;
         }
         for (; index <= std::min(last, common); ++index) {
-            const RecordedTick left_tick = expected.tick(index);
-            const RecordedTick right_tick = found.tick(index);
+            const RecordedTick left_tick = expected.recorded(index);
+            const RecordedTick right_tick = found.recorded(index);
             const bool equal = same_start ? equal_ticks(left_tick, right_tick)
                                           : equal_ticks_but_for_chain(left_tick, right_tick);
             if (!equal)
@@ -123,7 +123,7 @@ void find_first_recorded(Divergence& divergence, TraceReader& expected, TraceRea
     std::uint64_t index = divergence.tick;
     while (!recorded && index < last && !expected.damage(index + 1) && !found.damage(index + 1)) {
         ++index;
-        recorded = compare_recorded(expected.tick(index), found.tick(index));
+        recorded = compare_recorded(expected.recorded(index), found.recorded(index));
     }
     add_first_recorded(divergence, recorded, index - divergence.tick);
 }
@@ -216,8 +216,8 @@ std::optional<Divergence> compare(TraceReader& expected, TraceReader& found, Tol
     const std::uint64_t common = std::min(expected.ticks(), found.ticks());
     std::optional<Divergence> divergence;
     for (std::uint64_t index = 1; index <= common && !divergence; ++index) {
-        const RecordedTick left = expected.tick(index);
-        const RecordedTick right = found.tick(index);
+        const RecordedTick left = expected.recorded(index);
+        const RecordedTick right = found.recorded(index);
         if (!equal_ticks(left, right))
             divergence = compare_recorded(left, right, &tolerance);
     }

@@ -51,7 +51,7 @@ void PendingChunk::add(std::uint16_t channel,
     record.raw(data);
 }
 
-TraceFile::TraceFile(const std::filesystem::path& path) : file_(path) {
+TraceFile::TraceFile(const std::filesystem::path& path, Level level) : file_(path) {
     try {
         put(mcap::magic);
         record_.clear();
@@ -61,19 +61,23 @@ TraceFile::TraceFile(const std::filesystem::path& path) : file_(path) {
         header.text("reprise/" + world::build_fingerprint().front().second);
         header.end();
         put(record_);
-        describe_channels();
+        describe_channels(level);
     } catch (...) {
         abandon();
         throw;
     }
 }
 
-void TraceFile::describe_channels() {
+void TraceFile::describe_channels(Level level) {
     encode_schema<world::TickBinarySchema>(schemas_, format::tick_channel, "reprise.world.Tick");
-    encode_schema<world::TrafficBinarySchema>(
-        schemas_, format::traffic_channel, "reprise.world.Traffic");
     encode_channel(channels_, format::tick_channel, "/sim/tick");
-    encode_channel(channels_, format::traffic_channel, "/sim/traffic");
+    messages_of_[format::tick_channel] = 0;
+    if (level == Level::full || level == Level::keyed) {
+        encode_schema<world::TrafficBinarySchema>(
+            schemas_, format::traffic_channel, "reprise.world.Traffic");
+        encode_channel(channels_, format::traffic_channel, "/sim/traffic");
+        messages_of_[format::traffic_channel] = 0;
+    }
     put(schemas_);
     put(channels_);
 }
@@ -140,15 +144,16 @@ void TraceFile::chunk(const PendingChunk& pending) {
 
     record_.clear();
     mcap::Encoder record(record_);
-    for (const std::uint16_t channel : {format::tick_channel, format::traffic_channel}) {
-        chunk.message_indexes.emplace_back(channel, file_.size() + record_.size());
-        record.begin(mcap::Op::message_index);
-        record.number(channel);
-        const auto of_channel = [&](const PendingChunk::Message& m) {
-            return m.channel == channel;
-        };
+    for (auto& [channel, total] : messages_of_) {
+        const std::uint16_t number = channel;
+        const auto of_channel = [&](const PendingChunk::Message& m) { return m.channel == number; };
         const auto count =
             std::count_if(pending.messages.begin(), pending.messages.end(), of_channel);
+        if (count == 0)
+            continue;
+        chunk.message_indexes.emplace_back(number, file_.size() + record_.size());
+        record.begin(mcap::Op::message_index);
+        record.number(number);
         record.number(static_cast<std::uint32_t>(count * 16));
         for (const PendingChunk::Message& message : pending.messages) {
             if (!of_channel(message))
@@ -157,7 +162,7 @@ void TraceFile::chunk(const PendingChunk& pending) {
             record.number(message.offset);
         }
         record.end();
-        messages_of_[channel] += static_cast<std::uint64_t>(count);
+        total += static_cast<std::uint64_t>(count);
     }
     chunk.message_index_length = record_.size();
     put(record_);
@@ -167,8 +172,8 @@ void TraceFile::chunk(const PendingChunk& pending) {
 
 mcap::Statistics TraceFile::statistics() const {
     mcap::Statistics statistics;
-    statistics.schemas = 2;
-    statistics.channels = 2;
+    statistics.schemas = static_cast<std::uint16_t>(messages_of_.size());  // one each
+    statistics.channels = static_cast<std::uint32_t>(messages_of_.size());
     statistics.attachments = static_cast<std::uint32_t>(attachments_.size());
     statistics.metadata = static_cast<std::uint32_t>(metadata_.size());
     statistics.chunks = static_cast<std::uint32_t>(chunks_.size());
@@ -177,6 +182,8 @@ mcap::Statistics TraceFile::statistics() const {
         statistics.end_time = chunks_.back().end_time;
     }
     for (const auto& [channel, count] : messages_of_) {
+        if (count == 0)
+            continue;
         statistics.messages += count;
         statistics.messages_of.emplace_back(channel, count);
     }

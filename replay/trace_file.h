@@ -9,6 +9,7 @@
 #include "replay/compression.h"
 #include "replay/files.h"
 #include "replay/mcap.h"
+#include "replay/trace_reader.h"
 
 namespace reprise::replay {
 
@@ -35,8 +36,8 @@ struct PendingChunk {
 /// the end needs (about 150 bytes a chunk). Used by one thread at a time.
 class TraceFile {
   public:
-    /// Magic, header, and the schemas and channels of both streams.
-    explicit TraceFile(const std::filesystem::path& path);
+    /// Magic, header, and the schemas and channels that a trace of this level has.
+    TraceFile(const std::filesystem::path& path, Level level);
 
     void metadata(const std::string& name, const std::map<std::string, std::string>& texts);
     void attachment(const std::string& name, const std::string& media_type, mcap::View data);
@@ -52,13 +53,16 @@ class TraceFile {
     /// it when it has none.
     void abandon() noexcept;
 
+    /// Removes what was written.
+    void discard() noexcept { file_.remove(); }
+
     bool has_chunks() const { return !chunks_.empty(); }
 
     const std::filesystem::path& partial() const { return file_.partial(); }
 
   private:
     void put(mcap::View bytes);
-    void describe_channels();
+    void describe_channels(Level level);
     mcap::Statistics statistics() const;
     mcap::Bytes summary() const;
 
@@ -72,7 +76,7 @@ class TraceFile {
     std::vector<mcap::Chunk> chunks_;
     std::vector<mcap::Attachment> attachments_;
     std::vector<mcap::Metadata> metadata_;
-    std::map<std::uint16_t, std::uint64_t> messages_of_;
+    std::map<std::uint16_t, std::uint64_t> messages_of_;  ///< of every channel
 };
 
 }  // namespace reprise::replay

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "replay/chunk_reader.h"
+#include "replay/level.h"
 #include "replay/noun_check.h"
 #include "replay/trace_format.h"
 #include "replay/trace_index.h"
@@ -43,6 +44,7 @@ struct TraceReader::File {
     TraceIndex index;
     std::vector<TickRange> ranges;  ///< of index.chunks, without gaps
     Recording recording;
+    Level level = Level::full;
     bool has_town = false;  ///< recording.town and .network are read
     Outcome outcome;
     world::Digest128 first_chain;
@@ -98,6 +100,8 @@ struct TraceReader::File {
                                    "program that recorded it, or a newer one",
                                    version,
                                    format::version));
+        if (const auto word = facts->find("level"); word != facts->end())
+            read_level(word->second);
         if (const auto seed = facts->find("chain_seed"); seed != facts->end())
             first_chain = format::from_hex(seed->second);
         const mcap::Bytes bytes = read_attachment(input, index, format::episode_attachment);
@@ -106,6 +110,13 @@ struct TraceReader::File {
         if (const auto fault = fault_of_episode(episode))
             fail_attachment(format::episode_attachment, *fault);
         world::GetEpisode(episode.data())->UnPackTo(&recording.episode);
+    }
+
+    void read_level(const std::string& word) {
+        const auto named = level_named(word);
+        if (!named)
+            input.fail(0, fmt::format("its level is '{}', which this program does not know", word));
+        level = *named;
     }
 
     [[noreturn]] void fail_attachment(const std::string& name, const std::string& fault) {
@@ -130,9 +141,9 @@ struct TraceReader::File {
 
     std::optional<TickRange> range_of(const mcap::Chunk& chunk) const {
         const TickRange range{chunk.start_time / step_ns(), chunk.end_time / step_ns()};
-        // Two messages a tick bound the count: it sizes a table when the chunk is read.
+        // One message a tick bounds the count: it sizes a table when the chunk is read.
         const std::uint64_t most =
-            chunk.uncompressed_size / (2 * (mcap::prefix_size + mcap::message_header));
+            chunk.uncompressed_size / (mcap::prefix_size + mcap::message_header);
         if (chunk.start_time % step_ns() != 0 || chunk.end_time % step_ns() != 0 ||
             range.first != ticks() + 1 || range.last < range.first ||
             range.last - range.first >= most)
@@ -145,7 +156,7 @@ struct TraceReader::File {
         for (std::size_t i = 0; i < index.chunks.size(); ++i) {
             const auto range = range_of(index.chunks[i]);
             if (range)
-                loaded_chunk.load(input, index.chunks[i], *range, step_ns());
+                loaded_chunk.load(input, index.chunks[i], *range, step_ns(), level);
             if (!range || loaded_chunk.damage()) {
                 const std::string fault = range ? *loaded_chunk.damage() : "other times than due";
                 loss = fmt::format(
@@ -218,7 +229,7 @@ struct TraceReader::File {
         if (ranges[i].first == loaded)
             return;
         loaded = none_loaded;  // should reading throw
-        loaded_chunk.load(input, index.chunks[i], ranges[i], step_ns());
+        loaded_chunk.load(input, index.chunks[i], ranges[i], step_ns(), level);
         loaded = ranges[i].first;
     }
 
@@ -233,16 +244,19 @@ struct TraceReader::File {
     /// The tick's bytes, or what is wrong with them. The chunk must be loaded.
     std::optional<std::string> take(std::uint64_t tick, RecordedTick& out) {
         const ChunkReader::Messages messages = loaded_chunk.messages(tick);
-        if (messages.tick.empty() || messages.traffic.empty())
+        if (!messages.complete(level, tick))
             return "it is missing";
         out.tick_bytes = tick_copy.of(messages.tick);
-        out.traffic_bytes = traffic_copy.of(messages.traffic);
-        if (const auto fault = fault_of_tick(out.tick_bytes, tick))
+        if (const auto fault = level == Level::inputs ? fault_of_inputs(out.tick_bytes, tick)
+                                                      : fault_of_tick(out.tick_bytes, tick))
             return fault;
+        out.view.tick = world::GetTick(out.tick_bytes.data());
+        if (!holds_traffic(level, tick))
+            return std::nullopt;
+        out.traffic_bytes = traffic_copy.of(messages.traffic);
         if (const auto fault = fault_of_traffic(out.traffic_bytes, tick))
             return fault;
-        out.view = {world::GetTick(out.tick_bytes.data()),
-                    world::GetTraffic(out.traffic_bytes.data())};
+        out.view.traffic = world::GetTraffic(out.traffic_bytes.data());
         return std::nullopt;
     }
 
@@ -285,7 +299,17 @@ std::uint64_t TraceReader::ticks() const {
     return file_->ticks();
 }
 
+Level TraceReader::level() const {
+    return file_->level;
+}
+
 RecordedTick TraceReader::tick(std::uint64_t index) {
+    if (!holds_traffic(file_->level, index))
+        throw world::Error(lacks_text(path().string(), file_->level));
+    return recorded(index);
+}
+
+RecordedTick TraceReader::recorded(std::uint64_t index) {
     file_->load(index);
     const std::uint64_t offset = file_->index.chunks[file_->chunk_of(index)].offset;
     if (file_->loaded_chunk.damage())
@@ -300,7 +324,7 @@ RecordedTick TraceReader::tick(std::uint64_t index) {
 }
 
 world::Digest128 TraceReader::chain(std::uint64_t index) {
-    return index == 0 ? file_->first_chain : tick(index).view.tick->digests()->chain();
+    return index == 0 ? file_->first_chain : recorded(index).view.tick->digests()->chain();
 }
 
 const world::EpisodeT& TraceReader::episode() const {
@@ -325,8 +349,8 @@ std::uint64_t TraceReader::message_bytes() const {
     std::uint64_t bytes = 0;
     for (const mcap::Chunk& chunk : file_->index.chunks)
         bytes += chunk.uncompressed_size;
-    // Two messages a tick.
-    return bytes - 2 * ticks() * (mcap::prefix_size + mcap::message_header);
+    const std::uint64_t messages = ticks() + traffic_ticks(file_->level, ticks());
+    return bytes - messages * (mcap::prefix_size + mcap::message_header);
 }
 
 std::optional<std::string> TraceReader::damage(std::uint64_t index) {

@@ -13,7 +13,17 @@
 
 namespace reprise::replay {
 
-/// One recorded tick's bytes, verified as FlatBuffers. Borrowed from the reader.
+/// How much of its ticks a trace holds. The kernel is deterministic: the rest can be made again.
+enum class Level : std::uint8_t {
+    inputs,  ///< index, digests and what was driven by hand: what re-simulation needs and checks
+    core,    ///< /sim/tick
+    keyed,   ///< and /sim/traffic in every 20th tick
+    full
+};
+
+/// One recorded tick's bytes, verified as FlatBuffers. Borrowed from the reader. What the trace's
+/// level leaves out: `view.traffic` is null and `traffic_bytes` empty; of `inputs`, fields of
+/// `view.tick` are null.
 struct RecordedTick {
     world::TickView view;
     std::span<const std::uint8_t> tick_bytes;
@@ -50,10 +60,17 @@ class TraceReader {
     /// Number of ticks; their indices are 1 to ticks().
     std::uint64_t ticks() const;
 
-    /// The tick with this index, in [1, ticks()]. The view lives until the next call on this
+    /// full when the trace does not say.
+    Level level() const;
+
+    /// The whole tick with this index, in [1, ticks()]. The view lives until the next call on this
     /// reader. In order: about 20 us a tick with 100 cars; any other: one chunk is decompressed,
-    /// about 1 ms.
+    /// about 1 ms. Throws world::Error, one line that says how to get it, when the trace's level
+    /// leaves a part of it out.
     RecordedTick tick(std::uint64_t index);
+
+    /// As much of it as the trace's level keeps.
+    RecordedTick recorded(std::uint64_t index);
 
     /// Chain digest at a tick, as recorded; at 0: before the first one.
     world::Digest128 chain(std::uint64_t index);

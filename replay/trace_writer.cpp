@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "replay/chunk_thread.h"
+#include "replay/level.h"
 #include "replay/trace_file.h"
 #include "replay/trace_format.h"
 #include "world/check.h"
@@ -18,7 +19,8 @@ mcap::View bytes_of(const std::string& text) {
 
 /// No clock, no host, no path: equal runs give equal files.
 std::map<std::string, std::string> facts(const world::EpisodeT& episode,
-                                         const world::Digest128& seed_of_chain) {
+                                         const world::Digest128& seed_of_chain,
+                                         Level level) {
     std::map<std::string, std::string> facts{
         {"format", std::to_string(format::version)},
         {"name", episode.name},
@@ -33,6 +35,8 @@ std::map<std::string, std::string> facts(const world::EpisodeT& episode,
         {"weather", episode.weather_name},
         {"chain_seed", world::to_hex(seed_of_chain)},
     };
+    if (level != Level::full)
+        facts["level"] = to_word(level);
     for (const world::ParameterT& parameter : episode.parameters)
         facts["set." + parameter.key] = parameter.value;
     for (const world::ParameterT& line : episode.fingerprint)
@@ -43,7 +47,10 @@ std::map<std::string, std::string> facts(const world::EpisodeT& episode,
 }  // namespace
 
 struct TraceWriter::File {
+    Level level;
+    Unfinished unfinished;
     TraceFile file;
+    Reduction reduction;
     std::uint64_t step_ns;
     std::uint64_t ticks = 0;
     world::Digest128 chain;  ///< of the last tick
@@ -51,8 +58,14 @@ struct TraceWriter::File {
     std::unique_ptr<PendingChunk> chunk = std::make_unique<PendingChunk>();
     std::unique_ptr<ChunkThread> thread;
 
-    File(const std::filesystem::path& path, const Recording& recording)
-        : file(path),
+    File(const std::filesystem::path& path,
+         const Recording& recording,
+         Level its_level,
+         Unfinished what_to_do)
+        : level(its_level),
+          unfinished(what_to_do),
+          file(path, its_level),
+          reduction(its_level),
           step_ns(recording.episode.step_ns),
           chain(chain_seed(recording)) {
         try {
@@ -66,12 +79,19 @@ struct TraceWriter::File {
 
     void write_start(const Recording& recording) {
         const world::EpisodeT& episode = recording.episode;
-        file.metadata(format::run_metadata, facts(episode, chain));
+        file.metadata(format::run_metadata, facts(episode, chain, level));
         file.attachment(
             format::episode_attachment, "application/x-flatbuffers", format::pack(episode));
         file.attachment(format::scenario_attachment, "text/x-lua", bytes_of(episode.scenario));
         file.packed_attachment(format::town_attachment, format::pack(recording.town));
         file.packed_attachment(format::network_attachment, bytes_of(recording.network));
+    }
+
+    void give_up() noexcept {
+        if (unfinished == Unfinished::keep)
+            file.abandon();
+        else
+            file.discard();
     }
 
     /// Passes an error on with what became of the ticks; no more can be written after it.
@@ -81,9 +101,9 @@ struct TraceWriter::File {
             action();
         } catch (const world::Error& error) {
             thread.reset();  // the file is ours again
-            file.abandon();
+            give_up();
             closed = true;
-            throw world::Error(file.has_chunks()
+            throw world::Error(file.has_chunks() && unfinished == Unfinished::keep
                                    ? fmt::format("{}; what was recorded until then is in {}",
                                                  error.what(),
                                                  file.partial().string())
@@ -92,9 +112,12 @@ struct TraceWriter::File {
     }
 };
 
-TraceWriter::TraceWriter(const std::filesystem::path& path, const Recording& recording) {
+TraceWriter::TraceWriter(const std::filesystem::path& path,
+                         const Recording& recording,
+                         Level level,
+                         Unfinished unfinished) {
     REPRISE_CHECK(recording.episode.step_ns > 0, "an episode needs a step");
-    file_ = std::make_unique<File>(path, recording);
+    file_ = std::make_unique<File>(path, recording, level, unfinished);
 }
 
 TraceWriter::~TraceWriter() {
@@ -109,7 +132,7 @@ TraceWriter::~TraceWriter() {
         // The disk is full or so: what is there is there.
     }
     file_->thread.reset();
-    file_->file.abandon();
+    file_->give_up();
 }
 
 void TraceWriter::append(const world::SealedTick& tick) {
@@ -124,8 +147,10 @@ void TraceWriter::append(const RecordedTick& tick) {
     file_->guarded([&] {
         file_->thread->check();
         const std::uint64_t log_time = index * file_->step_ns;
-        file_->chunk->add(format::tick_channel, index, log_time, tick.tick_bytes);
-        file_->chunk->add(format::traffic_channel, index, log_time, tick.traffic_bytes);
+        const RecordedTick kept = file_->reduction.of(tick);
+        file_->chunk->add(format::tick_channel, index, log_time, kept.tick_bytes);
+        if (!kept.traffic_bytes.empty())
+            file_->chunk->add(format::traffic_channel, index, log_time, kept.traffic_bytes);
         file_->chain = tick.view.tick->digests()->chain();
         file_->ticks = index;
         if (index % format::ticks_per_chunk == 0)

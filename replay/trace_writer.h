@@ -9,6 +9,10 @@
 
 namespace reprise::replay {
 
+/// What becomes of a file whose run or whose writing stopped early. A run's ticks are worth
+/// keeping.
+enum class Unfinished : std::uint8_t { keep, remove };
+
 /// Writes a trace: an MCAP file with the channels /sim/tick and /sim/traffic, one chunk for 64
 /// ticks, zstd level 1 on a thread of its own. Equal recordings and ticks give equal files.
 ///
@@ -17,12 +21,17 @@ namespace reprise::replay {
 /// Errors (unwritable, disk full) throw world::Error; nothing that looks whole is left.
 class TraceWriter {
   public:
-    TraceWriter(const std::filesystem::path& path, const Recording& recording);
+    /// `level`: how much of each tick is kept.
+    TraceWriter(const std::filesystem::path& path,
+                const Recording& recording,
+                Level level = Level::full,
+                Unfinished unfinished = Unfinished::keep);
     ~TraceWriter();
     TraceWriter(const TraceWriter&) = delete;
     TraceWriter& operator=(const TraceWriter&) = delete;
 
-    /// Ticks in order, the first has index 1. Costs the caller one copy, about 2 us.
+    /// Ticks in order, the first has index 1, with as much in them as the level keeps. Costs the
+    /// caller one copy, about 2 us.
     void append(const world::SealedTick& tick);
     void append(const RecordedTick& tick);
 

@@ -1,0 +1,47 @@
+#include "cli/strip.h"
+
+#include <fmt/format.h>
+
+#include "cli/guard.h"
+#include "cli/outputs.h"
+#include "cli/progress.h"
+#include "replay/level.h"
+#include "replay/trace_reader.h"
+#include "replay/trace_writer.h"
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace {
+
+double megabytes(const std::string& path) {
+    return static_cast<double>(std::filesystem::file_size(path)) / 1e6;
+}
+
+}  // namespace
+
+int strip(const StripOptions& options) {
+    replay::TraceReader trace(options.trace);
+    refuse_same_file(options.trace, options.output);
+    const replay::Level level = *replay::level_named(options.level);
+    if (trace.level() < level)
+        throw world::Error(replay::lacks_text(options.trace, trace.level()));
+    replay::TraceWriter stripped(
+        options.output, trace.recording(), level, replay::Unfinished::remove);
+    Progress progress("stripping", "ticks", trace.ticks());
+    for (std::uint64_t index = 1; index <= trace.ticks(); ++index) {
+        stripped.append(trace.recorded(index));
+        progress.update(index);
+    }
+    progress.clear();
+    stripped.close(trace.outcome());
+    fmt::print("{}: {} ticks at level {}, {:.2f} MB of {:.2f} MB\n",
+               options.output,
+               trace.ticks(),
+               options.level,
+               megabytes(options.output),
+               megabytes(options.trace));
+    return exit_good;
+}
+
+}  // namespace reprise::cli
