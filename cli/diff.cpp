@@ -24,9 +24,12 @@ std::string commands_again(const DiffOptions& options,
     const auto again = [&](replay::TraceReader& trace) {
         const world::EpisodeT& episode = trace.episode();
         return rerun_command(
-            trace.path(), episode, tick == 0 ? episode.max_ticks : length_beyond(episode, tick));
+            trace.path(),
+            episode,
+            tick == 0 ? replay::tick_limit(episode) : length_beyond(episode, tick));
     };
-    if (expected.chain(0) == found.chain(0))
+    if (expected.chain(0) == found.chain(0) &&
+        replay::branch_text(expected.episode(), found.episode()).empty())
         return again(expected) + " -o again.mcap; reprise diff " + shell_path(options.expected) +
                " again.mcap";
     return again(expected) + " -o expected.mcap; " + again(found) +
@@ -70,7 +73,14 @@ void print_text(const Comparison& result,
                 replay::TraceReader& expected,
                 replay::TraceReader& found) {
     if (result.divergence) {
-        fmt::print("different\n{}", to_text(*result.divergence, expected.episode().step_ns));
+        const std::string branched = replay::branch_text(expected.episode(), found.episode());
+        if (!branched.empty() && result.divergence->tick > 0)
+            fmt::print("equal for {} ticks; {}; first difference:\n",
+                       result.divergence->tick - 1,
+                       branched);
+        else
+            fmt::print("different\n");
+        fmt::print("{}", to_text(*result.divergence, expected.episode().step_ns));
     } else if (result.tolerance) {
         fmt::print("equal within tolerance {:g}: {} ticks, {}\n",
                    result.tolerance->bound,
@@ -118,6 +128,7 @@ void print_json(const DiffOptions& options,
              {"expected", side(options.expected, expected)},
              {"found", side(options.found, found)},
              {"start", start_difference(expected, found)},
+             {"branch", replay::branch_text(expected.episode(), found.episode())},
              {"builds", Json::array()}};
     for (const replay::BuildDifference& line :
          replay::build_differences(expected.episode().fingerprint, found.episode().fingerprint))

@@ -61,6 +61,17 @@ struct Screen {
             settings += (settings.empty() ? "" : ", ") + parameter.key + " = " + parameter.value;
         if (!settings.empty())
             row("set", settings);
+        for (const world::BranchT& branch : episode.branches) {
+            row("branch",
+                fmt::format("at tick {} ({}) {} ({}) took over from chain {}",
+                            branch.tick,
+                            time(branch.tick),
+                            branch.name,
+                            branch.scenario_path,
+                            world::to_hex(branch.parent_chain)));
+            for (const world::ParameterT& parameter : branch.parameters)
+                row("", parameter.key + " = " + parameter.value);
+        }
         row("length",
             fmt::format("{} ticks of {} ms = {}",
                         trace.ticks(),
@@ -160,7 +171,10 @@ struct Screen {
             row("chain", world::to_hex(trace.chain(trace.ticks())));
         print_size();
         print_build();
-        row("again", run_command(episode, episode.max_ticks));
+        row("again",
+            episode.branches.empty()
+                ? run_command(episode, episode.max_ticks)
+                : rerun_command(trace.path(), episode, replay::tick_limit(episode)));
     }
 };
 

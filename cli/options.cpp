@@ -66,6 +66,7 @@ struct CommandLine::App {
         "reprise"};
     std::vector<std::string> assignments;
     std::vector<std::string> accept_assignments;
+    std::vector<std::string> branch_assignments;
     std::string size = "800x600";
     std::string mount;
     std::string threads;
@@ -75,6 +76,26 @@ CommandLine::~CommandLine() = default;
 
 namespace {
 
+void add_set_and_for(CLI::App& command,
+                     std::vector<std::string>& assignments,
+                     std::optional<double>& seconds,
+                     const std::string& what_for) {
+    command.add_option("--set", assignments, "Set a parameter of the scenario; may be given again")
+        ->type_name("KEY=VALUE")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);
+    command.add_option("--for", seconds, what_for)
+        ->type_name("SECONDS")
+        ->check(CLI::Validator(
+            [](std::string& text) -> std::string {
+                const double value = std::strtod(text.c_str(), nullptr);
+                return value > 0 && value <= 86'400
+                           ? ""
+                           : "expected seconds above 0, 86400 at most, got '" + text + "'";
+            },
+            ""));
+}
+
 /// What a run may be given besides its scenario.
 void add_start(CLI::App& command, RunOptions& run, std::vector<std::string>& assignments) {
     command
@@ -83,20 +104,7 @@ void add_start(CLI::App& command, RunOptions& run, std::vector<std::string>& ass
     command.add_option("--seed", run.seed, "What decides everything random")
         ->type_name("N")
         ->transform(whole_number());
-    command.add_option("--set", assignments, "Set a parameter of the scenario; may be given again")
-        ->type_name("KEY=VALUE")
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->allow_extra_args(false);
-    command.add_option("--for", run.seconds, "End after this much simulated time")
-        ->type_name("SECONDS")
-        ->check(CLI::Validator(
-            [](std::string& text) -> std::string {
-                const double seconds = std::strtod(text.c_str(), nullptr);
-                return seconds > 0 && seconds <= 86'400
-                           ? ""
-                           : "expected seconds above 0, 86400 at most, got '" + text + "'";
-            },
-            ""));
+    add_set_and_for(command, assignments, run.seconds, "End after this much simulated time");
 }
 
 CLI::Option& add_level(CLI::App& command,
@@ -138,6 +146,35 @@ void add_expand(CLI::App& app, ExpandOptions& expand) {
     command.footer(
         "The result is, byte for byte, the trace before it was stripped. Exit status: 0 done, 1 a\n"
         "tick came out differently (nothing is written), 2 bad input.");
+}
+
+void add_branch(CLI::App& app, BranchOptions& branch, std::vector<std::string>& assignments) {
+    CLI::App& command = *app.add_subcommand(
+        "branch", "What if: let another script take over in the middle of a recorded run");
+    command.add_option("trace", branch.trace, "The trace")->required()->type_name("T.mcap");
+    command.add_option("--at", branch.at, "The last tick of what was, or time such as 12.5s")
+        ->required()
+        ->type_name("TICK");
+    command
+        .add_option(
+            "--script", branch.scripts, "What happens from there on; several share the way there")
+        ->required()
+        ->type_name("WHAT_IF.lua")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option("-o,--output",
+                    branch.output,
+                    "A trace; or a folder, where a trace named like each script goes")
+        ->required()
+        ->type_name("B.mcap|DIR");
+    add_set_and_for(command, assignments, branch.seconds, "End this long after the branch");
+    command.footer(
+        "The run is simulated again up to that tick, and every tick compared with the trace; then\n"
+        "each script goes on in a process of its own. Traffic, walkers, contacts and random "
+        "streams\n"
+        "are in their true state. Exit status: 0 all checks passed, 1 one failed, or the run came\n"
+        "out differently, 2 bad input.\n"
+        "Example: reprise branch a.mcap --at 12.5s --script brake.lua swerve.lua -o what_if");
 }
 
 void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignments) {
@@ -356,6 +393,7 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     add_recover(app, recover);
     add_strip(app, strip);
     add_expand(app, expand);
+    add_branch(app, branch, app_->branch_assignments);
     add_render(app, render, app_->size, app_->mount, app_->threads);
     add_golden_commands(app, test, accept, golden_list, [&](CLI::App& to) {
         add_start(to, accept.start, app_->accept_assignments);
@@ -369,6 +407,8 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
         app.parse(argc, argv);
         for (const std::string& assignment : app_->assignments)
             run.parameters.push_back(split_assignment(assignment));
+        for (const std::string& assignment : app_->branch_assignments)
+            branch.parameters.push_back(split_assignment(assignment));
         for (const std::string& assignment : app_->accept_assignments)
             accept.start.parameters.push_back(split_assignment(assignment));
         read_size(app_->size, render);

@@ -47,6 +47,15 @@ struct RecoverOptions {
     std::string output;
 };
 
+struct BranchOptions {
+    std::string trace;
+    std::string at;  ///< tick, or seconds with an s behind
+    std::vector<std::string> scripts;
+    std::string output;  ///< a trace, or with several scripts a folder
+    std::optional<double> seconds;
+    std::vector<std::pair<std::string, std::string>> parameters;
+};
+
 struct DiffOptions {
     std::string expected;
     std::string found;
@@ -117,6 +126,7 @@ class CommandLine {
     RecoverOptions recover;
     StripOptions strip;
     ExpandOptions expand;
+    BranchOptions branch;
     RenderOptions render;
     TestOptions test;
     AcceptOptions accept;

@@ -1,13 +1,12 @@
 #include "cli/render.h"
 
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <numbers>
 
 #include "cli/guard.h"
 #include "cli/progress.h"
+#include "cli/tick_option.h"
 #include "render/picture.h"
 #include "render/sensors.h"
 #include "replay/trace_reader.h"
@@ -25,28 +24,6 @@ struct Span {
     std::uint64_t to = 1;
     std::uint64_t every = 1;
 };
-
-/// "120" is a tick; "2.5s" a time, rounded to the nearest tick.
-std::uint64_t parse_tick(const std::string& option,
-                         const std::string& text,
-                         std::uint64_t step_ns,
-                         std::uint64_t fallback) {
-    if (text.empty())
-        return fallback;
-    const bool is_time = text.back() == 's';
-    const char* begin = text.data();
-    const char* end = begin + text.size() - (is_time ? 1 : 0);
-    double value = 0;
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    const bool whole = is_time || value == std::floor(value);
-    constexpr double most = 1e12;
-    if (error != std::errc() || stop != end || !(value >= 0 && value < most) || !whole)
-        throw world::Error(option + ": expected a tick such as 120 or a time such as 2.5s, got '" +
-                           text + "'");
-    return is_time ? static_cast<std::uint64_t>(
-                         std::llround(value * 1e9 / static_cast<double>(step_ns)))
-                   : static_cast<std::uint64_t>(value);
-}
 
 Span ticks_to_render(const RenderOptions& options, const replay::TraceReader& trace) {
     const std::uint64_t step_ns = trace.episode().step_ns;

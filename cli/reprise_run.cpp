@@ -1,4 +1,5 @@
-// `reprise run`, `verify` and `expand`: the program with SUMO, Bullet and Lua in it.
+// `reprise run`, `verify`, `expand` and `branch`: the program with SUMO, Bullet and Lua in it.
+#include "cli/branch.h"
 #include "cli/expand.h"
 #include "cli/guard.h"
 #include "cli/options.h"
@@ -11,6 +12,8 @@ int main(int argc, char** argv) {
         CommandLine line;
         if (const auto code = line.parse(argc, argv))
             return *code;
+        if (line.command == "branch")
+            return branch(line.branch);
         if (line.command == "expand")
             return expand(line.expand);
         return line.command == "verify" ? verify(line.verify) : run(line.run);

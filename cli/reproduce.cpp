@@ -75,7 +75,9 @@ std::string run_command(const world::EpisodeT& episode, std::uint64_t ticks) {
 }
 
 std::uint64_t length_beyond(const world::EpisodeT& episode, std::uint64_t tick) {
-    return std::min(tick + 1, episode.max_ticks);
+    const std::uint64_t limit =
+        episode.branches.empty() ? episode.max_ticks : episode.branches.back().max_ticks;
+    return std::min(tick + 1, limit);
 }
 
 std::string recover_command(const std::filesystem::path& damaged) {

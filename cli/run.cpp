@@ -40,10 +40,12 @@ replay::Recording prepare_again(const RunOptions& options, replay::TraceReader& 
     replay::Recording recording = trace.recording();
     world::EpisodeT& episode = recording.episode;
     if (options.seconds)
-        episode.max_ticks = std::max<std::uint64_t>(
-            1,
-            static_cast<std::uint64_t>(
-                std::llround(*options.seconds * 1e9 / static_cast<double>(episode.step_ns))));
+        replay::limit_ticks(
+            episode,
+            std::max<std::uint64_t>(
+                1,
+                static_cast<std::uint64_t>(
+                    std::llround(*options.seconds * 1e9 / static_cast<double>(episode.step_ns)))));
     episode.fingerprint = this_build();
     return recording;
 }
@@ -88,9 +90,9 @@ std::optional<kernel::Nudge> planned_nudge(const RunOptions& options,
     if (options.nudge.empty())
         return std::nullopt;
     const kernel::Nudge nudge = kernel::parse_nudge(options.nudge);
-    if (nudge.tick < 1 || nudge.tick > episode.max_ticks)
-        throw world::Error(
-            fmt::format("--nudge {}: the run has ticks 1 to {}", options.nudge, episode.max_ticks));
+    if (nudge.tick < 1 || nudge.tick > replay::tick_limit(episode))
+        throw world::Error(fmt::format(
+            "--nudge {}: the run has ticks 1 to {}", options.nudge, replay::tick_limit(episode)));
     return nudge;
 }
 
@@ -179,7 +181,7 @@ int run(const RunOptions& options) {
     kernel::Kernel kernel(recording);
     if (nudge)
         kernel.nudge(*nudge);
-    Progress progress("running", "ticks", recording.episode.max_ticks);
+    Progress progress("running", "ticks", replay::tick_limit(recording.episode));
     std::uint64_t index = 0;
     while (!kernel.finished()) {
         const world::SealedTick& tick = kernel.step(inputs(before, ++index));

@@ -28,8 +28,9 @@ world::SealedTick genesis(const world::EpisodeT& episode, const world::Digest128
 }  // namespace
 
 struct Kernel::Stages {
-    explicit Stages(const replay::Recording& recording)
-        : episode(recording.episode),
+    explicit Stages(const replay::Recording& its_recording)
+        : recording(its_recording),
+          episode(recording.episode),
           town(recording.town),
           lanes(town),
           scenario(episode, town),
@@ -40,7 +41,8 @@ struct Kernel::Stages {
           chain_seed(replay::chain_seed(recording)),
           last(genesis(episode, chain_seed)) {}
 
-    const world::EpisodeT& episode;
+    const replay::Recording& recording;
+    world::EpisodeT episode;  ///< of it script, parameters and limit change where a run branches
     const world::TownT& town;
     world::LaneMap lanes;
     scripting::Scenario scenario;
@@ -65,6 +67,7 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     Stages& stage = *stages_;
     const world::TickView last = stage.last.view();
     REPRISE_CHECK(!stage.finished, "step after the end, at tick " + std::to_string(last.index()));
+    take_branch(last.index());
     world::TickDraft next;
     world::Digests& digests = next.tick.digests;
     next.tick.index = last.index() + 1;
@@ -114,6 +117,26 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     stage.last =
         world::seal(next, last.index() == 0 ? stage.chain_seed : last.tick->digests()->chain());
     return stage.last;
+}
+
+/// The branch that the recording names behind this tick, if it does.
+void Kernel::take_branch(std::uint64_t tick) {
+    for (const world::BranchT& branch : stages_->recording.episode.branches)
+        if (branch.tick == tick)
+            this->branch(branch);
+}
+
+void Kernel::branch(const world::BranchT& branch) {
+    Stages& stage = *stages_;
+    REPRISE_CHECK(branch.tick == stage.last.view().index() && !stage.finished,
+                  "a branch of tick " + std::to_string(branch.tick) + " at tick " +
+                      std::to_string(stage.last.view().index()));
+    stage.episode.name = branch.name;
+    stage.episode.scenario = branch.scenario;
+    stage.episode.scenario_path = branch.scenario_path;
+    stage.episode.parameters = branch.parameters;
+    stage.episode.max_ticks = branch.max_ticks;
+    stage.scenario.take_over();
 }
 
 /// Commands that are about the whole run: the end, and the weather.

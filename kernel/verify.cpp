@@ -72,12 +72,12 @@ void find_first_recorded(replay::Divergence& divergence,
 
 }  // namespace
 
-std::optional<replay::Divergence> verify(
-    replay::TraceReader& recorded, const std::function<void(const world::SealedTick&)>& on_tick) {
-    if (auto divergence = wrong_network(recorded.recording()))
-        return divergence;
-    Kernel kernel(recorded.recording());
-    for (std::uint64_t index = 1; index <= recorded.ticks(); ++index) {
+std::optional<replay::Divergence> follow(
+    Kernel& kernel,
+    replay::TraceReader& recorded,
+    std::uint64_t last,
+    const std::function<void(const world::SealedTick&)>& on_tick) {
+    for (std::uint64_t index = 1; index <= last; ++index) {
         const auto damage = recorded.damage(index);
         const auto expected = damage ? recorded.salvaged(index) : recorded.recorded(index);
         if (!expected)
@@ -96,6 +96,16 @@ std::optional<replay::Divergence> verify(
         if (on_tick)
             on_tick(found);
     }
+    return std::nullopt;
+}
+
+std::optional<replay::Divergence> verify(
+    replay::TraceReader& recorded, const std::function<void(const world::SealedTick&)>& on_tick) {
+    if (auto divergence = wrong_network(recorded.recording()))
+        return divergence;
+    Kernel kernel(recorded.recording());
+    if (auto divergence = follow(kernel, recorded, recorded.ticks(), on_tick))
+        return divergence;
     // Every tick agrees, but the file may still be damaged where no tick lies.
     if (const auto damage = recorded.damage())
         return unreadable(0, *damage);

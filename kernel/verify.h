@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "kernel/kernel.h"
 #include "replay/divergence.h"
 #include "replay/trace_reader.h"
 
@@ -18,6 +19,14 @@ namespace reprise::kernel {
 /// named, not the chunk.
 std::optional<replay::Divergence> verify(
     replay::TraceReader& recorded,
+    const std::function<void(const world::SealedTick&)>& on_tick = {});
+
+/// The same for ticks 1 to `last`, with a kernel that was made from that recording and goes on
+/// afterwards; the file itself is not checked.
+std::optional<replay::Divergence> follow(
+    Kernel& kernel,
+    replay::TraceReader& recorded,
+    std::uint64_t last,
     const std::function<void(const world::SealedTick&)>& on_tick = {});
 
 }  // namespace reprise::kernel

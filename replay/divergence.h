@@ -86,6 +86,10 @@ std::optional<Divergence> compare(TraceReader& expected, TraceReader& found, Tol
 /// "the runs did not start from the same: seed 7 / 8", or "".
 std::string start_difference(const TraceReader& expected, const TraceReader& found);
 
+/// How one run branched off the other, or both off a third: "branched at tick 250 (12.50 s) by
+/// brake.lua". "" when they did not.
+std::string branch_text(const world::EpisodeT& expected, const world::EpisodeT& found);
+
 /// Fills in what the run was doing: the actor's name ("ego (1)") from the spawned events up to that
 /// tick, and the last thing that its scenario said.
 void add_context(Divergence& divergence, TraceReader& trace);

@@ -183,6 +183,13 @@ std::optional<std::string> fault_of_episode(mcap::View bytes) {
         return "not an Episode";
     if (world::GetEpisode(bytes.data())->step_ns() == 0)
         return "an episode whose step is zero";
+    std::uint64_t last = 0;
+    const auto* branches = world::GetEpisode(bytes.data())->branches();
+    for (flatbuffers::uoffset_t i = 0; branches != nullptr && i < branches->size(); ++i) {
+        if (branches->Get(i)->tick() <= last)
+            return "an episode whose branches are out of order";
+        last = branches->Get(i)->tick();
+    }
     return std::nullopt;
 }
 

@@ -5,6 +5,16 @@
 
 namespace reprise::replay {
 
+std::uint64_t tick_limit(const world::EpisodeT& episode) {
+    return episode.branches.empty() ? episode.max_ticks : episode.branches.back().max_ticks;
+}
+
+void limit_ticks(world::EpisodeT& episode, std::uint64_t ticks) {
+    while (!episode.branches.empty() && episode.branches.back().tick >= ticks)
+        episode.branches.pop_back();
+    (episode.branches.empty() ? episode.max_ticks : episode.branches.back().max_ticks) = ticks;
+}
+
 world::Digest128 chain_seed(const Recording& recording) {
     const world::EpisodeT& episode = recording.episode;
     world::Hasher hasher;

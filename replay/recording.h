@@ -23,7 +23,14 @@ struct Outcome {
     std::uint64_t ticks = 0;
 };
 
-/// The chain's value before tick 1: of everything in the recording that decides the run.
+/// The last tick that a run can have.
+std::uint64_t tick_limit(const world::EpisodeT& episode);
+
+/// Makes it end there; what would have branched off behind it is left out.
+void limit_ticks(world::EpisodeT& episode, std::uint64_t ticks);
+
+/// The chain's value before tick 1: of everything in the recording that decides the run;
+/// what branches off does not yet.
 world::Digest128 chain_seed(const Recording& recording);
 
 }  // namespace reprise::replay

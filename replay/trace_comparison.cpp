@@ -21,7 +21,8 @@ void add_note(std::string& note, const std::string& part) {
 /// What may differ without changing the run: where files lay, and who recorded it.
 bool is_information(std::string_view field) {
     return field == "fingerprint" || field == "scenario_path" || field == "town_path" ||
-           field == "name" || field == "weather_name";
+           field == "name" || field == "weather_name" ||
+           field == "branches";  // their effect is in the ticks: see branch_text
 }
 
 /// "seed 7 / 8, cars 100 / 50".
@@ -185,6 +186,35 @@ void check_undamaged(const TraceReader& trace) {
 }
 
 }  // namespace
+
+std::string branch_text(const world::EpisodeT& expected, const world::EpisodeT& found) {
+    const auto parted = std::mismatch(expected.branches.begin(),
+                                      expected.branches.end(),
+                                      found.branches.begin(),
+                                      found.branches.end(),
+                                      [](const world::BranchT& left, const world::BranchT& right) {
+                                          return left.tick == right.tick &&
+                                                 left.scenario == right.scenario &&
+                                                 left.parameters == right.parameters &&
+                                                 left.max_ticks == right.max_ticks;
+                                      });
+    std::string text;
+    const auto add = [&](const world::BranchT& branch, const char* which) {
+        text += fmt::format("{}{}branched at tick {} ({:.2f} s) by {}",
+                            text.empty() ? "" : "; ",
+                            which,
+                            branch.tick,
+                            world::seconds(branch.tick, expected.step_ns),
+                            branch.scenario_path);
+    };
+    const bool both =
+        parted.first != expected.branches.end() && parted.second != found.branches.end();
+    if (parted.first != expected.branches.end())
+        add(*parted.first, "the expected run ");
+    if (parted.second != found.branches.end())
+        add(*parted.second, both ? "the found run " : "");
+    return text;
+}
 
 std::optional<Divergence> compare(TraceReader& expected, TraceReader& found) {
     const bool same_start = expected.chain(0) == found.chain(0);

@@ -37,6 +37,12 @@ std::map<std::string, std::string> facts(const world::EpisodeT& episode,
     };
     if (level != Level::full)
         facts["level"] = to_word(level);
+    if (!episode.branches.empty()) {
+        const world::BranchT& branch = episode.branches.back();
+        facts["branch.tick"] = std::to_string(branch.tick);
+        facts["branch.scenario"] = branch.scenario_path;
+        facts["branch.parent_chain"] = world::to_hex(branch.parent_chain);
+    }
     for (const world::ParameterT& parameter : episode.parameters)
         facts["set." + parameter.key] = parameter.value;
     for (const world::ParameterT& line : episode.fingerprint)

@@ -86,6 +86,12 @@ Actor& Actors::add(Actor actor) {
     return actors_.back();
 }
 
+const Actor* Actors::find(const std::string& name) const {
+    const auto found = std::find_if(
+        actors_.begin(), actors_.end(), [&](const Actor& actor) { return actor.name == name; });
+    return found == actors_.end() ? nullptr : &*found;
+}
+
 std::string Actors::free_name(const std::string& model) {
     std::string name = model;
     int& number = next_number_.try_emplace(model, 2).first->second;

@@ -73,6 +73,11 @@ class Actors {
 
     std::uint32_t next_id() const { return static_cast<std::uint32_t>(actors_.size()) + 1; }
 
+    /// Null when nobody has that name.
+    const Actor* find(const std::string& name) const;
+
+    std::vector<std::string> names() const { return {names_.begin(), names_.end()}; }
+
     bool has_name(const std::string& name) const { return names_.count(name) != 0; }
 
     /// "sedan", then "sedan_2", ...

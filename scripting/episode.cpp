@@ -100,6 +100,17 @@ void override_parameters(Header& header, const Overrides& overrides, const std::
     }
 }
 
+std::vector<world::ParameterT> recorded(const std::map<std::string, Value>& parameters) {
+    std::vector<world::ParameterT> list;
+    for (const auto& [key, value] : parameters) {
+        world::ParameterT parameter;
+        parameter.key = key;
+        parameter.value = literal(value);
+        list.push_back(std::move(parameter));
+    }
+    return list;
+}
+
 }  // namespace
 
 world::EpisodeT load_episode(const std::filesystem::path& scenario_lua,
@@ -125,13 +136,37 @@ world::EpisodeT load_episode(const std::filesystem::path& scenario_lua,
     episode.road_friction = weather.road_friction;
     episode.weather = weather.weather;
     episode.weather_name = weather.name;
-    for (const auto& [key, value] : header.parameters) {
-        world::ParameterT parameter;
-        parameter.key = key;
-        parameter.value = literal(value);
-        episode.parameters.push_back(std::move(parameter));
-    }
+    episode.parameters = recorded(header.parameters);
     return episode;
+}
+
+world::BranchT load_branch(const std::filesystem::path& scenario_lua,
+                           const Overrides& overrides,
+                           const world::EpisodeT& run,
+                           std::uint64_t tick) {
+    world::BranchT branch;
+    branch.tick = tick;
+    branch.scenario = read_source(scenario_lua);
+    branch.scenario_path = scenario_lua.filename().string();
+    Vm vm(branch.scenario_path);
+    vm.in_branch = true;
+    Header header = read_header(vm, branch.scenario);
+    if (!header.of_world.empty())
+        throw world::Error(fmt::format(
+            "{}:{}: '{}' was decided when the run began: a what-if takes the world as it is{}",
+            branch.scenario_path,
+            header.line,
+            header.of_world,
+            header.of_world == "weather" ? "; set_weather changes the weather" : ""));
+    override_parameters(header, overrides, branch.scenario_path);
+    branch.name = header.name;
+    branch.parameters = recorded(header.parameters);
+    branch.max_ticks = run.branches.empty() ? run.max_ticks : run.branches.back().max_ticks;
+    if (overrides.duration || header.has_duration)
+        branch.max_ticks =
+            tick + std::max<std::uint64_t>(
+                       1, ticks_of(overrides.duration.value_or(header.duration), run.step_ns));
+    return branch;
 }
 
 }  // namespace reprise::scripting

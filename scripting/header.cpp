@@ -69,6 +69,10 @@ int take_table(lua_State* L) {
                fmt::format("no weather '{}'{}",
                            header.weather,
                            world::did_you_mean(header.weather, world::weather_names())));
+    header.has_duration = fields.has("duration");
+    for (const char* key : {"town", "seed", "cars", "weather"})
+        if (fields.has(key))
+            header.of_world = key;
     header.duration = fields.number("duration").value_or(header.duration);
     if (header.duration <= 0 || header.duration > longest_run)
         refuse("scenario", "'duration' must be in (0, 86400] s");

@@ -19,6 +19,8 @@ struct Header {
     std::string town = "town1";
     std::string weather = "clear_noon";
     double duration = 60;  ///< [s]
+    bool has_duration = false;
+    std::string of_world;  ///< a key that decides the world at the start, or ""
     std::uint64_t seed = 0;
     std::uint32_t cars = 0;
     std::map<std::string, Value> parameters;

@@ -16,15 +16,6 @@
 
 namespace reprise::scripting {
 
-struct Scenario::Machine {
-    Machine(const world::EpisodeT& episode, const world::TownT& town)
-        : vm(episode.scenario_path),
-          run(vm, episode, town) {}
-
-    Vm vm;
-    Run run;
-};
-
 namespace {
 
 constexpr std::uint64_t command_cost = 1000;      // [instructions]: at most 10,000 in a tick
@@ -48,6 +39,27 @@ void push_parameters(lua_State* L, const world::EpisodeT& episode) {
 }
 
 }  // namespace
+
+struct Scenario::Machine {
+    Machine(const world::EpisodeT& episode, const world::TownT& town)
+        : vm(episode.scenario_path),
+          run(vm, episode, town) {}
+
+    /// Reads the episode's script; its run function begins in the next step.
+    void start() {
+        const Header header = read_header(vm, run.episode.scenario);
+        vm.run = &run;
+        lua_State* L = vm.main();
+        lua_rawgeti(L, LUA_REGISTRYINDEX, header.run);
+        push_parameters(L, run.episode);
+        run.tasks.start(L, 1);
+    }
+
+    Vm vm;
+    Run run;
+    std::vector<Check> decided;    ///< of scripts whose place this one took
+    std::uint64_t taken_over = 0;  ///< digest of the scripts that took over; 0: none did
+};
 
 world::CommandT& Run::say(lua_State* L, world::CommandKind kind, std::uint32_t actor) {
     REPRISE_CHECK(next != nullptr, "a command outside of a step");
@@ -99,16 +111,35 @@ Body Run::look_at(const Actor& actor) {
 
 Scenario::Scenario(const world::EpisodeT& episode, const world::TownT& town)
     : machine_(std::make_unique<Machine>(episode, town)) {
-    Vm& vm = machine_->vm;
-    const Header header = read_header(vm, episode.scenario);
-    vm.run = &machine_->run;
-    lua_State* L = vm.main();
-    lua_rawgeti(L, LUA_REGISTRYINDEX, header.run);
-    push_parameters(L, episode);
-    machine_->run.tasks.start(L, 1);
+    machine_->start();
 }
 
 Scenario::~Scenario() = default;
+
+void Scenario::take_over() {
+    const world::EpisodeT& episode = machine_->run.episode;
+    const world::TownT& town = machine_->run.town;
+    std::vector<Check> decided = checks();
+    std::erase_if(decided,
+                  [](const Check& check) { return check.status == Check::Status::not_evaluated; });
+    Actors actors = std::move(machine_->run.actors);
+    Streams streams = std::move(machine_->run.streams);
+    world::Hasher scripts;
+    scripts.add(machine_->taken_over);
+    scripts.add_text(episode.scenario);
+    for (const world::ParameterT& parameter : episode.parameters) {
+        scripts.add_text(parameter.key);
+        scripts.add_text(parameter.value);
+    }
+    machine_.reset();  // the new machine lies at the same addresses
+    machine_ = std::make_unique<Machine>(episode, town);
+    machine_->vm.in_branch = true;
+    machine_->start();
+    machine_->run.actors = std::move(actors);
+    machine_->run.streams = std::move(streams);
+    machine_->decided = std::move(decided);
+    machine_->taken_over = scripts.digest64();
+}
 
 void Scenario::advance(const world::TickView& last, world::TickDraft& next) {
     Run& run = machine_->run;
@@ -149,11 +180,16 @@ std::uint64_t Scenario::digest() const {
     run.tasks.digest(hasher);
     run.checks.digest(hasher);
     run.streams.digest(hasher);
+    if (machine_->taken_over != 0)
+        hasher.add(machine_->taken_over);
     return hasher.digest64();
 }
 
 std::vector<Scenario::Check> Scenario::checks() const {
-    return machine_->run.checks.results();
+    std::vector<Check> all = machine_->decided;
+    const std::vector<Check> own = machine_->run.checks.results();
+    all.insert(all.end(), own.begin(), own.end());
+    return all;
 }
 
 }  // namespace reprise::scripting

@@ -28,6 +28,15 @@ struct Overrides {
 /// or holds an unknown key, model, weather or parameter.
 world::EpisodeT load_episode(const std::filesystem::path& scenario_lua, const Overrides& overrides);
 
+/// What takes over in a branch of that run at that tick. `overrides` may hold parameters, and a
+/// duration from the tick on; without one, and when the script names none, the run's own limit
+/// stays. Throws world::Error as above, and for a script that wants another town, seed, cars or
+/// weather: the world goes on as it is.
+world::BranchT load_branch(const std::filesystem::path& scenario_lua,
+                           const Overrides& overrides,
+                           const world::EpisodeT& run,
+                           std::uint64_t tick);
+
 /// A running scenario: one Lua machine in a sandbox, coroutine tasks resumed once a tick.
 /// Everything it knows of the world is the last tick; everything it says is a Command.
 class Scenario {
@@ -43,6 +52,11 @@ class Scenario {
     /// checks that failed). After a finish command it does nothing more. Throws world::Error,
     /// "cut_in.lua:12: ...", when the script fails.
     void advance(const world::TickView& last, world::TickDraft& next);
+
+    /// The episode holds another script by now, which begins in the next step. It knows the actors
+    /// there are (word: actor) and draws on from the streams; the old one's tasks end. Of its
+    /// checks those that were decided stay, the others end with it.
+    void take_over();
 
     /// Of instruction count, memory, actors, task and check states, draw counts. The script's own
     /// variables are not read: a script that holds other values either goes another way, which

@@ -112,6 +112,8 @@ class Vm {
     Run* run = nullptr;        ///< none while only the header is read
     Header* header = nullptr;  ///< where `scenario` puts what it is given
 
+    bool in_branch = false;  ///< the script takes over from another: set before it is read
+
     /// Set while a check's predicate runs: it may look and must not act.
     bool in_check = false;
     /// Set when a predicate asked about an actor that is not there yet.

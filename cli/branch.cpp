@@ -1,0 +1,169 @@
+// `reprise branch`.
+//   must      begin exactly where the recorded run was; ten what-ifs cost one way there
+//   assumes   the trace is whole ticks of one run, and this build makes the same ones
+//   goes      all scripts are read first; a kernel follows the trace to the tick; then a copy of
+//             this process for each script, with its own trace: the parent's ticks, then its own
+//   keeps     nothing: no state is saved, a fork has all of it
+#include "cli/branch.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+#include "cli/child_processes.h"
+#include "cli/guard.h"
+#include "cli/other_build.h"
+#include "cli/outputs.h"
+#include "cli/progress.h"
+#include "cli/reproduce.h"
+#include "cli/self_test.h"
+#include "cli/this_build.h"
+#include "cli/tick_option.h"
+#include "kernel/verify.h"
+#include "replay/trace_reader.h"
+#include "replay/trace_writer.h"
+#include "scripting/scenario.h"
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct WhatIf {
+    std::string script;
+    fs::path output;
+    world::BranchT branch;
+};
+
+std::uint64_t branch_tick(const BranchOptions& options, const replay::TraceReader& trace) {
+    const std::uint64_t tick = parse_tick("--at", options.at, trace.episode().step_ns, 0);
+    const auto& branches = trace.episode().branches;
+    const std::uint64_t first = branches.empty() ? 1 : branches.back().tick + 1;
+    if (tick < first || tick >= trace.ticks())
+        throw world::Error(
+            fmt::format("--at {}: expected a tick from {} to {}: {} holds {} ticks{}",
+                        options.at,
+                        first,
+                        trace.ticks() - 1,
+                        options.trace,
+                        trace.ticks(),
+                        branches.empty() ? "" : ", and branched off itself before that"));
+    return tick;
+}
+
+/// One trace for one script; or a folder, which is made.
+fs::path output_of(const BranchOptions& options, const std::string& script) {
+    const fs::path output = options.output;
+    if (options.scripts.size() == 1 && output.extension() == ".mcap")
+        return output;
+    std::error_code error;
+    fs::create_directories(output, error);
+    if (error || !fs::is_directory(output))
+        throw world::Error(fmt::format("-o {}: expected a folder for {} traces{}",
+                                       options.output,
+                                       options.scripts.size(),
+                                       error ? ": " + error.message() : ""));
+    return output / (fs::path(script).stem().string() + ".mcap");
+}
+
+std::vector<WhatIf> plan(const BranchOptions& options,
+                         std::uint64_t tick,
+                         replay::TraceReader& trace) {
+    scripting::Overrides overrides;
+    overrides.duration = options.seconds;
+    overrides.parameters = options.parameters;
+    std::vector<WhatIf> all;
+    for (const std::string& script : options.scripts) {
+        world::BranchT branch = scripting::load_branch(script, overrides, trace.episode(), tick);
+        branch.parent_chain = trace.chain(tick);
+        all.push_back({script, "", std::move(branch)});
+    }
+    for (WhatIf& one : all) {
+        one.output = output_of(options, one.script);
+        refuse_same_file(options.trace, one.output);
+        for (const WhatIf& other : all)
+            if (&other != &one && other.output == one.output)
+                throw world::Error(fmt::format("{} and {} would both be written to {}",
+                                               other.script,
+                                               one.script,
+                                               one.output.string()));
+    }
+    return all;
+}
+
+/// In the child: the parent's ticks as they are recorded, then what the script makes of it.
+int go_on(kernel::Kernel& kernel, replay::TraceReader& trace, const WhatIf& what_if) {
+    try {
+        replay::Recording recording = trace.recording();
+        recording.episode.branches.push_back(what_if.branch);
+        recording.episode.fingerprint = this_build();
+        replay::TraceWriter writer(
+            what_if.output, recording, replay::Level::full, replay::Unfinished::remove);
+        for (std::uint64_t index = 1; index <= what_if.branch.tick; ++index)
+            writer.append(trace.tick(index));
+        kernel.branch(what_if.branch);
+        while (!kernel.finished())
+            writer.append(kernel.step());
+        writer.close(kernel.outcome());
+        return exit_good;
+    } catch (const world::Error& error) {
+        fmt::print(stderr, "reprise: {}\n", error.what());
+        return exit_bad_input;
+    }
+}
+
+/// What became of one, and the exit code.
+int report(const WhatIf& what_if, int code) {
+    if (code != exit_good) {
+        fmt::print("{}: nothing was written\n", what_if.output.string());
+        return code;
+    }
+    const replay::TraceReader trace(what_if.output);
+    const replay::Outcome& outcome = trace.outcome();
+    fmt::print("{}: {} ticks, {} from tick {} on; {}: {}\n",
+               what_if.output.string(),
+               trace.ticks(),
+               what_if.branch.name,
+               what_if.branch.tick + 1,
+               outcome.verdict,
+               outcome.reason);
+    return outcome.verdict == "failed" ? exit_differs : exit_good;
+}
+
+}  // namespace
+
+int branch(const BranchOptions& options) {
+    self_test();
+    replay::TraceReader trace(options.trace);
+    const std::uint64_t tick = branch_tick(options, trace);
+    trace.tick(tick);  // says at once when the trace is not full
+    const std::vector<WhatIf> what_ifs = plan(options, tick, trace);
+    print_other_build("another build recorded this",
+                      "recorded",
+                      trace.episode().fingerprint,
+                      "here",
+                      this_build());
+    kernel::Kernel kernel(trace.recording());
+    Progress progress("going there", "ticks", tick);
+    auto divergence = kernel::follow(kernel, trace, tick, [&](const world::SealedTick& tick_there) {
+        progress.update(tick_there.view().index());
+    });
+    progress.clear();
+    if (divergence) {
+        divergence->again = "reprise verify " + shell_path(options.trace);
+        fmt::print("{}: differs before tick {}; nothing was written\n{}",
+                   options.trace,
+                   tick,
+                   to_text(*divergence, trace.episode().step_ns));
+        return exit_differs;
+    }
+    const std::vector<int> codes = in_child_processes(
+        what_ifs.size(), [&](std::size_t i) { return go_on(kernel, trace, what_ifs[i]); });
+    int code = exit_good;
+    for (std::size_t i = 0; i < what_ifs.size(); ++i)
+        code = std::max(code, report(what_ifs[i], codes[i]));
+    return code;
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace reprise::cli {
+
+/// "120" is a tick; "2.5s" a time, rounded to the nearest tick; "" the fallback. Throws
+/// world::Error that names the option.
+std::uint64_t parse_tick(const std::string& option,
+                         const std::string& text,
+                         std::uint64_t step_ns,
+                         std::uint64_t fallback);
+
+}  // namespace reprise::cli
