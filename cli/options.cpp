@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "cli/golden_options.h"
+#include "cli/tool_options.h"
 #include "world/check.h"
 #include "world/fingerprint.h"
 #include "world/weather.h"
@@ -395,6 +396,7 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     add_expand(app, expand);
     add_branch(app, branch, app_->branch_assignments);
     add_render(app, render, app_->size, app_->mount, app_->threads);
+    add_tool_commands(app, tools);
     add_golden_commands(app, test, accept, golden_list, [&](CLI::App& to) {
         add_start(to, accept.start, app_->accept_assignments);
     });

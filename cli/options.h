@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "cli/tool_options.h"
+
 namespace reprise::cli {
 
 struct RunOptions {
@@ -118,7 +120,7 @@ class CommandLine {
     /// been printed), or nothing when `command` should now be carried out.
     std::optional<int> parse(int argc, char** argv);
 
-    std::string command;  ///< run, verify, info, diff, recover, strip, expand, render, test, ...
+    std::string command;  ///< run, verify, info, diff, ..., or one of ToolOptions
     RunOptions run;
     TraceOptions verify;
     InfoOptions info;
@@ -131,6 +133,7 @@ class CommandLine {
     TestOptions test;
     AcceptOptions accept;
     GoldenListOptions golden_list;
+    ToolOptions tools;
 
   private:
     struct App;

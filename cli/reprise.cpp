@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "cli/accept.h"
+#include "cli/cat.h"
 #include "cli/diff.h"
 #include "cli/golden_list.h"
 #include "cli/guard.h"
@@ -49,6 +50,10 @@ int main(int argc, char** argv) {
             return accept(line.accept);
         if (line.command == "golden")
             return golden_list(line.golden_list);
+        if (line.command == "cat")
+            return cat(line.tools.cat);
+        if (line.command == "get")
+            return get(line.tools.get);
         become(line.command == "render" ? "reprise-render" : "reprise-run", argv);
     });
 }

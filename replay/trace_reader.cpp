@@ -303,6 +303,14 @@ Level TraceReader::level() const {
     return file_->level;
 }
 
+std::uint64_t TraceReader::first() const {
+    return 1;
+}
+
+std::uint64_t TraceReader::last() const {
+    return first() + ticks() - 1;
+}
+
 RecordedTick TraceReader::tick(std::uint64_t index) {
     if (!holds_traffic(file_->level, index))
         throw world::Error(lacks_text(path().string(), file_->level));

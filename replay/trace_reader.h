@@ -57,8 +57,11 @@ class TraceReader {
 
     const std::filesystem::path& path() const;
 
-    /// Number of ticks; their indices are 1 to ticks().
+    /// Number of ticks; their indices are first() to last(). Only a slice of a run has a first one
+    /// other than 1: see replay/slice.h.
     std::uint64_t ticks() const;
+    std::uint64_t first() const;
+    std::uint64_t last() const;
 
     /// full when the trace does not say.
     Level level() const;

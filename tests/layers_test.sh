@@ -16,7 +16,8 @@ declare -A owner=(
     [bt]="kernel" [BulletDynamics/]="kernel" [BulletCollision/]="kernel" [LinearMath/]="kernel"
     [embree3/]="render" [tbb/]="render" [opencv2/]="render"
     [zstd.h]="replay" [xxhash.h]="world" [boost/]="world scripting"
-    [CLI/]="cli" [nlohmann/]="cli" [Eigen/]="world.h traffic.h render.h kernel.h replay.h scripting.h cli.h"
+    [CLI/]="cli" [nlohmann/]="replay exchange cli" [sqlite3.h]="exchange" [proj.h]="exchange"
+    [Eigen/]="world.h traffic.h render.h kernel.h replay.h scripting.h cli.h"
 )
 
 found=0

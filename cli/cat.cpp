@@ -1,0 +1,60 @@
+#include "cli/cat.h"
+
+#include <unistd.h>
+
+#include "cli/guard.h"
+#include "cli/output.h"
+#include "cli/tick_range.h"
+#include "replay/actor_search.h"
+#include "replay/json_lines.h"
+#include "replay/table.h"
+#include "replay/trace_parts.h"
+#include "world/check.h"
+
+namespace reprise::cli {
+
+int cat(const CatOptions& options) {
+    end_quietly_when_nobody_reads();
+    replay::TraceReader trace(options.trace);
+    const TickRange range = parse_ticks("--ticks", options.ticks, trace);
+    replay::Selection selection{options.fields, {}};
+    if (!options.actor.empty())
+        selection.actor = replay::find_actor(trace, options.actor);
+    const std::uint64_t step_ns = trace.episode().step_ns;
+    Output output("-");
+    if (options.format == "csv") {
+        const replay::Table table(replay::table_of(selection), selection, step_ns);
+        append_csv_header(table, output.text);
+        for (std::uint64_t index = range.first; index <= range.last; ++index) {
+            append_csv(table, trace.tick(index), output.text);
+            output.flush_if_large();
+        }
+    } else {
+        const replay::JsonLines lines(selection, step_ns);
+        for (std::uint64_t index = range.first; index <= range.last; ++index) {
+            const replay::RecordedTick tick = trace.tick(index);
+            if (options.topic != "traffic")
+                lines.append_tick(tick, output.text);
+            if (options.topic != "tick")
+                lines.append_traffic(tick, output.text);
+            output.flush_if_large();
+        }
+    }
+    output.finish();
+    return exit_good;
+}
+
+int get(const GetOptions& options) {
+    end_quietly_when_nobody_reads();
+    if (!options.output.empty())
+        refuse_overwriting(options.trace, options.output);
+    const replay::mcap::Bytes bytes = replay::read_part(options.trace, options.part);
+    if (options.output.empty() && options.part.ends_with(".bfbs") && isatty(STDOUT_FILENO) != 0)
+        throw world::Error(options.part + " is binary: give -o FILE, or send it to a pipe");
+    Output output(options.output);
+    output.text.assign(bytes.begin(), bytes.end());
+    output.finish();
+    return exit_good;
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,82 @@
+#include "cli/tool_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace {
+
+CLI::App& add_command(CLI::App& app, const char* name, const char* help, std::string& trace) {
+    CLI::App& command = *app.add_subcommand(name, help);
+    command.add_option("trace", trace, "The trace")->required()->type_name("T.mcap");
+    return command;
+}
+
+/// Accepts only these words, and suggests the nearest.
+CLI::Validator word_of(std::vector<std::string> words) {
+    return CLI::Validator(
+        [words](std::string& word) -> std::string {
+            if (std::find(words.begin(), words.end(), word) != words.end())
+                return "";
+            std::string all;
+            for (const std::string& one : words)
+                all += (all.empty() ? "" : ", ") + one;
+            return "'" + word + "' is none of " + all + world::did_you_mean(word, words);
+        },
+        "");
+}
+
+void add_ticks(CLI::App& command, std::string& ticks) {
+    command
+        .add_option("--ticks", ticks, "Only these, such as 100..200, 2.5s.. or ..10s (default all)")
+        ->type_name("A..B");
+}
+
+void add_cat(CLI::App& app, CatOptions& cat) {
+    CLI::App& command = add_command(app, "cat", "Print ticks as JSON lines or CSV", cat.trace);
+    command.add_option("--topic", cat.topic, "tick or traffic (default: both)")
+        ->type_name("TOPIC")
+        ->check(word_of({"tick", "traffic"}));
+    add_ticks(command, cat.ticks);
+    command.add_option("--actor", cat.actor, "Only what belongs to this actor: its name or its id")
+        ->type_name("NAME");
+    command
+        .add_option("--fields",
+                    cat.fields,
+                    "Only these, by commas, such as vehicles.position.x,vehicles.lamps")
+        ->type_name("F,...")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->delimiter(',');
+    command
+        .add_option("--format", cat.format, "jsonl (default) or csv; csv holds one list's fields")
+        ->type_name("FORMAT")
+        ->check(word_of({"jsonl", "csv"}));
+    command.footer(
+        "Reals have the fewest digits that read back the same; in JSON 64-bit numbers are in "
+        "quotes.\n"
+        "Example: reprise cat a.mcap --actor ego --fields vehicles.position --format csv | head");
+}
+
+void add_get(CLI::App& app, GetOptions& get) {
+    CLI::App& command = add_command(app, "get", "Take a part out of a trace", get.trace);
+    command
+        .add_option("part",
+                    get.part,
+                    "scenario (Lua), episode, town, metadata (JSON), network (XML), tick.bfbs, "
+                    "traffic.bfbs (FlatBuffers schemas)")
+        ->required()
+        ->type_name("PART");
+    command.add_option("-o,--output", get.output, "Where it goes (default: the standard output)")
+        ->type_name("FILE");
+}
+
+}  // namespace
+
+void add_tool_commands(CLI::App& app, ToolOptions& tools) {
+    add_cat(app, tools.cat);
+    add_get(app, tools.get);
+}
+
+}  // namespace reprise::cli

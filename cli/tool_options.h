@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace reprise::cli {
+
+struct CatOptions {
+    std::string trace;
+    std::string topic;  ///< tick, traffic; empty: both
+    std::string ticks;  ///< A..B; empty: all
+    std::string actor;  ///< name or id; empty: all
+    std::vector<std::string> fields;
+    std::string format = "jsonl";
+};
+
+struct GetOptions {
+    std::string trace;
+    std::string part;
+    std::string output;  ///< empty: the standard output
+};
+
+/// What the commands that read and convert traces were told.
+struct ToolOptions {
+    CatOptions cat;
+    GetOptions get;
+};
+
+/// Adds `cat` and `get`.
+void add_tool_commands(CLI::App& app, ToolOptions& tools);
+
+}  // namespace reprise::cli
