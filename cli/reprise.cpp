@@ -54,6 +54,8 @@ int main(int argc, char** argv) {
             return cat(line.tools.cat);
         if (line.command == "get")
             return get(line.tools.get);
+        if (line.command == "query" || line.command == "export")
+            become("reprise-exchange", argv);
         become(line.command == "render" ? "reprise-render" : "reprise-run", argv);
     });
 }

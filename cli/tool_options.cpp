@@ -72,11 +72,40 @@ void add_get(CLI::App& app, GetOptions& get) {
         ->type_name("FILE");
 }
 
+void add_query(CLI::App& app, QueryOptions& query) {
+    CLI::App& command = add_command(app, "query", "Ask a trace in SQL", query.trace);
+    command.add_option("sql", query.sql, "One select; without it, the tables and their columns")
+        ->type_name("SQL");
+    command.add_option("--format", query.format, "csv (default) or jsonl")
+        ->type_name("FORMAT")
+        ->check(word_of({"csv", "jsonl"}));
+    command.footer(
+        "The trace is read where the statement looks, not copied; a condition on tick reads only "
+        "these.\n"
+        "Example: reprise query a.mcap 'select tick, speed from measurements where speed > 10'");
+}
+
+void add_export(CLI::App& app, ExportOptions& options) {
+    CLI::App& command =
+        add_command(app, "export", "Write a trace for other programs", options.trace);
+    command.add_option("--to", options.format, "csv (a folder with a file for each table), jsonl")
+        ->required()
+        ->type_name("FORMAT")
+        ->check(word_of({"csv", "jsonl"}));
+    command.add_option("-o,--output", options.output, "The file or folder to write")
+        ->required()
+        ->type_name("PATH");
+    add_ticks(command, options.ticks);
+    command.footer("Example: reprise export a.mcap --to csv -o tables");
+}
+
 }  // namespace
 
 void add_tool_commands(CLI::App& app, ToolOptions& tools) {
     add_cat(app, tools.cat);
     add_get(app, tools.get);
+    add_query(app, tools.query);
+    add_export(app, tools.export_to);
 }
 
 }  // namespace reprise::cli

@@ -24,13 +24,28 @@ struct GetOptions {
     std::string output;  ///< empty: the standard output
 };
 
+struct QueryOptions {
+    std::string trace;
+    std::string sql;  ///< empty: say which tables there are
+    std::string format = "csv";
+};
+
+struct ExportOptions {
+    std::string trace;
+    std::string format;
+    std::string output;
+    std::string ticks;
+};
+
 /// What the commands that read and convert traces were told.
 struct ToolOptions {
     CatOptions cat;
     GetOptions get;
+    QueryOptions query;
+    ExportOptions export_to;
 };
 
-/// Adds `cat` and `get`.
+/// Adds cat, get, query and export.
 void add_tool_commands(CLI::App& app, ToolOptions& tools);
 
 }  // namespace reprise::cli

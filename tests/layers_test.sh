@@ -7,8 +7,9 @@ cd "${1:-$(dirname "$0")/..}"
 declare -A may_include=(
     [world]=""
     [scripting]="world" [traffic]="world" [replay]="world" [render]="world"
+    [exchange]="world replay"
     [kernel]="world scripting traffic replay"
-    [cli]="world scripting traffic replay render kernel"
+    [cli]="world scripting traffic replay exchange render kernel"
 )
 # Where a library may be named: "room" in its .cpp files only, "room.h" in its headers too.
 declare -A owner=(
@@ -17,7 +18,7 @@ declare -A owner=(
     [embree3/]="render" [tbb/]="render" [opencv2/]="render"
     [zstd.h]="replay" [xxhash.h]="world" [boost/]="world scripting"
     [CLI/]="cli" [nlohmann/]="replay exchange cli" [sqlite3.h]="exchange" [proj.h]="exchange"
-    [Eigen/]="world.h traffic.h render.h kernel.h replay.h scripting.h cli.h"
+    [Eigen/]="world.h exchange.h traffic.h render.h kernel.h replay.h scripting.h cli.h"
 )
 
 found=0

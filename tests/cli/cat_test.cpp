@@ -21,7 +21,8 @@ class Cat : public testing::Test {
                    "  spawn{ name = 'ego', model = 'sedan', driver = 'autopilot' }\n"
                    "  spawn{ name = 'other', model = 'van', driver = 'autopilot' }\n"
                    "  print('a, \"b\"')\n  wait(9)\nend }");
-        const Result run = reprise({"run", *folder / "two.lua", "-o", *folder / "a.mcap", "--for", "1"});
+        const Result run =
+            reprise({"run", *folder / "two.lua", "-o", *folder / "a.mcap", "--for", "1"});
         ASSERT_EQ(run.code, 0) << run.out;
     }
 
@@ -153,6 +154,28 @@ TEST_F(Cat, GetWritesFilesAndNeverOverItsInput) {
     const Result unknown = reprise({"get", "a.mcap", "netwerk"}, folder->path());
     EXPECT_EQ(unknown.code, 2);
     EXPECT_THAT(unknown.out, HasSubstr("did you mean 'network'?"));
+}
+
+TEST_F(Cat, ExportWritesWhatCatPrints) {
+    const std::string out = *folder / "tables";
+    ASSERT_EQ(reprise({"export", "a.mcap", "--to", "csv", "-o", out}, folder->path()).code, 0);
+    for (const char* table : {"ticks", "vehicles", "events", "cars", "walkers"})
+        EXPECT_EQ(read_file(out + "/" + table + ".csv"),
+                  cat({"--format", "csv", "--fields", table}).out)
+            << table;
+    const std::string lines_of_all = *folder / "a.jsonl";
+    ASSERT_EQ(
+        reprise({"export", "a.mcap", "--to", "jsonl", "-o", lines_of_all}, folder->path()).code, 0);
+    EXPECT_EQ(read_file(lines_of_all), cat({}).out);
+}
+
+TEST_F(Cat, QueryAnswersInBothFormats) {
+    const std::string sql = "select max(tick) as last, count(*) as n from vehicles";
+    EXPECT_EQ(reprise({"query", "a.mcap", sql}, folder->path()).out, "last,n\n20,40\n");
+    EXPECT_EQ(reprise({"query", "a.mcap", sql, "--format", "jsonl"}, folder->path()).out,
+              "{\"last\":20,\"n\":40}\n");
+    EXPECT_THAT(reprise({"query", "a.mcap"}, folder->path()).out,
+                HasSubstr("measurements(tick, time, speed, "));
 }
 
 }  // namespace

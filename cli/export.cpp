@@ -1,0 +1,83 @@
+#include "cli/export.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+
+#include "cli/guard.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/tick_range.h"
+#include "replay/json_lines.h"
+#include "replay/table.h"
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A table on its way into its file.
+struct TableFile {
+    replay::Table table;
+    std::unique_ptr<Output> output;
+};
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder))
+        throw world::Error(folder.string() + ": cannot be made a folder");
+}
+
+void export_csv(replay::TraceReader& trace, const TickRange& range, const fs::path& folder) {
+    make_folder(folder);
+    std::vector<TableFile> files;
+    for (const std::string& name : replay::Table::names()) {
+        TableFile file{replay::Table(name, {}, trace.episode().step_ns),
+                       std::make_unique<Output>((folder / (name + ".csv")).string())};
+        append_csv_header(file.table, file.output->text);
+        files.push_back(std::move(file));
+    }
+    Progress progress("exporting", "ticks", range.last);
+    for (std::uint64_t index = range.first; index <= range.last; ++index) {
+        const replay::RecordedTick tick = trace.tick(index);
+        for (const TableFile& file : files) {
+            append_csv(file.table, tick, file.output->text);
+            file.output->flush_if_large();
+        }
+        progress.update(index);
+    }
+    progress.clear();
+    for (const TableFile& file : files)
+        file.output->finish();
+}
+
+void export_jsonl(replay::TraceReader& trace, const TickRange& range, const std::string& path) {
+    const replay::JsonLines lines({}, trace.episode().step_ns);
+    Output output(path);
+    for (std::uint64_t index = range.first; index <= range.last; ++index) {
+        const replay::RecordedTick tick = trace.tick(index);
+        lines.append_tick(tick, output.text);
+        lines.append_traffic(tick, output.text);
+        output.flush_if_large();
+    }
+    output.finish();
+}
+
+}  // namespace
+
+int export_trace(const ExportOptions& options) {
+    refuse_overwriting(options.trace, options.output);
+    replay::TraceReader trace(options.trace);
+    const TickRange range = parse_ticks("--ticks", options.ticks, trace);
+    if (options.format == "csv")
+        export_csv(trace, range, options.output);
+    else
+        export_jsonl(trace, range, options.output);
+    fmt::print(stderr, "{}: {} ticks\n", options.output, range.last + 1 - range.first);
+    return exit_good;
+}
+
+}  // namespace reprise::cli
