@@ -15,6 +15,7 @@
 #include "cli/info.h"
 #include "cli/options.h"
 #include "cli/recover.h"
+#include "cli/stats.h"
 #include "cli/strip.h"
 #include "cli/test.h"
 #include "world/check.h"
@@ -54,6 +55,8 @@ int main(int argc, char** argv) {
             return cat(line.tools.cat);
         if (line.command == "get")
             return get(line.tools.get);
+        if (line.command == "stats")
+            return stats(line.tools.stats);
         if (line.command == "query" || line.command == "export")
             become("reprise-exchange", argv);
         become(line.command == "render" ? "reprise-render" : "reprise-run", argv);

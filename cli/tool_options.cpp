@@ -72,6 +72,12 @@ void add_get(CLI::App& app, GetOptions& get) {
         ->type_name("FILE");
 }
 
+void add_stats(CLI::App& app, StatsOptions& stats) {
+    CLI::App& command =
+        add_command(app, "stats", "Say what the vehicles of a trace did", stats.trace);
+    command.add_flag("--json", stats.json, "As JSON, SI units");
+}
+
 void add_query(CLI::App& app, QueryOptions& query) {
     CLI::App& command = add_command(app, "query", "Ask a trace in SQL", query.trace);
     command.add_option("sql", query.sql, "One select; without it, the tables and their columns")
@@ -104,6 +110,7 @@ void add_export(CLI::App& app, ExportOptions& options) {
 void add_tool_commands(CLI::App& app, ToolOptions& tools) {
     add_cat(app, tools.cat);
     add_get(app, tools.get);
+    add_stats(app, tools.stats);
     add_query(app, tools.query);
     add_export(app, tools.export_to);
 }

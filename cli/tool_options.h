@@ -24,6 +24,11 @@ struct GetOptions {
     std::string output;  ///< empty: the standard output
 };
 
+struct StatsOptions {
+    std::string trace;
+    bool json = false;
+};
+
 struct QueryOptions {
     std::string trace;
     std::string sql;  ///< empty: say which tables there are
@@ -41,11 +46,12 @@ struct ExportOptions {
 struct ToolOptions {
     CatOptions cat;
     GetOptions get;
+    StatsOptions stats;
     QueryOptions query;
     ExportOptions export_to;
 };
 
-/// Adds cat, get, query and export.
+/// Adds cat, get, stats, query and export.
 void add_tool_commands(CLI::App& app, ToolOptions& tools);
 
 }  // namespace reprise::cli

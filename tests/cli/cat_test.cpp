@@ -178,5 +178,23 @@ TEST_F(Cat, QueryAnswersInBothFormats) {
                 HasSubstr("measurements(tick, time, speed, "));
 }
 
+/// Two routes to the same numbers: counting in C++, and SQL.
+TEST_F(Cat, StatsAgreeWithSql) {
+    const Result stats = reprise({"stats", "a.mcap", "--json"}, folder->path());
+    const Result sql = reprise({"query",
+                                "a.mcap",
+                                "--format",
+                                "jsonl",
+                                "select max(speed) as max_speed, max(-acceleration) as "
+                                "max_deceleration from measurements where actor = 1"},
+                               folder->path());
+    ASSERT_EQ(sql.code, 0) << sql.out;
+    const std::string numbers = sql.out.substr(1, sql.out.find('}') - 1);
+    const std::size_t comma = numbers.find(',');
+    EXPECT_THAT(stats.out, HasSubstr(numbers.substr(0, comma)));
+    EXPECT_THAT(stats.out, HasSubstr(numbers.substr(comma + 1)));
+    EXPECT_THAT(reprise({"stats", "a.mcap"}, folder->path()).out, HasSubstr("other (2), van"));
+}
+
 }  // namespace
 }  // namespace reprise::test
