@@ -57,8 +57,12 @@ TraceReader open(const fs::path& damaged) {
     try {
         TraceReader trace = TraceReader::salvage(damaged);
         if (trace.ticks() > 0) {
-            trace.recording();  // the town and the network, which verify and render need
-            return trace;
+            if (trace.chain(0) == chain_seed(trace.recording()))
+                return trace;
+            throw world::Error(fmt::format(
+                "{}: the episode, the town or the network in it was changed: the digest chain "
+                "began with another",
+                damaged.string()));
         }
     } catch (const world::Error& error) {
         throw NothingToRecover(error.what());

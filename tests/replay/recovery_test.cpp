@@ -111,6 +111,32 @@ TEST_F(Recovery, LeavesOutWhatLiesBehindADamagedChunkAndSaysSo) {
     EXPECT_THAT(recovery_.loss, testing::HasSubstr("the chunk behind tick 64 is damaged"));
 }
 
+TEST_F(Recovery, RefusesAStartThatWasChangedAfterItWasRecorded) {
+    // Another run's start, and this one's ticks: every checksum holds.
+    SyntheticRun other = run_;
+    other.seed = 8;
+    write_trace(folder_ / "other.mcap", other);
+    const Bytes theirs = read_file(folder_ / "other.mcap");
+    const auto attachments = [](const Bytes& bytes) {
+        std::pair<std::ptrdiff_t, std::ptrdiff_t> range{0, 0};
+        mcap::walk(mcap::View(bytes).subspan(8, bytes.size() - 16),
+                   [&](const mcap::Record& record) {
+                       const auto at = static_cast<std::ptrdiff_t>(record.at + 8);
+                       if (record.op == mcap::Op::attachment && range.first == 0)
+                           range.first = at;
+                       if (record.op == mcap::Op::chunk && range.second == 0)
+                           range.second = at;
+                   });
+        return range;
+    };
+    const auto [from, to] = attachments(theirs);
+    const auto [our_from, our_to] = attachments(whole_);
+    Bytes spliced(whole_.begin(), whole_.begin() + our_from);
+    spliced.insert(spliced.end(), theirs.begin() + from, theirs.begin() + to);
+    spliced.insert(spliced.end(), whole_.begin() + our_to, whole_.end() - 50);
+    EXPECT_EQ(recovered(spliced), 0U);
+}
+
 TEST_F(Recovery, StopsWhereAnotherRecordingsTicksBegin) {
     // The same ticks but for one value: every checksum holds, the chain does not.
     SyntheticRun other = run_;
