@@ -267,8 +267,9 @@ TEST_F(Traces, AreNeverEqualWithinAToleranceWhenAnEventOrAnIdDiffers) {
     EXPECT_EQ(first_with(at(7, [](auto& d) { d.traffic.cars.pop_back(); })).found, "absent");
     EXPECT_EQ(first_with(at(7, [](auto& d) { d.traffic.cars[0].mutate_lane(5); })).field,
               "cars[id 1000000].lane");
-    EXPECT_EQ(first_with(at(7, [](auto& d) { d.tick.vehicles[0].mutate_odometer(NAN); })).field,
-              "vehicles[id 1].odometer");
+    EXPECT_EQ(
+        first_with(at(7, [](auto& d) { d.tick.vehicles[0].mutate_odometer(std::nan("")); })).field,
+        "vehicles[id 1].odometer");
 }
 
 TEST_F(Traces, DifferWhereABytesDoesThoughAllDigestsAgree) {
