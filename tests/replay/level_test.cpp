@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "replay/divergence.h"
+#include "replay/recovery.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "tests/replay/synthetic_run.h"
@@ -137,6 +138,17 @@ TEST_F(Levels, OfTwoRunsAreComparedInWhatBothHold) {
                       std::min(left, right) == Level::inputs ? "digests.physics"
                                                              : "vehicles[id 1].velocity.x");
         }
+    }
+}
+
+TEST_F(Levels, OfATraceThatWasCutOffAreRecoveredAsTheyWere) {
+    for (const Level level : all_levels) {
+        write(level, run_);
+        auto bytes = read_file(path(level));
+        bytes.resize(bytes.size() - 40);
+        write_file(folder_ / "cut.mcap", bytes);
+        EXPECT_EQ(replay::recover(folder_ / "cut.mcap", folder_ / "whole.mcap").loss, "");
+        EXPECT_TRUE(read_file(folder_ / "whole.mcap") == read_file(path(level)));
     }
 }
 
