@@ -115,14 +115,16 @@ struct Screen {
 
     void print_actors() const {
         constexpr std::size_t most = 6;
-        std::string text;
+        std::vector<std::string> words;
         for (std::size_t i = 0; i < std::min(most, story.actors.size()); ++i)
-            text += fmt::format("{} ({}), ", story.actors[i].name, story.actors[i].id);
+            words.push_back(fmt::format("{} ({})", story.actors[i].name, story.actors[i].id));
         if (story.actors.size() > most)
-            text += fmt::format("{} more, ", story.actors.size() - most);
-        row("actors",
-            fmt::format(
-                "{}in the end {} cars and {} walkers around", text, story.cars, story.walkers));
+            words.push_back(fmt::format("{} more", story.actors.size() - most));
+        if (trace.level() == replay::Level::full)
+            words.push_back(
+                fmt::format("in the end {} cars and {} walkers around", story.cars, story.walkers));
+        if (!words.empty())
+            row("actors", fmt::format("{}", fmt::join(words, ", ")));
     }
 
     void print_size() const {

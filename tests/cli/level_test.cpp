@@ -43,7 +43,7 @@ TEST_F(Expand, GivesTheOriginalBackByteForByteFromEveryLevel) {
         run({"strip", "full.mcap", "-o", level + ".mcap", "--level", level}, 0);
         EXPECT_LT(read_file(folder_ / (level + ".mcap")).size(), full.size());
         EXPECT_THAT(run({"verify", level + ".mcap"}, 0), HasSubstr("equal at every one of"));
-        EXPECT_THAT(run({"info", level + ".mcap"}, 0), HasSubstr("level       " + level));
+        EXPECT_THAT(run({"info", level + ".mcap"}, 0), HasSubstr("level     " + level));
         EXPECT_THAT(run({"diff", "full.mcap", level + ".mcap"}, 0), HasSubstr("equal: "));
         run({"expand", level + ".mcap", "-o", "again.mcap"}, 0);
         EXPECT_TRUE(read_file(folder_ / "again.mcap") == full) << level;
