@@ -12,10 +12,6 @@ struct TickRange {
     std::uint64_t last = 0;  ///< included; below first: none
 };
 
-/// "120" is a tick, "2.5s" a time, rounded to the nearest tick. Throws world::Error that names the
-/// option.
-std::uint64_t parse_tick(const std::string& option, const std::string& text, std::uint64_t step_ns);
-
 /// "A..B", "A..", "..B" or "A", ticks or times; "": all. What lies outside of the trace is cut off;
 /// throws world::Error when nothing is left.
 TickRange parse_ticks(const std::string& option,

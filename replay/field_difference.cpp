@@ -7,72 +7,16 @@
 #include <fmt/format.h>
 #include <numbers>
 
-#include <flatbuffers/minireflect.h>
-
+#include "replay/reflection.h"
 #include "replay/value_text.h"
 
 namespace reprise::replay {
 
 namespace {
 
-using flatbuffers::ElementaryType;
 using flatbuffers::ReadScalar;
 using flatbuffers::TypeTable;
-using Bytes = const std::uint8_t*;
-
-/// One field of a table or struct.
-struct Field {
-    const char* name = "";
-    ElementaryType type{};
-    bool repeating = false;
-    const TypeTable* ref = nullptr;  ///< of an enum, struct or table
-    std::size_t index = 0;
-};
-
-Field field_at(const TypeTable& type, std::size_t index) {
-    const flatbuffers::TypeCode code = type.type_codes[index];
-    return {type.names[index],
-            static_cast<ElementaryType>(code.base_type),
-            code.is_repeating != 0,
-            code.sequence_ref >= 0 ? type.type_refs[code.sequence_ref]() : nullptr,
-            index};
-}
-
-const Field* find_field(const std::vector<Field>& fields, std::string_view name) {
-    for (const Field& field : fields) {
-        if (field.name == name)
-            return &field;
-    }
-    return nullptr;
-}
-
-std::vector<Field> fields_of(const TypeTable& type) {
-    std::vector<Field> fields;
-    for (std::size_t i = 0; i < type.num_elems; ++i)
-        fields.push_back(field_at(type, i));
-    return fields;
-}
-
-/// Where the field lies in the object; null when a table does not have it.
-Bytes address(const TypeTable& type, Bytes object, const Field& field) {
-    if (type.st == flatbuffers::ST_STRUCT)
-        return object + type.values[field.index];
-    return reinterpret_cast<const flatbuffers::Table*>(object)->GetAddressOf(
-        flatbuffers::FieldIndexToOffset(static_cast<flatbuffers::voffset_t>(field.index)));
-}
-
-Bytes follow(Bytes offset) {
-    return offset + ReadScalar<flatbuffers::uoffset_t>(offset);
-}
-
-bool is_table(const Field& field) {
-    return field.type == flatbuffers::ET_SEQUENCE && field.ref->st == flatbuffers::ST_TABLE;
-}
-
-std::string enumerator(std::int64_t value, const TypeTable* type) {
-    const char* name = flatbuffers::EnumName(value, type);
-    return name != nullptr ? std::string(name) : std::to_string(value);
-}
+using namespace reflection;
 
 std::string scalar_text(const Field& field, Bytes value) {
     switch (field.type) {
@@ -112,22 +56,6 @@ std::string distance_of(const Field& field, Bytes expected, Bytes found) {
     return "";
 }
 
-/// The fields that tell a vector's structs apart, in sorting order; none: position does.
-std::vector<Field> key_of(const Field& vector) {
-    if (vector.ref == nullptr || vector.ref->st != flatbuffers::ST_STRUCT)
-        return {};
-    const std::vector<Field> fields = fields_of(*vector.ref);
-    for (const char* name : {"id", "actor"}) {
-        if (const Field* field = find_field(fields, name))
-            return {*field};
-    }
-    const Field* vehicle = find_field(fields, "vehicle");
-    const Field* index = find_field(fields, "index");
-    if (vehicle != nullptr && index != nullptr)
-        return {*vehicle, *index};
-    return {};
-}
-
 /// After how much a value begins anew, such as a direction; 0: never.
 double period_of(std::string_view field) {
     if (field == "yaw" || field == "rotation")
@@ -152,21 +80,6 @@ std::uint64_t key_value(const Field& field, const TypeTable& type, Bytes element
     const Bytes value = address(type, element, field);
     return field.type == flatbuffers::ET_UINT ? ReadScalar<std::uint32_t>(value)
                                               : ReadScalar<std::uint8_t>(value);
-}
-
-struct Elements {
-    Bytes first = nullptr;
-    std::size_t count = 0;
-    std::size_t stride = 0;
-
-    Bytes at(std::size_t i) const { return first + i * stride; }
-};
-
-Elements elements_of(const Field& field, Bytes offset) {
-    if (offset == nullptr)
-        return {};
-    const auto* vector = reinterpret_cast<const flatbuffers::Vector<std::uint8_t>*>(follow(offset));
-    return {vector->Data(), vector->size(), flatbuffers::InlineSize(field.type, field.ref)};
 }
 
 /// The ids of an element; the second one is 0 where one is enough.
@@ -257,15 +170,9 @@ class Walk {
 
     /// An absent text and an empty one are the same.
     void text(Bytes expected, Bytes found) {
-        const auto of = [](Bytes offset) -> std::string_view {
-            if (offset == nullptr)
-                return {};
-            const auto* string = reinterpret_cast<const flatbuffers::String*>(follow(offset));
-            return {string->c_str(), string->size()};
-        };
-        if (of(expected) == of(found))
+        if (text_at(expected) == text_at(found))
             return;
-        const auto [left, right] = text_pair(of(expected), of(found));
+        const auto [left, right] = text_pair(text_at(expected), text_at(found));
         report(left, right);
     }
 

@@ -2,16 +2,19 @@
 
 namespace reprise::replay::reflection {
 
+Field field_at(const flatbuffers::TypeTable& type, std::size_t index) {
+    const flatbuffers::TypeCode code = type.type_codes[index];
+    return {type.names[index],
+            static_cast<flatbuffers::ElementaryType>(code.base_type),
+            code.is_repeating != 0,
+            code.sequence_ref >= 0 ? type.type_refs[code.sequence_ref]() : nullptr,
+            index};
+}
+
 std::vector<Field> fields_of(const flatbuffers::TypeTable& type) {
     std::vector<Field> fields;
-    for (std::size_t i = 0; i < type.num_elems; ++i) {
-        const flatbuffers::TypeCode code = type.type_codes[i];
-        fields.push_back({type.names[i],
-                          static_cast<flatbuffers::ElementaryType>(code.base_type),
-                          code.is_repeating != 0,
-                          code.sequence_ref >= 0 ? type.type_refs[code.sequence_ref]() : nullptr,
-                          i});
-    }
+    for (std::size_t i = 0; i < type.num_elems; ++i)
+        fields.push_back(field_at(type, i));
     return fields;
 }
 

@@ -24,6 +24,7 @@ struct Field {
     std::size_t index = 0;
 };
 
+Field field_at(const flatbuffers::TypeTable& type, std::size_t index);
 std::vector<Field> fields_of(const flatbuffers::TypeTable& type);
 const Field* find_field(const std::vector<Field>& fields, std::string_view name);
 
