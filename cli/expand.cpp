@@ -10,6 +10,7 @@
 #include "cli/self_test.h"
 #include "cli/this_build.h"
 #include "kernel/verify.h"
+#include "replay/slice.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 
@@ -18,14 +19,18 @@ namespace reprise::cli {
 int expand(const ExpandOptions& options) {
     self_test();
     replay::TraceReader trace(options.trace);
+    replay::require_start_of_run(trace);
     refuse_same_file(options.trace, options.output);
     print_other_build("another build recorded this",
                       "recorded",
                       trace.episode().fingerprint,
                       "here",
                       this_build());
-    replay::TraceWriter full(
-        options.output, trace.recording(), replay::Level::full, replay::Unfinished::remove);
+    replay::TraceWriter full(options.output,
+                             trace.recording(),
+                             replay::Level::full,
+                             replay::Unfinished::remove,
+                             trace.slice());
     Progress progress("expanding", "ticks", trace.ticks());
     auto divergence = kernel::verify(trace, [&](const world::SealedTick& tick) {
         full.append(tick);

@@ -77,6 +77,10 @@ struct Screen {
                         trace.ticks(),
                         episode.step_ns / 1'000'000,
                         time(trace.ticks())));
+        if (trace.slice())
+            row("slice",
+                fmt::format(
+                    "ticks {} to {} of {}", trace.first(), trace.last(), trace.run_ticks()));
         if (trace.level() != replay::Level::full)
             row("level",
                 fmt::format("{}: {}",
@@ -170,9 +174,11 @@ struct Screen {
         print_events();
         print_actors();
         if (trace.ticks() > 0)
-            row("chain", world::to_hex(trace.chain(trace.ticks())));
+            row("chain", world::to_hex(trace.chain(trace.last())));
         print_size();
         print_build();
+        if (trace.first() > 1 && !episode.branches.empty())
+            return;  // the run before the branch is in another trace
         row("again",
             episode.branches.empty()
                 ? run_command(episode, episode.max_ticks)
@@ -222,6 +228,8 @@ void print_json(const std::string& path, replay::TraceReader& trace, const Trace
                    {"seed", std::to_string(episode.seed)},
                    {"step_ns", std::to_string(episode.step_ns)},
                    {"ticks", std::to_string(trace.ticks())},
+                   {"first_tick", std::to_string(trace.first())},
+                   {"run_ticks", std::to_string(trace.run_ticks())},
                    {"max_ticks", std::to_string(episode.max_ticks)},
                    {"seconds", world::seconds(trace.ticks(), episode.step_ns)},
                    {"traffic", episode.cars},
@@ -230,7 +238,7 @@ void print_json(const std::string& path, replay::TraceReader& trace, const Trace
                    {"parameters", json_of(episode.parameters)},
                    {"verdict", trace.outcome().verdict},
                    {"reason", trace.outcome().reason},
-                   {"chain", world::to_hex(trace.chain(trace.ticks()))},
+                   {"chain", world::to_hex(trace.chain(trace.last()))},
                    {"events", json_of(story)},
                    {"bytes", std::to_string(trace.file_size())},
                    {"unpacked_bytes",

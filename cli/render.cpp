@@ -28,18 +28,19 @@ struct Span {
 Span ticks_to_render(const RenderOptions& options, const replay::TraceReader& trace) {
     const std::uint64_t step_ns = trace.episode().step_ns;
     Span span;
-    span.from = std::max<std::uint64_t>(1, parse_tick("--from", options.from, step_ns, 1));
-    span.to = std::min(trace.ticks(), parse_tick("--to", options.to, step_ns, trace.ticks()));
+    span.from = std::max(trace.first(), parse_tick("--from", options.from, step_ns, trace.first()));
+    span.to = std::min(trace.last(), parse_tick("--to", options.to, step_ns, trace.last()));
     span.every = parse_tick("--every", options.every, step_ns, 0);
     if (span.every < 1)
         throw world::Error("--every: expected 1 tick at least, got '" + options.every + "'");
     if (span.from > span.to)
         throw world::Error(
-            fmt::format("nothing to render: from tick {} to {}; {} holds ticks 1 to {}",
+            fmt::format("nothing to render: from tick {} to {}; {} holds ticks {} to {}",
                         span.from,
-                        options.to.empty() ? trace.ticks() : span.to,
+                        options.to.empty() ? trace.last() : span.to,
                         options.trace,
-                        trace.ticks()));
+                        trace.first(),
+                        trace.last()));
     return span;
 }
 

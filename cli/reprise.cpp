@@ -15,6 +15,7 @@
 #include "cli/info.h"
 #include "cli/options.h"
 #include "cli/recover.h"
+#include "cli/slice.h"
 #include "cli/stats.h"
 #include "cli/strip.h"
 #include "cli/test.h"
@@ -55,6 +56,10 @@ int main(int argc, char** argv) {
             return cat(line.tools.cat);
         if (line.command == "get")
             return get(line.tools.get);
+        if (line.command == "slice")
+            return slice(line.tools.slice);
+        if (line.command == "merge")
+            return merge(line.tools.merge);
         if (line.command == "stats")
             return stats(line.tools.stats);
         if (line.command == "query" || line.command == "export")

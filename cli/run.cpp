@@ -13,6 +13,7 @@
 #include "kernel/kernel.h"
 #include "replay/level.h"
 #include "replay/recording.h"
+#include "replay/slice.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "scripting/scenario.h"
@@ -170,7 +171,7 @@ int run(const RunOptions& options) {
     self_test();
     std::optional<replay::TraceReader> before;  // when it is a recorded run
     if (is_trace(options.scenario))
-        before.emplace(options.scenario);
+        replay::require_start_of_run(before.emplace(options.scenario));
     const replay::Recording recording = before ? prepare_again(options, *before) : prepare(options);
     const std::optional<kernel::Nudge> nudge = planned_nudge(options, recording.episode);
     const fs::path path = output_path(options);

@@ -6,6 +6,7 @@
 #include "cli/outputs.h"
 #include "cli/progress.h"
 #include "replay/level.h"
+#include "replay/slice.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "world/check.h"
@@ -26,12 +27,14 @@ int strip(const StripOptions& options) {
     const replay::Level level = *replay::level_named(options.level);
     if (trace.level() < level)
         throw world::Error(replay::lacks_text(options.trace, trace.level()));
+    if (level == replay::Level::inputs)
+        replay::require_start_of_run(trace);  // nothing could be made of such inputs
     replay::TraceWriter stripped(
-        options.output, trace.recording(), level, replay::Unfinished::remove);
+        options.output, trace.recording(), level, replay::Unfinished::remove, trace.slice());
     Progress progress("stripping", "ticks", trace.ticks());
-    for (std::uint64_t index = 1; index <= trace.ticks(); ++index) {
+    for (std::uint64_t index = trace.first(); index <= trace.last(); ++index) {
         stripped.append(trace.recorded(index));
-        progress.update(index);
+        progress.update(index + 1 - trace.first());
     }
     progress.clear();
     stripped.close(trace.outcome());

@@ -78,6 +78,33 @@ void add_stats(CLI::App& app, StatsOptions& stats) {
     command.add_flag("--json", stats.json, "As JSON, SI units");
 }
 
+void add_slice(CLI::App& app, SliceOptions& slice) {
+    CLI::App& command = add_command(app, "slice", "Cut some ticks out of a trace", slice.trace);
+    command.add_option("--ticks", slice.ticks, "Which, such as 100..200, 2.5s.. or ..10s")
+        ->required()
+        ->type_name("A..B");
+    command.add_option("-o,--output", slice.output, "Where the slice goes")
+        ->required()
+        ->type_name("S.mcap");
+    command.footer(
+        "A slice is a trace: it can be read, played and rendered. Only one that begins at tick 1 "
+        "can be verified.");
+}
+
+void add_merge(CLI::App& app, MergeOptions& merge) {
+    CLI::App& command = *app.add_subcommand("merge", "Join two slices of one run");
+    command
+        .add_option("traces", merge.traces, "The slices; the second goes on where the first ends")
+        ->required()
+        ->type_name("S.mcap")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->expected(2, 2);
+    command.add_option("-o,--output", merge.output, "Where the result goes")
+        ->required()
+        ->type_name("T.mcap");
+    command.footer("When no tick is missing, the run comes out as it was recorded, byte for byte.");
+}
+
 void add_query(CLI::App& app, QueryOptions& query) {
     CLI::App& command = add_command(app, "query", "Ask a trace in SQL", query.trace);
     command.add_option("sql", query.sql, "One select; without it, the tables and their columns")
@@ -111,6 +138,8 @@ void add_tool_commands(CLI::App& app, ToolOptions& tools) {
     add_cat(app, tools.cat);
     add_get(app, tools.get);
     add_stats(app, tools.stats);
+    add_slice(app, tools.slice);
+    add_merge(app, tools.merge);
     add_query(app, tools.query);
     add_export(app, tools.export_to);
 }

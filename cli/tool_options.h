@@ -29,6 +29,17 @@ struct StatsOptions {
     bool json = false;
 };
 
+struct SliceOptions {
+    std::string trace;
+    std::string ticks;
+    std::string output;
+};
+
+struct MergeOptions {
+    std::vector<std::string> traces;
+    std::string output;
+};
+
 struct QueryOptions {
     std::string trace;
     std::string sql;  ///< empty: say which tables there are
@@ -47,11 +58,13 @@ struct ToolOptions {
     CatOptions cat;
     GetOptions get;
     StatsOptions stats;
+    SliceOptions slice;
+    MergeOptions merge;
     QueryOptions query;
     ExportOptions export_to;
 };
 
-/// Adds cat, get, stats, query and export.
+/// Adds cat, get, stats, slice, merge, query and export.
 void add_tool_commands(CLI::App& app, ToolOptions& tools);
 
 }  // namespace reprise::cli

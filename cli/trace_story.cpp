@@ -77,10 +77,11 @@ class Teller {
 TraceStory read_story(replay::TraceReader& trace, bool all) {
     Teller teller;
     const std::uint64_t ticks = trace.ticks();
+    const std::uint64_t first = trace.first();
     teller.story.whole = all || ticks <= 2 * chunk;
-    for (std::uint64_t index = 1; index <= ticks; ++index) {
-        if (!teller.story.whole && index == chunk + 1)
-            index = ticks - chunk + 1;
+    for (std::uint64_t index = first; index <= trace.last(); ++index) {
+        if (!teller.story.whole && index == first + chunk)
+            index = trace.last() - chunk + 1;
         const auto* events = trace.recorded(index).view.tick->events();
         if (events == nullptr)  // the trace's level leaves them out
             break;
@@ -89,7 +90,7 @@ TraceStory read_story(replay::TraceReader& trace, bool all) {
     }
     const bool has_traffic = ticks > 0 && trace.level() == replay::Level::full;
     if (has_traffic) {
-        const world::TickView last = trace.recorded(ticks).view;
+        const world::TickView last = trace.recorded(trace.last()).view;
         const auto of_demand = [](const auto& actor) {
             return actor.id() >= world::first_background_id;
         };
@@ -108,7 +109,7 @@ ChannelBytes sample_channels(replay::TraceReader& trace) {
     const std::uint64_t samples = std::min(most, ticks);
     ChannelBytes bytes;
     for (std::uint64_t i = 0; i < samples; ++i) {
-        const replay::RecordedTick tick = trace.recorded(1 + i * ticks / samples);
+        const replay::RecordedTick tick = trace.recorded(trace.first() + i * ticks / samples);
         bytes.tick += tick.tick_bytes.size();
         bytes.traffic += tick.traffic_bytes.size();
     }

@@ -23,6 +23,13 @@ struct Outcome {
     std::uint64_t ticks = 0;
 };
 
+/// Where a part of a run begins.
+struct SliceStart {
+    std::uint64_t first = 1;          ///< its first tick
+    std::uint64_t run_ticks = 0;      ///< how many the whole run had
+    world::Digest128 chain_before{};  ///< the chain's value before that tick
+};
+
 /// The last tick that a run can have.
 std::uint64_t tick_limit(const world::EpisodeT& episode);
 

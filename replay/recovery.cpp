@@ -74,7 +74,7 @@ TraceReader open(const fs::path& damaged) {
 /// Writes the trace; removes what is there of it when that fails.
 void write(const fs::path& path, TraceReader& trace, const Outcome& outcome) {
     try {
-        TraceWriter writer(path, trace.recording(), trace.level());
+        TraceWriter writer(path, trace.recording(), trace.level(), Unfinished::keep, trace.slice());
         try {
             for (std::uint64_t index = 1; index <= outcome.ticks; ++index)
                 writer.append(trace.recorded(index));
@@ -98,6 +98,11 @@ void write(const fs::path& path, TraceReader& trace, const Outcome& outcome) {
 Recovery recover(const fs::path& damaged, const fs::path& out) {
     check_paths(damaged, out);
     TraceReader trace = open(damaged);
+    if (trace.first() > 1)
+        throw world::Error(fmt::format(
+            "{}: a slice that begins at tick {}; cut it again from the whole trace instead",
+            damaged.string(),
+            trace.first()));
     Recovery recovery{trace.episode(), trace.outcome(), trace.loss()};
     const Links links = follow_chain(trace);
     if (links.sound == 0)

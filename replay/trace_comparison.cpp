@@ -4,6 +4,7 @@
 
 #include "replay/divergence.h"
 #include "replay/field_difference.h"
+#include "replay/slice.h"
 #include "replay/tick_bytes.h"
 #include "replay/trace_format.h"
 #include "world/check.h"
@@ -217,6 +218,8 @@ std::string branch_text(const world::EpisodeT& expected, const world::EpisodeT& 
 }
 
 std::optional<Divergence> compare(TraceReader& expected, TraceReader& found) {
+    require_start_of_run(expected);
+    require_start_of_run(found);
     const bool same_start = expected.chain(0) == found.chain(0);
     const StartDifference start = compare_starts(expected.episode(), found.episode());
     std::optional<Divergence> divergence;
@@ -243,6 +246,8 @@ std::optional<Divergence> compare(TraceReader& expected, TraceReader& found) {
 }
 
 std::optional<Divergence> compare(TraceReader& expected, TraceReader& found, Tolerance& tolerance) {
+    require_start_of_run(expected);
+    require_start_of_run(found);
     const std::uint64_t common = std::min(expected.ticks(), found.ticks());
     std::optional<Divergence> divergence;
     for (std::uint64_t index = 1; index <= common && !divergence; ++index) {

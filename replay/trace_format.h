@@ -15,6 +15,7 @@
 ///   the summary (index) that MCAP asks for
 namespace reprise::replay::format {
 
+/// A slice of a run says so in reprise.run: slice.first_tick, slice.run_ticks, slice.chain_before.
 inline constexpr std::uint64_t version = 1;
 inline constexpr std::uint64_t ticks_per_chunk = 64;
 inline constexpr std::uint16_t tick_channel = 1;

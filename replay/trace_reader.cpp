@@ -48,6 +48,7 @@ struct TraceReader::File {
     bool has_town = false;  ///< recording.town and .network are read
     Outcome outcome;
     world::Digest128 first_chain;
+    SliceStart slice;  ///< of a whole run: from tick 1 on, and no run_ticks
     std::string loss;  ///< what a salvage left out
     ChunkReader loaded_chunk;
     std::uint64_t loaded = none_loaded;  ///< first tick of the chunk in memory
@@ -83,7 +84,9 @@ struct TraceReader::File {
         return scan(input);
     }
 
-    std::uint64_t ticks() const { return ranges.empty() ? 0 : ranges.back().last; }
+    std::uint64_t ticks() const { return last() + 1 - slice.first; }
+
+    std::uint64_t last() const { return ranges.empty() ? slice.first - 1 : ranges.back().last; }
 
     std::uint64_t step_ns() const { return recording.episode.step_ns; }
 
@@ -104,6 +107,9 @@ struct TraceReader::File {
             read_level(word->second);
         if (const auto seed = facts->find("chain_seed"); seed != facts->end())
             first_chain = format::from_hex(seed->second);
+        slice.chain_before = first_chain;
+        if (facts->contains("slice.first_tick"))
+            read_slice(*facts);
         const mcap::Bytes bytes = read_attachment(input, index, format::episode_attachment);
         AlignedCopy copy;
         const mcap::View episode = copy.of(bytes);
@@ -119,6 +125,18 @@ struct TraceReader::File {
         level = *named;
     }
 
+    void read_slice(const std::map<std::string, std::string>& facts) {
+        const auto text = [&](const char* key) {
+            const auto found = facts.find(key);
+            return found == facts.end() ? std::string() : found->second;
+        };
+        slice = {to_number(text("slice.first_tick")),
+                 to_number(text("slice.run_ticks")),
+                 format::from_hex(text("slice.chain_before"))};
+        if (slice.first < 1 || slice.first > slice.run_ticks)
+            input.fail(0, "a slice of a run, but not one that says where it begins");
+    }
+
     [[noreturn]] void fail_attachment(const std::string& name, const std::string& fault) {
         input.fail(find_attachment(index, name)->offset,
                    fmt::format("the attachment '{}' is damaged ({})", name, fault));
@@ -132,7 +150,7 @@ struct TraceReader::File {
                 input.fail(chunk.offset,
                            fmt::format("the index is damaged: after tick {} comes a chunk of "
                                        "times {} to {} ns",
-                                       ticks(),
+                                       last(),
                                        chunk.start_time,
                                        chunk.end_time));
             ranges.push_back(*range);
@@ -145,7 +163,7 @@ struct TraceReader::File {
         const std::uint64_t most =
             chunk.uncompressed_size / (mcap::prefix_size + mcap::message_header);
         if (chunk.start_time % step_ns() != 0 || chunk.end_time % step_ns() != 0 ||
-            range.first != ticks() + 1 || range.last < range.first ||
+            range.first != last() + 1 || range.last < range.first ||
             range.last - range.first >= most)
             return std::nullopt;
         return range;
@@ -163,7 +181,7 @@ struct TraceReader::File {
                     "byte {}: the chunk behind tick {} is damaged ({}); it and the {} chunks "
                     "behind it are left out, because a trace has no holes",
                     index.chunks[i].offset,
-                    ticks(),
+                    last(),
                     fault,
                     index.chunks.size() - i - 1);
                 index.data_end = index.chunks[i].offset;
@@ -182,8 +200,7 @@ struct TraceReader::File {
         } catch (const world::Error&) {
             index.whole = false;
             if (loss.empty())
-                loss =
-                    fmt::format("byte {}: the file ends behind tick {}", index.data_end, ticks());
+                loss = fmt::format("byte {}: the file ends behind tick {}", index.data_end, last());
             outcome = {"error", "the trace was cut off", ticks()};
         }
     }
@@ -193,9 +210,11 @@ struct TraceReader::File {
             return "cut off before the first whole chunk of ticks; record the run again";
         return fmt::format(
             "cut off after tick {}: the end of the trace is missing, those {} ticks are whole; "
-            "`reprise recover` makes a trace of them",
+            "{}",
+            last(),
             ticks(),
-            ticks());
+            slice.first > 1 ? "cut the slice again from the whole trace"
+                            : "`reprise recover` makes a trace of them");
     }
 
     void read_outcome() {
@@ -215,8 +234,8 @@ struct TraceReader::File {
     }
 
     std::size_t chunk_of(std::uint64_t tick) const {
-        REPRISE_CHECK(tick >= 1 && tick <= ticks(),
-                      fmt::format("tick {} of a trace with {}", tick, ticks()));
+        REPRISE_CHECK(tick >= slice.first && tick <= last(),
+                      fmt::format("tick {} of a trace with {} to {}", tick, slice.first, last()));
         const auto after = std::upper_bound(
             ranges.begin(), ranges.end(), tick, [](std::uint64_t wanted, const TickRange& range) {
                 return wanted < range.first;
@@ -304,11 +323,21 @@ Level TraceReader::level() const {
 }
 
 std::uint64_t TraceReader::first() const {
-    return 1;
+    return file_->slice.first;
 }
 
 std::uint64_t TraceReader::last() const {
-    return first() + ticks() - 1;
+    return file_->last();
+}
+
+std::uint64_t TraceReader::run_ticks() const {
+    return file_->slice.run_ticks > 0 ? file_->slice.run_ticks : ticks();
+}
+
+std::optional<SliceStart> TraceReader::slice() const {
+    if (file_->slice.run_ticks == 0)
+        return std::nullopt;
+    return file_->slice;
 }
 
 RecordedTick TraceReader::tick(std::uint64_t index) {
@@ -332,7 +361,11 @@ RecordedTick TraceReader::recorded(std::uint64_t index) {
 }
 
 world::Digest128 TraceReader::chain(std::uint64_t index) {
-    return index == 0 ? file_->first_chain : recorded(index).view.tick->digests()->chain();
+    if (index == 0)
+        return file_->first_chain;
+    if (index + 1 == first())
+        return file_->slice.chain_before;
+    return recorded(index).view.tick->digests()->chain();
 }
 
 const world::EpisodeT& TraceReader::episode() const {
@@ -357,7 +390,8 @@ std::uint64_t TraceReader::message_bytes() const {
     std::uint64_t bytes = 0;
     for (const mcap::Chunk& chunk : file_->index.chunks)
         bytes += chunk.uncompressed_size;
-    const std::uint64_t messages = ticks() + traffic_ticks(file_->level, ticks());
+    const std::uint64_t messages =
+        ticks() + traffic_ticks(file_->level, last()) - traffic_ticks(file_->level, first() - 1);
     return bytes - messages * (mcap::prefix_size + mcap::message_header);
 }
 

@@ -63,19 +63,26 @@ class TraceReader {
     std::uint64_t first() const;
     std::uint64_t last() const;
 
+    /// How many ticks the run had: more than ticks() for a slice.
+    std::uint64_t run_ticks() const;
+
+    /// What the trace says of being a part of a run; nothing when it is the whole run.
+    std::optional<SliceStart> slice() const;
+
     /// full when the trace does not say.
     Level level() const;
 
-    /// The whole tick with this index, in [1, ticks()]. The view lives until the next call on this
-    /// reader. In order: about 20 us a tick with 100 cars; any other: one chunk is decompressed,
-    /// about 1 ms. Throws world::Error, one line that says how to get it, when the trace's level
-    /// leaves a part of it out.
+    /// The whole tick with this index, in [first(), last()]. The view lives until the next call on
+    /// this reader. In order: about 20 us a tick with 100 cars; any other: one chunk is
+    /// decompressed, about 1 ms. Throws world::Error, one line that says how to get it, when the
+    /// trace's level leaves a part of it out.
     RecordedTick tick(std::uint64_t index);
 
     /// As much of it as the trace's level keeps.
     RecordedTick recorded(std::uint64_t index);
 
-    /// Chain digest at a tick, as recorded; at 0: before the first one.
+    /// Chain digest at a tick, as recorded; at 0: before the run's first one; of a slice also at
+    /// first() - 1.
     world::Digest128 chain(std::uint64_t index);
 
     const world::EpisodeT& episode() const;

@@ -20,7 +20,8 @@ mcap::View bytes_of(const std::string& text) {
 /// No clock, no host, no path: equal runs give equal files.
 std::map<std::string, std::string> facts(const world::EpisodeT& episode,
                                          const world::Digest128& seed_of_chain,
-                                         Level level) {
+                                         Level level,
+                                         const std::optional<SliceStart>& slice) {
     std::map<std::string, std::string> facts{
         {"format", std::to_string(format::version)},
         {"name", episode.name},
@@ -37,6 +38,11 @@ std::map<std::string, std::string> facts(const world::EpisodeT& episode,
     };
     if (level != Level::full)
         facts["level"] = to_word(level);
+    if (slice) {
+        facts["slice.first_tick"] = std::to_string(slice->first);
+        facts["slice.run_ticks"] = std::to_string(slice->run_ticks);
+        facts["slice.chain_before"] = world::to_hex(slice->chain_before);
+    }
     if (!episode.branches.empty()) {
         const world::BranchT& branch = episode.branches.back();
         facts["branch.tick"] = std::to_string(branch.tick);
@@ -58,6 +64,7 @@ struct TraceWriter::File {
     TraceFile file;
     Reduction reduction;
     std::uint64_t step_ns;
+    std::uint64_t first = 1;
     std::uint64_t ticks = 0;
     world::Digest128 chain;  ///< of the last tick
     bool closed = false;
@@ -67,15 +74,17 @@ struct TraceWriter::File {
     File(const std::filesystem::path& path,
          const Recording& recording,
          Level its_level,
-         Unfinished what_to_do)
+         Unfinished what_to_do,
+         const std::optional<SliceStart>& slice)
         : level(its_level),
           unfinished(what_to_do),
           file(path, its_level),
           reduction(its_level),
           step_ns(recording.episode.step_ns),
+          first(slice ? slice->first : 1),
           chain(chain_seed(recording)) {
         try {
-            write_start(recording);
+            write_start(recording, slice);
         } catch (...) {
             file.abandon();
             throw;
@@ -83,9 +92,11 @@ struct TraceWriter::File {
         thread = std::make_unique<ChunkThread>(file);
     }
 
-    void write_start(const Recording& recording) {
+    void write_start(const Recording& recording, const std::optional<SliceStart>& slice) {
         const world::EpisodeT& episode = recording.episode;
-        file.metadata(format::run_metadata, facts(episode, chain, level));
+        file.metadata(format::run_metadata, facts(episode, chain, level, slice));
+        if (slice)
+            chain = slice->chain_before;
         file.attachment(
             format::episode_attachment, "application/x-flatbuffers", format::pack(episode));
         file.attachment(format::scenario_attachment, "text/x-lua", bytes_of(episode.scenario));
@@ -121,9 +132,14 @@ struct TraceWriter::File {
 TraceWriter::TraceWriter(const std::filesystem::path& path,
                          const Recording& recording,
                          Level level,
-                         Unfinished unfinished) {
+                         Unfinished unfinished,
+                         const std::optional<SliceStart>& slice) {
     REPRISE_CHECK(recording.episode.step_ns > 0, "an episode needs a step");
-    file_ = std::make_unique<File>(path, recording, level, unfinished);
+    REPRISE_CHECK(!slice || (slice->first > 0 && slice->first <= slice->run_ticks),
+                  "a slice needs a start");
+    REPRISE_CHECK(!slice || slice->first == 1 || level != Level::inputs,
+                  "inputs are simulated from tick 1");
+    file_ = std::make_unique<File>(path, recording, level, unfinished, slice);
 }
 
 TraceWriter::~TraceWriter() {
@@ -148,8 +164,8 @@ void TraceWriter::append(const world::SealedTick& tick) {
 void TraceWriter::append(const RecordedTick& tick) {
     const std::uint64_t index = tick.view.index();
     REPRISE_CHECK(!file_->closed, fmt::format("tick {} after the end", index));
-    REPRISE_CHECK(index == file_->ticks + 1,
-                  fmt::format("tick {} after tick {}", index, file_->ticks));
+    REPRISE_CHECK(index == file_->first + file_->ticks,
+                  fmt::format("tick {} as number {} from {}", index, file_->ticks, file_->first));
     file_->guarded([&] {
         file_->thread->check();
         const std::uint64_t log_time = index * file_->step_ns;
@@ -158,7 +174,7 @@ void TraceWriter::append(const RecordedTick& tick) {
         if (!kept.traffic_bytes.empty())
             file_->chunk->add(format::traffic_channel, index, log_time, kept.traffic_bytes);
         file_->chain = tick.view.tick->digests()->chain();
-        file_->ticks = index;
+        ++file_->ticks;
         if (index % format::ticks_per_chunk == 0)
             file_->thread->exchange(file_->chunk);
     });

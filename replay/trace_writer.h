@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "replay/recording.h"
 #include "replay/trace_reader.h"
@@ -21,17 +22,19 @@ enum class Unfinished : std::uint8_t { keep, remove };
 /// Errors (unwritable, disk full) throw world::Error; nothing that looks whole is left.
 class TraceWriter {
   public:
-    /// `level`: how much of each tick is kept.
+    /// `level`: how much of each tick is kept. `slice`: the trace is of a part of a run, and this
+    /// is where it begins; of level inputs only at tick 1.
     TraceWriter(const std::filesystem::path& path,
                 const Recording& recording,
                 Level level = Level::full,
-                Unfinished unfinished = Unfinished::keep);
+                Unfinished unfinished = Unfinished::keep,
+                const std::optional<SliceStart>& slice = std::nullopt);
     ~TraceWriter();
     TraceWriter(const TraceWriter&) = delete;
     TraceWriter& operator=(const TraceWriter&) = delete;
 
-    /// Ticks in order, the first has index 1, with as much in them as the level keeps. Costs the
-    /// caller one copy, about 2 us.
+    /// Ticks in order, the first has index 1 or is the slice's, with as much in them as the level
+    /// keeps. Costs the caller one copy, about 2 us.
     void append(const world::SealedTick& tick);
     void append(const RecordedTick& tick);
 

@@ -3,6 +3,7 @@
 #include <zstd.h>
 
 #include "replay/mcap.h"
+#include "replay/slice.h"
 #include "tests/replay/synthetic_run.h"
 
 namespace reprise::test {
@@ -113,6 +114,11 @@ void write_seeds(const fs::path& folder) {
         write_trace(made, run);
         write_both(folder, "made" + std::to_string(run.ticks), read_file(made));
     }
+    const fs::path cut = folder / "cut.mcap";
+    replay::TraceReader trace(made);  // the last of them
+    replay::slice(trace, 60, 66, cut);
+    write_both(folder, "slice", read_file(cut));
+    fs::remove(cut);
     fs::remove(made);
     for (const auto& entry : fs::directory_iterator(REPRISE_TRACES))
         if (entry.path().extension() == ".mcap")

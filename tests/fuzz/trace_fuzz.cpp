@@ -44,7 +44,7 @@ class Files {
 
 /// A trace that opens has ticks that say who they are, or says what is wrong with them.
 void read_all(TraceReader& trace) {
-    for (std::uint64_t index = 1; index <= trace.ticks(); ++index) {
+    for (std::uint64_t index = trace.first(); index <= trace.last(); ++index) {
         if (trace.damage(index)) {
             trace.salvaged(index);
             continue;
@@ -86,7 +86,7 @@ void recover(const std::filesystem::path& input, const std::filesystem::path& ou
     TraceReader trace(out);
     world::Digest128 chain = trace.chain(0);
     for (std::uint64_t index = 1; index <= trace.ticks(); ++index) {
-        chain = world::chain(chain, trace.tick(index).view.tick->digests()->state());
+        chain = world::chain(chain, trace.recorded(index).view.tick->digests()->state());
         if (!(chain == trace.chain(index)))
             std::abort();
     }
