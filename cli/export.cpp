@@ -7,10 +7,13 @@
 #include "cli/guard.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/tick_option.h"
 #include "cli/tick_range.h"
 #include "replay/json_lines.h"
 #include "replay/table.h"
 #include "world/check.h"
+
+#include "exchange/foxglove.h"
 
 namespace reprise::cli {
 
@@ -66,12 +69,34 @@ void export_jsonl(replay::TraceReader& trace, const TickRange& range, const std:
     output.finish();
 }
 
+void export_foxglove(replay::TraceReader& trace,
+                     const TickRange& range,
+                     const ExportOptions& options) {
+    exchange::FoxgloveOptions wanted{range.first, range.last, 1, options.images};
+    wanted.every = parse_tick("--every", options.every, trace.episode().step_ns, 1);
+    if (wanted.every < 1)
+        throw world::Error("--every: expected 1 tick at least, got '" + options.every + "'");
+    const auto done = exchange::export_foxglove(trace, wanted, options.output);
+    fmt::print(stderr,
+               "{}: {} messages, {} of them pictures{}\n",
+               options.output,
+               done.messages,
+               done.images,
+               done.located ? "" : "; no /location: the road network lies nowhere on the globe");
+}
+
 }  // namespace
 
 int export_trace(const ExportOptions& options) {
     refuse_overwriting(options.trace, options.output);
+    if (options.format != "foxglove" && !options.images.empty())
+        throw world::Error("--images: only --to foxglove takes pictures");
     replay::TraceReader trace(options.trace);
     const TickRange range = parse_ticks("--ticks", options.ticks, trace);
+    if (options.format == "foxglove") {
+        export_foxglove(trace, range, options);
+        return exit_good;
+    }
     if (options.format == "csv")
         export_csv(trace, range, options.output);
     else

@@ -121,15 +121,27 @@ void add_query(CLI::App& app, QueryOptions& query) {
 void add_export(CLI::App& app, ExportOptions& options) {
     CLI::App& command =
         add_command(app, "export", "Write a trace for other programs", options.trace);
-    command.add_option("--to", options.format, "csv (a folder with a file for each table), jsonl")
+    command
+        .add_option("--to",
+                    options.format,
+                    "csv (a folder with a file for each table), jsonl, or foxglove (an MCAP file "
+                    "for Foxglove and Lichtblick)")
         ->required()
         ->type_name("FORMAT")
-        ->check(word_of({"csv", "jsonl"}));
+        ->check(word_of({"csv", "jsonl", "foxglove"}));
     command.add_option("-o,--output", options.output, "The file or folder to write")
         ->required()
         ->type_name("PATH");
     add_ticks(command, options.ticks);
-    command.footer("Example: reprise export a.mcap --to csv -o tables");
+    command
+        .add_option(
+            "--every", options.every, "foxglove: a scene every so many ticks (default 0.1s)")
+        ->type_name("N");
+    command.add_option("--images", options.images, "foxglove: pictures that reprise render made")
+        ->type_name("DIR");
+    command.footer(
+        "Example: reprise export a.mcap --to csv -o tables\n"
+        "         reprise export a.mcap --to foxglove -o a.foxglove.mcap --images noon");
 }
 
 }  // namespace

@@ -51,6 +51,8 @@ struct ExportOptions {
     std::string format;
     std::string output;
     std::string ticks;
+    std::string every = "0.1s";  ///< foxglove only
+    std::string images;          ///< foxglove only
 };
 
 /// What the commands that read and convert traces were told.

@@ -18,6 +18,7 @@ pkg_check_modules(lua REQUIRED IMPORTED_TARGET lua5.4-c++)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(sqlite3 REQUIRED IMPORTED_TARGET sqlite3)
+pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
 pkg_check_modules(cli11 REQUIRED IMPORTED_TARGET CLI11)
 
 # libsumo and the three OpenCV modules ship no CMake package in the small -dev packages we install.

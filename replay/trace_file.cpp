@@ -11,27 +11,25 @@ namespace reprise::replay {
 
 namespace {
 
-template <typename Schema>
-void encode_schema(mcap::Bytes& out, std::uint16_t id, const std::string& name) {
-    mcap::Encoder record(out);
-    record.begin(mcap::Op::schema);
-    record.number(id);
-    record.text(name);
-    record.text("flatbuffer");
-    record.number(static_cast<std::uint32_t>(Schema::size()));
-    record.raw({Schema::data(), Schema::size()});
-    record.end();
-}
-
-void encode_channel(mcap::Bytes& out, std::uint16_t id, const std::string& topic) {
-    mcap::Encoder record(out);
-    record.begin(mcap::Op::channel);
-    record.number(id);
-    record.number(id);  // its schema has the same number
-    record.text(topic);
-    record.text("flatbuffer");
-    record.texts({});
-    record.end();
+/// The streams of a trace of this level, in the order of format::tick_channel and traffic_channel.
+std::vector<TraceFile::Channel> trace_channels(Level level) {
+    const auto text = [](const std::uint8_t* data, std::size_t size) {
+        return std::string(data, data + size);
+    };
+    using Tick = world::TickBinarySchema;
+    using Traffic = world::TrafficBinarySchema;
+    std::vector<TraceFile::Channel> channels{{"/sim/tick",
+                                              "reprise.world.Tick",
+                                              "flatbuffer",
+                                              text(Tick::data(), Tick::size()),
+                                              "flatbuffer"}};
+    if (level == Level::full || level == Level::keyed)
+        channels.push_back({"/sim/traffic",
+                            "reprise.world.Traffic",
+                            "flatbuffer",
+                            text(Traffic::data(), Traffic::size()),
+                            "flatbuffer"});
+    return channels;
 }
 
 }  // namespace
@@ -51,35 +49,52 @@ void PendingChunk::add(std::uint16_t channel,
     record.raw(data);
 }
 
-TraceFile::TraceFile(const std::filesystem::path& path, Level level) : file_(path) {
+TraceFile::TraceFile(const std::filesystem::path& path, Level level)
+    : TraceFile(path, trace_channels(level)) {}
+
+TraceFile::TraceFile(const std::filesystem::path& path, const std::vector<Channel>& channels)
+    : file_(path) {
     try {
-        put(mcap::magic);
-        record_.clear();
-        mcap::Encoder header(record_);
-        header.begin(mcap::Op::header);
-        header.text("");  // no profile
-        header.text("reprise/" + world::build_fingerprint().front().second);
-        header.end();
-        put(record_);
-        describe_channels(level);
+        start(channels);
     } catch (...) {
         abandon();
         throw;
     }
 }
 
-void TraceFile::describe_channels(Level level) {
-    encode_schema<world::TickBinarySchema>(schemas_, format::tick_channel, "reprise.world.Tick");
-    encode_channel(channels_, format::tick_channel, "/sim/tick");
-    messages_of_[format::tick_channel] = 0;
-    if (level == Level::full || level == Level::keyed) {
-        encode_schema<world::TrafficBinarySchema>(
-            schemas_, format::traffic_channel, "reprise.world.Traffic");
-        encode_channel(channels_, format::traffic_channel, "/sim/traffic");
-        messages_of_[format::traffic_channel] = 0;
-    }
+void TraceFile::start(const std::vector<Channel>& channels) {
+    put(mcap::magic);
+    record_.clear();
+    mcap::Encoder header(record_);
+    header.begin(mcap::Op::header);
+    header.text("");  // no profile
+    header.text("reprise/" + world::build_fingerprint().front().second);
+    header.end();
+    put(record_);
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        describe(static_cast<std::uint16_t>(i + 1), channels[i]);
     put(schemas_);
     put(channels_);
+}
+
+/// A channel and its schema, which gets the same number.
+void TraceFile::describe(std::uint16_t id, const Channel& channel) {
+    mcap::Encoder schema(schemas_);
+    schema.begin(mcap::Op::schema);
+    schema.number(id);
+    schema.text(channel.schema);
+    schema.text(channel.schema_encoding);
+    schema.text(channel.schema_text);
+    schema.end();
+    mcap::Encoder record(channels_);
+    record.begin(mcap::Op::channel);
+    record.number(id);
+    record.number(id);
+    record.text(channel.topic);
+    record.text(channel.message_encoding);
+    record.texts({});
+    record.end();
+    messages_of_[id] = 0;
 }
 
 void TraceFile::put(mcap::View bytes) {

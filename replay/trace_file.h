@@ -39,6 +39,18 @@ class TraceFile {
     /// Magic, header, and the schemas and channels that a trace of this level has.
     TraceFile(const std::filesystem::path& path, Level level);
 
+    /// A stream of another kind of file, and the schema that describes its messages.
+    struct Channel {
+        std::string topic;
+        std::string schema;
+        std::string schema_encoding;
+        std::string schema_text;
+        std::string message_encoding;
+    };
+
+    /// The same for another kind of file: its channels are numbered from 1.
+    TraceFile(const std::filesystem::path& path, const std::vector<Channel>& channels);
+
     void metadata(const std::string& name, const std::map<std::string, std::string>& texts);
     void attachment(const std::string& name, const std::string& media_type, mcap::View data);
     void packed_attachment(const std::string& name, mcap::View data);
@@ -62,7 +74,8 @@ class TraceFile {
 
   private:
     void put(mcap::View bytes);
-    void describe_channels(Level level);
+    void start(const std::vector<Channel>& channels);
+    void describe(std::uint16_t id, const Channel& channel);
     mcap::Statistics statistics() const;
     mcap::Bytes summary() const;
 
