@@ -15,8 +15,8 @@ namespace reprise::cli {
 
 namespace {
 
-/// One more run when both started from the same, so that one sees which of them it takes after;
-/// else both runs anew.
+/// Runs of one start cannot differ: each is simulated again, which tells the one that does not
+/// repeat. Of different starts, both runs anew.
 std::string commands_again(const DiffOptions& options,
                            replay::TraceReader& expected,
                            replay::TraceReader& found,
@@ -30,8 +30,8 @@ std::string commands_again(const DiffOptions& options,
     };
     if (expected.chain(0) == found.chain(0) &&
         replay::branch_text(expected.episode(), found.episode()).empty())
-        return again(expected) + " -o again.mcap; reprise diff " + shell_path(options.expected) +
-               " again.mcap";
+        return "reprise verify " + shell_path(options.expected) + "; reprise verify " +
+               shell_path(options.found);
     return again(expected) + " -o expected.mcap; " + again(found) +
            " -o found.mcap; reprise diff expected.mcap found.mcap";
 }

@@ -41,7 +41,7 @@ int golden_list(const GoldenListOptions& options) {
                        orphan ? "ORPHAN: no " + one.scenario.string()
                               : command_line(run_words(one, golden.given)),
                        golden.verdict,
-                       golden.because);
+                       replay::in_quotes(golden.because));
         } catch (const world::Error& error) {
             fmt::print("{}  unreadable: {}\n", one.golden.string(), error.what());
             code = exit_bad_input;

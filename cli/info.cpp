@@ -35,6 +35,12 @@ constexpr const char* dim = "2";
 constexpr const char* red = "31";
 constexpr const char* green = "32";
 
+/// From the trace alone; of a slice, which lacks the start, from its scenario.
+std::string run_again(const replay::TraceReader& trace) {
+    return trace.first() > 1 ? run_command(trace.episode(), trace.episode().max_ticks)
+                             : "reprise run " + shell_path(trace.path());
+}
+
 struct Screen {
     replay::TraceReader& trace;
     const TraceStory& story;
@@ -179,10 +185,7 @@ struct Screen {
         print_build();
         if (trace.first() > 1 && !episode.branches.empty())
             return;  // the run before the branch is in another trace
-        row("again",
-            episode.branches.empty()
-                ? run_command(episode, episode.max_ticks)
-                : rerun_command(trace.path(), episode, replay::tick_limit(episode)));
+        row("again", run_again(trace));
     }
 };
 
@@ -245,7 +248,7 @@ void print_json(const std::string& path, replay::TraceReader& trace, const Trace
                     {{"/sim/tick", std::to_string(channels.tick)},
                      {"/sim/traffic", std::to_string(channels.traffic)}}},
                    {"build", json_of(episode.fingerprint)},
-                   {"again", run_command(episode, episode.max_ticks)}};
+                   {"again", run_again(trace)}};
     fmt::print("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 

@@ -12,9 +12,9 @@
 namespace reprise::kernel {
 
 /// The digest of each stage: of what it keeps for later ticks and of what it wrote into this one.
-/// Together they cover every value of the tick, so equal chains mean equal records; only the line of
-/// the scenario that said something is left out, because it decides nothing.
-/// 5 us a tick with 100 cars.
+/// Together they cover every value of the tick, so equal chains mean equal records; only the line
+/// of the scenario that said something is left out, because it decides nothing. 5 us a tick with
+/// 100 cars.
 std::uint64_t digest_of(const scripting::Scenario& scenario, const world::TickDraft& next);
 std::uint64_t digest_of(const Roster& roster, const world::TickDraft& next);
 std::uint64_t digest_of(const traffic::Background& background, const world::TickDraft& next);

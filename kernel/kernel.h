@@ -24,8 +24,11 @@ class Kernel {
     Kernel& operator=(const Kernel&) = delete;
 
     /// One fixed step; not after finished(). `controls` are for vehicles with driver `manual`;
-    /// those that get none keep their last. The result lives until the next step. Throws
-    /// world::Error for what the scenario asks in vain; the kernel is of no use afterwards.
+    /// those that get none keep their last. Once the scenario has given a vehicle a control, it
+    /// drives it, and what comes from outside for it is left alone: so verify, which hands over
+    /// what was recorded, finds out whether the scenario says the same again. The result lives
+    /// until the next step. Throws world::Error for what the scenario asks in vain; the kernel is
+    /// of no use afterwards.
     const world::SealedTick& step(std::span<const world::Control> controls = {});
 
     /// True once the scenario said finish or the episode's last tick was made.

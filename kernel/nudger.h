@@ -19,7 +19,8 @@ class Roster;
 /// unrounded place), so that the run really goes on from it. SUMO's cars are moved in the record
 /// only, by units of the recorded number (whose last place is far below the grid that it was
 /// rounded to): physics and drivers see it, SUMO drives them from what it believes itself.
-/// The control of a manual driver is an input: verify repeats it, only diff can see it.
+/// The control of a manual driver that the scenario leaves alone is an input: verify repeats it,
+/// only diff can see it.
 class Nudger {
   public:
     void plan(Nudge nudge) { nudge_ = std::move(nudge); }

@@ -70,6 +70,7 @@ void Roster::apply_commands(const world::TickView& last, world::TickDraft& next,
                 break;
             case world::CommandKind::control:
                 entry.control = command.control;
+                entry.scripted = true;
                 break;
             default:
                 break;
@@ -180,7 +181,7 @@ void Roster::apply_controls(std::span<const world::Control> controls,
                             world::TickDraft& next) {
     for (const world::Control& control : controls) {
         const auto found = entries_.find(control.actor());
-        if (found != entries_.end() && !found->second.autopilot)
+        if (found != entries_.end() && !found->second.autopilot && !found->second.scripted)
             found->second.control = control;
     }
     for (auto& [id, entry] : entries_) {
@@ -203,6 +204,8 @@ std::uint64_t Roster::digest() const {
         hasher.add(id);
         hasher.add(entry.control);
         hasher.add(entry.autopilot.has_value());
+        if (entry.scripted)
+            hasher.add(true);
         if (entry.autopilot)
             hasher.add(entry.autopilot->digest());
     }

@@ -39,6 +39,7 @@ class Roster {
     struct Entry {
         std::optional<Autopilot> autopilot;  ///< none: manual
         world::Control control;              ///< the newest
+        bool scripted = false;               ///< the scenario gave one: it drives
         std::uint32_t route_line = 0;        ///< of the scenario, that last asked for a route
     };
 

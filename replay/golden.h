@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -132,5 +133,8 @@ Golden load_golden(const std::filesystem::path& path);
 
 /// "2.85": a tick's time, exact for steps of whole milliseconds.
 std::string golden_seconds(std::uint64_t tick, std::uint64_t step_ns);
+
+/// A text as goldens hold it: in quotes, control characters written out.
+std::string in_quotes(std::string_view text);
 
 }  // namespace reprise::replay

@@ -245,14 +245,13 @@ bool GoldenCheck::operator==(const GoldenCheck& other) const {
 }
 
 bool GoldenEvent::operator==(const GoldenEvent& event) const {
-    return std::tie(tick, kind, actor, other, text, value, place) ==
-           std::tie(event.tick,
-                    event.kind,
-                    event.actor,
-                    event.other,
-                    event.text,
-                    event.value,
-                    event.place);
+    return std::tie(tick, kind, actor, other, text, value, place) == std::tie(event.tick,
+                                                                              event.kind,
+                                                                              event.actor,
+                                                                              event.other,
+                                                                              event.text,
+                                                                              event.value,
+                                                                              event.place);
 }
 
 const char* to_word(Severity severity) {

@@ -12,6 +12,8 @@ namespace {
 constexpr std::string_view plain =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+:,./#-";
 
+}  // namespace
+
 std::string in_quotes(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {
@@ -25,6 +27,8 @@ std::string in_quotes(std::string_view text) {
     }
     return out + "\"";
 }
+
+namespace {
 
 /// In quotes only when it needs them.
 std::string word(std::string_view text) {

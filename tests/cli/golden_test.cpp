@@ -277,7 +277,7 @@ TEST_F(Goldens, CasesRunAsTheirGoldenSays) {
     EXPECT_EQ(list.code, 0);
     EXPECT_THAT(list.out,
                 HasSubstr("reprise run s/small.lua --seed 3 --for 1.5 --set speed_kmh=50 --set "
-                          "'word=it'\\''s', passed; because a fast one"));
+                          "'word=it'\\''s', passed; because \"a fast one\""));
     EXPECT_THAT(call({"test", "--list", "s/small@fast.golden"}).out, "s/small@fast\n");
 }
 
