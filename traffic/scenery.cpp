@@ -188,7 +188,7 @@ void place_tree(const Site& at, Draws& draws, Clearance& clearance, TownT& town)
         return;
     // Later trees may touch this crown, not stand under it.
     clearance.add_footprint({at.position, 0, crown, crown});
-    town.trees.emplace_back(Vec3(at.position.x(), at.position.y(), at.z), height, crown, style, 0U);
+    town.trees.emplace_back(Vec3(at.position.x(), at.position.y(), at.z), height, crown, style, world::PlantKind::any);
 }
 
 void place_trees(const std::vector<Border>& all,

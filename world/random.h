@@ -16,7 +16,12 @@ enum class Purpose : std::uint32_t {
     building = 7,  ///< 6 was given away once
     tree,
     camera_noise,
-    rain_drop
+    rain_drop,
+    building_model,  ///< which of the building models stands somewhere
+    plant,           ///< where which bush, hedge or tree grows
+    furniture,       ///< where benches, bins, parked cars and the like stand
+    spawn_point,     ///< which places of a lane are worth starting from
+    look             ///< an actor's paint or outfit; item: its id
 };
 
 /// A uniform number in [0, 1), as a pure function of its arguments: there is no generator to seed,
