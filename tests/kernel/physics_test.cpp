@@ -155,7 +155,7 @@ struct Scene {
     static world::TownT town() {
         world::TownT town;
         town.buildings.emplace_back(world::Vec3(60, 3, 0), 0.3, 10, 8, 12, 0u, 0u);
-        town.trees.emplace_back(world::Vec3(48, -2, 0), 8, 2, 0u, 0u);
+        town.trees.emplace_back(world::Vec3(48, -2, 0), 8, 2, 0u, world::PlantKind::any);
         return town;
     }
 
@@ -241,7 +241,7 @@ TEST(Physics, WalkerWhoRunsIntoAStandingVehicleIsNoCollision) {
 TEST(Physics, BuildingsAndTreesStopAVehicle) {
     world::TownT town;
     town.buildings.emplace_back(world::Vec3(30, 0, 0), 0.0, 10, 10, 12, 0u, 0u);
-    town.trees.emplace_back(world::Vec3(15, 50, 0), 8, 2, 0u, 0u);
+    town.trees.emplace_back(world::Vec3(15, 50, 0), 8, 2, 0u, world::PlantKind::any);
     for (const double y : {0.0, 50.0}) {
         ProvingGround ground(test::flat_ground(), town);
         ground.add_vehicle("sedan", 10, 0, y);

@@ -13,9 +13,9 @@ inline world::TownT street() {
         {world::Vec3(140, 20, 0), 0.4, 20, 20, 30, 8, 0},
     };
     town.trees = {
-        {world::Vec3(52, 8, 0), 7, 2.5, 5, 0},
-        {world::Vec3(66, -8.5, 0), 5, 1.8, 130, 0},
-        {world::Vec3(90, 8, 0), 9, 3, 77, 0},
+        {world::Vec3(52, 8, 0), 7, 2.5, 5, world::PlantKind::any},
+        {world::Vec3(66, -8.5, 0), 5, 1.8, 130, world::PlantKind::any},
+        {world::Vec3(90, 8, 0), 9, 3, 77, world::PlantKind::any},
     };
     return town;
 }
