@@ -19,6 +19,7 @@
 #include "cli/this_build.h"
 #include "cli/tick_option.h"
 #include "kernel/verify.h"
+#include "replay/imported.h"
 #include "replay/slice.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
@@ -137,6 +138,7 @@ int report(const WhatIf& what_if, int code) {
 int branch(const BranchOptions& options) {
     self_test();
     replay::TraceReader trace(options.trace);
+    replay::require_simulated(trace);
     replay::require_start_of_run(trace);
     const std::uint64_t tick = branch_tick(options, trace);
     trace.tick(tick);  // says at once when the trace is not full

@@ -10,6 +10,7 @@
 #include "cli/self_test.h"
 #include "cli/this_build.h"
 #include "kernel/verify.h"
+#include "replay/imported.h"
 #include "replay/slice.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
@@ -19,6 +20,7 @@ namespace reprise::cli {
 int expand(const ExpandOptions& options) {
     self_test();
     replay::TraceReader trace(options.trace);
+    replay::require_simulated(trace);
     replay::require_start_of_run(trace);
     refuse_same_file(options.trace, options.output);
     print_other_build("another build recorded this",

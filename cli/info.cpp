@@ -9,6 +9,7 @@
 #include "cli/guard.h"
 #include "cli/reproduce.h"
 #include "cli/trace_story.h"
+#include "replay/imported.h"
 #include "replay/level.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
@@ -55,7 +56,16 @@ struct Screen {
         return fmt::format("{:.2f} s", world::seconds(tick, trace.episode().step_ns));
     }
 
-    void print_run() const {
+    void print_import() const {
+        const world::EpisodeT& episode = trace.episode();
+        row("imported", "from " + episode.imported_from);
+        row("holds", "poses only: it cannot be simulated again");
+        row("town", episode.town);
+        for (const world::ParameterT& parameter : episode.parameters)
+            row(parameter.key, parameter.value);
+    }
+
+    void print_start() const {
         const world::EpisodeT& episode = trace.episode();
         row("scenario", fmt::format("{} ({})", episode.name, episode.scenario_path));
         row("town", fmt::format("{}, {} cars of traffic", episode.town, episode.cars));
@@ -78,6 +88,10 @@ struct Screen {
             for (const world::ParameterT& parameter : branch.parameters)
                 row("", parameter.key + " = " + parameter.value);
         }
+    }
+
+    void print_length() const {
+        const world::EpisodeT& episode = trace.episode();
         row("length",
             fmt::format("{} ticks of {} ms = {}",
                         trace.ticks(),
@@ -175,7 +189,11 @@ struct Screen {
     void print(const std::string& path) const {
         const world::EpisodeT& episode = trace.episode();
         fmt::print("{}\n", paint(bold, path));
-        print_run();
+        if (replay::is_imported(trace))
+            print_import();
+        else
+            print_start();
+        print_length();
         print_outcome();
         print_events();
         print_actors();
@@ -183,6 +201,8 @@ struct Screen {
             row("chain", world::to_hex(trace.chain(trace.last())));
         print_size();
         print_build();
+        if (replay::is_imported(trace))
+            return;
         if (trace.first() > 1 && !episode.branches.empty())
             return;  // the run before the branch is in another trace
         row("again", run_again(trace));
@@ -227,6 +247,7 @@ void print_json(const std::string& path, replay::TraceReader& trace, const Trace
     const Json out{{"path", path},
                    {"name", episode.name},
                    {"scenario", episode.scenario_path},
+                   {"imported_from", episode.imported_from},
                    {"town", episode.town},
                    {"seed", std::to_string(episode.seed)},
                    {"step_ns", std::to_string(episode.step_ns)},
@@ -248,7 +269,7 @@ void print_json(const std::string& path, replay::TraceReader& trace, const Trace
                     {{"/sim/tick", std::to_string(channels.tick)},
                      {"/sim/traffic", std::to_string(channels.traffic)}}},
                    {"build", json_of(episode.fingerprint)},
-                   {"again", run_again(trace)}};
+                   {"again", replay::is_imported(trace) ? "" : run_again(trace)}};
     fmt::print("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 

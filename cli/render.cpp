@@ -67,11 +67,23 @@ world::SensorRig make_rig(const RenderOptions& options) {
     return rig;
 }
 
+/// Of an imported trace, which has cars only: the one that it was recorded for.
+std::optional<std::uint32_t> hero(const world::EpisodeT& episode, const world::TickView& tick) {
+    for (const world::ParameterT& parameter : episode.parameters)
+        for (const world::CarState& car : tick.cars())
+            if (parameter.key == "hero" && parameter.value == std::to_string(car.id()))
+                return car.id();
+    return std::nullopt;
+}
+
 /// The first vehicle of the tick, unless one was named. Nothing when there is none yet.
 std::optional<std::uint32_t> mount_actor(const RenderOptions& options,
+                                         const world::EpisodeT& episode,
                                          const world::TickView& tick) {
     if (options.actor != 0)
         return options.actor;
+    if (!episode.imported_from.empty())
+        return hero(episode, tick);
     if (tick.vehicles().empty())
         return std::nullopt;
     return tick.vehicles().front().id();
@@ -110,7 +122,7 @@ int render(const RenderOptions& options) {
     std::uint64_t done = 0;
     for (std::uint64_t index = span.from; index <= span.to; index += span.every) {
         const world::TickView tick = trace.tick(index).view;
-        const auto actor = mount_actor(options, tick);
+        const auto actor = mount_actor(options, trace.episode(), tick);
         if (!actor)
             continue;
         for (world::SensorSpec& sensor : rig)

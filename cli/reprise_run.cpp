@@ -1,7 +1,9 @@
-// `reprise run`, `verify`, `expand` and `branch`: the program with SUMO, Bullet and Lua in it.
+// `reprise run`, `verify`, `expand`, `branch` and `import`: the program with SUMO, Bullet and Lua
+// in it.
 #include "cli/branch.h"
 #include "cli/expand.h"
 #include "cli/guard.h"
+#include "cli/import.h"
 #include "cli/options.h"
 #include "cli/run.h"
 #include "cli/verify.h"
@@ -16,6 +18,8 @@ int main(int argc, char** argv) {
             return branch(line.branch);
         if (line.command == "expand")
             return expand(line.expand);
+        if (line.command == "import")
+            return import_log(line.tools.import_from);
         return line.command == "verify" ? verify(line.verify) : run(line.run);
     });
 }

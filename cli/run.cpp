@@ -11,6 +11,7 @@
 #include "cli/this_build.h"
 #include "cli/towns.h"
 #include "kernel/kernel.h"
+#include "replay/imported.h"
 #include "replay/level.h"
 #include "replay/recording.h"
 #include "replay/slice.h"
@@ -170,8 +171,10 @@ void print_summary(const replay::Recording& recording,
 int run(const RunOptions& options) {
     self_test();
     std::optional<replay::TraceReader> before;  // when it is a recorded run
-    if (is_trace(options.scenario))
-        replay::require_start_of_run(before.emplace(options.scenario));
+    if (is_trace(options.scenario)) {
+        replay::require_simulated(before.emplace(options.scenario));
+        replay::require_start_of_run(*before);
+    }
     const replay::Recording recording = before ? prepare_again(options, *before) : prepare(options);
     const std::optional<kernel::Nudge> nudge = planned_nudge(options, recording.episode);
     const fs::path path = output_path(options);

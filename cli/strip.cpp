@@ -5,6 +5,7 @@
 #include "cli/guard.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
+#include "replay/imported.h"
 #include "replay/level.h"
 #include "replay/slice.h"
 #include "replay/trace_reader.h"
@@ -27,6 +28,7 @@ int strip(const StripOptions& options) {
     const replay::Level level = *replay::level_named(options.level);
     if (trace.level() < level)
         throw world::Error(replay::lacks_text(options.trace, trace.level()));
+    replay::require_simulated(trace);  // expand could not bring anything back
     if (level == replay::Level::inputs)
         replay::require_start_of_run(trace);  // nothing could be made of such inputs
     replay::TraceWriter stripped(

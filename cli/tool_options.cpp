@@ -144,6 +144,29 @@ void add_export(CLI::App& app, ExportOptions& options) {
         "         reprise export a.mcap --to foxglove -o a.foxglove.mcap --images noon");
 }
 
+void add_import(CLI::App& app, ImportOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("import", "Make a trace of a recording of CARLA's recorder");
+    command.add_option("log", options.log, "The recording")->required()->type_name("CARLA.log");
+    command.add_option("-o,--output", options.output, "Where the trace goes")
+        ->required()
+        ->type_name("T.mcap");
+    command
+        .add_option("--town",
+                    options.town,
+                    "The map, as a SUMO network that netconvert made from its OpenDRIVE file "
+                    "(default: a plain)")
+        ->type_name("NET");
+    command.add_option("--step", options.step_ms, "Of a tick (default 50)")
+        ->type_name("MILLISECONDS");
+    command.footer(
+        "The trace holds poses only: it can be read, played and rendered, but not simulated "
+        "again.\n"
+        "Exit status: 0 done, 2 bad input, 3 the log ends early, and its whole frames were "
+        "imported.\n"
+        "Example: reprise import crash.log -o crash.mcap --town Town01.net.xml");
+}
+
 }  // namespace
 
 void add_tool_commands(CLI::App& app, ToolOptions& tools) {
@@ -154,6 +177,7 @@ void add_tool_commands(CLI::App& app, ToolOptions& tools) {
     add_merge(app, tools.merge);
     add_query(app, tools.query);
     add_export(app, tools.export_to);
+    add_import(app, tools.import_from);
 }
 
 }  // namespace reprise::cli

@@ -55,6 +55,13 @@ struct ExportOptions {
     std::string images;          ///< foxglove only
 };
 
+struct ImportOptions {
+    std::string log;
+    std::string output;
+    std::string town;  ///< empty: a plain
+    double step_ms = 50;
+};
+
 /// What the commands that read and convert traces were told.
 struct ToolOptions {
     CatOptions cat;
@@ -64,9 +71,10 @@ struct ToolOptions {
     MergeOptions merge;
     QueryOptions query;
     ExportOptions export_to;
+    ImportOptions import_from;
 };
 
-/// Adds cat, get, stats, slice, merge, query and export.
+/// Adds cat, get, stats, slice, merge, query, export and import.
 void add_tool_commands(CLI::App& app, ToolOptions& tools);
 
 }  // namespace reprise::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "replay/imported.h"
 #include "world/tick.h"
 
 namespace reprise::cli {
@@ -91,8 +92,9 @@ TraceStory read_story(replay::TraceReader& trace, bool all) {
     const bool has_traffic = ticks > 0 && trace.level() == replay::Level::full;
     if (has_traffic) {
         const world::TickView last = trace.recorded(trace.last()).view;
-        const auto of_demand = [](const auto& actor) {
-            return actor.id() >= world::first_background_id;
+        const bool imported = replay::is_imported(trace);  // all are foreign, then
+        const auto of_demand = [&](const auto& actor) {
+            return imported || actor.id() >= world::first_background_id;
         };
         const auto count = [&](const auto& range) {
             return static_cast<std::uint64_t>(std::count_if(range.begin(), range.end(), of_demand));

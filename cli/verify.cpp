@@ -9,6 +9,7 @@
 #include "cli/self_test.h"
 #include "cli/this_build.h"
 #include "kernel/verify.h"
+#include "replay/imported.h"
 #include "replay/slice.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
@@ -18,6 +19,7 @@ namespace reprise::cli {
 int verify(const TraceOptions& options) {
     self_test();
     replay::TraceReader trace(options.trace);
+    replay::require_simulated(trace);
     replay::require_start_of_run(trace);
     print_other_build("another build recorded this",
                       "recorded",

@@ -24,6 +24,14 @@ std::string location_attribute(const std::string& network, const std::string& na
 
 }  // namespace
 
+Eigen::Vector2d net_offset(const std::string& network) {
+    Eigen::Vector2d offset(0, 0);
+    const std::string text = location_attribute(network, "netOffset");
+    if (std::sscanf(text.c_str(), "%lf,%lf", &offset.x(), &offset.y()) != 2)
+        return {0, 0};
+    return offset;
+}
+
 struct GeoOrigin::Projection {
     PJ_CONTEXT* context = proj_context_create();
     PJ* projection = nullptr;
@@ -46,9 +54,11 @@ std::optional<GeoOrigin> GeoOrigin::of(const std::string& network) {
     if (!text.starts_with("+proj"))
         return std::nullopt;  // "!": none; "-", ".": simple ones without a name
     auto made = std::make_unique<Projection>();
-    const std::string offset = location_attribute(network, "netOffset");
-    if (std::sscanf(offset.c_str(), "%lf,%lf", &made->offset_x, &made->offset_y) != 2)
+    if (location_attribute(network, "netOffset").empty())
         return std::nullopt;
+    const Eigen::Vector2d offset = net_offset(network);
+    made->offset_x = offset.x();
+    made->offset_y = offset.y();
     made->projection = proj_create(made->context, text.c_str());
     if (made->projection == nullptr)
         return std::nullopt;

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include <Eigen/Core>
+
 #include "world/common_generated.h"
 
 namespace reprise::exchange {
@@ -12,6 +14,10 @@ struct Geodetic {
     double latitude_deg = 0;
     double longitude_deg = 0;
 };
+
+/// What netconvert added to the coordinates of the map that the network was made from. [m]; 0, 0
+/// when the network does not say.
+Eigen::Vector2d net_offset(const std::string& network);
 
 /// Takes a town's coordinates to the globe, as its SUMO network says in <location>.
 class GeoOrigin {

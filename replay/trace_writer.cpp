@@ -36,6 +36,8 @@ std::map<std::string, std::string> facts(const world::EpisodeT& episode,
         {"weather", episode.weather_name},
         {"chain_seed", world::to_hex(seed_of_chain)},
     };
+    if (!episode.imported_from.empty())
+        facts["imported_from"] = episode.imported_from;
     if (level != Level::full)
         facts["level"] = to_word(level);
     if (slice) {
