@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "world/episode_generated.h"
 #include "world/town_generated.h"
@@ -13,6 +14,9 @@ struct Recording {
     world::EpisodeT episode;
     world::TownT town;
     std::string network;  ///< bytes of the SUMO network
+    /// The town's bytes in the trace that it was read from: an older program packed fewer fields.
+    /// Empty: `town` was never in a trace.
+    std::vector<std::uint8_t> recorded_town;
 };
 
 /// How a run ended; written when the trace is closed.

@@ -47,6 +47,10 @@ mcap::Bytes pack(const world::TownT& town) {
     return pack_noun<world::Town>(town, world::TownIdentifier());
 }
 
+mcap::Bytes packed_town(const Recording& recording) {
+    return recording.recorded_town.empty() ? pack(recording.town) : recording.recorded_town;
+}
+
 world::Digest128 from_hex(const std::string& text) {
     std::uint64_t high = 0;
     std::uint64_t low = 0;

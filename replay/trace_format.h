@@ -35,6 +35,9 @@ bool check_holds(const std::map<std::string, std::string>& texts);
 mcap::Bytes pack(const world::EpisodeT& episode);
 mcap::Bytes pack(const world::TownT& town);
 
+/// Of the town in a recording; as it was recorded, if it was.
+mcap::Bytes packed_town(const Recording& recording);
+
 /// 32 hexadecimal digits as world::to_hex writes them. Zero when it is no such text.
 world::Digest128 from_hex(const std::string& text);
 

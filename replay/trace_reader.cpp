@@ -286,6 +286,7 @@ struct TraceReader::File {
         if (const auto fault = fault_of_town(town))
             fail_attachment(format::town_attachment, *fault);
         world::GetTown(town.data())->UnPackTo(&recording.town);
+        recording.recorded_town.assign(town.begin(), town.end());
         const mcap::Bytes network =
             read_packed_attachment(input, index, format::network_attachment);
         recording.network.assign(network.begin(), network.end());
