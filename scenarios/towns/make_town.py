@@ -28,62 +28,143 @@ STREET_TYPES = {
     "main": (1, 16.67, 9, 3.50, 2.50),
     "street": (1, 13.89, 7, 3.50, 2.50),
     "lane30": (1, 8.33, 5, 3.25, 2.00),
+    "circle": (1, 8.33, 10, 4.50, 2.50),
 }
+
+# How a junction is ruled, in netconvert's words.
+RULES = {"lit": "traffic_light", "yield": "priority", "stop": "priority_stop"}
+
+
+@dataclass
+class Street:
+    """Two-way, from junction to junction."""
+    source: str
+    target: str
+    kind: str
+    name: str
+    corners: list  # (x, y) on the way
+    curve_radius: float
+
+
+@dataclass
+class Roundabout:
+    """One-way around an island; its junctions are name + arm for each arm, such as m2w."""
+    name: str
+    centre: tuple
+    radius: float  # of the island
+    arms: dict  # name -> angle, degrees from east; ascending
 
 
 @dataclass
 class Plan:
-    junctions: dict  # name -> (x, y)
-    lit: set  # names of junctions with traffic lights
-    streets: list  # (from, to, corners on the way, type)
-    curve_radius: float
+    junctions: dict  # name -> (x, y, rule)
+    streets: list
+    roundabouts: list
+    plots: list  # (kind, outline); later ones lie over earlier ones
+    districts: list  # (style, outline); an empty outline: everywhere else
+    keep_clear: list  # outlines
+
+
+def rectangle(left, low, right, high):
+    return [(left, low), (right, low), (right, high), (left, high)]
+
+
+def circle(centre, radius, count):
+    return [(centre[0] + radius * math.cos(math.tau * i / count),
+             centre[1] + radius * math.sin(math.tau * i / count)) for i in range(count)]
 
 
 def town1():
-    """A ring avenue around two blocks of streets: 16 T-junctions, 9 of them lit."""
-    width, height = 432, 321
-    west, middle, east = 120, 216, 312
+    """An old town: a ring avenue, a roundabout and a crossing in the middle, a winding lane."""
+    west, middle, east = 112, 206, 300
+    width, height = 421, 294
+    ring = Roundabout("m2", (middle, 206), 15, dict(e=0, n=90, w=180, s=270))
+    square = rectangle(214, 105, 262, 152)
     return Plan(
         junctions=dict(
-            b1=(west, 0), b2=(middle, 0), b3=(east, 0),
-            t1=(west, height), t2=(middle, height), t3=(east, height),
-            l1=(0, 180), r1=(width, 150),
-            a1=(west, 103), a2=(west, 180), a3=(west, 229),
-            c1=(east, 103), c2=(east, 150), c3=(east, 229),
-            m1=(middle, 103), m2=(middle, 229)),
-        lit={"b1", "b3", "t1", "t3", "a1", "c3", "a3", "c1", "m1"},
+            b1=(west, 0, "lit"), b2=(middle, 0, "stop"), b3=(east, 0, "lit"),
+            t1=(west, height, "lit"), t2=(middle, height, "yield"), t3=(east, height, "lit"),
+            l1=(0, 106, "lit"), r1=(width, 130, "yield"),
+            a1=(west, 96, "lit"), a2=(west, 156, "stop"), a3=(west, 206, "yield"),
+            c1=(east, 96, "lit"), c2=(east, 152, "stop"), c3=(east, 206, "lit"),
+            m1=(middle, 96, "lit")),
         streets=[
-            ("b1", "b2", [], "avenue"), ("b2", "b3", [], "avenue"),
-            ("b3", "r1", [(376, 0), (width, 56)], "avenue"),
-            ("r1", "t3", [(width, height)], "avenue"),
-            ("t3", "t2", [], "avenue"), ("t2", "t1", [], "avenue"),
-            ("t1", "l1", [(0, height)], "avenue"), ("l1", "b1", [(0, 0)], "avenue"),
-            ("b1", "a1", [], "street"), ("a1", "a2", [], "street"),
-            ("a2", "a3", [], "street"), ("a3", "t1", [], "street"),
-            ("b3", "c1", [], "street"), ("c1", "c2", [], "street"),
-            ("c2", "c3", [], "street"), ("c3", "t3", [], "street"),
-            ("a1", "m1", [], "street"), ("m1", "c1", [], "street"),
-            ("a3", "m2", [], "street"), ("m2", "c3", [], "street"),
-            ("l1", "a2", [], "lane30"), ("c2", "r1", [], "lane30"),
-            ("b2", "m1", [], "lane30"), ("m2", "t2", [], "lane30")],
-        curve_radius=25)
+            Street("b1", "b2", "avenue", "South Avenue", [], 25),
+            Street("b2", "b3", "avenue", "South Avenue", [], 25),
+            Street("b3", "r1", "avenue", "East Avenue", [(356, 0), (width, 52)], 25),
+            Street("r1", "t3", "avenue", "East Avenue", [(width, height)], 25),
+            Street("t3", "t2", "avenue", "North Avenue", [], 25),
+            Street("t2", "t1", "avenue", "North Avenue", [], 25),
+            Street("t1", "l1", "avenue", "West Avenue", [(62, height), (0, 220)], 25),
+            Street("l1", "b1", "avenue", "West Avenue", [(0, 0)], 25),
+            Street("b1", "a1", "street", "Mill Street", [], 25),
+            Street("a1", "a2", "street", "Mill Street", [], 25),
+            Street("a2", "a3", "street", "Mill Street", [], 25),
+            Street("a3", "t1", "street", "Mill Street", [], 25),
+            Street("b3", "c1", "street", "Church Street", [], 25),
+            Street("c1", "c2", "street", "Church Street", [], 25),
+            Street("c2", "c3", "street", "Church Street", [], 25),
+            Street("c3", "t3", "street", "Church Street", [], 25),
+            Street("a1", "m1", "street", "Bridge Street", [], 25),
+            Street("m1", "c1", "street", "Bridge Street", [], 25),
+            Street("m1", "m2s", "street", "Market Street", [], 25),
+            Street("a3", "m2w", "street", "Park Street", [], 25),
+            Street("m2e", "c3", "street", "Park Street", [], 25),
+            # Two sharp bends between houses: nobody sees around them.
+            Street("l1", "a2", "lane30", "Weaver Lane", [(56, 106), (56, 156)], 12),
+            Street("c2", "r1", "lane30", "Orchard Lane", [], 25),
+            Street("b2", "m1", "lane30", "Smith Lane", [], 25),
+            Street("m2n", "t2", "lane30", "Rope Lane", [], 25)],
+        roundabouts=[ring],
+        plots=[
+            ("park", rectangle(126, 108, 196, 180)),
+            ("water", circle((170, 132), 11, 16)),
+            ("playground", rectangle(132, 152, 152, 172)),
+            ("square", square),
+            ("car_park", rectangle(314, 168, 344, 192)),
+            ("gravel", rectangle(18, 18, 40, 40)),
+            ("forest", rectangle(362, 236, 396, 276))],
+        districts=[("village", []), ("old", rectangle(west, 0, east, height)),
+                   ("brick", rectangle(east, 0, width + 60, height))],
+        keep_clear=[square, rectangle(126, 108, 196, 180), rectangle(314, 168, 344, 192)])
 
 
 def town2():
-    """A small ring with a quarter inside: 8 T-junctions, 6 of them lit."""
-    width, height = 220, 213
+    """A young town: a small ring road and a centre with one crossing and a hidden corner."""
+    width, height = 210, 210
+    west, east = 74, 142
+    square = rectangle(84, 62, 128, 104)
     return Plan(
-        junctions=dict(b1=(78, 0), l1=(0, 116), r1=(width, 116), a1=(78, 116), a2=(152, 116),
-                       t1=(152, height), r2=(width, 58), d1=(78, 58)),
-        lit={"b1", "l1", "r1", "a1", "a2", "t1"},
+        junctions=dict(
+            b1=(west, 0, "lit"), l1=(0, 114, "lit"), l2=(0, 54, "stop"), r1=(width, 114, "lit"),
+            r2=(width, 52, "yield"), a1=(west, 114, "lit"), a2=(east, 114, "stop"),
+            d1=(west, 54, "yield"), t1=(west, height, "lit")),
         streets=[
-            ("b1", "r2", [(width, 0)], "main"), ("r2", "r1", [], "main"),
-            ("r1", "t1", [(width, height)], "main"), ("t1", "l1", [(0, height)], "main"),
-            ("l1", "b1", [(0, 0)], "main"),
-            ("b1", "d1", [], "street"), ("d1", "a1", [], "street"), ("l1", "a1", [], "street"),
-            ("a1", "a2", [], "street"), ("a2", "r1", [], "street"), ("a2", "t1", [], "street"),
-            ("d1", "r2", [], "lane30")],
-        curve_radius=22)
+            Street("b1", "r2", "main", "Harbour Road", [(width, 0)], 22),
+            Street("r2", "r1", "main", "Harbour Road", [], 22),
+            Street("r1", "t1", "main", "Ring Road", [(width, 155), (162, height)], 22),
+            Street("t1", "l1", "main", "Ring Road", [(0, height)], 22),
+            Street("l1", "l2", "main", "Station Road", [], 22),
+            Street("l2", "b1", "main", "Station Road", [(0, 0)], 22),
+            Street("b1", "d1", "street", "Central Street", [], 22),
+            Street("d1", "a1", "street", "Central Street", [], 22),
+            Street("a1", "t1", "street", "Central Street", [], 22),
+            Street("l1", "a1", "street", "Museum Street", [], 22),
+            Street("a1", "a2", "street", "Museum Street", [], 22),
+            Street("a2", "r1", "street", "Museum Street", [], 22),
+            Street("l2", "d1", "lane30", "Garden Way", [], 22),
+            # A corner between high houses: nobody sees around it.
+            Street("a2", "r2", "lane30", "Gallery Way", [(east, 52)], 12)],
+        roundabouts=[],
+        plots=[
+            ("square", square),
+            ("park", rectangle(88, 126, 150, 180)),
+            ("water", circle((132, 150), 10, 16)),
+            ("playground", rectangle(96, 134, 112, 150)),
+            ("car_park", rectangle(14, 70, 50, 98)),
+            ("lawn", rectangle(20, 136, 58, 176))],
+        districts=[("modern", []), ("centre", rectangle(west, 0, width, 114))],
+        keep_clear=[square, rectangle(88, 126, 150, 180), rectangle(14, 70, 50, 98)])
 
 
 def towards(source, target):
@@ -111,49 +192,112 @@ def rounded_corner(before, corner, after, radius, pieces=7):
 
 
 def centre_line(plan, street):
-    source, target, corners, _ = street
-    points = [plan.junctions[source], *corners, plan.junctions[target]]
+    source, target = plan.junctions[street.source][:2], plan.junctions[street.target][:2]
+    points = [source, *street.corners, target]
     line = [points[0]]
     for before, corner, after in zip(points, points[1:], points[2:]):
-        line += rounded_corner(before, corner, after, plan.curve_radius)
+        line += rounded_corner(before, corner, after, street.curve_radius)
     return line + [points[-1]]
+
+
+def junctions_of(roundabout):
+    """name -> (x, y, rule)."""
+    (x, y), radius = roundabout.centre, roundabout.radius
+    return {roundabout.name + arm: (x + radius * math.cos(math.radians(angle)),
+                                    y + radius * math.sin(math.radians(angle)), "yield")
+            for arm, angle in roundabout.arms.items()}
+
+
+def arcs_of(roundabout, pieces=8):
+    """(from, to, line) of every piece of the circle, counter-clockwise."""
+    arms = list(roundabout.arms.items())
+    for (arm, first), (following, last) in zip(arms, arms[1:] + arms[:1]):
+        turn = (last - first) % 360
+        line = [(roundabout.centre[0] + roundabout.radius * math.cos(math.radians(angle)),
+                 roundabout.centre[1] + roundabout.radius * math.sin(math.radians(angle)))
+                for angle in (first + turn * i / pieces for i in range(pieces + 1))]
+        yield roundabout.name + arm, roundabout.name + following, line
 
 
 def length(line):
     return sum(math.dist(p, q) for p, q in zip(line, line[1:]))
 
 
+def street_length(plan):
+    """[m] from junction to junction along the middles; the two directions of a street count once."""
+    return (sum(length(centre_line(plan, street)) for street in plan.streets) +
+            sum(length(line) for ring in plan.roundabouts for _, _, line in arcs_of(ring)))
+
+
+def half_width(kind):
+    lanes, _, _, width, sidewalk = STREET_TYPES[kind]
+    return lanes * width + sidewalk
+
+
+def distance_to_segment(point, source, target):
+    ahead = target[0] - source[0], target[1] - source[1]
+    along = ((point[0] - source[0]) * ahead[0] + (point[1] - source[1]) * ahead[1])
+    along = min(1, max(0, along / (ahead[0] ** 2 + ahead[1] ** 2)))
+    return math.dist(point, (source[0] + along * ahead[0], source[1] + along * ahead[1]))
+
+
+def points_along(outline, step=1):
+    for source, target in zip(outline, outline[1:] + outline[:1]):
+        count = max(1, math.ceil(math.dist(source, target) / step))
+        for i in range(count):
+            yield (source[0] + (target[0] - source[0]) * i / count,
+                   source[1] + (target[1] - source[1]) * i / count)
+
+
+def check_plots(plan):
+    """Plots lie inside of blocks: no street and no sidewalk reaches into one."""
+    for kind, outline in plan.plots:
+        for street in plan.streets:
+            line = centre_line(plan, street)
+            room = min(distance_to_segment(point, p, q) for point in points_along(outline)
+                       for p, q in zip(line, line[1:])) - half_width(street.kind)
+            if room < 1:
+                sys.exit(f"the {kind} is {room:.1f} m from {street.name}, at least 1 m is needed")
+
+
 def nodes_xml(plan):
-    for name, (x, y) in plan.junctions.items():
-        kind = "traffic_light" if name in plan.lit else "priority"
-        yield f'<node id="{name}" x="{x:.2f}" y="{y:.2f}" type="{kind}" radius="{CORNER_RADIUS}"/>'
+    for name, (x, y, rule) in plan.junctions.items():
+        yield (f'<node id="{name}" x="{x:.2f}" y="{y:.2f}" type="{RULES[rule]}" '
+               f'radius="{CORNER_RADIUS}"/>')
+
+
+def shape_text(line):
+    return " ".join(f"{x:.2f},{y:.2f}" for x, y in line)
 
 
 def edges_xml(plan):
     for street in plan.streets:
-        source, target, _, kind = street
         line = centre_line(plan, street)
-        for start, end, points in ((source, target, line), (target, source, line[::-1])):
-            shape = " ".join(f"{x:.2f},{y:.2f}" for x, y in points)
-            yield (f'<edge id="{start}_{end}" from="{start}" to="{end}" type="{kind}" '
-                   f'shape="{shape}"/>')
+        for start, end, points in ((street.source, street.target, line),
+                                   (street.target, street.source, line[::-1])):
+            yield (f'<edge id="{start}_{end}" from="{start}" to="{end}" type="{street.kind}" '
+                   f'name="{street.name}" shape="{shape_text(points)}"/>')
+    for ring in plan.roundabouts:
+        for start, end, line in arcs_of(ring):
+            yield (f'<edge id="{start}_{end}" from="{start}" to="{end}" type="circle" '
+                   f'name="Circus" shape="{shape_text(line)}"/>')
 
 
 def connections_xml(plan):
     """netconvert finds the turns by itself; the zebra crossings are ours, one across every arm."""
     arms = {}
-    for source, target, _, _ in plan.streets:
-        arms.setdefault(source, []).append(target)
-        arms.setdefault(target, []).append(source)
+    for street in plan.streets:
+        arms.setdefault(street.source, []).append(street.target)
+        arms.setdefault(street.target, []).append(street.source)
     for junction, others in arms.items():
-        priority = "" if junction in plan.lit else ' priority="true"'
+        priority = "" if plan.junctions[junction][2] == "lit" else ' priority="true"'
         for other in others:
             yield (f'<crossing node="{junction}" edges="{other}_{junction} {junction}_{other}" '
                    f'width="3.00"{priority}/>')
 
 
 def types_xml(plan):
-    used = {street[3] for street in plan.streets}
+    used = {street.kind for street in plan.streets} | ({"circle"} if plan.roundabouts else set())
     for name, (lanes, speed, priority, width, sidewalk) in STREET_TYPES.items():
         if name in used:
             yield (f'<type id="{name}" numLanes="{lanes}" speed="{speed:.2f}" '
@@ -161,19 +305,34 @@ def types_xml(plan):
                    f'disallow="{CLASSES_NOT_ON_ROADS}"/>')
 
 
+def place_xml(plan):
+    """What a network does not hold: traffic/place.h."""
+    islands = [circle(ring.centre, ring.radius - 0.5, 24) for ring in plan.roundabouts]
+    for kind, outline in plan.plots + [("lawn", island) for island in islands]:
+        yield f'<plot kind="{kind}" shape="{shape_text(outline)}"/>'
+    for style, outline in plan.districts:
+        shape = f' shape="{shape_text(outline)}"' if outline else ""
+        yield f'<district style="{style}"{shape}/>'
+    for outline in plan.keep_clear + islands:
+        yield f'<keep_clear shape="{shape_text(outline)}"/>'
+
+
 def main():
     if len(sys.argv) != 3 or sys.argv[1] not in ("town1", "town2"):
         sys.exit(__doc__.split("\n\n")[1].strip())
     name, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     plan = globals()[name]()
+    for ring in plan.roundabouts:
+        plan.junctions |= junctions_of(ring)
+    check_plots(plan)
     for ending, root, lines in (("nod", "nodes", nodes_xml(plan)), ("edg", "edges", edges_xml(plan)),
                                 ("con", "connections", connections_xml(plan)),
-                                ("typ", "types", types_xml(plan))):
+                                ("typ", "types", types_xml(plan)),
+                                ("place", "place", place_xml(plan))):
         body = "".join(f"  {line}\n" for line in lines)
         (folder / f"{name}.{ending}.xml").write_text(f"<{root}>\n{body}</{root}>\n")
-    total = sum(length(centre_line(plan, street)) for street in plan.streets)
-    print(f"{name}: {len(plan.junctions)} junctions, {len(plan.lit)} lit, {len(plan.streets)} streets, "
-          f"{total:.1f} m")
+    print(f"{name}: {len(plan.junctions)} junctions, {len(plan.streets)} streets, "
+          f"{street_length(plan):.1f} m")
 
 
 if __name__ == "__main__":

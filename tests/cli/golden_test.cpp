@@ -283,7 +283,7 @@ TEST_F(Goldens, CasesRunAsTheirGoldenSays) {
 
 TEST_F(Goldens, CaseOnANetworkOfOnesOwnRunsFromAnyFolder) {
     fs::create_directory(folder_ / "nets");
-    fs::copy(source("scenarios/towns/town2/town2.net.xml"), folder_ / "nets/mine.net.xml");
+    fs::copy(source("scenarios/towns/town1/town1.net.xml"), folder_ / "nets/mine.net.xml");
     const Result accept = call({"accept",
                                 "s/small.lua",
                                 "--case",

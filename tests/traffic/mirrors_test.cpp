@@ -29,11 +29,11 @@ double sedan_front() {
 
 TEST(Mirrors, ACarBehindAStandingEgoStopsBeforeIt) {
     const auto& loaded = own_town("town1");
-    const std::uint32_t road = lane(loaded.town, "l1_b1_1");
-    const world::VehicleState standing = vehicle_on(loaded.town.lanes[road], ego, 80);
+    const std::uint32_t road = lane(loaded.town, "b2_b3_1");
+    const world::VehicleState standing = vehicle_on(loaded.town.lanes[road], ego, 60);
     Stage stage(loaded, 0);
     stage.step({}, {standing});
-    stage.step({spawn(follower, road, 20, 14)}, {standing});
+    stage.step({spawn(follower, road, 5, 14)}, {standing});
     double nearest = 100;
     for (int i = 0; i < 400; ++i) {
         stage.step({}, {standing});
@@ -41,7 +41,7 @@ TEST(Mirrors, ACarBehindAStandingEgoStopsBeforeIt) {
         ASSERT_NE(car, nullptr);
         // Rear bumper of the ego minus front bumper of the follower, along the lane.
         const double gap =
-            80 - world::vehicle_models()[0].rear_overhang - static_cast<double>(car->lane_s());
+            60 - world::vehicle_models()[0].rear_overhang - static_cast<double>(car->lane_s());
         nearest = std::min(nearest, gap);
         EXPECT_EQ(stage.draft().traffic.cars.size(), 1U) << "the ego is nobody's car but physics'";
     }

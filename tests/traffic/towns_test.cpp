@@ -1,15 +1,21 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <pugixml.hpp>
 #include <set>
 #include <sstream>
 #include <string>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tests/traffic/stage.h"
+#include "traffic/network_xml.h"
 
 namespace reprise::traffic {
 namespace {
@@ -51,37 +57,92 @@ TEST_P(Towns, TheGeneratorGivesTheSameSources) {
     const std::string call = "python3 " + (towns_ / "make_town.py").string() + " " + name + " " +
                              out_.string() + " >/dev/null";
     ASSERT_EQ(std::system(call.c_str()), 0) << call;
-    for (const char* ending : {".nod.xml", ".edg.xml", ".con.xml", ".typ.xml"}) {
+    for (const char* ending : {".nod.xml", ".edg.xml", ".con.xml", ".typ.xml", ".place.xml"}) {
         const std::string made = bytes(out_ / (name + ending));
         EXPECT_FALSE(made.empty());
         EXPECT_EQ(made, bytes(towns_ / name / (name + ending))) << ending;
     }
 }
 
-/// [m] of streets: from junction to junction along the middle, one direction of each.
-double street_length(const world::TownT& town) {
+double polyline_length(const std::vector<world::Vec3>& line) {
     double length = 0;
-    std::set<std::string> seen;
-    for (const world::LaneT& lane : town.lanes) {
-        if (lane.kind != world::LaneKind::driving || !seen.insert(lane.edge).second)
-            continue;
-        // The lane, and from its ends to the middles of the junctions there. Both directions: half.
-        const std::string from = lane.edge.substr(0, lane.edge.find('_'));
-        for (const world::JunctionT& junction : town.junctions) {
-            const bool starts = junction.name == from;
-            if (!starts && junction.name != town.junctions[lane.junction].name)
-                continue;
-            const world::Vec3& end = starts ? lane.centre.front() : lane.centre.back();
-            length += std::hypot(end.x() - junction.centre.x(), end.y() - junction.centre.y()) / 2;
-        }
-        length += lane.length / 2;
-    }
+    for (std::size_t i = 1; i < line.size(); ++i)
+        length += std::hypot(line[i].x() - line[i - 1].x(), line[i].y() - line[i - 1].y());
     return length;
 }
 
-TEST(TownLengths, AreThoseOfThePlans) {
-    EXPECT_NEAR(street_length(test::own_town("town1").town), 2900, 29);
-    EXPECT_NEAR(street_length(test::own_town("town2").town), 1400, 14);
+/// [m] of drivable roads as scenarios/towns/README.md defines it: along the middle of every street
+/// from junction to junction, the two directions of a street once.
+double street_length(const std::string& name) {
+    pugi::xml_document file;
+    file.load_string(test::own_town(name).network.xml.c_str());
+    std::map<std::string, world::Vec3> junctions;
+    for (const pugi::xml_node junction : file.child("net").children("junction"))
+        junctions[junction.attribute("id").value()] = {
+            junction.attribute("x").as_double(), junction.attribute("y").as_double(), 0};
+    std::map<std::pair<std::string, std::string>, double> streets;
+    for (const pugi::xml_node edge : file.child("net").children("edge")) {
+        if (edge.attribute("function"))
+            continue;
+        const std::string from = edge.attribute("from").value();
+        const std::string to = edge.attribute("to").value();
+        // netconvert leaves the shape out where it is a straight line.
+        const std::vector<world::Vec3> line =
+            edge.attribute("shape") ? parse_shape(edge.attribute("shape").value())
+                                    : std::vector{junctions.at(from), junctions.at(to)};
+        streets[std::minmax(from, to)] = polyline_length(line);
+    }
+    double length = 0;
+    for (const auto& [ends, street] : streets)
+        length += street;
+    return length;
+}
+
+TEST(TownLengths, AreThoseOfThePaper) {
+    EXPECT_NEAR(street_length("town1"), 2900, 29);
+    EXPECT_NEAR(street_length("town2"), 1400, 14);
+}
+
+/// [junction] how many streets and one-way pieces meet there.
+std::map<std::uint32_t, std::size_t> arms(const world::TownT& town) {
+    std::map<std::uint32_t, std::set<std::string>> edges;
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind == world::LaneKind::driving) {
+            edges[lane.junction].insert(lane.edge);
+        }
+    std::map<std::uint32_t, std::size_t> count;
+    for (const auto& [junction, into] : edges)
+        count[junction] = into.size();
+    return count;
+}
+
+TEST_P(Towns, HoldAllThatATownIsDrivenThroughFor) {
+    const world::TownT& town = test::own_town(GetParam()).town;
+    std::set<double> limits;
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind == world::LaneKind::driving)
+            limits.insert(lane.speed_limit);
+    EXPECT_EQ(limits, (std::set{8.33, 13.89, 16.67}));
+    const auto into = arms(town);
+    EXPECT_TRUE(std::any_of(into.begin(), into.end(), [](const auto& one) {
+        return one.second == 4;
+    })) << "a crossing of two streets";
+    std::set<std::string> kinds;
+    std::set<char> states;
+    pugi::xml_document file;
+    file.load_string(test::own_town(GetParam()).network.xml.c_str());
+    for (const pugi::xml_node junction : file.child("net").children("junction"))
+        kinds.insert(junction.attribute("type").value());
+    EXPECT_TRUE(kinds.contains("traffic_light"));
+    EXPECT_TRUE(kinds.contains("priority"));
+    EXPECT_TRUE(kinds.contains("priority_stop"));
+    for (const pugi::xml_node connection : file.child("net").children("connection"))
+        states.insert(*connection.attribute("state").value());
+    EXPECT_TRUE(states.contains('s')) << "stop signs";
+    EXPECT_TRUE(states.contains('m')) << "yield signs";
+    for (const pugi::xml_node edge : file.child("net").children("edge"))
+        EXPECT_TRUE(edge.attribute("function") || edge.attribute("name"))
+            << edge.attribute("id").value() << " has no name";
 }
 
 }  // namespace
