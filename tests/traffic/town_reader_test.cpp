@@ -107,7 +107,8 @@ TEST_P(OwnTowns, NeighboursAgreeOnEachOther) {
         if (each.opposite != none) {
             EXPECT_EQ(one.lanes[each.opposite].opposite, i) << each.name;
         }
-        // The leftmost lane touches the oncoming one, but in the roundabout nobody comes towards us.
+        // The leftmost lane touches the oncoming one, but in the roundabout nobody comes towards
+        // us.
         const bool one_way = each.speed_limit < 9 && each.width > 4;
         if (each.kind == LaneKind::driving && !one_way) {
             EXPECT_EQ(each.left == none, each.opposite != none) << each.name;

@@ -1,0 +1,155 @@
+#include "world/planner.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <string>
+#include <tuple>
+
+#include "world/check.h"
+#include "world/frames.h"
+
+namespace reprise::world {
+
+namespace {
+
+constexpr double change_cost = 40;           // [m]
+constexpr double hurried_stretch = 40;       // [m] too short to change lanes with ease
+constexpr double hurried_change_cost = 200;  // [m]
+
+/// A lane entered at its start, or, with an index of count + lane, where the way begins or beside.
+using Node = std::uint32_t;
+
+class Search {
+  public:
+    Search(const TownT& town, LanePlace from, LanePlace to)
+        : town_(town),
+          count_(static_cast<Node>(town.lanes.size())),
+          goal_(to),
+          goal_point_(point_at(town.lanes[to.lane], to.s).position),
+          entry_(town.lanes.size(), 0),
+          cost_(2 * town.lanes.size(), std::numeric_limits<double>::infinity()),
+          last_(2 * town.lanes.size(), none) {
+        enter_beside(from);
+        reach(count_ + from.lane, none, 0);
+    }
+
+    /// The last node before the goal; none: no way leads there.
+    std::optional<Node> run() {
+        double best = std::numeric_limits<double>::infinity();
+        std::optional<Node> arrival;
+        while (!open_.empty()) {
+            const auto [estimate, node, cost] = open_.top();
+            open_.pop();
+            if (estimate >= best)
+                break;
+            if (cost > cost_[node])
+                continue;
+            if (lane_of(node) == goal_.lane && goal_.s >= entry(node)) {
+                const double there = cost_[node] + goal_.s - entry(node);
+                if (there < best) {
+                    best = there;
+                    arrival = node;
+                }
+            }
+            expand(node);
+        }
+        total_ = best;
+        return arrival;
+    }
+
+    double total() const { return total_; }
+
+    std::vector<std::uint32_t> lanes_to(Node node) const {
+        std::vector<std::uint32_t> lanes;
+        for (; node != none; node = last_[node])
+            lanes.push_back(lane_of(node));
+        std::reverse(lanes.begin(), lanes.end());
+        return lanes;
+    }
+
+  private:
+    std::uint32_t lane_of(Node node) const { return node < count_ ? node : node - count_; }
+
+    double entry(Node node) const { return node < count_ ? 0 : entry_[node - count_]; }
+
+    Eigen::Vector3d place(Node node) const {
+        return point_at(town_.lanes[lane_of(node)], entry(node)).position;
+    }
+
+    /// All lanes beside the start can be entered at its height.
+    void enter_beside(LanePlace from) {
+        const LaneT& start = town_.lanes[from.lane];
+        entry_[from.lane] = from.s;
+        for (const auto side : {&LaneT::left, &LaneT::right})
+            for (std::uint32_t lane = start.*side; lane < count_; lane = town_.lanes[lane].*side)
+                entry_[lane] = beside(start, from.s, town_.lanes[lane]);
+    }
+
+    void reach(Node node, Node from, double cost) {
+        if (!(cost < cost_[node] || (cost == cost_[node] && from < last_[node])))
+            return;
+        const bool new_cost = cost < cost_[node];
+        cost_[node] = cost;
+        last_[node] = from;
+        if (new_cost)
+            open_.emplace(cost + (place(node) - goal_point_).norm(), node, cost);
+    }
+
+    void expand(Node node) {
+        const LaneT& lane = town_.lanes[lane_of(node)];
+        const double left = lane.length - entry(node);
+        const Eigen::Vector3d here = place(node);
+        for (const Link& link : lane.links) {
+            const std::uint32_t next = link.via() < count_ ? link.via() : link.to();
+            // No less than the straight line, where a network has gaps between its lanes.
+            if (next < count_ && is_for_cars(town_.lanes[next]))
+                reach(next, node, cost_[node] + std::max(left, (place(next) - here).norm()));
+        }
+        const double change = left < hurried_stretch ? hurried_change_cost : change_cost;
+        for (const std::uint32_t side : {lane.right, lane.left})
+            if (side < count_ && town_.lanes[side].kind == LaneKind::driving) {
+                const Node next = node < count_ ? side : count_ + side;
+                reach(next, node, cost_[node] + std::max(change, (place(next) - here).norm()));
+            }
+    }
+
+    const TownT& town_;
+    Node count_;
+    LanePlace goal_;
+    Eigen::Vector3d goal_point_;
+    std::vector<double> entry_;  ///< [lane] where the nodes from count_ on begin
+    std::vector<double> cost_;   ///< [node]
+    std::vector<Node> last_;     ///< [node]
+    using Entry = std::tuple<double, Node, double>;  // estimated cost of the whole way, cost so far
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
+    double total_ = 0;
+};
+
+LanePlace clamped(const TownT& town, LanePlace place) {
+    REPRISE_CHECK(place.lane < town.lanes.size() && is_for_cars(town.lanes[place.lane]),
+                  "lane " + std::to_string(place.lane));
+    return {place.lane, std::clamp(place.s, 0.0, town.lanes[place.lane].length)};
+}
+
+}  // namespace
+
+std::optional<Route> Planner::plan(LanePlace from, LanePlace to) const {
+    from = clamped(*town_, from);
+    to = clamped(*town_, to);
+    Search search(*town_, from, to);
+    const std::optional<Node> arrival = search.run();
+    if (!arrival)
+        return std::nullopt;
+    return make_route(*town_, search.lanes_to(*arrival), from.s, to.s);
+}
+
+std::optional<double> Planner::cost(LanePlace from, LanePlace to) const {
+    Search search(*town_, clamped(*town_, from), clamped(*town_, to));
+    if (!search.run())
+        return std::nullopt;
+    return search.total();
+}
+
+}  // namespace reprise::world
