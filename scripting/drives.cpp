@@ -8,6 +8,7 @@
 #include "scripting/text.h"
 #include "scripting/vocabulary.h"
 #include "world/frames.h"
+#include "world/planner.h"
 
 // What an actor can be told. Every word becomes one command in the tick.
 namespace reprise::scripting {
@@ -112,6 +113,45 @@ int set_route(Run& run, lua_State* L) {
     }
     run.say(L, CommandKind::set_route, actor.id).lanes = std::move(lanes);
     return 0;
+}
+
+/// The lane is left out that the actor is on: by the time it obeys, it may have left it.
+std::vector<std::uint32_t> lanes_to_pass(const world::TownT& town, const world::Route& route) {
+    std::vector<std::uint32_t> lanes = world::driving_lanes(town, route);
+    if (lanes.size() > 1 && lanes.front() == route.pieces.front().lane)
+        lanes.erase(lanes.begin());
+    return lanes;
+}
+
+std::string wanted_lane(const Fields& fields) {
+    const auto lane = fields.text("lane");
+    if (!lane)
+        refuse("route_to", "needs a lane: ego:route_to{ lane = 'b1_b2_1', s = 30 }");
+    return *lane;
+}
+
+int route_to(Run& run, lua_State* L) {
+    const Actor& actor = driver_of_car(run, L, "route_to");
+    const Fields fields(L, 2, "route_to", {"lane", "s"});
+    const std::uint32_t lane = run.lane_named(L, wanted_lane(fields));
+    const world::LaneT& goal = run.town.lanes[lane];
+    if (goal.kind != world::LaneKind::driving)
+        refuse("route_to", "'" + goal.name + "' is not a lane for cars");
+    const double s = fields.number("s").value_or(goal.length);
+    if (!(s >= 0 && s <= goal.length))
+        refuse("route_to", fmt::format("'s' must be in [0, {:.1f}] m, got {}", goal.length, s));
+    const Body body = run.look_at(actor);
+    if (body.lane == world::none || !world::is_for_cars(run.town.lanes[body.lane]))
+        refuse("route_to", "'" + actor.name + "' is on no lane");
+    run.vm.charge(L, run.town.lanes.size() * 20);
+    const world::LaneT& here = run.town.lanes[body.lane];
+    const auto route = world::Planner(run.town).plan(
+        {body.lane, world::project(here, body.position).s}, {lane, s});
+    if (!route)
+        refuse("route_to", fmt::format("no way leads from '{}' to '{}'", here.name, goal.name));
+    run.say(L, CommandKind::set_route, actor.id).lanes = lanes_to_pass(run.town, *route);
+    lua_pushnumber(L, route->length);
+    return 1;
 }
 
 /// { 3, 4 } or { x = 3, y = 4 } at the top of the stack.
@@ -220,6 +260,7 @@ void add_drive_words(lua_State* L) {
     add_function(L, "free_speed", commanding<free_speed>);
     add_function(L, "change_lane", commanding<change_lane>);
     add_function(L, "set_route", commanding<set_route>);
+    add_function(L, "route_to", commanding<route_to>);
     add_function(L, "walk", commanding<walk>);
     add_function(L, "walk_to", commanding<walk_to>);
     add_function(L, "control", commanding<control>);

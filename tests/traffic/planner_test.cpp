@@ -137,7 +137,7 @@ void expect_shortest_ways(const TownT& town, int pairs) {
         EXPECT_NEAR(*cost, expected, 1e-6);
         expect_connected(town, *route, from, to);
     }
-    EXPECT_GT(found, pairs / 2);
+    EXPECT_GT(found, pairs / 4);
 }
 
 class PlannerInTowns : public ::testing::TestWithParam<const char*> {};
@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(Others,
                          PlannerInNets,
                          ::testing::Values("Town04_sumo115.net.xml",
                                            "DRT/osm.net.xml",
-                                           "cross/cross.net.xml"),
+                                           "grid6/grid6.net.xml"),
                          [](const auto& net) {
                              const std::string name = net.param;
                              return name.substr(0, name.find_first_of("/_"));

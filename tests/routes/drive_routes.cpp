@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/kernel.h"
+#include "replay/recording.h"
+#include "scripting/scenario.h"
+#include "traffic/town_reader.h"
+#include "world/check.h"
+#include "world/digest.h"
+#include "world/planner.h"
+#include "world/random.h"
+
+// Drives routes through an empty town with the built-in driver, and watches it:
+//     drive_routes NAME.net.xml TASKS.json       every pair of every task
+//     drive_routes NAME.net.xml COUNT            as many random ways
+// One line for each route that goes wrong, a table, exit status 1 when any did.
+namespace reprise {
+namespace {
+
+using world::LanePlace;
+using world::TownT;
+
+constexpr double most_off = 0.3;     // share of the footprint on the sidewalk, or on the other side
+constexpr double most_height = 0.5;  // [m] between the car and its lane
+
+struct Pair {
+    std::string task;
+    LanePlace from, to;
+};
+
+/// What went wrong on one way.
+struct Watch {
+    double length = 0;
+    double seconds = 0;
+    double sidewalk = 0;  ///< greatest share
+    double opposite = 0;  ///< greatest share
+    double height = 0;    ///< [m] greatest distance
+    double impulse = 0;   ///< [N s] on what stands
+    bool arrived = false;
+    std::string where;  ///< where the first limit was passed, or where it stood in the end
+};
+
+std::vector<Pair> pairs_of(const TownT& town, const std::string& file) {
+    std::vector<Pair> pairs;
+    const auto place = [&](const nlohmann::json& json) {
+        const std::string name = json.at("lane");
+        const auto lane = world::find_lane(town, name);
+        if (!lane)
+            throw world::Error(file + ": no lane '" + name + "' in " + town.name);
+        return LanePlace{*lane, json.at("s")};
+    };
+    std::ifstream in(file);
+    const nlohmann::json all = nlohmann::json::parse(in);
+    for (const auto& [task, list] : all.at("tasks").items())
+        for (const nlohmann::json& pair : list)
+            pairs.push_back({task, place(pair.at("start")), place(pair.at("goal"))});
+    return pairs;
+}
+
+/// Places 8 m and more from the ends of lanes that hold a car.
+std::vector<Pair> random_pairs(const TownT& town, int count) {
+    constexpr std::uint64_t seed = 7;
+    constexpr double margin = 8;     // [m]
+    constexpr double shortest = 80;  // [m]
+    const world::Planner planner(town);
+    std::vector<Pair> pairs;
+    const auto place = [&](std::uint64_t round, std::uint64_t item) -> LanePlace {
+        const auto lane = static_cast<std::uint32_t>(
+            world::draw_index(town.lanes.size(), seed, round, world::Purpose::scenario, item));
+        const double room = town.lanes[lane].length - 2 * margin;
+        if (town.lanes[lane].kind != world::LaneKind::driving || room < 1)
+            return {world::none, 0};
+        return {lane, margin + room * world::draw(seed, round, world::Purpose::scenario, item + 1)};
+    };
+    for (std::uint64_t round = 0;
+         pairs.size() < static_cast<std::size_t>(count) && round < 1'000'000;
+         ++round) {
+        const LanePlace from = place(round, 0);
+        const LanePlace to = place(round, 2);
+        if (from.lane == world::none || to.lane == world::none)
+            continue;
+        const auto route = planner.plan(from, to);
+        if (route && route->length > shortest)
+            pairs.push_back({"random", from, to});
+    }
+    return pairs;
+}
+
+replay::Recording recording_of(const traffic::Network& network,
+                               const TownT& town,
+                               const Pair& pair) {
+    const auto number = [](double value) { return fmt::format("{}", value); };
+    replay::Recording recording;
+    recording.episode =
+        scripting::load_episode(std::string(REPRISE_SOURCE) + "/scenarios/drive_route.lua",
+                                {{},
+                                 {},
+                                 {},
+                                 {{"start", town.lanes[pair.from.lane].name},
+                                  {"s", number(pair.from.s)},
+                                  {"goal", town.lanes[pair.to.lane].name},
+                                  {"goal_s", number(pair.to.s)}}});
+    recording.town = town;
+    recording.network = network.xml;
+    recording.episode.town_digest = world::digest128(recording.network);
+    return recording;
+}
+
+void look(const TownT& town, const world::Tick& tick, Watch& watch) {
+    if (tick.vehicles()->size() == 0)
+        return;
+    const world::VehicleState& ego = *tick.vehicles()->Get(0);
+    const world::Measurement& measured = *tick.measurements()->Get(0);
+    double height = 0;
+    std::string lane = "no lane";
+    if (measured.lane() != world::none) {
+        const world::LaneT& under = town.lanes[measured.lane()];
+        lane = fmt::format("{} {:.0f}", under.name, measured.lane_s());
+        height =
+            std::abs(ego.position().z() - world::point_at(under, measured.lane_s()).position.z());
+    }
+    const bool fine = watch.sidewalk <= most_off && watch.opposite <= most_off &&
+                      watch.height <= most_height && watch.impulse <= 0;
+    watch.sidewalk = std::max(watch.sidewalk, measured.on_sidewalk());
+    watch.opposite = std::max(watch.opposite, measured.on_opposite_lane());
+    watch.height = std::max(watch.height, height);
+    watch.impulse = measured.impulse_static();
+    if (fine)
+        watch.where = lane;
+}
+
+Watch drive(const traffic::Network& network, const TownT& town, const Pair& pair) {
+    Watch watch;
+    watch.length = world::Planner(town).plan(pair.from, pair.to)->length;
+    const replay::Recording recording = recording_of(network, town, pair);
+    kernel::Kernel kernel(recording);
+    std::uint64_t ticks = 0;
+    while (!kernel.finished()) {
+        const world::SealedTick& tick = kernel.step();
+        look(town, *tick.view().tick, watch);
+        ++ticks;
+    }
+    watch.seconds = static_cast<double>(ticks) * 0.05;
+    watch.arrived = kernel.outcome().reason == "arrived";
+    return watch;
+}
+
+bool is_fine(const Watch& watch) {
+    return watch.arrived && watch.sidewalk <= most_off && watch.opposite <= most_off &&
+           watch.height <= most_height && watch.impulse <= 0;
+}
+
+/// Worst of all ways of a task.
+void print_row(const std::string& task, const std::vector<Watch>& ways) {
+    const auto most = [&](double Watch::*value) {
+        double greatest = 0;
+        for (const Watch& watch : ways)
+            greatest = std::max(greatest, watch.*value);
+        return greatest;
+    };
+    double length = 0;
+    double seconds = 0;
+    for (const Watch& watch : ways) {
+        length += watch.length;
+        seconds += watch.seconds;
+    }
+    fmt::print("{:<12} {:>5} {:>5} {:>8.1f} {:>8.1f} {:>9.2f} {:>9.2f} {:>7.2f}\n",
+               task,
+               ways.size(),
+               std::count_if(ways.begin(), ways.end(), is_fine),
+               length / static_cast<double>(ways.size()),
+               length / seconds * 3.6,
+               most(&Watch::sidewalk),
+               most(&Watch::opposite),
+               most(&Watch::height));
+}
+
+bool drive_all(const traffic::Network& network, const TownT& town, const std::vector<Pair>& pairs) {
+    bool fine = true;
+    std::vector<Watch> ways;
+    fmt::print("{:<12} ways  fine   mean m     km/h  sidewalk  opposite height m\n", town.name);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const Pair& pair = pairs[i];
+        ways.push_back(drive(network, town, pair));
+        const Watch& watch = ways.back();
+        if (!is_fine(watch)) {
+            fine = false;
+            fmt::print(
+                "  --set start={} --set s={} --set goal={} --set goal_s={}: {}, sidewalk "
+                "{:.2f}, opposite {:.2f}, height {:.2f} m, hit {:.0f} N s, at {}\n",
+                town.lanes[pair.from.lane].name,
+                pair.from.s,
+                town.lanes[pair.to.lane].name,
+                pair.to.s,
+                watch.arrived ? "arrived" : "did not arrive",
+                watch.sidewalk,
+                watch.opposite,
+                watch.height,
+                watch.impulse,
+                watch.where);
+        }
+        if (i + 1 == pairs.size() || pairs[i + 1].task != pair.task) {
+            print_row(pair.task, ways);
+            ways.clear();
+        }
+    }
+    return fine && !pairs.empty();
+}
+
+}  // namespace
+}  // namespace reprise
+
+int main(int count, char** words) {
+    if (count != 3) {
+        std::cerr << "drive_routes NAME.net.xml TASKS.json|COUNT\n";
+        return 2;
+    }
+    try {
+        const auto network = reprise::traffic::load_network(words[1]);
+        const auto town = reprise::traffic::read_town(network);
+        const std::string_view what = words[2];
+        const bool random = what.find_first_not_of("0123456789") == std::string_view::npos;
+        const auto pairs = random ? reprise::random_pairs(town, std::atoi(words[2]))
+                                  : reprise::pairs_of(town, words[2]);
+        return reprise::drive_all(network, town, pairs) ? 0 : 1;
+    } catch (const std::exception& error) {
+        std::cerr << error.what() << "\n";
+        return 2;
+    }
+}
