@@ -14,11 +14,19 @@ namespace reprise::world {
 
 namespace {
 
-constexpr double change_cost = 40;           // [m]
-constexpr double hurried_stretch = 40;       // [m] too short to change lanes with ease
-constexpr double hurried_change_cost = 200;  // [m]
+constexpr std::uint32_t most_changes = 8;  // on one street
 
-/// A lane entered at its start, or, with an index of count + lane, where the way begins or beside.
+/// [m] of detour that a change of lanes is worth; `room`: [m] that it has for itself.
+double change_cost(double room) {
+    constexpr double calm = 40;
+    constexpr double possible = 15;
+    if (room < possible)
+        return 1000;
+    return room < calm ? 200 : 40;
+}
+
+/// lane + lanes in the town * (2 * changes of lanes on this street + (1: it was not entered at its
+/// start, but at the height of the way's start)).
 using Node = std::uint32_t;
 
 class Search {
@@ -29,8 +37,8 @@ class Search {
           goal_(to),
           goal_point_(point_at(town.lanes[to.lane], to.s).position),
           entry_(town.lanes.size(), 0),
-          cost_(2 * town.lanes.size(), std::numeric_limits<double>::infinity()),
-          last_(2 * town.lanes.size(), none) {
+          cost_(layers * town.lanes.size(), std::numeric_limits<double>::infinity()),
+          last_(layers * town.lanes.size(), none) {
         enter_beside(from);
         reach(count_ + from.lane, none, 0);
     }
@@ -70,9 +78,15 @@ class Search {
     }
 
   private:
-    std::uint32_t lane_of(Node node) const { return node < count_ ? node : node - count_; }
+    static constexpr Node layers = 2 * (most_changes + 1);
 
-    double entry(Node node) const { return node < count_ ? 0 : entry_[node - count_]; }
+    std::uint32_t lane_of(Node node) const { return node % count_; }
+
+    bool is_midway(Node node) const { return (node / count_) % 2 == 1; }
+
+    std::uint32_t changes(Node node) const { return node / count_ / 2; }
+
+    double entry(Node node) const { return is_midway(node) ? entry_[lane_of(node)] : 0; }
 
     Eigen::Vector3d place(Node node) const {
         return point_at(town_.lanes[lane_of(node)], entry(node)).position;
@@ -107,10 +121,12 @@ class Search {
             if (next < count_ && is_for_cars(town_.lanes[next]))
                 reach(next, node, cost_[node] + std::max(left, (place(next) - here).norm()));
         }
-        const double change = left < hurried_stretch ? hurried_change_cost : change_cost;
+        if (changes(node) == most_changes)
+            return;
+        const double change = change_cost(left / (changes(node) + 1));
         for (const std::uint32_t side : {lane.right, lane.left})
             if (side < count_ && town_.lanes[side].kind == LaneKind::driving) {
-                const Node next = node < count_ ? side : count_ + side;
+                const Node next = node - lane_of(node) + 2 * count_ + side;
                 reach(next, node, cost_[node] + std::max(change, (place(next) - here).norm()));
             }
     }
@@ -119,7 +135,7 @@ class Search {
     Node count_;
     LanePlace goal_;
     Eigen::Vector3d goal_point_;
-    std::vector<double> entry_;  ///< [lane] where the nodes from count_ on begin
+    std::vector<double> entry_;  ///< [lane] where one is that was entered midway
     std::vector<double> cost_;   ///< [node]
     std::vector<Node> last_;     ///< [node]
     using Entry = std::tuple<double, Node, double>;  // estimated cost of the whole way, cost so far

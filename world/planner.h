@@ -12,8 +12,10 @@ namespace reprise::world {
 /// Shortest ways over the lanes of a town, by A*. A pure function of the town: equal questions give
 /// equal answers.
 ///
-/// MUST    the least cost: metres driven, and 40 m for each change of lanes (200 m where less than
-///         40 m are left for it); ties go to the lower lane index.
+/// MUST    the least cost: metres driven, and 40 m for each change of lanes; 200 m where it and
+/// those
+///         before it on the street share less than 40 m each, 1000 m below 15 m: then it is left
+///         to luck. Ties go to the lower lane index.
 /// ASSUMES that who is on a lane can change to a neighbour in the same direction anywhere on it.
 /// GOES    over all lanes for cars, internal ones included, from the start of one to the start of
 ///         the next; the lanes beside the start are entered at its height. What is left is

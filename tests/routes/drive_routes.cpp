@@ -65,6 +65,15 @@ std::vector<Pair> pairs_of(const TownT& town, const std::string& file) {
     return pairs;
 }
 
+/// Has every change of lanes 40 m and more? Then they cost 40 m each. Nobody can be asked to cross
+/// three lanes just before a junction.
+bool is_calm(const world::Planner& planner, const Pair& pair, const world::Route& route) {
+    double changes = 0;
+    for (std::size_t i = 1; i < route.pieces.size(); ++i)
+        changes += route.pieces[i].from > 0;
+    return *planner.cost(pair.from, pair.to) < route.length + 40 * changes + 1;
+}
+
 /// Places 8 m and more from the ends of lanes that hold a car.
 std::vector<Pair> random_pairs(const TownT& town, int count) {
     constexpr std::uint64_t seed = 7;
@@ -88,8 +97,9 @@ std::vector<Pair> random_pairs(const TownT& town, int count) {
         if (from.lane == world::none || to.lane == world::none)
             continue;
         const auto route = planner.plan(from, to);
-        if (route && route->length > shortest)
-            pairs.push_back({"random", from, to});
+        const Pair pair{"random", from, to};
+        if (route && route->length > shortest && is_calm(planner, pair, *route))
+            pairs.push_back(pair);
     }
     return pairs;
 }
