@@ -85,6 +85,25 @@ TEST(Handle, KnowsWhomItTouchedSinceItsSpawn) {
     EXPECT_EQ(stage.play(0).at(3), "true true false true true false false");
 }
 
+TEST(Handle, PlansAWayToAPlace) {
+    test::Stage stage(test::running(R"(
+        local ego = spawn{ model = 'sedan', lane = 'east_1', s = 50 }
+        wait_ticks(1)
+        print(ego:route_to{ lane = 'east_1', s = 90 })
+        print(ego:route_to{ lane = 'east_2' }))"));
+    const auto printed = stage.play(3);
+    ASSERT_EQ(printed.size(), 2U);
+    EXPECT_NEAR(std::stod(printed[0]), 40, 1e-6);
+    EXPECT_NEAR(std::stod(printed[1]), 350, 1e-6);
+    std::vector<std::vector<std::uint32_t>> routes;
+    for (const auto& command : stage.commands)
+        if (command.kind == CommandKind::set_route)
+            routes.push_back(command.lanes);
+    ASSERT_EQ(routes.size(), 2U);
+    EXPECT_THAT(routes[0], ElementsAre(1));
+    EXPECT_THAT(routes[1], ElementsAre(2)) << "the lane that it is on may be behind it by then";
+}
+
 TEST(Handle, SaysWhatAnActorIsTold) {
     test::Stage stage(test::running(R"(
         local ego = spawn{ model = 'sedan', lane = 'east_1', s = 50 }

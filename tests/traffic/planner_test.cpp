@@ -156,9 +156,7 @@ class PlannerInNets : public ::testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Others,
                          PlannerInNets,
-                         ::testing::Values("Town04_sumo115.net.xml",
-                                           "DRT/osm.net.xml",
-                                           "grid6/grid6.net.xml"),
+                         ::testing::Values("Town04_sumo115.net.xml", "DRT/osm.net.xml"),
                          [](const auto& net) {
                              const std::string name = net.param;
                              return name.substr(0, name.find_first_of("/_"));
