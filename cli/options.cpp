@@ -7,6 +7,7 @@
 
 #include "cli/golden_options.h"
 #include "cli/tool_options.h"
+#include "cli/town_options.h"
 #include "world/check.h"
 #include "world/fingerprint.h"
 #include "world/weather.h"
@@ -397,6 +398,7 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     add_branch(app, branch, app_->branch_assignments);
     add_render(app, render, app_->size, app_->mount, app_->threads);
     add_tool_commands(app, tools);
+    add_town_commands(app, town);
     add_golden_commands(app, test, accept, golden_list, [&](CLI::App& to) {
         add_start(to, accept.start, app_->accept_assignments);
     });

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/tool_options.h"
+#include "cli/town_options.h"
 
 namespace reprise::cli {
 
@@ -134,6 +135,7 @@ class CommandLine {
     AcceptOptions accept;
     GoldenListOptions golden_list;
     ToolOptions tools;
+    TownOptions town;
 
   private:
     struct App;

@@ -62,6 +62,8 @@ int main(int argc, char** argv) {
             return merge(line.tools.merge);
         if (line.command == "stats")
             return stats(line.tools.stats);
+        if (line.command == "town")
+            become("reprise-town", argv);
         if (line.command == "query" || line.command == "export")
             become("reprise-exchange", argv);
         become(line.command == "render" ? "reprise-render" : "reprise-run", argv);

@@ -57,8 +57,7 @@ replay::Recording prepare(const RunOptions& options) {
     recording.episode = scripting::load_episode(
         options.scenario, {options.town, options.seed, options.seconds, options.parameters});
     world::EpisodeT& episode = recording.episode;
-    const fs::path path = find_network(episode.town, options.scenario);
-    traffic::Network network = traffic::load_network(path);
+    traffic::Network network = load_town(episode.town, options.scenario);
     if (!network.notes.empty())
         fmt::print(stderr, "{}", network.notes);
     recording.town = traffic::read_town(network);

@@ -40,10 +40,25 @@ bool looks_like_path(const std::string& town) {
     return town.find('/') != std::string::npos || town.ends_with(".xml") || town.ends_with(".gz");
 }
 
-}  // namespace
+/// The one network in a folder.
+fs::path network_in(const fs::path& folder) {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (name.ends_with(".net.xml") || name.ends_with(".net.xml.gz"))
+            found.push_back(entry.path());
+    }
+    if (found.size() != 1)
+        throw world::Error(folder.string() + ": is a folder with " +
+                           (found.empty() ? "no" : std::to_string(found.size())) +
+                           " SUMO networks (.net.xml); one was expected");
+    return found.front();
+}
 
 fs::path find_network(const std::string& town, const fs::path& scenario) {
     std::error_code ignored;
+    if (town.find('/') != std::string::npos && fs::is_directory(town, ignored))
+        return network_in(town);
     if (looks_like_path(town) || fs::is_regular_file(town, ignored))
         return town;
     const auto folders = town_folders(scenario);
@@ -52,6 +67,8 @@ fs::path find_network(const std::string& town, const fs::path& scenario) {
         if (fs::exists(network, ignored))
             return network;
     }
+    if (fs::is_directory(town, ignored))
+        return network_in(town);
     const auto names = names_in(folders);
     std::string list;
     for (const std::string& name : names)
@@ -59,6 +76,12 @@ fs::path find_network(const std::string& town, const fs::path& scenario) {
     throw world::Error("no town '" + town + "'" + world::did_you_mean(town, names) +
                        "; there are " + (list.empty() ? "none" : list) +
                        ", or give the path of a SUMO network (.net.xml)");
+}
+
+}  // namespace
+
+traffic::Network load_town(const std::string& town, const fs::path& scenario) {
+    return traffic::load_network(find_network(town, scenario));
 }
 
 }  // namespace reprise::cli

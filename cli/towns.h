@@ -3,11 +3,13 @@
 #include <filesystem>
 #include <string>
 
+#include "traffic/town_reader.h"
+
 namespace reprise::cli {
 
-/// The network file of a town: a path is taken as it is; a name is looked up as
-/// towns/NAME/NAME.net.xml beside the scenario, then in the scenarios that belong to this program.
-/// Throws world::Error that lists the towns there are.
-std::filesystem::path find_network(const std::string& town, const std::filesystem::path& scenario);
+/// The network of a town, and what lies beside it. `town` is the path of a network or of a folder
+/// that holds one; or a name, looked up as towns/NAME/NAME.net.xml beside the scenario, then in the
+/// scenarios that belong to this program. Throws world::Error that lists the towns there are.
+traffic::Network load_town(const std::string& town, const std::filesystem::path& scenario = {});
 
 }  // namespace reprise::cli

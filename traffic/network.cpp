@@ -11,6 +11,7 @@
 #include <zlib.h>
 
 #include "traffic/network_xml.h"
+#include "traffic/place.h"
 #include "traffic/town_reader.h"
 #include "world/check.h"
 
@@ -197,6 +198,17 @@ std::string name_of(const fs::path& path) {
     return name;
 }
 
+/// What NAME.place.xml beside the network holds; "" when there is none.
+std::string place_beside(const fs::path& network, const std::string& name) {
+    const fs::path path = network.parent_path() / (name + ".place.xml");
+    std::error_code ignored;
+    if (path == network || !fs::exists(path, ignored))
+        return "";
+    std::string xml = read_bytes(path);
+    read_place(xml, path.string());  // so that mistakes are told with their path
+    return xml;
+}
+
 /// Writes the tree back as text, without indents: only networks that had to be changed pass here.
 std::string to_text(const pugi::xml_document& document) {
     std::ostringstream text;
@@ -249,6 +261,7 @@ Network load_network(const std::filesystem::path& path) {
                         count);
     if (!unknown.empty())
         network.xml = to_text(document);
+    network.place = place_beside(path, network.name);
     return network;
 }
 

@@ -14,6 +14,9 @@ namespace reprise::traffic {
 /// for a town of our own (districts, parks, squares).
 /// Coordinates are the network's. [m], yaw in degrees counter-clockwise from east.
 ///
+/// A shape is "x,y[,z] x,y[,z] ..."; an element's z is added to each of its points. An attribute
+/// that is left out is 0 or empty.
+///
 ///     <place>
 ///       <head program="J3" links="0 1" x="1" y="2" z="0" yaw="90" height="5.2" arm="0"/>
 ///       <sign kind="speed_limit" value="30" x="1" y="2" z="0" yaw="90" height="2.4"/>

@@ -1,0 +1,20 @@
+// `reprise town`: imports, shows and checks towns. It reads road networks and draws; it has no
+// kernel.
+#include "cli/guard.h"
+#include "cli/options.h"
+#include "cli/town_check.h"
+#include "cli/town_import.h"
+#include "cli/town_show.h"
+
+int main(int argc, char** argv) {
+    using namespace reprise::cli;
+    return guarded(command_text(argc, argv), [&]() -> int {
+        CommandLine line;
+        if (const auto code = line.parse(argc, argv))
+            return *code;
+        if (line.town.command == "import")
+            return town_import(line.town.import);
+        return line.town.command == "show" ? town_show(line.town.show)
+                                           : town_check(line.town.check);
+    });
+}

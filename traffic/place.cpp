@@ -1,0 +1,349 @@
+#include "traffic/place.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <pugixml.hpp>
+#include <utility>
+
+#include "traffic/network_xml.h"
+#include "world/building_models.h"
+#include "world/check.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+using world::PlotKind;
+using world::PropKind;
+using world::Vec3;
+using Outline = std::vector<Vec3>;
+
+constexpr double deg = std::numbers::pi / 180;
+
+constexpr std::array<std::pair<const char*, PropKind>, 3> sign_kinds{
+    {{"speed_limit", PropKind::speed_limit_sign},
+     {"stop", PropKind::stop_sign},
+     {"yield", PropKind::yield_sign}}};
+
+constexpr std::array<const char*, 5> district_styles{"village", "old", "brick", "modern", "centre"};
+
+// ---- reading ----------------------------------------------------------------------------------
+
+/// An element, and how to speak about it.
+class Element {
+  public:
+    Element(pugi::xml_node node, std::string_view xml, const std::string& file)
+        : node_(node),
+          xml_(xml),
+          file_(file) {}
+
+    [[noreturn]] void fail(const std::string& what) const {
+        throw world::Error(
+            fmt::format("{}:{}: <{}>: {}",
+                        file_,
+                        line_of(xml_, static_cast<std::size_t>(node_.offset_debug())),
+                        node_.name(),
+                        what));
+    }
+
+    std::string_view text(const char* name) const { return node_.attribute(name).value(); }
+
+    /// 0 when it is left out.
+    double real(const char* name) const {
+        const std::string_view written = text(name);
+        const double nothing = std::numeric_limits<double>::infinity();
+        const double value = written.empty() ? 0 : number(written, nothing);
+        if (value == nothing || std::abs(value) > 1e9)
+            fail(fmt::format("{}=\"{}\" is not a number", name, written));
+        return value;
+    }
+
+    std::uint32_t whole(std::string_view name, std::string_view written) const {
+        std::uint32_t value = 0;
+        const char* end = written.data() + written.size();
+        const auto [stop, error] = std::from_chars(written.data(), end, value);
+        if (!written.empty() && (error != std::errc() || stop != end))
+            fail(fmt::format("{}: '{}' is not a whole number", name, written));
+        return value;
+    }
+
+    /// Index in `names` of the word that an attribute holds.
+    std::size_t word(const char* name, const std::vector<std::string>& names) const {
+        const std::string written(text(name));
+        const auto found = std::find(names.begin(), names.end(), written);
+        if (found == names.end())
+            fail(fmt::format(
+                "{}=\"{}\" is unknown{}", name, written, world::did_you_mean(written, names)));
+        return static_cast<std::size_t>(found - names.begin());
+    }
+
+    Vec3 position() const { return {real("x"), real("y"), real("z")}; }
+
+    /// A polygon of three points at least.
+    Outline shape() const {
+        check_points();
+        const double z = real("z");
+        Outline outline;
+        for (const Vec3& point : parse_shape(text("shape")))
+            outline.emplace_back(point.x(), point.y(), point.z() + z);
+        if (outline.size() < 3)
+            fail("its shape needs three points at least, \"x,y x,y x,y\"");
+        return outline;
+    }
+
+  private:
+    void check_points() const {
+        const double nothing = std::numeric_limits<double>::infinity();
+        for (const std::string_view point : words(text("shape")))
+            for (std::size_t from = 0, to = 0; to != std::string_view::npos; from = to + 1) {
+                to = point.find(',', from);
+                if (std::abs(number(point.substr(from, to - from), nothing)) > 1e9)
+                    fail(fmt::format("'{}' in its shape is not a point", point));
+            }
+    }
+
+    pugi::xml_node node_;
+    std::string_view xml_;
+    const std::string& file_;
+};
+
+template <typename Table>
+std::vector<std::string> names_of(const Table& table) {
+    std::vector<std::string> names;
+    for (const auto& [name, kind] : table)
+        names.emplace_back(name);
+    return names;
+}
+
+Place::Head read_head(const Element& element) {
+    Place::Head head;
+    head.program = element.text("program");
+    for (const std::string_view link : words(element.text("links")))
+        head.links.push_back(element.whole("links", link));
+    if (head.program.empty() || head.links.empty())
+        element.fail("needs a program and its links");
+    head.foot = element.position();
+    head.yaw = element.real("yaw") * deg;
+    head.height = element.real("height");
+    head.arm = element.real("arm");
+    return head;
+}
+
+world::Prop read_sign(const Element& element) {
+    const std::size_t kind = element.word("kind", names_of(sign_kinds));
+    const std::uint32_t value = element.whole("value", element.text("value"));
+    if (value > 999)
+        element.fail(fmt::format("value=\"{}\": expected km/h, 999 at most", value));
+    return {element.position(),
+            element.real("yaw") * deg,
+            element.real("length"),
+            element.real("width"),
+            element.real("height"),
+            element.whole("style", element.text("style")),
+            static_cast<std::uint16_t>(value),
+            sign_kinds[kind].second,
+            0};
+}
+
+world::PlotT read_plot(const Element& element) {
+    std::vector<std::string> names;
+    for (const char* const* name = world::EnumNamesPlotKind(); *name != nullptr; ++name)
+        names.emplace_back(*name);
+    world::PlotT plot;
+    plot.kind = static_cast<PlotKind>(element.word("kind", names));
+    plot.outline = element.shape();
+    return plot;
+}
+
+world::DrawnBuildingT read_building(const Element& element) {
+    world::DrawnBuildingT building;
+    building.outline = element.shape();
+    building.height = element.real("height");
+    if (building.height <= 0)
+        element.fail("its height must be above 0");
+    building.style = element.whole("style", element.text("style"));
+    if (!element.text("model").empty()) {
+        std::vector<std::string> names;
+        for (const world::BuildingModel& model : world::building_models())
+            names.emplace_back(model.name);
+        building.model = static_cast<std::uint32_t>(element.word("model", names)) + 1;
+    }
+    return building;
+}
+
+Place::District read_district(const Element& element) {
+    const std::vector<std::string> names(district_styles.begin(), district_styles.end());
+    Place::District district;
+    district.style = names[element.word("style", names)];
+    if (!element.text("shape").empty())
+        district.outline = element.shape();
+    return district;
+}
+
+// ---- writing ----------------------------------------------------------------------------------
+
+/// Millimetres are enough, and "-0" is 0.
+std::string text_of(double value) {
+    std::string text = fmt::format("{:.3f}", value);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.')
+        text.pop_back();
+    return text == "-0" ? "0" : text;
+}
+
+/// A millimetre at 10 km is 6e-6 degrees.
+std::string degrees_of(double yaw) {
+    std::string text = fmt::format("{:.6f}", yaw / deg);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.')
+        text.pop_back();
+    return text == "-0" ? "0" : text;
+}
+
+std::string shape_of(const Outline& outline) {
+    std::string text;
+    for (const Vec3& point : outline) {
+        text +=
+            fmt::format("{}{},{}", text.empty() ? "" : " ", text_of(point.x()), text_of(point.y()));
+        if (const std::string z = text_of(point.z()); z != "0")
+            text += "," + z;
+    }
+    return text;
+}
+
+/// What an attribute holds between its quotes.
+std::string escaped(std::string_view text) {
+    std::string safe;
+    for (const char c : text)
+        switch (c) {
+            case '&':
+                safe += "&amp;";
+                break;
+            case '<':
+                safe += "&lt;";
+                break;
+            case '"':
+                safe += "&quot;";
+                break;
+            default:
+                safe += c;
+        }
+    return safe;
+}
+
+std::string optional(const char* name, double value) {
+    const std::string text = text_of(value);
+    return text == "0" ? "" : fmt::format(" {}=\"{}\"", name, text);
+}
+
+std::string position_of(const Vec3& at, double yaw) {
+    return fmt::format("x=\"{}\" y=\"{}\" z=\"{}\" yaw=\"{}\"",
+                       text_of(at.x()),
+                       text_of(at.y()),
+                       text_of(at.z()),
+                       degrees_of(yaw));
+}
+
+std::string head_xml(const Place::Head& head) {
+    return fmt::format("  <head program=\"{}\" links=\"{}\" {} height=\"{}\" arm=\"{}\"/>\n",
+                       escaped(head.program),
+                       fmt::join(head.links, " "),
+                       position_of(head.foot, head.yaw),
+                       text_of(head.height),
+                       text_of(head.arm));
+}
+
+std::string sign_xml(const world::Prop& sign) {
+    const auto kind = std::find_if(sign_kinds.begin(), sign_kinds.end(), [&](const auto& known) {
+        return known.second == sign.kind();
+    });
+    REPRISE_CHECK(kind != sign_kinds.end(), world::EnumNamePropKind(sign.kind()));
+    return fmt::format("  <sign kind=\"{}\"{} {} height=\"{}\"{}{}{}/>\n",
+                       kind->first,
+                       optional("value", sign.value()),
+                       position_of(sign.position(), sign.yaw()),
+                       text_of(sign.height()),
+                       optional("length", sign.length()),
+                       optional("width", sign.width()),
+                       optional("style", sign.style()));
+}
+
+std::string building_xml(const world::DrawnBuildingT& building) {
+    std::string model;
+    if (building.model != 0)
+        model = fmt::format(" model=\"{}\"", world::building_models()[building.model - 1].name);
+    return fmt::format("  <building shape=\"{}\" height=\"{}\"{}{}/>\n",
+                       shape_of(building.outline),
+                       text_of(building.height),
+                       model,
+                       optional("style", building.style));
+}
+
+}  // namespace
+
+Place read_place(std::string_view xml, const std::string& file) {
+    pugi::xml_document document;
+    const pugi::xml_parse_result parsed = document.load_buffer(xml.data(), xml.size());
+    const pugi::xml_node root = document.document_element();
+    if (!parsed || std::string_view(root.name()) != "place")
+        throw world::Error(fmt::format(
+            "{}:{}: expected <place>: {}",
+            file,
+            line_of(xml, static_cast<std::size_t>(parsed.offset)),
+            parsed ? "found <" + std::string(root.name()) + ">" : parsed.description()));
+    Place place;
+    for (const pugi::xml_node node : root.children()) {
+        if (node.type() != pugi::node_element)
+            continue;
+        const Element element(node, xml, file);
+        const std::string name = node.name();
+        if (name == "head")
+            place.heads.push_back(read_head(element));
+        else if (name == "sign")
+            place.signs.push_back(read_sign(element));
+        else if (name == "plot")
+            place.plots.push_back(read_plot(element));
+        else if (name == "building")
+            place.buildings.push_back(read_building(element));
+        else if (name == "district")
+            place.districts.push_back(read_district(element));
+        else if (name == "keep_clear")
+            place.keep_clear.push_back(element.shape());
+        else
+            element.fail("is unknown" +
+                         world::did_you_mean(
+                             name, {"head", "sign", "plot", "building", "district", "keep_clear"}));
+    }
+    return place;
+}
+
+std::string place_xml(const Place& place) {
+    std::string xml = "<place>\n";
+    for (const Place::Head& head : place.heads)
+        xml += head_xml(head);
+    for (const world::Prop& sign : place.signs)
+        xml += sign_xml(sign);
+    for (const world::PlotT& plot : place.plots)
+        xml += fmt::format("  <plot kind=\"{}\" shape=\"{}\"/>\n",
+                           world::EnumNamePlotKind(plot.kind),
+                           shape_of(plot.outline));
+    for (const world::DrawnBuildingT& building : place.buildings)
+        xml += building_xml(building);
+    for (const Place::District& district : place.districts)
+        xml += fmt::format("  <district style=\"{}\"{}/>\n",
+                           escaped(district.style),
+                           district.outline.empty()
+                               ? ""
+                               : fmt::format(" shape=\"{}\"", shape_of(district.outline)));
+    for (const Outline& outline : place.keep_clear)
+        xml += fmt::format("  <keep_clear shape=\"{}\"/>\n", shape_of(outline));
+    return xml + "</place>\n";
+}
+
+}  // namespace reprise::traffic
