@@ -1,11 +1,23 @@
 #include "cli/town_import.h"
 
+#include <fmt/format.h>
+
+#include "cli/guard.h"
+#include "cli/town_folder.h"
+#include "traffic/map_source.h"
 #include "world/check.h"
 
 namespace reprise::cli {
 
-int town_import(const TownImportOptions&) {
-    throw world::Error("town import: not yet");
+int town_import(const TownImportOptions& options) {
+    if (!options.name.empty() && options.name != traffic::harmless_name(options.name))
+        throw world::Error("--name " + options.name +
+                           ": letters, digits, '_', '-' and '.' were expected");
+    const traffic::TownImport wish{
+        options.source, options.name, options.left_hand, options.sidewalks == "guess"};
+    fmt::print("{}", make_town_folder(wish, options.directory, options.force));
+    fmt::print("{}: written\n", options.directory);
+    return exit_good;
 }
 
 }  // namespace reprise::cli

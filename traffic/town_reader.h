@@ -16,7 +16,8 @@ struct Network {
     std::string name;  ///< file name without endings
     std::string xml;
     std::string notes;  ///< what was changed, one line each; empty: nothing
-    std::string place = {};  ///< NAME.place.xml beside it (traffic/place.h); empty: none
+    /// NAME.place.xml beside it (traffic/place.h); empty: none.
+    std::string place = {};
 };
 
 Network load_network(const std::filesystem::path& path);

@@ -1,0 +1,141 @@
+#include "traffic/child_program.h"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fstream>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "world/check.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path find_program(const std::string& name) {
+    const char* variable = std::getenv("PATH");
+    std::string folders = std::string(variable == nullptr ? "" : variable) + ":/usr/bin";
+    for (std::size_t from = 0, to = 0; to != std::string::npos; from = to + 1) {
+        to = folders.find(':', from);
+        const fs::path path = fs::path(folders.substr(from, to - from)) / name;
+        if (path.is_absolute() && access(path.c_str(), X_OK) == 0 && !fs::is_directory(path))
+            return path;
+    }
+    throw world::Error(name + ": there is no such program here; it is in Debian's package sumo");
+}
+
+std::vector<char*> pointers(std::vector<std::string>& words) {
+    std::vector<char*> found;
+    for (std::string& word : words)
+        found.push_back(word.data());
+    found.push_back(nullptr);
+    return found;
+}
+
+/// From here on, and for what the child does from now on: it has just begun.
+void limit(pid_t child, const ProgramLimits& limits) {
+    const auto set = [child](auto what, std::uint64_t value) {
+        const rlimit bound{value, value};
+        prlimit(child, what, &bound, nullptr);
+    };
+    set(RLIMIT_AS, limits.memory);
+    set(RLIMIT_CPU, limits.seconds);
+    set(RLIMIT_FSIZE, limits.file);
+    set(RLIMIT_CORE, 0);
+}
+
+std::string text_of(int ended_by, const ProgramLimits& limits) {
+    // At its hard limit of processor time a process is killed outright.
+    if (ended_by == SIGXCPU || ended_by == SIGKILL)
+        return fmt::format("was stopped: it needed more than {} s of processor time",
+                           limits.seconds);
+    if (ended_by == SIGXFSZ)
+        return fmt::format("was stopped: it wrote more than {} MB", limits.file >> 20);
+    return fmt::format("crashed (signal {}, {})", ended_by, strsignal(ended_by));
+}
+
+std::string beginning_of(const fs::path& path) {
+    constexpr std::size_t most = 256 << 10;
+    std::string text(most, '\0');
+    std::ifstream file(path, std::ios::binary);
+    file.read(text.data(), static_cast<std::streamsize>(most));
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    return text;
+}
+
+/// Starts it in `scratch` with no input and both outputs in one file there.
+pid_t start(const fs::path& program,
+            std::vector<std::string> words,
+            const fs::path& scratch,
+            const std::string& outputs) {
+    words.insert(words.begin(), program.string());
+    // Nothing that could change what it does.
+    std::vector<std::string> variables{"LC_ALL=C", "SUMO_HOME=" + sumo_folder().string()};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addchdir_np(&actions, scratch.c_str());
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(
+        &actions, STDOUT_FILENO, outputs.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0600);
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    // We ignore SIGXFSZ; a child would inherit that.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t usual;
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGXFSZ);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    pid_t child = 0;
+    const int error = posix_spawn(&child,
+                                  program.c_str(),
+                                  &actions,
+                                  &attributes,
+                                  pointers(words).data(),
+                                  pointers(variables).data());
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error != 0)
+        throw world::Error(program.string() + ": cannot be started: " + std::strerror(error));
+    return child;
+}
+
+}  // namespace
+
+fs::path sumo_folder() {
+    const fs::path debian = "/usr/share/sumo";
+    const char* home = std::getenv("SUMO_HOME");
+    std::error_code ignored;
+    return fs::is_directory(debian, ignored) || home == nullptr ? debian : fs::path(home);
+}
+
+ProgramResult run_program(const std::string& name,
+                          const std::vector<std::string>& words,
+                          const fs::path& scratch,
+                          const ProgramLimits& limits) {
+    const std::string outputs = name + ".said";
+    const pid_t child = start(find_program(name), words, scratch, outputs);
+    limit(child, limits);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    ProgramResult result;
+    result.said = beginning_of(scratch / outputs);
+    std::error_code ignored;
+    fs::remove(scratch / outputs, ignored);
+    if (WIFSIGNALED(status))
+        result.stopped = text_of(WTERMSIG(status), limits);
+    else
+        result.code = WEXITSTATUS(status);
+    return result;
+}
+
+}  // namespace reprise::traffic

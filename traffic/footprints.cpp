@@ -1,0 +1,284 @@
+// What it must do: turn a map's areas into buildings and plots that a town can use: simple
+// polygons,
+//   counter-clockwise, near the roads, buildings clear of the lanes.
+// What it assumes: polyconvert has projected them; each carries its tags as <param>.
+// How it goes: read and sort out the areas; drop courtyards (inner rings come as areas of their
+// own);
+//   clip to the neighbourhood of the roads; cut the lanes' strips out of buildings.
+// What it keeps: nothing.
+// GCC 12 believes that Boost's boxes are read before they are set, once it inlines them.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+
+#include "traffic/footprints.h"
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/multi_polygon.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <optional>
+#include <pugixml.hpp>
+#include <vector>
+
+#include "traffic/map_area.h"
+#include "traffic/netconvert.h"
+#include "traffic/network_xml.h"
+#include "world/check.h"
+#include "world/digest.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+namespace bg = boost::geometry;
+using Point = bg::model::d2::point_xy<double>;
+using Polygon = bg::model::polygon<Point, false>;  // counter-clockwise
+using Polygons = bg::model::multi_polygon<Polygon>;
+using Line = bg::model::linestring<Point>;
+using Box = bg::model::box<Point>;
+using Tree = bg::index::rtree<std::pair<Box, std::uint32_t>, bg::index::rstar<16>>;
+
+constexpr double neighbourhood = 300;                        ///< [m] from a road
+constexpr double smallest_building = 6, smallest_plot = 15;  ///< [m2]
+
+struct Area {
+    std::string id;
+    Tags tags;
+    Polygon outline;
+};
+
+constexpr const char* wanted_keys = R"(<polygonTypes>
+<polygonType id="building" name="building"/>
+<polygonType id="leisure" name="leisure"/>
+<polygonType id="landuse" name="landuse"/>
+<polygonType id="natural" name="natural"/>
+<polygonType id="waterway" name="waterway"/>
+<polygonType id="amenity" name="amenity"/>
+<polygonType id="place" name="place"/>
+<polygonType id="highway.pedestrian" name="highway"/>
+</polygonTypes>
+)";
+
+/// Asks polyconvert for the areas; sorted by id, closed ones only.
+std::vector<Area> read_areas(const std::string& map,
+                             const std::string& network,
+                             const std::filesystem::path& scratch) {
+    std::ofstream(scratch / "areas.typ.xml") << wanted_keys;
+    const double box = neighbourhood + 50;
+    run_sumo_tool("polyconvert",
+                  {"--net-file",
+                   network,
+                   "--osm-files",
+                   map,
+                   "--type-file",
+                   "areas.typ.xml",
+                   "--discard",
+                   "--all-attributes",
+                   "--osm.keep-full-type",
+                   "--prune.in-net",
+                   "--prune.in-net.offsets",
+                   fmt::format("{0},{0},{0},{0}", box),
+                   "--precision",
+                   "3",
+                   "--output-file",
+                   "areas.xml"},
+                  scratch,
+                  map);
+    pugi::xml_document document;
+    if (!document.load_file((scratch / "areas.xml").c_str()))
+        throw world::Error(map + ": polyconvert wrote no areas");
+    std::vector<Area> areas;
+    for (const pugi::xml_node poly : document.document_element().children("poly")) {
+        Area area;
+        area.id = poly.attribute("id").value();
+        for (const pugi::xml_node param : poly.children("param"))
+            area.tags[param.attribute("key").value()] = param.attribute("value").value();
+        const std::vector<world::Vec3> shape = parse_shape(poly.attribute("shape").value());
+        const bool closed = shape.size() >= 4 && shape.front() == shape.back();
+        if (!closed || (!is_building(area.tags) && !plot_kind(area.tags)))
+            continue;
+        for (const world::Vec3& point : shape)
+            area.outline.outer().emplace_back(point.x(), point.y());
+        bg::correct(area.outline);
+        areas.push_back(std::move(area));
+    }
+    return areas;
+}
+
+/// polyconvert gives the inner rings of a multipolygon as areas with the same tags.
+void drop_courtyards(std::vector<Area>& areas) {
+    const auto is_ring = [](const Area& area) {
+        const auto type = area.tags.find("type");
+        return type != area.tags.end() && type->second == "multipolygon";
+    };
+    std::vector<bool> inner(areas.size(), false);
+    for (std::size_t i = 0; i < areas.size(); ++i)
+        for (std::size_t j = 0; j < areas.size() && is_ring(areas[i]); ++j)
+            if (i != j && areas[i].tags == areas[j].tags &&
+                bg::area(areas[i].outline) < bg::area(areas[j].outline) &&
+                bg::covered_by(areas[i].outline.outer().front(), areas[j].outline))
+                inner[i] = true;
+    std::vector<Area> kept;
+    for (std::size_t i = 0; i < areas.size(); ++i)
+        if (!inner[i])
+            kept.push_back(std::move(areas[i]));
+    areas = std::move(kept);
+}
+
+Line centre_of(const world::LaneT& lane) {
+    Line line;
+    for (const world::Vec3& point : lane.centre)
+        line.emplace_back(point.x(), point.y());
+    return line;
+}
+
+/// Lanes by the boxes of their strips.
+Tree tree_of(const world::TownT& roads) {
+    std::vector<std::pair<Box, std::uint32_t>> boxes;
+    for (std::uint32_t i = 0; i < roads.lanes.size(); ++i) {
+        Box box = bg::return_envelope<Box>(centre_of(roads.lanes[i]));
+        bg::buffer(box, box, roads.lanes[i].width);
+        boxes.emplace_back(box, i);
+    }
+    return Tree(boxes);
+}
+
+Box reach(const Tree& lanes) {
+    Box box;
+    bg::convert(lanes.bounds(), box);
+    bg::buffer(box, box, neighbourhood);
+    return box;
+}
+
+bool is_near_road(const Polygon& outline, const Tree& lanes) {
+    const auto nearest = lanes.qbegin(bg::index::nearest(outline.outer().front(), 1));
+    Box around = bg::return_envelope<Box>(outline);
+    bg::buffer(around, around, neighbourhood);
+    return nearest != lanes.qend() && bg::intersects(nearest->first, around);
+}
+
+/// The strip of a lane and a little more.
+Polygons strip(const world::LaneT& lane) {
+    constexpr double margin = 0.2;  // [m] so that no wall touches a kerb
+    Polygons found;
+    bg::buffer(centre_of(lane),
+               found,
+               bg::strategy::buffer::distance_symmetric<double>(lane.width / 2 + margin),
+               bg::strategy::buffer::side_straight(),
+               bg::strategy::buffer::join_miter(2),
+               bg::strategy::buffer::end_flat(),
+               bg::strategy::buffer::point_square());
+    return found;
+}
+
+const Polygon* largest(const Polygons& pieces) {
+    const auto found =
+        std::max_element(pieces.begin(), pieces.end(), [](const auto& p, const auto& q) {
+            return bg::area(p) < bg::area(q);
+        });
+    return found == pieces.end() ? nullptr : &*found;
+}
+
+/// What is left of a footprint beside the lanes; nothing when that is less than half of it.
+std::optional<Polygon> beside_lanes(const Polygon& outline,
+                                    const world::TownT& roads,
+                                    const Tree& lanes) {
+    std::vector<std::uint32_t> near;
+    for (auto found = lanes.qbegin(bg::index::intersects(bg::return_envelope<Box>(outline)));
+         found != lanes.qend();
+         ++found)
+        near.push_back(found->second);
+    std::sort(near.begin(), near.end());
+    Polygons rest{outline};
+    for (const std::uint32_t lane : near) {
+        Polygons less;
+        bg::difference(rest, strip(roads.lanes[lane]), less);
+        rest = std::move(less);
+    }
+    const Polygon* piece = largest(rest);
+    if (piece == nullptr || bg::area(*piece) < bg::area(outline) / 2)
+        return std::nullopt;
+    return *piece;
+}
+
+/// The outer ring without its closing point, rounded to millimetres as it will be written.
+std::vector<world::Vec3> outline_of(const Polygon& polygon) {
+    std::vector<world::Vec3> outline;
+    for (std::size_t i = 0; i + 1 < polygon.outer().size(); ++i)
+        outline.emplace_back(polygon.outer()[i].x(), polygon.outer()[i].y(), 0.0);
+    return outline;
+}
+
+void place_building(const Area& area,
+                    const world::TownT& roads,
+                    const Tree& lanes,
+                    Place& place,
+                    FootprintReport& report) {
+    const std::optional<Polygon> rest = beside_lanes(area.outline, roads, lanes);
+    if (!rest || bg::area(*rest) < smallest_building) {
+        ++report.on_roads;
+        return;
+    }
+    report.cut += bg::area(*rest) < bg::area(area.outline) - 0.01 ? 1 : 0;
+    const std::uint64_t draw = world::digest128(area.id).low();
+    world::DrawnBuildingT building;
+    building.outline = outline_of(*rest);
+    building.height = eaves_height(area.tags);
+    building.model = model_of(area.tags, draw);
+    building.style = static_cast<std::uint32_t>(draw >> 48);
+    place.buildings.push_back(std::move(building));
+    ++report.buildings;
+}
+
+void place_plot(const Area& area, const Box& box, Place& place, FootprintReport& report) {
+    Polygons pieces;
+    bg::intersection(area.outline, box, pieces);
+    for (const Polygon& piece : pieces) {
+        if (bg::area(piece) < smallest_plot)
+            continue;
+        world::PlotT plot;
+        plot.kind = *plot_kind(area.tags);
+        plot.outline = outline_of(piece);
+        place.plots.push_back(std::move(plot));
+        ++report.plots;
+    }
+}
+
+}  // namespace
+
+FootprintReport place_footprints(const std::string& map,
+                                 const std::string& network,
+                                 const world::TownT& roads,
+                                 const std::filesystem::path& scratch,
+                                 Place& place) {
+    FootprintReport report;
+    std::vector<Area> areas = read_areas(map, network, scratch);
+    drop_courtyards(areas);
+    // Large areas first: smaller ones lie over them.
+    std::stable_sort(areas.begin(), areas.end(), [](const Area& left, const Area& right) {
+        return bg::area(left.outline) > bg::area(right.outline);
+    });
+    const Tree lanes = tree_of(roads);
+    const Box box = reach(lanes);
+    for (const Area& area : areas) {
+        if (!is_near_road(area.outline, lanes))
+            continue;
+        try {
+            if (!bg::is_valid(area.outline) || bg::area(area.outline) < 1)
+                ++report.broken;
+            else if (is_building(area.tags))
+                place_building(area, roads, lanes, place, report);
+            else
+                place_plot(area, box, place, report);
+        } catch (const bg::exception&) {
+            ++report.broken;  // what Boost cannot cut
+        }
+    }
+    return report;
+}
+
+}  // namespace reprise::traffic

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace reprise::traffic {
+
+/// Runs netconvert or polyconvert in the folder `scratch`, with schema checks off, within bounds of
+/// memory and processor time. Returns how many warnings it gave. Throws world::Error "MAP:
+/// netconvert refuses it: ..." with the program's own reason; `map` is how the user calls it.
+int run_sumo_tool(const std::string& program,
+                  std::vector<std::string> words,
+                  const std::filesystem::path& scratch,
+                  const std::string& map);
+
+/// The reason in what a SUMO program said: its errors, joined in one line; else its last line.
+std::string reason_in(const std::string& said);
+
+/// What suits an OpenDRIVE map in `file`.
+std::vector<std::string> opendrive_words(const std::string& file, bool left_hand);
+
+/// What suits an OpenStreetMap map in `file`.
+std::vector<std::string> openstreetmap_words(const std::string& file, bool left_hand);
+
+/// Adds sidewalks where roads have none, and crossings at junctions.
+std::vector<std::string> sidewalk_words();
+
+}  // namespace reprise::traffic

@@ -1,0 +1,209 @@
+#include "traffic/opendrive.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "traffic/network_xml.h"
+#include "traffic/reference_line.h"
+#include "world/check.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+using Kind = RoadSignal::Kind;
+
+double real(const pugi::xml_node& node, const char* name, double fallback = 0) {
+    return number(node.attribute(name).value(), fallback);
+}
+
+std::string_view text(const pugi::xml_node& node, const char* name) {
+    return node.attribute(name).value();
+}
+
+/// [m/s] of a number with OpenDRIVE's unit; none for "no limit" and the like.
+std::optional<double> speed_of(const char* written, std::string_view unit) {
+    const double value = number(written, -1);
+    if (value <= 0 || value > 1000)
+        return std::nullopt;
+    if (unit == "mph")
+        return value * 0.44704;
+    if (unit == "km/h")
+        return value / 3.6;
+    return value;  // m/s is what the standard says where no unit is given
+}
+
+// ---- limits -----------------------------------------------------------------------------------
+
+/// The limit of the whole road at s.
+std::optional<double> limit_at(const pugi::xml_node& road, double s) {
+    std::optional<double> limit;
+    for (const pugi::xml_node type : road.children("type"))
+        if (real(type, "s") <= s + 1e-6) {
+            const pugi::xml_node speed = type.child("speed");
+            limit = speed_of(speed.attribute("max").value(), text(speed, "unit"));
+        }
+    return limit;
+}
+
+/// Lanes with a limit of their own keep it. Returns how many got one.
+int set_limits(const pugi::xml_node& road) {
+    int set = 0;
+    for (const pugi::xml_node section : road.child("lanes").children("laneSection")) {
+        const std::optional<double> limit = limit_at(road, real(section, "s"));
+        for (const char* side : {"left", "right"})
+            for (pugi::xml_node lane : section.child(side).children("lane")) {
+                if (!limit || lane.child("speed") || text(lane, "type") == "sidewalk")
+                    continue;
+                // The standard's order: link, width, border, roadMark, material, visibility, speed.
+                pugi::xml_node after;
+                for (const pugi::xml_node child : lane.children())
+                    for (const char* name : {"link", "width", "border", "roadMark", "material"})
+                        if (std::string_view(child.name()) == name)
+                            after = child;
+                pugi::xml_node speed =
+                    after ? lane.insert_child_after("speed", after) : lane.prepend_child("speed");
+                speed.append_attribute("sOffset").set_value("0");
+                speed.append_attribute("max").set_value(fmt::format("{:.4f}", *limit).c_str());
+                speed.append_attribute("unit").set_value("m/s");
+                ++set;
+            }
+    }
+    return set;
+}
+
+// ---- signals ----------------------------------------------------------------------------------
+
+/// A cubic of the road, such as its elevation, at s.
+double cubic_at(const pugi::xml_node& profile, const char* name, double s) {
+    pugi::xml_node piece;
+    for (const pugi::xml_node next : profile.children(name))
+        if (!piece || real(next, "s") <= s + 1e-6)
+            piece = next;
+    const double ds = s - real(piece, "s");
+    return real(piece, "a") +
+           ds * (real(piece, "b") + ds * (real(piece, "c") + ds * real(piece, "d")));
+}
+
+bool contains(std::string name, std::string_view word) {
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
+        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    });
+    return name.find(word) != std::string::npos;
+}
+
+/// The last whole number in a name such as Speed_30; 0 when there is none.
+double number_in(std::string_view name) {
+    const std::size_t end = name.find_last_of("0123456789");
+    if (end == std::string_view::npos)
+        return 0;
+    const std::size_t before = name.find_last_not_of("0123456789", end);
+    const std::size_t start = before == std::string_view::npos ? 0 : before + 1;
+    return number(name.substr(start, end + 1 - start), 0);
+}
+
+/// By the numbers of the German catalogue, which OpenDRIVE's examples and CARLA use in every
+/// country, by those of the US (MUTCD), or by name.
+std::optional<Kind> kind_of(const pugi::xml_node& signal) {
+    const std::string_view type = text(signal, "type");
+    const std::string name(text(signal, "name"));
+    if (text(signal, "dynamic") == "yes")
+        return type.starts_with("10000") || contains(name, "light") || contains(name, "signal")
+                   ? std::optional(Kind::light)
+                   : std::nullopt;
+    if (type == "206" || type == "R1-1" || contains(name, "stop_sign") || name == "Sign_Stop")
+        return Kind::stop;
+    if (type == "205" || type == "R1-2" || contains(name, "yield"))
+        return Kind::yield;
+    if (type == "274" || type == "R2-1" || contains(name, "speed"))
+        return Kind::speed_limit;
+    return std::nullopt;
+}
+
+/// [km/h]; 0 when the sign does not say.
+double limit_of(const pugi::xml_node& signal) {
+    double limit = real(signal, "value");
+    if (limit <= 0)
+        limit = text(signal, "type") == "274" ? real(signal, "subtype") : 0;
+    if (limit <= 0)
+        limit = number_in(text(signal, "name"));
+    const std::string_view unit = text(signal, "unit");
+    const bool miles =
+        unit == "mph" ||
+        (unit.empty() && (text(signal, "country") == "US" || text(signal, "country") == "USA"));
+    const double factor = miles ? 1.609344 : unit == "m/s" ? 3.6 : 1;
+    return limit > 0 && limit * factor < 300 ? limit * factor : 0;
+}
+
+RoadSignal read_signal(const pugi::xml_node& signal,
+                       Kind kind,
+                       const pugi::xml_node& road,
+                       const ReferenceLine& line) {
+    const double s = real(signal, "s"), t = real(signal, "t");
+    const RoadPose pose = line.at(s);
+    const double tilt = cubic_at(road.child("lateralProfile"), "superelevation", s);
+    RoadSignal found;
+    found.id = text(signal, "id");
+    found.kind = kind;
+    found.foot = {pose.position.x() - t * std::sin(pose.heading),
+                  pose.position.y() + t * std::cos(pose.heading),
+                  cubic_at(road.child("elevationProfile"), "elevation", s) + t * std::tan(tilt)};
+    found.heading = pose.heading + real(signal, "hOffset");
+    found.against = text(signal, "orientation") == "-";
+    found.bottom = real(signal, "zOffset");
+    found.height = real(signal, "height");
+    found.limit_kmh = kind == Kind::speed_limit ? limit_of(signal) : 0;
+    return found;
+}
+
+void read_signals(const pugi::xml_node& road, OpenDrive& map) {
+    const pugi::xml_node signals = road.child("signals");
+    if (!signals.child("signal"))
+        return;
+    const ReferenceLine line(road.child("planView"));
+    for (const pugi::xml_node signal : signals.children("signal")) {
+        const std::optional<Kind> kind = kind_of(signal);
+        if (kind && (*kind != Kind::speed_limit || limit_of(signal) > 0))
+            map.signals.push_back(read_signal(signal, *kind, road, line));
+        else
+            ++map.other_signs;
+    }
+}
+
+}  // namespace
+
+OpenDrive read_opendrive(const std::string& xml, const std::string& file) {
+    pugi::xml_document document;
+    const pugi::xml_parse_result parsed = document.load_buffer(xml.data(), xml.size());
+    if (!parsed)
+        throw world::Error(fmt::format("{}:{}: is not an OpenDRIVE map: {}",
+                                       file,
+                                       line_of(xml, static_cast<std::size_t>(parsed.offset)),
+                                       parsed.description()));
+    const pugi::xml_node root = document.document_element();
+    if (!root.child("road"))
+        throw world::Error(
+            fmt::format("{}:{}: has no <road>",
+                        file,
+                        line_of(xml, static_cast<std::size_t>(root.offset_debug()))));
+    OpenDrive map;
+    const pugi::xml_node header = root.child("header");
+    map.version = fmt::format("{}.{}", text(header, "revMajor"), text(header, "revMinor"));
+    map.left_hand = true;
+    for (const pugi::xml_node road : root.children("road")) {
+        map.left_hand = map.left_hand && text(road, "rule") == "LHT";
+        map.limits_set += set_limits(road);
+        read_signals(road, map);
+    }
+    std::ostringstream prepared;
+    document.save(prepared, "", pugi::format_raw);
+    map.prepared = std::move(prepared).str();
+    return map;
+}
+
+}  // namespace reprise::traffic

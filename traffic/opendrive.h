@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "world/town_generated.h"
+
+namespace reprise::traffic {
+
+/// A signal or sign of an OpenDRIVE road.
+struct RoadSignal {
+    enum class Kind : std::uint8_t { light, stop, yield, speed_limit };
+
+    std::string id;
+    Kind kind = Kind::light;
+    world::Vec3 foot;      ///< where its pole stands on the road's surface, in the map's frame
+    double heading = 0;    ///< [rad] of the road there, the offset of the signal added
+    bool against = false;  ///< orientation "-": for those who drive against s
+    double bottom = 0;     ///< [m] of its lower edge above the road, as the map says (zOffset)
+    double height = 0;     ///< [m] of itself
+    double limit_kmh = 0;  ///< speed_limit only
+};
+
+/// What netconvert does not take over out of an OpenDRIVE map.
+struct OpenDrive {
+    std::string version;              ///< such as 1.4
+    std::vector<RoadSignal> signals;  ///< in the order of the file
+    int other_signs = 0;              ///< of kinds that have no place in a town
+    int limits_set = 0;               ///< lanes that got their road's limit
+    bool left_hand = false;           ///< all roads say so
+    std::string prepared;             ///< the map with these limits, for netconvert
+};
+
+/// Reads it out of the map's text. netconvert 1.15 ignores speed limits of a whole road
+/// (<type><speed>): they are written into its lanes. `file` is for messages. Throws world::Error
+/// "file:line: what" when it is not XML or has no road.
+OpenDrive read_opendrive(const std::string& xml, const std::string& file);
+
+}  // namespace reprise::traffic

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "traffic/signal_sites.h"
+
+namespace reprise::traffic {
+
+/// What netconvert must be told so that a map's stop and yield signs count: node and edge files
+/// that change the junctions of a network. It gets the network itself as well, so that ids agree.
+struct RightOfWay {
+    std::string nodes;  ///< XML; empty: nothing to change
+    std::string edges;
+    int junctions = 0;  ///< that change
+};
+
+/// Roads with a sign get a lower priority. A junction becomes an all-way stop where every road has
+/// a stop sign, and else a priority stop where one has: SUMO knows stops for a whole junction only,
+/// so there roads with a yield sign stop as well. Lit junctions stay as they are.
+RightOfWay right_of_way(const OpenDrive& map, const ImportedRoads& roads);
+
+/// How many of the roads with a stop or yield sign (at junctions without lights) give way.
+struct SignsThatBind {
+    int roads = 0;
+    int giving_way = 0;
+};
+
+SignsThatBind signs_that_bind(const OpenDrive& map, const ImportedRoads& roads);
+
+}  // namespace reprise::traffic

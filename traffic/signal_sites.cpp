@@ -1,0 +1,265 @@
+#include "traffic/signal_sites.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <pugixml.hpp>
+#include <tuple>
+
+#include "traffic/lanes.h"
+#include "traffic/links.h"
+#include "traffic/network_xml.h"
+#include "world/check.h"
+#include "world/frames.h"
+#include "world/town.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+using Eigen::Vector2d;
+using world::LaneKind;
+using world::LaneT;
+using world::Vec3;
+using Kind = RoadSignal::Kind;
+
+constexpr double pi = std::numbers::pi;
+constexpr double sixty_degrees = pi / 3;
+
+Vector2d flat(const Vec3& point) {
+    return {point.x(), point.y()};
+}
+
+Eigen::Vector3d vector(const Vec3& point) {
+    return {point.x(), point.y(), point.z()};
+}
+
+/// The driving lane of that direction whose kerb side the point is on, not far away.
+std::optional<std::uint32_t> lane_beside(const world::TownT& town, const Vec3& point, double yaw) {
+    constexpr double farthest = 12, over_the_lane = 0.5;  // [m]
+    const double kerb_side = town.left_hand ? 1 : -1;
+    std::optional<std::uint32_t> found;
+    double nearest = farthest;
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
+        if (town.lanes[i].kind != LaneKind::driving)
+            continue;
+        const world::LaneProjection at = world::project(town.lanes[i], vector(point));
+        const double lane_yaw = world::point_at(town.lanes[i], at.s).yaw;
+        if (at.distance < nearest && at.t * kerb_side > -over_the_lane &&
+            std::abs(world::wrap_angle(lane_yaw - yaw)) < sixty_degrees) {
+            nearest = at.distance;
+            found = i;
+        }
+    }
+    return found;
+}
+
+/// One of the two readings of a signal's heading, as the way of those who read it.
+double read_yaw(const RoadSignal& signal, bool relative_to_orientation) {
+    return world::wrap_angle(signal.heading + (relative_to_orientation && signal.against ? pi : 0));
+}
+
+std::vector<SignalSite> site_as(const OpenDrive& map, const ImportedRoads& roads, bool relative) {
+    std::vector<SignalSite> sites;
+    for (const RoadSignal& signal : map.signals) {
+        SignalSite site;
+        site.signal = &signal;
+        site.foot = {signal.foot.x() + roads.offset.x(),
+                     signal.foot.y() + roads.offset.y(),
+                     signal.foot.z()};
+        site.yaw = read_yaw(signal, relative);
+        site.lane = lane_beside(roads.town, site.foot, site.yaw);
+        sites.push_back(site);
+    }
+    return sites;
+}
+
+/// The lights that netconvert gave to each link of each program.
+using Lights = std::map<std::pair<std::string, std::uint32_t>, std::vector<std::string>>;
+
+Lights read_lights(const pugi::xml_node& net) {
+    Lights lights;
+    for (const pugi::xml_node connection : net.children("connection")) {
+        const pugi::xml_attribute program = connection.attribute("tl");
+        if (!program)
+            continue;
+        for (const pugi::xml_node param : connection.children("param"))
+            if (std::string_view(param.attribute("key").value()) == "signalID")
+                for (const std::string_view id : words(param.attribute("value").value()))
+                    lights[{program.value(), connection.attribute("linkIndex").as_uint()}]
+                        .emplace_back(id);
+    }
+    return lights;
+}
+
+// ---- placing ----------------------------------------------------------------------------------
+
+bool on_the_road(const world::TownT& town, const Vec3& point) {
+    constexpr double pole_radius = 0.3;
+    return std::any_of(town.lanes.begin(), town.lanes.end(), [&](const LaneT& lane) {
+        return world::is_for_cars(lane) &&
+               world::project(lane, vector(point)).distance < lane.width / 2 + pole_radius;
+    });
+}
+
+/// The foot, moved to the right of those who read the signal; in left-hand traffic to the left.
+Vec3 moved(const SignalSite& site, double way, bool left_hand) {
+    const double side = site.yaw + (left_hand ? pi / 2 : -pi / 2);
+    return {
+        site.foot.x() + way * std::cos(side), site.foot.y() + way * std::sin(side), site.foot.z()};
+}
+
+/// How far that must be so that no road is there; nothing when there is road everywhere.
+std::optional<double> way_to_kerb(const world::TownT& town, const SignalSite& site) {
+    constexpr double farthest = 15, step = 0.25;  // [m]
+    for (int i = 0; i * step <= farthest; ++i)
+        if (!on_the_road(town, moved(site, i * step, town.left_hand)))
+            return i * step;
+    return std::nullopt;
+}
+
+/// How badly a light suits those who stop at a lane's end; nothing when they cannot see it.
+std::optional<double> distance_to(const SignalSite& site, const world::SignalT& signal) {
+    const Vector2d off = flat(site.foot) - flat(signal.position);
+    const Vector2d ahead(std::cos(signal.yaw), std::sin(signal.yaw));
+    const double along = off.dot(ahead);
+    const double across = ahead.x() * off.y() - ahead.y() * off.x();
+    const bool seen = std::abs(world::wrap_angle(site.yaw - signal.yaw)) < sixty_degrees &&
+                      along > -12 && along < 45 && std::abs(across) < 15;
+    return seen ? std::optional(off.norm()) : std::nullopt;
+}
+
+/// Which light stands for which signals of the town: the nearest of those that netconvert gave to
+/// a lane's links and that can be seen from there. Key: index of the site and the program.
+std::map<std::pair<std::size_t, std::string>, std::vector<std::uint32_t>> lights_of_links(
+    const std::vector<SignalSite>& sites, const ImportedRoads& roads) {
+    std::map<std::string, std::size_t> by_id;
+    for (std::size_t i = 0; i < sites.size(); ++i)
+        if (sites[i].signal->kind == Kind::light)
+            by_id.emplace(sites[i].signal->id, i);
+    // The lights of all links of a lane together: a lane has one head.
+    std::map<std::pair<std::string, std::uint32_t>, std::vector<std::uint32_t>> lanes;
+    for (std::uint32_t i = 0; i < roads.town.signals.size(); ++i)
+        if (!roads.town.signals[i].for_walkers)
+            lanes[{roads.town.signals[i].program, roads.town.signals[i].lane}].push_back(i);
+    std::map<std::pair<std::size_t, std::string>, std::vector<std::uint32_t>> found;
+    for (const auto& [key, signals] : lanes) {
+        std::optional<std::pair<double, std::size_t>> best;
+        for (const std::uint32_t signal : signals)
+            for (const std::string& id : roads.lights[signal])
+                if (const auto light = by_id.find(id); light != by_id.end())
+                    if (const auto far =
+                            distance_to(sites[light->second], roads.town.signals[signal]))
+                        if (!best || std::pair(*far, light->second) < *best)
+                            best = {*far, light->second};
+        for (const std::uint32_t signal : signals)
+            if (best)
+                found[{best->second, key.first}].push_back(roads.town.signals[signal].index);
+    }
+    return found;
+}
+
+Place::Head head_at(const SignalSite& site, double way, bool left_hand) {
+    constexpr double at_kerb = 3.2, over_road = 5.2, lowest = 2.0;
+    Place::Head head;
+    head.foot = moved(site, way, left_hand);
+    head.yaw = site.yaw;
+    head.arm = left_hand ? -way : way;
+    // RoadRunner gives the foot of the post where the standard wants the lower edge.
+    const double middle = site.signal->bottom + site.signal->height / 2;
+    head.height = site.signal->bottom > lowest ? middle : at_kerb;
+    if (way > 1)
+        head.height = std::max(head.height, over_road);
+    return head;
+}
+
+world::Prop sign_at(const SignalSite& site, double way, bool left_hand) {
+    constexpr double height = 2.4;
+    const world::PropKind kind = site.signal->kind == Kind::stop ? world::PropKind::stop_sign
+                                 : site.signal->kind == Kind::yield
+                                     ? world::PropKind::yield_sign
+                                     : world::PropKind::speed_limit_sign;
+    return {moved(site, way, left_hand),
+            site.yaw,
+            0,
+            0,
+            height,
+            0,
+            static_cast<std::uint16_t>(std::lround(site.signal->limit_kmh)),
+            kind,
+            0};
+}
+
+}  // namespace
+
+ImportedRoads read_roads(const std::string& network, const std::string& file) {
+    pugi::xml_document document;
+    if (!document.load_buffer(network.data(), network.size()))
+        throw world::Error(file + ": is not a SUMO network");
+    const pugi::xml_node net = document.child("net");
+    ImportedRoads roads;
+    roads.town.left_hand = net.attribute("lefthand").as_bool();
+    read_junctions(net, roads.town);
+    read_lanes(net, roads.town);
+    read_links(net, roads.town);
+    const std::vector<Vec3> offset =
+        parse_shape(net.child("location").attribute("netOffset").value());
+    if (!offset.empty())
+        roads.offset = flat(offset.front());
+    const Lights lights = read_lights(net);
+    for (const world::SignalT& signal : roads.town.signals) {
+        const auto found = lights.find({signal.program, signal.index});
+        roads.lights.push_back(found == lights.end() ? std::vector<std::string>() : found->second);
+    }
+    return roads;
+}
+
+std::vector<SignalSite> site_signals(const OpenDrive& map, const ImportedRoads& roads) {
+    std::vector<SignalSite> relative = site_as(map, roads, true);
+    std::vector<SignalSite> plain = site_as(map, roads, false);
+    const auto fit = [](const std::vector<SignalSite>& sites) {
+        return std::count_if(sites.begin(), sites.end(), [](const SignalSite& site) {
+            return site.lane.has_value();
+        });
+    };
+    return fit(relative) >= fit(plain) ? relative : plain;
+}
+
+SignalReport place_signals(const OpenDrive& map, const ImportedRoads& roads, Place& place) {
+    const bool left_hand = roads.town.left_hand;
+    const std::vector<SignalSite> sites = site_signals(map, roads);
+    const auto links = lights_of_links(sites, roads);
+    SignalReport report;
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        const bool is_light = sites[i].signal->kind == Kind::light;
+        report.lights += is_light ? 1 : 0;
+        const std::optional<double> way = way_to_kerb(roads.town, sites[i]);
+        const auto first = links.lower_bound({i, ""});
+        const bool useful = !is_light || (first != links.end() && first->first.first == i);
+        if (!way || !useful) {
+            ++report.lost;
+            continue;
+        }
+        report.moved += *way > 0 ? 1 : 0;
+        if (!is_light) {
+            place.signs.push_back(sign_at(sites[i], *way, left_hand));
+            ++report.signs;
+            continue;
+        }
+        for (auto at = first; at != links.end() && at->first.first == i; ++at) {
+            Place::Head head = head_at(sites[i], *way, left_hand);
+            head.program = at->first.second;
+            head.links = at->second;
+            std::sort(head.links.begin(), head.links.end());
+            place.heads.push_back(head);
+        }
+        ++report.heads;
+    }
+    return report;
+}
+
+}  // namespace reprise::traffic

@@ -1,0 +1,284 @@
+// What it must do: make a town of a map, and say what was done, changed and lost.
+// What it assumes: netconvert's exit code means little: what it wrote is looked at.
+// How it goes: copy the map into a work folder; netconvert; read out of the map what netconvert
+// does
+//   not take over; write; read the result as any town is read.
+// What it keeps: nothing; all files lie in the folder.
+#include "traffic/town_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+
+#include "traffic/footprints.h"
+#include "traffic/map_source.h"
+#include "traffic/netconvert.h"
+#include "traffic/opendrive.h"
+#include "traffic/right_of_way.h"
+#include "traffic/signal_sites.h"
+#include "traffic/town_reader.h"
+#include "world/check.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+namespace fs = std::filesystem;
+using world::LaneKind;
+
+constexpr const char* made = "made.net.xml";  ///< in the work folder
+
+std::string read_text(const fs::path& path) {
+    std::ostringstream text;
+    std::ifstream file(path, std::ios::binary);
+    if (file.peek() != std::ifstream::traits_type::eof())
+        text << file.rdbuf();
+    if (!file)
+        throw world::Error(path.string() + ": cannot be read");
+    return std::move(text).str();
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file)
+        throw world::Error(path.string() + ": cannot be written");
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != std::string::npos;
+         at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+}
+
+/// netconvert writes the date and its command line into a comment.
+std::string without_comments(const std::string& xml) {
+    std::string kept;
+    for (std::size_t from = 0; from < xml.size();) {
+        const std::size_t start = std::min(xml.find("<!--", from), xml.size());
+        kept.append(xml, from, start - from);
+        const std::size_t end = xml.find("-->", start);
+        from = start == xml.size() || end == std::string::npos ? xml.size() : end + 3;
+        if (start < xml.size())
+            from = std::min(xml.find_first_not_of("\r\n", from), xml.size());
+    }
+    return kept;
+}
+
+/// One import on its way.
+class Import {
+  public:
+    Import(const TownImport& wish, const fs::path& work)
+        : work_(work),
+          map_(wish.map.string()),
+          source_(open_map(wish.map, work)) {
+        if (wish.left_hand && source_.kind != MapKind::openstreetmap)
+            throw world::Error(map_ + ": --lefthand is for OpenStreetMap; this map says so itself");
+        switch (source_.kind) {
+            case MapKind::opendrive:
+                from_opendrive(wish);
+                break;
+            case MapKind::openstreetmap:
+                from_openstreetmap(wish);
+                break;
+            case MapKind::network:
+                from_network(wish);
+                break;
+        }
+    }
+
+    std::string network;
+    std::string place;
+    std::string report;
+
+    const std::string& map_name() const { return source_.name; }
+
+  private:
+    template <typename... Values>
+    void say(fmt::format_string<Values...> text, Values&&... values) {
+        report += fmt::format(text, std::forward<Values>(values)...) + "\n";
+    }
+
+    /// Runs netconvert; the network it made is in the file `made` and in `network`.
+    void convert(std::vector<std::string> words) {
+        words.insert(words.end(), {"--precision", "3", "--output-file", made});
+        const int warnings = run_sumo_tool("netconvert", std::move(words), work_, map_);
+        if (!fs::exists(work_ / made))
+            throw world::Error(map_ + ": netconvert made no network of it");
+        network = without_comments(read_text(work_ / made));
+        if (warnings > 0)
+            say("netconvert gave {} warnings", warnings);
+    }
+
+    void from_opendrive(const TownImport& wish) {
+        const OpenDrive map = read_opendrive(read_text(source_.file), map_);
+        write_text(work_ / "map.xodr", map.prepared);
+        say("OpenDRIVE {}", map.version);
+        std::vector<std::string> words = opendrive_words("map.xodr", map.left_hand);
+        if (wish.guess_sidewalks)
+            words.emplace_back("--sidewalks.guess");
+        convert(words);
+        if (map.limits_set > 0)
+            say("speed limits: {} lanes got that of their road, which netconvert ignores",
+                map.limits_set);
+        obey_signs(map);
+        Place found;
+        const SignalReport signals = place_signals(map, read_roads(network, map_), found);
+        say("signals: {} in the map, {} heads placed as it says; signs: {} placed",
+            signals.lights,
+            signals.heads,
+            signals.signs);
+        if (signals.moved > 0)
+            say("poles: {} stood on a road and were moved to its edge", signals.moved);
+        if (signals.lost > 0)
+            say("lost: {} signals and signs that control nothing or have no place", signals.lost);
+        if (map.other_signs > 0)
+            say("lost: {} signals and signs of other kinds", map.other_signs);
+        say("lost: road markings and objects (they are made anew)");
+        place = place_xml(found);
+    }
+
+    /// netconvert knows no signs: it is called once more, with what they mean.
+    void obey_signs(const OpenDrive& map) {
+        const RightOfWay patch = right_of_way(map, read_roads(network, map_));
+        if (patch.junctions == 0)
+            return;
+        write_text(work_ / "signs.nod.xml", patch.nodes);
+        write_text(work_ / "signs.edg.xml", patch.edges);
+        write_text(work_ / "first.net.xml", network);
+        convert({"--sumo-net-file",
+                 "first.net.xml",
+                 "--node-files",
+                 "signs.nod.xml",
+                 "--edge-files",
+                 "signs.edg.xml",
+                 "--offset.disable-normalization"});
+        const SignsThatBind bind = signs_that_bind(map, read_roads(network, map_));
+        say("right of way: {} junctions follow their stop and yield signs; {} of {} roads with "
+            "such a "
+            "sign give way",
+            patch.junctions,
+            bind.giving_way,
+            bind.roads);
+    }
+
+    void from_openstreetmap(const TownImport& wish) {
+        fs::create_symlink(fs::absolute(source_.file), work_ / "map.osm");
+        say("OpenStreetMap, traffic drives on the {}", wish.left_hand ? "left" : "right");
+        std::vector<std::string> words = openstreetmap_words("map.osm", wish.left_hand);
+        if (wish.guess_sidewalks)
+            words.emplace_back("--sidewalks.guess");
+        convert(words);
+        replace_all(network, "&amp;amp;", "&amp;");  // netconvert escapes street names twice
+        const ImportedRoads roads = read_roads(network, map_);
+        if (roads.town.lanes.empty())
+            return;  // a clearer word is said when the network is read
+        Place found;
+        const FootprintReport areas = place_footprints("map.osm", made, roads.town, work_, found);
+        say("buildings: {} with their own footprints; {} cut back to the edge of a road, {} left "
+            "out "
+            "that stand on one",
+            areas.buildings,
+            areas.cut,
+            areas.on_roads);
+        say("parks, waters, woods and the like: {}", areas.plots);
+        if (areas.broken > 0)
+            say("lost: {} areas whose outline crosses itself", areas.broken);
+        place = place_xml(found);
+    }
+
+    void from_network(const TownImport& wish) {
+        const Network loaded = load_network(wish.map);
+        say("a SUMO network");
+        report += loaded.notes;
+        network = without_comments(loaded.xml);
+        place = loaded.place;
+        if (!wish.guess_sidewalks)
+            return;
+        write_text(work_ / "map.net.xml", network);
+        std::vector<std::string> words{
+            "--sumo-net-file", "map.net.xml", "--offset.disable-normalization"};
+        for (const std::string& word : sidewalk_words())
+            words.push_back(word);
+        convert(words);
+    }
+
+    fs::path work_;
+    std::string map_;  ///< as the user calls it
+    MapSource source_;
+};
+
+double kilometres(const world::TownT& town, LaneKind kind) {
+    double length = 0;
+    for (const world::LaneT& lane : town.lanes)
+        length += lane.kind == kind ? lane.length : 0;
+    return length / 1000;
+}
+
+auto count(const world::TownT& town, LaneKind kind) {
+    return std::count_if(town.lanes.begin(), town.lanes.end(), [kind](const world::LaneT& lane) {
+        return lane.kind == kind;
+    });
+}
+
+std::string summary(const world::TownT& town) {
+    const auto lit = std::count_if(town.junctions.begin(),
+                                   town.junctions.end(),
+                                   [](const world::JunctionT& junction) { return junction.lit; });
+    return fmt::format(
+        "lanes for cars: {}, {:.2f} km; sidewalks: {}, {:.2f} km; crossings: {}\n"
+        "junctions: {}, {} of them lit\n"
+        "size: {:.0f} m x {:.0f} m, heights {:.1f} to {:.1f} m\n",
+        count(town, LaneKind::driving),
+        kilometres(town, LaneKind::driving),
+        count(town, LaneKind::sidewalk),
+        kilometres(town, LaneKind::sidewalk),
+        count(town, LaneKind::crossing),
+        town.junctions.size(),
+        lit,
+        town.high.x() - town.low.x(),
+        town.high.y() - town.low.y(),
+        town.low.z(),
+        town.high.z());
+}
+
+/// Reads what was written, as a run will do. Returns its summary.
+std::string check(const fs::path& path, const std::string& map) {
+    constexpr double widest = 200'000;  // [m] netconvert has been seen to write 1e10
+    try {
+        const world::TownT town = read_town(load_network(path));
+        const double width = std::max(town.high.x() - town.low.x(), town.high.y() - town.low.y());
+        if (!(width < widest))
+            throw world::Error(fmt::format("{}: is {:.0f} km wide", map, width / 1000));
+        return summary(town);
+    } catch (const world::Error& error) {
+        std::string what = error.what();
+        if (what.starts_with(path.string()))
+            what = map + ": what came out of it is no town: " +
+                   what.substr(std::min(what.find(": ") + 2, what.size()));
+        throw world::Error(what);
+    }
+}
+
+}  // namespace
+
+std::string import_town(const TownImport& wish, const fs::path& folder) {
+    const fs::path work = folder / "work";
+    fs::create_directory(work);
+    const Import import(wish, fs::absolute(work));
+    const std::string name = wish.name.empty() ? import.map_name() : wish.name;
+    const fs::path network = folder / (name + ".net.xml");
+    write_text(network, import.network);
+    if (!import.place.empty())
+        write_text(folder / (name + ".place.xml"), import.place);
+    const std::string report = fmt::format("{}: made of {}\n", name, wish.map.filename().string()) +
+                               import.report + check(network, wish.map.string());
+    write_text(folder / "import.txt", report);
+    fs::remove_all(work);
+    return report;
+}
+
+}  // namespace reprise::traffic
