@@ -101,7 +101,10 @@ void add_set_and_for(CLI::App& command,
 /// What a run may be given besides its scenario.
 void add_start(CLI::App& command, RunOptions& run, std::vector<std::string>& assignments) {
     command
-        .add_option("--town", run.town, "Another town: its name, or a SUMO network (.net.xml[.gz])")
+        .add_option("--town",
+                    run.town,
+                    "Another town: its name or folder, a SUMO network (.net.xml[.gz]), or a map "
+                    "(.xodr, .osm[.gz])")
         ->type_name("NET");
     command.add_option("--seed", run.seed, "What decides everything random")
         ->type_name("N")

@@ -1,8 +1,13 @@
 #include "cli/towns.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fmt/format.h>
 #include <vector>
 
+#include "cli/town_folder.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -36,10 +41,6 @@ std::vector<std::string> names_in(const std::vector<fs::path>& folders) {
     return names;
 }
 
-bool looks_like_path(const std::string& town) {
-    return town.find('/') != std::string::npos || town.ends_with(".xml") || town.ends_with(".gz");
-}
-
 /// The one network in a folder.
 fs::path network_in(const fs::path& folder) {
     std::vector<fs::path> found;
@@ -53,6 +54,36 @@ fs::path network_in(const fs::path& folder) {
                            (found.empty() ? "no" : std::to_string(found.size())) +
                            " SUMO networks (.net.xml); one was expected");
     return found.front();
+}
+
+/// What must be imported first.
+bool is_map(const std::string& town) {
+    return town.ends_with(".xodr") || town.ends_with(".osm") || town.ends_with(".osm.gz");
+}
+
+/// A town made of a map for this run only.
+traffic::Network import_map(const std::string& map) {
+    std::string folder = (fs::temp_directory_path() / "reprise_town_XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr)
+        throw world::Error(folder + ": cannot be made: " + std::strerror(errno));
+
+    struct Remove {
+        const std::string& folder;
+
+        ~Remove() {
+            std::error_code ignored;
+            fs::remove_all(folder, ignored);
+        }
+    } const remove{folder};
+
+    fmt::print(stderr, "{}: importing it; `reprise town import` would keep the town\n", map);
+    make_town_folder({map, "", false, false}, folder, false);
+    return traffic::load_network(network_in(folder));
+}
+
+bool looks_like_path(const std::string& town) {
+    return town.find('/') != std::string::npos || town.ends_with(".xml") || town.ends_with(".gz") ||
+           is_map(town);
 }
 
 fs::path find_network(const std::string& town, const fs::path& scenario) {
@@ -73,15 +104,16 @@ fs::path find_network(const std::string& town, const fs::path& scenario) {
     std::string list;
     for (const std::string& name : names)
         list += (list.empty() ? "" : ", ") + name;
-    throw world::Error("no town '" + town + "'" + world::did_you_mean(town, names) +
-                       "; there are " + (list.empty() ? "none" : list) +
-                       ", or give the path of a SUMO network (.net.xml)");
+    throw world::Error(
+        "no town '" + town + "'" + world::did_you_mean(town, names) + "; there are " +
+        (list.empty() ? "none" : list) +
+        ", or give the path of a SUMO network (.net.xml), a town's folder or a map (.xodr, .osm)");
 }
 
 }  // namespace
 
 traffic::Network load_town(const std::string& town, const fs::path& scenario) {
-    return traffic::load_network(find_network(town, scenario));
+    return is_map(town) ? import_map(town) : traffic::load_network(find_network(town, scenario));
 }
 
 }  // namespace reprise::cli

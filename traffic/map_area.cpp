@@ -133,6 +133,9 @@ double eaves_height(const Tags& tags) {
 }
 
 std::uint32_t model_of(const Tags& tags, std::uint64_t draw) {
+    // Some are called as the map calls them, such as a church.
+    if (const auto same = world::find_building_model(value(tags, "building")))
+        return *same + 1;
     const double floors = floors_of(tags);
     const BuildingUse use = use_of(tags, floors);
     const auto models = world::building_models();

@@ -47,6 +47,8 @@ std::string reason_in(const std::string& said) {
              ++more)
             if (lines[more].starts_with("At line"))
                 error += " (" + lines[more].substr(3, lines[more].find_last_not_of('.') - 2) + ")";
+        if (error == "No nodes loaded.")
+            error = "No nodes loaded: it has no roads";
         if (std::find(errors.begin(), errors.end(), error) == errors.end())
             errors.push_back(error);
     }
@@ -68,7 +70,8 @@ int run_sumo_tool(const std::string& program,
     words.insert(words.end(), {"--xml-validation", "never"});
     const ProgramResult result = run_program(program, words, scratch);
     if (!result.stopped.empty())
-        throw world::Error(fmt::format("{}: {} {}", map, program, result.stopped));
+        throw world::Error(
+            fmt::format("{}: {} {}: {}", map, program, result.stopped, reason_in(result.said)));
     if (result.code != 0)
         throw world::Error(
             fmt::format("{}: {} refuses it: {}", map, program, reason_in(result.said)));
@@ -98,9 +101,13 @@ std::vector<std::string> opendrive_words(const std::string& file, bool left_hand
 }
 
 std::vector<std::string> openstreetmap_words(const std::string& file, bool left_hand) {
+    const std::string types = (sumo_folder() / "data/typemap/osmNetconvert").string();
     std::vector<std::string> words{
         "--osm-files",
         file,
+        // Most roads have no maxspeed: 50 km/h in towns instead of the 80 and 100 of the first.
+        "--type-files",
+        types + ".typ.xml," + types + "UrbanDe.typ.xml",
         "--junctions.join",
         "--tls.guess-signals",
         "--tls.join",

@@ -21,6 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// [bytes] A network is read whole, as a tree of about four times its size.
+constexpr std::uintmax_t largest = std::uintmax_t{512} << 20;
+
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
     throw world::Error(fmt::format("{}: {}", path.string(), what));
 }
@@ -55,6 +58,10 @@ std::string read_bytes(const fs::path& path) {
         fail(path,
              fmt::format("is {}; a SUMO network (.net.xml or .net.xml.gz) was expected",
                          fs::is_directory(status) ? "a folder" : "not a file"));
+    if (fs::file_size(path, error) > largest && !error)
+        fail(path,
+             fmt::format(
+                 "has {} MB; {} at most can be read", fs::file_size(path) >> 20, largest >> 20));
     std::ifstream file(path, std::ios::binary);
     std::ostringstream bytes;
     if (fs::file_size(path, error) > 0)
@@ -82,8 +89,12 @@ std::string unpack(const fs::path& path, std::string& packed) {
         stream.avail_out = static_cast<uInt>(block.size());
         status = inflate(&stream, Z_NO_FLUSH);
         unpacked.append(block.data(), block.size() - stream.avail_out);
+        if (unpacked.size() > largest)
+            break;
     }
     inflateEnd(&stream);
+    if (unpacked.size() > largest)
+        fail(path, fmt::format("holds more than {} MB", largest >> 20));
     if (status != Z_STREAM_END)
         fail(path, "is damaged or cut off: gzip cannot unpack it");
     return unpacked;
@@ -91,13 +102,9 @@ std::string unpack(const fs::path& path, std::string& packed) {
 
 /// What a map in another format can be turned into.
 std::string root_hint(std::string_view root, const fs::path& path) {
-    const std::string call = "; make a network of it: netconvert ";
-    const std::string rest = path.string() + " -X never -o town.net.xml";
-    if (root == "OpenDRIVE")
-        return call + "--opendrive-files " + rest;
-    if (root == "osm")
-        return call + "--osm-files " + rest;
-    return "";
+    if (root != "OpenDRIVE" && root != "osm")
+        return "";
+    return "; make a town of it: reprise town import " + path.string() + " -o DIR";
 }
 
 /// The classes that SUMO 1.15 knows of a list, in their order. Unknown ones are counted.

@@ -60,13 +60,15 @@ RightOfWay right_of_way(const OpenDrive& map, const ImportedRoads& roads) {
     std::set<std::string> lowered;
     for (const auto& [junction, approaches] : signed_junctions(map, roads)) {
         const bool all_stop = approaches.with_stop == approaches.all;
+        const bool all_yield = approaches.with_yield == approaches.all;
         const char* type = all_stop                       ? "allway_stop"
+                           : all_yield                    ? "right_before_left"
                            : approaches.with_stop.empty() ? "priority"
                                                           : "priority_stop";
         patch.nodes += fmt::format(
             "<node id=\"{}\" type=\"{}\"/>\n", escaped(roads.town.junctions[junction].name), type);
         ++patch.junctions;
-        if (all_stop)
+        if (all_stop || all_yield)
             continue;
         lowered.insert(approaches.with_stop.begin(), approaches.with_stop.end());
         lowered.insert(approaches.with_yield.begin(), approaches.with_yield.end());

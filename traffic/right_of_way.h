@@ -16,7 +16,8 @@ struct RightOfWay {
 
 /// Roads with a sign get a lower priority. A junction becomes an all-way stop where every road has
 /// a stop sign, and else a priority stop where one has: SUMO knows stops for a whole junction only,
-/// so there roads with a yield sign stop as well. Lit junctions stay as they are.
+/// so there roads with a yield sign stop as well. Where every road has a yield sign, who comes from
+/// the right goes first. Lit junctions stay as they are.
 RightOfWay right_of_way(const OpenDrive& map, const ImportedRoads& roads);
 
 /// How many of the roads with a stop or yield sign (at junctions without lights) give way.

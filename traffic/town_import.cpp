@@ -117,6 +117,9 @@ class Import {
         const OpenDrive map = read_opendrive(read_text(source_.file), map_);
         write_text(work_ / "map.xodr", map.prepared);
         say("OpenDRIVE {}", map.version);
+        if (map.left_hand)
+            say("left-hand traffic: netconvert mirrors the lanes; roads with unlike sides come out "
+                "wrong");
         std::vector<std::string> words = opendrive_words("map.xodr", map.left_hand);
         if (wish.guess_sidewalks)
             words.emplace_back("--sidewalks.guess");

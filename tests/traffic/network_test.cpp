@@ -76,9 +76,9 @@ TEST_F(NetworkFiles, EveryBadFileIsOneClearLine) {
         {"cut.net.xml", own.substr(0, 9000), ": is not a SUMO network"},
         {"map.net.xml",
          "<?xml version=\"1.0\"?>\n<OpenDRIVE/>",
-         "map.net.xml:2: expected <net>, found <OpenDRIVE>; make a network of it: netconvert "
-         "--opendrive-files"},
-        {"street.net.xml", "<osm/>", "netconvert --osm-files"},
+         "map.net.xml:2: expected <net>, found <OpenDRIVE>; make a town of it: reprise town "
+         "import"},
+        {"street.net.xml", "<osm/>", "found <osm>; make a town of it: reprise town import"},
         {"routes.net.xml", "<routes/>", "routes.net.xml:1: expected <net>, found <routes>"},
         {"none.net.xml",
          "<net version=\"1.9\"/>",
