@@ -10,6 +10,7 @@
 #include "traffic/network_xml.h"
 #include "traffic/scenery.h"
 #include "world/check.h"
+#include "world/level_paths.h"
 #include "world/town.h"
 
 namespace reprise::traffic {
@@ -55,6 +56,7 @@ world::TownT read_town(const Network& network) {
     });
     if (!drivable)
         throw world::Error(network.name + ".net.xml:1: has no lane that a passenger car may use");
+    world::level_paths(town);
     read_links(net, town);
     place_scenery(town);
     measure(town);

@@ -6,7 +6,6 @@ namespace reprise::world {
 
 namespace {
 
-constexpr double smallest_cell = 16.0;  ///< [m]
 constexpr double most_cells_a_side = 1024;
 
 /// Places outside the grid belong to its border cells.
@@ -54,7 +53,7 @@ bool contains(const Loop& loop, const Eigen::Vector2d& p) {
     return winding != 0;
 }
 
-BoxGrid::BoxGrid(const std::vector<Entry>& entries) {
+BoxGrid::BoxGrid(const std::vector<Entry>& entries, double smallest_cell) {
     Box all;
     for (const Entry& entry : entries)
         all.take(entry.box);

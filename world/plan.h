@@ -61,7 +61,8 @@ class BoxGrid {
 
     BoxGrid() : BoxGrid(std::vector<Entry>()) {}
 
-    explicit BoxGrid(const std::vector<Entry>& entries);
+    /// Cells of `smallest_cell` metres, or larger in a town beyond 1024 of them a side.
+    explicit BoxGrid(const std::vector<Entry>& entries, double smallest_cell = 16);
 
     /// Items with a box in the cells that `box` touches: all that overlap it, and some beside.
     std::vector<std::uint32_t> near(const Box& box) const;

@@ -1,0 +1,195 @@
+// Must: find every place where a car would fall, jump or hit a kerb, by measuring, not by trusting
+//   how the mesh was made.
+// Assumes: the mesh is the town's own.
+// Goes: plumb lines along every centre line and beside it; distances of centre line segments to
+//   raised triangles in plan.
+// Keeps: for each criterion the worst places, by lane.
+#include "world/ground_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "world/frames.h"
+#include "world/ground_probe.h"
+#include "world/ribbon.h"
+#include "world/town.h"
+
+namespace reprise::world {
+
+namespace {
+
+constexpr double step = 0.5;          ///< [m] between plumb lines along a lane
+constexpr double track = 0.8;         ///< [m] from the centre line to the wheels
+constexpr double ground_limit = 0.05; ///< [m]
+constexpr double bank_limit = 0.12;
+constexpr double kerb_limit = 0.9;    ///< [m]
+constexpr double gap_limit = 0.05;    ///< [m]
+constexpr double above = 1.0;         ///< [m] plumb lines start: under the next bridge, over kerbs
+constexpr double nothing = 10.0;      ///< [m] said of a place without any ground
+constexpr double storey = 2.5;        ///< [m] what lies farther above or below is another level
+constexpr double most_holes_looked_for = 400000;
+
+std::string places_on_lanes(std::size_t places, std::size_t lanes) {
+    return std::to_string(places) + " places on " + std::to_string(lanes) + " lanes";
+}
+
+/// Plumb lines under one lane.
+struct LaneLevels {
+    Measured centre{"ground under lanes", ground_limit, "m"};
+    Measured wheels{"ground under wheels", ground_limit, "m"};
+    Measured bank{"bank of the road", bank_limit, "m/m"};
+    std::size_t lanes = 0;
+};
+
+/// Distance of the road below `p` from `p`, either way.
+double off_level(const GroundProbe& probe, const Eigen::Vector3d& p) {
+    const auto hit = probe.below(p + above * Eigen::Vector3d::UnitZ());
+    return hit ? hit->z - p.z() : -nothing;
+}
+
+void measure_lane(const LaneT& lane, const GroundProbe& probe, LaneLevels& levels) {
+    ++levels.lanes;
+    const int count = 1 + static_cast<int>(lane.length / step);
+    for (int i = 0; i <= count; ++i) {
+        // The very ends belong to the next lane as much as to this one.
+        const double s = std::clamp(i * lane.length / count, 0.01, std::max(0.01, lane.length - 0.01));
+        const LanePoint at = point_at(lane, s);
+        const Eigen::Vector3d left(-std::sin(at.yaw), std::cos(at.yaw), 0);
+        const double middle = off_level(probe, at.position);
+        const double left_wheel = off_level(probe, at.position + track * left);
+        const double right_wheel = off_level(probe, at.position - track * left);
+        const Eigen::Vector2d place = at.position.head<2>();
+        levels.centre.take(lane.name, place, std::abs(middle));
+        levels.wheels.take(lane.name, place, std::max(std::abs(left_wheel), std::abs(right_wheel)));
+        levels.bank.take(lane.name, place, std::abs(left_wheel - right_wheel) / (2 * track));
+    }
+}
+
+void check_levels(const TownT& town, const GroundProbe& probe, std::vector<Criterion>& criteria) {
+    LaneLevels levels;
+    for (const LaneT& lane : town.lanes)
+        if (is_for_cars(lane))
+            measure_lane(lane, probe, levels);
+    const std::string looked_at = places_on_lanes(levels.centre.count(), levels.lanes);
+    criteria.push_back(std::move(levels.centre).verdict(looked_at));
+    criteria.push_back(std::move(levels.wheels).verdict(looked_at));
+    criteria.push_back(std::move(levels.bank).verdict(looked_at));
+}
+
+double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    const Eigen::Vector2d along = to - from;
+    const double squared = along.squaredNorm();
+    const double share = squared > 0 ? std::clamp((p - from).dot(along) / squared, 0.0, 1.0) : 0.0;
+    return (p - from - share * along).norm();
+}
+
+/// Between two segments in plan; 0 where they cross.
+double distance_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c, const Eigen::Vector2d& d) {
+    const bool cd_on_both_sides = cross(b - a, c - a) * cross(b - a, d - a) < 0;
+    const bool ab_on_both_sides = cross(d - c, a - c) * cross(d - c, b - c) < 0;
+    if (cd_on_both_sides && ab_on_both_sides)
+        return 0;
+    return std::min({distance_to_segment(a, c, d),
+                     distance_to_segment(b, c, d),
+                     distance_to_segment(c, a, b),
+                     distance_to_segment(d, a, b)});
+}
+
+/// From a segment to a raised triangle (a slab's top or a kerb's face), in plan.
+double distance_to_triangle(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Loop& triangle) {
+    if (contains(triangle, from))
+        return 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i)
+        least = std::min(least, distance_between(from, to, triangle[i], triangle[(i + 1) % 3]));
+    return least;
+}
+
+/// The raised triangle nearest to a segment of a centre line; `reach` when none is nearer.
+double clear_width(const GroundMesh& ground, const GroundProbe& probe, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double reach) {
+    Box box;
+    box.take(from.head<2>(), reach);
+    box.take(to.head<2>(), reach);
+    const double level = (from.z() + to.z()) / 2;
+    double least = reach;
+    for (const std::uint32_t i : probe.near(box)) {
+        if (ground.surfaces[i] != Surface::kerb && ground.surfaces[i] != Surface::sidewalk)
+            continue;
+        Loop triangle;
+        double z = 0;
+        for (const std::uint32_t vertex : ground.triangles[i]) {
+            triangle.push_back(ground.vertices[vertex].head<2>());
+            z += ground.vertices[vertex].z() / 3;
+        }
+        if (std::abs(z - level) < storey)
+            least = std::min(least, distance_to_triangle(from.head<2>(), to.head<2>(), triangle));
+    }
+    return least;
+}
+
+Criterion check_kerbs(const TownT& town, const GroundMesh& ground, const GroundProbe& probe) {
+    constexpr double reach = 3.0;  // [m]
+    Measured clear("kerbs clear of lanes", kerb_limit, "m", true);
+    std::size_t lanes = 0;
+    for (const LaneT& lane : town.lanes) {
+        if (!is_for_cars(lane))
+            continue;
+        ++lanes;
+        for (std::size_t i = 0; i + 1 < lane.centre.size(); ++i) {
+            const Eigen::Vector3d from = to_eigen(lane.centre[i]);
+            const Eigen::Vector3d to = to_eigen(lane.centre[i + 1]);
+            clear.take(lane.name, ((from + to) / 2).head<2>(), clear_width(ground, probe, from, to, reach));
+        }
+    }
+    return std::move(clear).verdict(std::to_string(lanes) + " lanes");
+}
+
+/// Is there something under every place of the town's box?
+Criterion check_holes(const TownT& town, const GroundProbe& probe) {
+    const Eigen::Vector2d low = in_plan(town.low);
+    const Eigen::Vector2d size = in_plan(town.high) - low;
+    const double spacing = std::max(1.0, std::sqrt(size.prod() / most_holes_looked_for));
+    std::vector<Criterion::Place> holes;
+    std::size_t looked = 0;
+    for (double x = 0; x <= size.x(); x += spacing)
+        for (double y = 0; y <= size.y(); y += spacing) {
+            const Eigen::Vector2d p = low + Eigen::Vector2d(x, y);
+            ++looked;
+            if (!probe.below({p.x(), p.y(), std::numeric_limits<double>::max()}))
+                holes.push_back({"ground", p, 1});
+        }
+    return none_of("holes in the ground", std::move(holes), std::to_string(looked) + " places");
+}
+
+/// From lane to lane along every link, through the lanes inside the junction.
+Criterion check_joints(const TownT& town) {
+    Measured gaps("lanes join", gap_limit, "m");
+    const auto take = [&](const LaneT& lane, const LaneT& next) {
+        const Eigen::Vector3d end = to_eigen(lane.centre.back());
+        gaps.take(lane.name + " -> " + next.name, end.head<2>(), (to_eigen(next.centre.front()) - end).norm());
+    };
+    for (const LaneT& lane : town.lanes)
+        if (is_for_cars(lane))
+            for (const Link& link : lane.links) {
+                const std::uint32_t next = link.via() != none ? link.via() : link.to();
+                if (is_for_cars(town.lanes[next]))
+                    take(lane, town.lanes[next]);
+            }
+    const std::string looked_at = std::to_string(gaps.count()) + " joints";
+    return std::move(gaps).verdict(looked_at);
+}
+
+}  // namespace
+
+std::vector<Criterion> check_ground(const TownT& town, const GroundMesh& ground) {
+    const GroundProbe probe(ground);
+    std::vector<Criterion> criteria;
+    check_levels(town, probe, criteria);
+    criteria.push_back(check_kerbs(town, ground, probe));
+    criteria.push_back(check_holes(town, probe));
+    criteria.push_back(check_joints(town));
+    return criteria;
+}
+
+}  // namespace reprise::world
