@@ -118,7 +118,13 @@ void Background::Sumo::read_car(Car& car) {
 
     // SUMO writes a height only where the network has one; elsewhere it is a number of its own.
     const libsumo::TraCIPosition p = Vehicle::getPosition3D(car.sumo);
-    const Eigen::Vector3d front(p.x, p.y, p.z == libsumo::INVALID_DOUBLE_VALUE ? 0.0 : p.z);
+    Eigen::Vector3d front(p.x, p.y, p.z == libsumo::INVALID_DOUBLE_VALUE ? 0.0 : p.z);
+    // Where paths cross, the town's road is not the network's: see world/level_paths.h.
+    if (p.z != libsumo::INVALID_DOUBLE_VALUE && car.lane != none &&
+        town.lanes[car.lane].kind == world::LaneKind::internal) {
+        const world::LaneT& path = town.lanes[car.lane];
+        front.z() = world::point_at(path, world::project(path, front).s).position.z();
+    }
     car.trail.advance(smooth(car, front, new_lane, step));
     car.rear = car.trail.rear();
     const Eigen::Vector3d body = car.trail.front() - car.rear;

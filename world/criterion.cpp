@@ -26,7 +26,8 @@ void Measured::take(const std::string& name, const Eigen::Vector2d& position, do
         criterion_.figure = value;
     if (!is_worse(value, criterion_.limit))
         return;
-    const auto [place, is_new] = worst_of_name_.try_emplace(name, Criterion::Place{name, position, value});
+    const auto [place, is_new] =
+        worst_of_name_.try_emplace(name, Criterion::Place{name, position, value});
     if (!is_new && is_worse(value, place->second.value))
         place->second = {name, position, value};
 }
@@ -34,11 +35,10 @@ void Measured::take(const std::string& name, const Eigen::Vector2d& position, do
 Criterion Measured::verdict(std::string looked_at) && {
     for (auto& [name, place] : worst_of_name_)
         criterion_.worst.push_back(std::move(place));
-    std::stable_sort(criterion_.worst.begin(),
-                     criterion_.worst.end(),
-                     [&](const auto& one, const auto& other) {
-                         return is_worse(one.value, other.value);
-                     });
+    std::stable_sort(
+        criterion_.worst.begin(), criterion_.worst.end(), [&](const auto& one, const auto& other) {
+            return is_worse(one.value, other.value);
+        });
     if (criterion_.worst.size() > most_places)
         criterion_.worst.resize(most_places);
     criterion_.looked_at = std::move(looked_at);

@@ -54,28 +54,40 @@ void add_lone_crossings(const TownT& town, GroundBuilder& ground) {
     }
 }
 
+/// Adds one material of a junction.
+void add_pieces(const Area& area,
+                const SurfaceHeight& surface,
+                Surface material,
+                GroundBuilder& ground) {
+    const auto height = [&](const Eigen::Vector2d& p) { return surface.at(p); };
+    const double cell = surface.is_plane() ? 0 : surface_cell;
+    for (const Loop& piece : area.pieces())
+        ground.add_face(piece, height, cell, material);
+}
+
 void add_junction(const TownT& town,
                   std::uint32_t junction,
                   const JunctionParts& parts,
                   GroundBuilder& ground) {
     const Eigen::Vector2d origin(std::floor(town.low.x()), std::floor(town.low.y()));
-    Area crossings(origin);
-    for (const std::uint32_t crossing : parts.crossings)
-        crossings.add(in_plan(town.lanes[crossing].outline));
     Area road(origin);
     road.add(in_plan(town.junctions[junction].outline));
     for (const std::uint32_t path : parts.paths)
         for (const Loop& loop : road_ribbon(town.lanes[path]).loops())
             road.add(loop);
-    road.subtract(crossings);
+    Area crossings(origin);
+    for (const std::uint32_t crossing : parts.crossings)
+        crossings.add(in_plan(town.lanes[crossing].outline));
+
+    // The road reaches a little under the crossings' borders: corners are rounded to millimetres,
+    // so that borders which merely meet would leave cracks.
+    Area without = crossings.copy();
+    without.shrink(overlap);
+    road.subtract(without);
 
     const SurfaceHeight surface = height_of_junction(town, junction, parts);
-    const auto height = [&](const Eigen::Vector2d& p) { return surface.at(p); };
-    const double cell = surface.is_plane() ? 0 : surface_cell;
-    for (const Loop& piece : road.pieces())
-        ground.add_face(piece, height, cell, Surface::road);
-    for (const Loop& piece : crossings.pieces())
-        ground.add_face(piece, height, cell, Surface::crossing);
+    add_pieces(road, surface, Surface::road, ground);
+    add_pieces(crossings, surface, Surface::crossing, ground);
 }
 
 void add_junctions(const TownT& town, GroundBuilder& ground) {

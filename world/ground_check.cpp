@@ -19,15 +19,15 @@ namespace reprise::world {
 
 namespace {
 
-constexpr double step = 0.5;          ///< [m] between plumb lines along a lane
-constexpr double track = 0.8;         ///< [m] from the centre line to the wheels
-constexpr double ground_limit = 0.05; ///< [m]
+constexpr double step = 0.5;           ///< [m] between plumb lines along a lane
+constexpr double track = 0.8;          ///< [m] from the centre line to the wheels
+constexpr double ground_limit = 0.05;  ///< [m]
 constexpr double bank_limit = 0.12;
-constexpr double kerb_limit = 0.9;    ///< [m]
-constexpr double gap_limit = 0.05;    ///< [m]
-constexpr double above = 1.0;         ///< [m] plumb lines start: under the next bridge, over kerbs
-constexpr double nothing = 10.0;      ///< [m] said of a place without any ground
-constexpr double storey = 2.5;        ///< [m] what lies farther above or below is another level
+constexpr double kerb_limit = 0.9;  ///< [m]
+constexpr double gap_limit = 0.05;  ///< [m]
+constexpr double above = 1.0;       ///< [m] plumb lines start: under the next bridge, over kerbs
+constexpr double no_road = 1.0;     ///< [m] said of a place over terrain or nothing
+constexpr double storey = 2.5;      ///< [m] what lies farther above or below is another level
 constexpr double most_holes_looked_for = 400000;
 
 std::string places_on_lanes(std::size_t places, std::size_t lanes) {
@@ -45,7 +45,7 @@ struct LaneLevels {
 /// Distance of the road below `p` from `p`, either way.
 double off_level(const GroundProbe& probe, const Eigen::Vector3d& p) {
     const auto hit = probe.below(p + above * Eigen::Vector3d::UnitZ());
-    return hit ? hit->z - p.z() : -nothing;
+    return hit && hit->surface != Surface::terrain ? hit->z - p.z() : -no_road;
 }
 
 void measure_lane(const LaneT& lane, const GroundProbe& probe, LaneLevels& levels) {
@@ -53,7 +53,8 @@ void measure_lane(const LaneT& lane, const GroundProbe& probe, LaneLevels& level
     const int count = 1 + static_cast<int>(lane.length / step);
     for (int i = 0; i <= count; ++i) {
         // The very ends belong to the next lane as much as to this one.
-        const double s = std::clamp(i * lane.length / count, 0.01, std::max(0.01, lane.length - 0.01));
+        const double s =
+            std::clamp(i * lane.length / count, 0.01, std::max(0.01, lane.length - 0.01));
         const LanePoint at = point_at(lane, s);
         const Eigen::Vector3d left(-std::sin(at.yaw), std::cos(at.yaw), 0);
         const double middle = off_level(probe, at.position);
@@ -77,7 +78,9 @@ void check_levels(const TownT& town, const GroundProbe& probe, std::vector<Crite
     criteria.push_back(std::move(levels.bank).verdict(looked_at));
 }
 
-double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+double distance_to_segment(const Eigen::Vector2d& p,
+                           const Eigen::Vector2d& from,
+                           const Eigen::Vector2d& to) {
     const Eigen::Vector2d along = to - from;
     const double squared = along.squaredNorm();
     const double share = squared > 0 ? std::clamp((p - from).dot(along) / squared, 0.0, 1.0) : 0.0;
@@ -85,7 +88,10 @@ double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& from
 }
 
 /// Between two segments in plan; 0 where they cross.
-double distance_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c, const Eigen::Vector2d& d) {
+double distance_between(const Eigen::Vector2d& a,
+                        const Eigen::Vector2d& b,
+                        const Eigen::Vector2d& c,
+                        const Eigen::Vector2d& d) {
     const bool cd_on_both_sides = cross(b - a, c - a) * cross(b - a, d - a) < 0;
     const bool ab_on_both_sides = cross(d - c, a - c) * cross(d - c, b - c) < 0;
     if (cd_on_both_sides && ab_on_both_sides)
@@ -97,7 +103,9 @@ double distance_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b, cons
 }
 
 /// From a segment to a raised triangle (a slab's top or a kerb's face), in plan.
-double distance_to_triangle(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Loop& triangle) {
+double distance_to_triangle(const Eigen::Vector2d& from,
+                            const Eigen::Vector2d& to,
+                            const Loop& triangle) {
     if (contains(triangle, from))
         return 0;
     double least = std::numeric_limits<double>::infinity();
@@ -107,7 +115,11 @@ double distance_to_triangle(const Eigen::Vector2d& from, const Eigen::Vector2d& 
 }
 
 /// The raised triangle nearest to a segment of a centre line; `reach` when none is nearer.
-double clear_width(const GroundMesh& ground, const GroundProbe& probe, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double reach) {
+double clear_width(const GroundMesh& ground,
+                   const GroundProbe& probe,
+                   const Eigen::Vector3d& from,
+                   const Eigen::Vector3d& to,
+                   double reach) {
     Box box;
     box.take(from.head<2>(), reach);
     box.take(to.head<2>(), reach);
@@ -139,7 +151,9 @@ Criterion check_kerbs(const TownT& town, const GroundMesh& ground, const GroundP
         for (std::size_t i = 0; i + 1 < lane.centre.size(); ++i) {
             const Eigen::Vector3d from = to_eigen(lane.centre[i]);
             const Eigen::Vector3d to = to_eigen(lane.centre[i + 1]);
-            clear.take(lane.name, ((from + to) / 2).head<2>(), clear_width(ground, probe, from, to, reach));
+            clear.take(lane.name,
+                       ((from + to) / 2).head<2>(),
+                       clear_width(ground, probe, from, to, reach));
         }
     }
     return std::move(clear).verdict(std::to_string(lanes) + " lanes");
@@ -167,7 +181,9 @@ Criterion check_joints(const TownT& town) {
     Measured gaps("lanes join", gap_limit, "m");
     const auto take = [&](const LaneT& lane, const LaneT& next) {
         const Eigen::Vector3d end = to_eigen(lane.centre.back());
-        gaps.take(lane.name + " -> " + next.name, end.head<2>(), (to_eigen(next.centre.front()) - end).norm());
+        gaps.take(lane.name + " -> " + next.name,
+                  end.head<2>(),
+                  (to_eigen(next.centre.front()) - end).norm());
     };
     for (const LaneT& lane : town.lanes)
         if (is_for_cars(lane))

@@ -121,6 +121,7 @@ void Leveller::number_samples() {
         bool ends = false;
         int unknown = fixed;
     };
+
     const auto key_of = [](const Eigen::Vector3d& p) {
         constexpr double per_metre = 100;
         return std::array<long, 3>{std::lround(p.x() * per_metre),

@@ -4,6 +4,8 @@
 #include <boost/polygon/polygon.hpp>
 #include <cmath>
 
+#include "world/triangulation.h"
+
 namespace reprise::world {
 
 namespace bp = boost::polygon;
@@ -52,6 +54,12 @@ Area::~Area() = default;
 Area::Area(Area&&) noexcept = default;
 Area& Area::operator=(Area&&) noexcept = default;
 
+Area Area::copy() const {
+    Area other(set_->origin);
+    other.set_->polygons = set_->polygons;
+    return other;
+}
+
 void Area::add(const Loop& loop) {
     std::vector<Point> points;
     for (const Eigen::Vector2d& p : loop) {
@@ -90,20 +98,33 @@ void Area::intersect(const Area& other) {
     set_->polygons &= other.set_->polygons;
 }
 
+void Area::shrink(double width) {
+    set_->polygons.resize(-static_cast<int>(std::lround(width * units_per_metre)));
+}
+
 double Area::size() const {
     return static_cast<double>(bp::area(set_->polygons)) / (units_per_metre * units_per_metre);
 }
 
 std::vector<Loop> Area::pieces() const {
-    std::vector<Polygon> trapezoids;
-    set_->polygons.get_trapezoids(trapezoids);
+    std::vector<PolygonWithHoles> polygons;
+    set_->polygons.get(polygons);
+    std::vector<Loop> borders;
+    const auto add = [&](const auto& polygon) {
+        borders.emplace_back();
+        for (auto point = polygon.begin(); point != polygon.end(); ++point)
+            borders.back().emplace_back(point->x(), point->y());
+    };
+    for (const PolygonWithHoles& polygon : polygons) {
+        add(polygon);
+        for (auto hole = polygon.begin_holes(); hole != polygon.end_holes(); ++hole)
+            add(*hole);
+    }
     std::vector<Loop> loops;
-    loops.reserve(trapezoids.size());
-    for (const Polygon& trapezoid : trapezoids) {
-        Loop loop = set_->loop(trapezoid);
-        if (signed_area(loop) < 0)
-            std::reverse(loop.begin(), loop.end());
-        loops.push_back(std::move(loop));
+    for (const auto& triangle : triangulate(borders)) {
+        loops.emplace_back();
+        for (const Eigen::Vector2d& corner : triangle)
+            loops.back().push_back(set_->origin + corner / units_per_metre);
     }
     return loops;
 }

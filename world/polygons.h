@@ -21,13 +21,18 @@ class Area {
     /// Coordinates are kept relative to `origin` while computing; within 1000 km of it.
     explicit Area(const Eigen::Vector2d& origin);
 
+    Area copy() const;
+
     void add(const Loop& loop);
     void subtract(const Area& other);
     void intersect(const Area& other);
 
+    /// Takes a strip of this width off along every border. [m]
+    void shrink(double width);
+
     double size() const;  ///< [m2]
 
-    /// Convex pieces with 3 or 4 corners, counter-clockwise, that do not overlap.
+    /// Triangles, counter-clockwise, that meet without cracks: their corners are the borders' own.
     std::vector<Loop> pieces() const;
 
     /// Borders with the area on their left: outer ones counter-clockwise, holes clockwise.

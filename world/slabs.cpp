@@ -24,9 +24,11 @@ namespace {
 
 constexpr double storey = 2.5;         ///< [m] what lies farther above or below is another level
 constexpr double bus_clearance = 1.6;  ///< [m] within junctions, where wide lanes fan out
-constexpr double touch = 0.005;        ///< [m] neighbours that merely touch do not cut
-constexpr double noticed = 0.002;      ///< [m2] smaller cuts are rounding
-constexpr double kerb_depth = 0.3;     ///< [m] of the kerb faces below the road: no gap on slopes
+constexpr double end_clearance =
+    1.0;                            ///< [m] around a line's ends: paths may start with a sharp turn
+constexpr double touch = 0.005;     ///< [m] neighbours that merely touch do not cut
+constexpr double noticed = 0.002;   ///< [m2] smaller cuts are rounding
+constexpr double kerb_depth = 0.3;  ///< [m] of the kerb faces below the road: no gap on slopes
 
 /// Something that a slab must not cover.
 struct Cutter {
@@ -61,6 +63,14 @@ Loop flat_loop(const std::vector<Eigen::Vector3d>& corners) {
     return loop;
 }
 
+void add_cutters(const Ribbon& ribbon, std::vector<Cutter>& cutters) {
+    for (const auto& piece : ribbon.pieces) {
+        const Loop loop = flat_loop(piece);
+        cutters.push_back({loop, box_around(loop), mean_height(piece)});
+    }
+}
+
+/// What a lane keeps clear of slabs.
 void add_cutters(const LaneT& lane, std::vector<Cutter>& cutters) {
     if (lane.kind == LaneKind::crossing && lane.outline.size() >= 3) {
         const Loop loop = in_plan(lane.outline);
@@ -71,11 +81,11 @@ void add_cutters(const LaneT& lane, std::vector<Cutter>& cutters) {
     const double half_width = lane.kind == LaneKind::internal
                                   ? std::clamp(lane.width / 2, car_clearance, bus_clearance)
                                   : std::max(lane.width / 2, car_clearance) - touch;
-    const Ribbon ribbon = make_ribbon(clean_line(lane.centre), -half_width, half_width);
-    for (const auto& piece : ribbon.pieces) {
-        const Loop loop = flat_loop(piece);
-        cutters.push_back({loop, box_around(loop), mean_height(piece)});
-    }
+    add_cutters(make_ribbon(clean_line(lane.centre), -half_width, half_width), cutters);
+    // Where a path sets off sideways from its lane, neither's ribbon covers the corner between
+    // them.
+    add_cutters(make_ribbon(clean_line(lane.centre, end_clearance), -end_clearance, end_clearance),
+                cutters);
 }
 
 Slab make_slab(const LaneT& lane) {
