@@ -47,11 +47,21 @@ void add_show(CLI::App& town, TownShowOptions& show) {
     command.add_option("-o,--output", show.output, "Where the picture goes")
         ->required()
         ->type_name("MAP.png");
+    command.add_option("--size", show.size, "Pixels of the longer side")
+        ->capture_default_str()
+        ->check(CLI::Range(200, 8000));
+    command
+        .add_option(
+            "--region", show.region, "Only a part: south-west corner, width and height in metres")
+        ->delimiter(',')
+        ->expected(4)
+        ->type_name("X,Y,WIDTH,HEIGHT");
 }
 
 void add_check(CLI::App& town, TownCheckOptions& check) {
     CLI::App& command = *town.add_subcommand("check", "Say whether a town is fit to drive in");
     command.add_option("town", check.town, town_help)->required()->type_name("TOWN");
+    command.add_flag("--json", check.json, "For programs");
     command.footer("Exit status: 0 all criteria hold, 1 one does not, 2 bad input.");
 }
 

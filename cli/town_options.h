@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -20,10 +21,13 @@ struct TownImportOptions {
 struct TownShowOptions {
     std::string town;  ///< as of `reprise run --town`
     std::string output;
+    std::vector<double> region;  ///< [m] x, y of the south-west corner, width, height; empty: all
+    int size = 1600;             ///< [pixels] of the longer side
 };
 
 struct TownCheckOptions {
     std::string town;
+    bool json = false;
 };
 
 /// What the commands about towns were told.

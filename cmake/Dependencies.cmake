@@ -21,7 +21,7 @@ pkg_check_modules(sqlite3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
 pkg_check_modules(cli11 REQUIRED IMPORTED_TARGET CLI11)
 
-# libsumo and the three OpenCV modules ship no CMake package in the small -dev packages we install.
+# libsumo, Recast and the three OpenCV modules ship no CMake package in the small -dev packages we install.
 function(reprise_plain_library name header)
   cmake_parse_arguments(PLAIN "" "" "PATHS;NAMES" ${ARGN})
   find_path(${name}_INCLUDE_DIR ${header} PATH_SUFFIXES ${PLAIN_PATHS} REQUIRED)
@@ -33,6 +33,7 @@ function(reprise_plain_library name header)
   endforeach()
 endfunction()
 
+reprise_plain_library(recast recastnavigation/Recast.h NAMES Detour Recast)
 reprise_plain_library(sumo libsumo/libsumo.h NAMES sumocpp)
 reprise_plain_library(opencv opencv2/core.hpp PATHS opencv4
                       NAMES opencv_core opencv_imgproc opencv_imgcodecs)

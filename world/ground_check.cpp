@@ -78,42 +78,6 @@ void check_levels(const TownT& town, const GroundProbe& probe, std::vector<Crite
     criteria.push_back(std::move(levels.bank).verdict(looked_at));
 }
 
-double distance_to_segment(const Eigen::Vector2d& p,
-                           const Eigen::Vector2d& from,
-                           const Eigen::Vector2d& to) {
-    const Eigen::Vector2d along = to - from;
-    const double squared = along.squaredNorm();
-    const double share = squared > 0 ? std::clamp((p - from).dot(along) / squared, 0.0, 1.0) : 0.0;
-    return (p - from - share * along).norm();
-}
-
-/// Between two segments in plan; 0 where they cross.
-double distance_between(const Eigen::Vector2d& a,
-                        const Eigen::Vector2d& b,
-                        const Eigen::Vector2d& c,
-                        const Eigen::Vector2d& d) {
-    const bool cd_on_both_sides = cross(b - a, c - a) * cross(b - a, d - a) < 0;
-    const bool ab_on_both_sides = cross(d - c, a - c) * cross(d - c, b - c) < 0;
-    if (cd_on_both_sides && ab_on_both_sides)
-        return 0;
-    return std::min({distance_to_segment(a, c, d),
-                     distance_to_segment(b, c, d),
-                     distance_to_segment(c, a, b),
-                     distance_to_segment(d, a, b)});
-}
-
-/// From a segment to a raised triangle (a slab's top or a kerb's face), in plan.
-double distance_to_triangle(const Eigen::Vector2d& from,
-                            const Eigen::Vector2d& to,
-                            const Loop& triangle) {
-    if (contains(triangle, from))
-        return 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < 3; ++i)
-        least = std::min(least, distance_between(from, to, triangle[i], triangle[(i + 1) % 3]));
-    return least;
-}
-
 /// The raised triangle nearest to a segment of a centre line; `reach` when none is nearer.
 double clear_width(const GroundMesh& ground,
                    const GroundProbe& probe,
@@ -135,7 +99,7 @@ double clear_width(const GroundMesh& ground,
             z += ground.vertices[vertex].z() / 3;
         }
         if (std::abs(z - level) < storey)
-            least = std::min(least, distance_to_triangle(from.head<2>(), to.head<2>(), triangle));
+            least = std::min(least, distance_to(triangle, from.head<2>(), to.head<2>()));
     }
     return least;
 }
@@ -206,6 +170,15 @@ std::vector<Criterion> check_ground(const TownT& town, const GroundMesh& ground)
     criteria.push_back(check_holes(town, probe));
     criteria.push_back(check_joints(town));
     return criteria;
+}
+
+Digest128 digest_of(const GroundMesh& mesh) {
+    Hasher hasher;
+    for (const Eigen::Vector3d& vertex : mesh.vertices)
+        hasher.add_bytes(vertex.data(), 3 * sizeof(double));
+    hasher.add(std::span(mesh.triangles));
+    hasher.add(std::span(mesh.surfaces));
+    return hasher.digest128();
 }
 
 }  // namespace reprise::world

@@ -8,6 +8,24 @@ namespace {
 
 constexpr double most_cells_a_side = 1024;
 
+double distance_to_segment(const Eigen::Vector2d& p,
+                           const Eigen::Vector2d& from,
+                           const Eigen::Vector2d& to) {
+    const Eigen::Vector2d along = to - from;
+    const double squared = along.squaredNorm();
+    const double share = squared > 0 ? std::clamp((p - from).dot(along) / squared, 0.0, 1.0) : 0.0;
+    return (p - from - share * along).norm();
+}
+
+/// Do they cross, each from one side of the other to the other side?
+bool cross_each_other(const Eigen::Vector2d& from,
+                      const Eigen::Vector2d& to,
+                      const Eigen::Vector2d& start,
+                      const Eigen::Vector2d& end) {
+    return cross(to - from, start - from) * cross(to - from, end - from) < 0 &&
+           cross(end - start, from - start) * cross(end - start, to - start) < 0;
+}
+
 /// Places outside the grid belong to its border cells.
 std::size_t cell_of(double cells, std::size_t count) {
     return static_cast<std::size_t>(std::clamp(cells, 0.0, static_cast<double>(count - 1)));
@@ -51,6 +69,23 @@ bool contains(const Loop& loop, const Eigen::Vector2d& p) {
             --winding;
     }
     return winding != 0;
+}
+
+double distance_to(const Loop& loop, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    if (loop.size() > 2 && contains(loop, from))
+        return 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Eigen::Vector2d& start = loop[i];
+        const Eigen::Vector2d& end = loop[(i + 1) % loop.size()];
+        if (cross_each_other(from, to, start, end))
+            return 0;
+        least = std::min({least,
+                          distance_to_segment(from, start, end),
+                          distance_to_segment(to, start, end),
+                          distance_to_segment(start, from, to)});
+    }
+    return least;
 }
 
 BoxGrid::BoxGrid(const std::vector<Entry>& entries, double smallest_cell) {

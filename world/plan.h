@@ -50,6 +50,10 @@ double signed_area(const Loop& loop);
 /// Winding number not zero: also right for loops that cross themselves. O(points).
 bool contains(const Loop& loop, const Eigen::Vector2d& p);
 
+/// Between a segment and a loop (or, with two points or one, what they are); 0 where they touch or
+/// the segment lies inside. [m]; O(points).
+double distance_to(const Loop& loop, const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+
 /// Boxes by place: a uniform grid, built once. Answers are ascending and without repeats, so they
 /// never depend on how the grid is laid out.
 class BoxGrid {
