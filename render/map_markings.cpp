@@ -1,0 +1,64 @@
+#include <cmath>
+
+#include "render/map_layers.h"
+#include "world/ground_probe.h"
+
+namespace reprise::render {
+
+namespace {
+
+constexpr double smallest_scale =
+    1.2;  ///< [pixels/m] below it lines and arrows are too fine to see
+constexpr Ink paint_ink{244, 244, 240};
+constexpr Ink arrow_ink{226, 229, 233};
+
+/// Is a place in the open, as seen from above?
+bool is_in_the_open(const world::GroundProbe& probe, const Eigen::Vector3d& p) {
+    constexpr double clearance = 1.0;  // [m]
+    const auto top = probe.below({p.x(), p.y(), p.z() + 1000});
+    return !top || top->z < p.z() + clearance;
+}
+
+/// An arrow head on the lane, pointing the way it goes.
+void draw_arrow(const world::LaneT& lane,
+                double s,
+                const world::GroundProbe& probe,
+                MapCanvas& canvas) {
+    const world::LanePoint at = world::point_at(lane, s);
+    if (!is_in_the_open(probe, at.position))
+        return;
+    const double reach =
+        std::clamp(0.28 * lane.width * canvas.pixels_per_metre(), 2.2, 7 * canvas.unit());
+    canvas.symbol(at.position.head<2>(),
+                  at.yaw,
+                  {{reach, 0}, {-reach, 0.75 * reach}, {-0.4 * reach, 0}, {-reach, -0.75 * reach}},
+                  arrow_ink);
+}
+
+}  // namespace
+
+void draw_markings(const world::TownT& town,
+                   const world::GroundMesh& ground,
+                   const world::GroundMesh& markings,
+                   MapCanvas& canvas) {
+    if (canvas.pixels_per_metre() < smallest_scale * canvas.unit())
+        return;
+    const world::GroundProbe probe(ground);
+    for (const auto& [p, q, r] : markings.triangles) {
+        const Eigen::Vector3d corners[] = {
+            markings.vertices[p], markings.vertices[q], markings.vertices[r]};
+        if (is_in_the_open(probe, (corners[0] + corners[1] + corners[2]) / 3))
+            canvas.fill({corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()},
+                        paint_ink);
+    }
+    const double apart = std::max(24.0, 70 * canvas.unit() / canvas.pixels_per_metre());  // [m]
+    for (const world::LaneT& lane : town.lanes) {
+        if (lane.kind != world::LaneKind::driving || lane.length < apart / 3)
+            continue;
+        const int count = std::max(1, static_cast<int>(lane.length / apart));
+        for (int i = 0; i < count; ++i)
+            draw_arrow(lane, lane.length * (i + 0.5) / count, probe, canvas);
+    }
+}
+
+}  // namespace reprise::render
