@@ -1,13 +1,14 @@
 #pragma once
 
+#include "traffic/place.h"
 #include "world/town_generated.h"
 
 namespace reprise::traffic {
 
-/// Fills town.buildings and town.trees: what stands beside the roads. A network says nothing of it,
-/// so it is drawn from the town's name: rows of houses along the roads, trees in the gaps.
-/// Buildings stay 3 m clear of everything that is walked or driven on and of each other, trunks
-/// 1.5 m. Lanes and junctions must be there. Town 1: 30 ms.
-void place_scenery(world::TownT& town);
+/// Fills a town with all that stands in it: signal heads, signs, buildings, plants, furniture,
+/// plots and spawn points. What the place knows is kept; the rest is drawn from the town's name, so
+/// that the same network makes the same town. Lanes, links, signals and junctions must be there.
+/// Town 1: 100 ms.
+void place_scenery(world::TownT& town, const Place& place);
 
 }  // namespace reprise::traffic

@@ -58,7 +58,7 @@ world::TownT read_town(const Network& network) {
         throw world::Error(network.name + ".net.xml:1: has no lane that a passenger car may use");
     world::level_paths(town);
     read_links(net, town);
-    place_scenery(town);
+    place_scenery(town, Place());
     measure(town);
     return town;
 }

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <span>
+
+#include "traffic/buildings.h"
+
+namespace reprise::traffic {
+
+/// What lies around houses: lawns, fences, walls and hedges along the street, bushes before the
+/// walls, here and there a driveway with a car; and car parks behind shops.
+void lay_out_gardens(Land& land, std::span<const Lot> lots);
+
+}  // namespace reprise::traffic

@@ -1,0 +1,134 @@
+#include "traffic/land.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "world/digest.h"
+#include "world/ground.h"
+#include "world/terrain.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+using Eigen::Vector2d;
+using world::LaneKind;
+using world::LaneT;
+using world::Vec3;
+
+constexpr double level_cell = 24;     ///< [m]
+constexpr double level_apart = 2.5;   ///< [m] of height: one is a bridge over the other
+constexpr double narrowest = 1.25;    ///< [m] beside a path that is kept clear for cars
+constexpr double turning_half = 1.6;  ///< [m] beside a turning path: buses cut corners
+
+std::pair<std::int32_t, std::int32_t> level_cell_of(const Vector2d& p) {
+    return {static_cast<std::int32_t>(std::floor(p.x() / level_cell)),
+            static_cast<std::int32_t>(std::floor(p.y() / level_cell))};
+}
+
+Vector2d kerb_point(const LaneT& lane, double s, double side) {
+    const world::LanePoint at = world::point_at(lane, s);
+    return at.position.head<2>() +
+           Vector2d(-std::sin(at.yaw), std::cos(at.yaw)) * (side * lane.width / 2);
+}
+
+}  // namespace
+
+Land::Land(world::TownT& target, const Place& source)
+    : town(target),
+      place(source),
+      seed(world::digest128(target.name).low()),
+      roadsides(traffic::roadsides(target)) {
+    add_lanes();
+    for (const world::JunctionT& junction : town.junctions)
+        junctions.add_polygon(junction.outline);
+    for (const auto& outline : place.keep_clear)
+        reserved.add_polygon(outline);
+    for (const world::PlotT& plot : place.plots)
+        reserved.add_polygon(plot.outline);
+    add_sights();
+}
+
+void Land::add_lanes() {
+    for (const LaneT& lane : town.lanes) {
+        if (lane.kind == LaneKind::crossing)
+            crossings.add_polygon(lane.outline);
+        else if (lane.kind == LaneKind::walking_area)
+            walks.add_polygon(lane.outline);
+        else if (lane.kind == LaneKind::sidewalk)
+            walks.add_line(lane.centre, lane.width / 2);
+        else
+            roads.add_line(lane.centre,
+                           std::max(lane.width / 2,
+                                    lane.kind == LaneKind::internal ? turning_half : narrowest));
+        add_level(lane);
+    }
+}
+
+void Land::add_level(const LaneT& lane) {
+    for (double s = 0; s < lane.length + level_cell / 2; s += level_cell / 2) {
+        const Eigen::Vector3d p = world::point_at(lane, s).position;
+        const Levels here{p.z(), p.z()};
+        Levels& cell = levels_.emplace(level_cell_of(p.head<2>()), here).first->second;
+        cell = {std::min(cell.low, p.z()), std::max(cell.high, p.z())};
+    }
+}
+
+void Land::add_sights() {
+    // A junction where somebody must give way, and no light says who.
+    std::vector<char> unlit(town.junctions.size(), 0);
+    for (const LaneT& lane : town.lanes)
+        for (const world::Link& link : lane.links)
+            if (lane.kind == LaneKind::driving && lane.junction != world::none && link.yields() &&
+                !town.junctions[lane.junction].lit)
+                unlit[lane.junction] = 1;
+    const double side = town.left_hand ? 1 : -1;
+    for (const LaneT& lane : town.lanes) {
+        if (lane.kind != LaneKind::driving || lane.junction == world::none ||
+            unlit[lane.junction] == 0)
+            continue;
+        sights.add_point(kerb_point(lane, lane.length, side));
+        for (const world::Link& link : lane.links)
+            sights.add_point(kerb_point(town.lanes[link.to()], 0, side));
+    }
+}
+
+bool Land::is_steep(const Vector2d& p) const {
+    const auto middle = level_cell_of(p);
+    double low = 1e9;
+    double high = -1e9;
+    for (std::int32_t x = middle.first - 1; x <= middle.first + 1; ++x)
+        for (std::int32_t y = middle.second - 1; y <= middle.second + 1; ++y)
+            if (const auto cell = levels_.find({x, y}); cell != levels_.end()) {
+                low = std::min(low, cell->second.low);
+                high = std::max(high, cell->second.high);
+            }
+    return high - low > level_apart;
+}
+
+double Land::ground(const Vector2d& p, double road_z) const {
+    return road_z + (walks.is_clear(p, 0) ? -world::terrain_depth : world::kerb_height);
+}
+
+bool Land::may_stand(const Vector2d& p, double margin) const {
+    if (!roads.is_clear(p, margin) || !crossings.is_clear(p, 0.1))
+        return false;
+    // The outline of a junction holds its walking areas; the rest of it is road.
+    return !walks.is_clear(p, 0) || junctions.is_clear(p, 0.1);
+}
+
+std::optional<Vector2d> Land::pole_place(const Vector2d& wish, double reach) const {
+    constexpr double ring = 0.3;
+    constexpr int directions = 16;
+    for (int i = 0; i * ring <= reach; ++i)
+        for (int k = 0; k < (i == 0 ? 1 : directions); ++k) {
+            const double angle = 2 * std::numbers::pi * k / directions;
+            const Vector2d p = wish + Vector2d(std::cos(angle), std::sin(angle)) * (i * ring);
+            if (may_stand(p, pole_margin) && solid.is_clear(p, 0.3))
+                return p;
+        }
+    return std::nullopt;
+}
+
+}  // namespace reprise::traffic

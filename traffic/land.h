@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "traffic/clearance.h"
+#include "traffic/place.h"
+#include "traffic/roadside.h"
+#include "world/town_generated.h"
+
+namespace reprise::traffic {
+
+/// What all that fills a town with scenery works on: the town so far, and what its land is taken
+/// by.
+struct Land {
+    Land(world::TownT& target, const Place& source);
+
+    world::TownT& town;
+    const Place& place;
+    std::uint64_t seed;  ///< of the town's name
+    std::vector<Roadside> roadsides;
+
+    // Each as far as what stands must be able to ask about. Metres from the border.
+    Clearance roads{20};     ///< lanes for vehicles, and the paths of cars across junctions
+    Clearance junctions{4};  ///< their outlines, walking areas included
+    Clearance walks{8};      ///< sidewalks and walking areas
+    Clearance crossings{4};
+    Clearance reserved{8};    ///< plots, and what must be kept clear of buildings and plants
+    Clearance solid{8};       ///< what stands: buildings, furniture, trunks, parked cars
+    Clearance buildings{20};  ///< again, for crowns
+    Clearance sights{12};     ///< ends of the kerbs at unlit junctions
+
+    /// Do roads within some 30 m lie at different heights? Nothing stands there, because the land
+    /// beside the road is then not as high as the road.
+    bool is_steep(const Eigen::Vector2d& p) const;
+
+    /// Height of the ground beside or under a road's side: sidewalks are raised. [m]
+    double ground(const Eigen::Vector2d& p, double road_z) const;
+
+    /// May a pole with a foot this wide stand there? Off the road by `margin`, off crossings, on a
+    /// sidewalk or beside the road.
+    bool may_stand(const Eigen::Vector2d& p, double margin) const;
+
+    /// The place nearest to `wish` where a pole may stand, at most `reach` away. [m]
+    std::optional<Eigen::Vector2d> pole_place(const Eigen::Vector2d& wish, double reach) const;
+
+  private:
+    struct Levels {
+        double low;
+        double high;
+    };
+
+    void add_lanes();
+    void add_level(const world::LaneT& lane);
+    void add_sights();
+
+    std::map<std::pair<std::int32_t, std::int32_t>, Levels> levels_;
+};
+
+/// Nothing but signs and poles is nearer to a kerb's face. [m]
+inline constexpr double kerb_margin = 0.5;
+
+/// Signs, lamps and other poles stand this far from the kerb. [m]
+inline constexpr double pole_margin = 0.3;
+
+/// What walkers need to pass by. [m]
+inline constexpr double walking_width = 1.2;
+
+/// Nothing higher than 1 m stands nearer to the kerbs of an unlit junction, poles excepted. [m]
+inline constexpr double sight_distance = 8;
+
+}  // namespace reprise::traffic
