@@ -1,25 +1,12 @@
 #include "kernel/near_obstacles.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace reprise::kernel {
 
-NearObstacles::NearObstacles(const world::TownT& town, btDynamicsWorld& world) : world_(&world) {
-    for (const world::Building& b : town.buildings)
-        obstacles_.push_back({to_bullet(b.centre()),
-                              b.yaw(),
-                              btVector3(b.length(), b.width(), b.height()) / 2,
-                              std::hypot(b.length(), b.width()) / 2,
-                              false});
-    for (const world::Tree& tree : town.trees) {
-        const double radius = std::clamp(0.025 * tree.height(), 0.1, 0.35);
-        const btVector3 half(radius, radius, std::min(tree.height(), 3.0) / 2);
-        obstacles_.push_back({to_bullet(tree.position()), 0, half, radius, true});
-    }
-    std::stable_sort(obstacles_.begin(), obstacles_.end(), [](const auto& a, const auto& b) {
-        return a.position.x() < b.position.x();
-    });
+NearObstacles::NearObstacles(const world::TownT& town, btDynamicsWorld& world)
+    : world_(&world),
+      obstacles_(obstacles_of(town)) {
     for (const Obstacle& obstacle : obstacles_)
         largest_radius_ = std::max(largest_radius_, obstacle.radius);
 }
@@ -42,11 +29,7 @@ bool NearObstacles::within(std::size_t index,
 
 NearObstacles::Body NearObstacles::make(std::size_t index) const {
     const Obstacle& obstacle = obstacles_[index];
-    Body near{index, nullptr, nullptr};
-    if (obstacle.round)
-        near.shape = std::make_unique<btCylinderShapeZ>(obstacle.half);
-    else
-        near.shape = std::make_unique<btBoxShape>(obstacle.half);
+    Body near{index, make_shape(obstacle), nullptr};
     btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, near.shape.get());
     info.m_friction = 0.6;
     info.m_restitution = 0.3;

@@ -6,17 +6,20 @@
 #include <vector>
 
 #include "kernel/bullet.h"
+#include "kernel/obstacle.h"
 #include "world/digest.h"
 #include "world/town_generated.h"
 
 namespace reprise::kernel {
 
-/// What stands beside the road: buildings as boxes, tree trunks as cylinders. Only those near a
-/// vehicle with mass are in Bullet, which walks over all its bodies several times in each substep.
+/// What stands beside the road. Only that near a vehicle with mass is in Bullet, which walks over
+/// all its bodies several times in each substep.
 class NearObstacles {
   public:
-    static constexpr double enter_distance = 20;  ///< [m] from the bounding circle
-    static constexpr double leave_distance = 30;
+    /// [m] from a vehicle's middle to the bounding circle: half a bus, and what it drives in a
+    /// tick.
+    static constexpr double enter_distance = 12;
+    static constexpr double leave_distance = 18;
 
     NearObstacles(const world::TownT& town, btDynamicsWorld& world);
     ~NearObstacles();
@@ -31,14 +34,6 @@ class NearObstacles {
     void add_to(world::Hasher& hasher) const;
 
   private:
-    struct Obstacle {
-        btVector3 position;  ///< on the ground
-        double yaw = 0;
-        btVector3 half;     ///< half sizes; a trunk's are (radius, radius, half height)
-        double radius = 0;  ///< of the bounding circle
-        bool round = false;
-    };
-
     struct Body {
         std::size_t index;  ///< in obstacles_
         std::unique_ptr<btCollisionShape> shape;
