@@ -31,9 +31,9 @@ constexpr double most_buildings = 3000;
 constexpr double party_wall = 0.03;      ///< [m] between buildings of a row: they must not overlap
 constexpr double detached_gap = 3;       ///< [m] between all others
 constexpr double behind_gap = 7;         ///< [m] around those of rows behind
+constexpr double country_share = 0.12;   ///< of the sites along country roads
 constexpr double verge = 2.5;            ///< [m] more where there is no sidewalk
 constexpr double quiet_speed = 9;        ///< [m/s]
-constexpr double country_speed = 19;     ///< [m/s] faster roads have few houses
 constexpr double overlap_allowed = 0.5;  ///< [m] a drawn building may reach into a lane
 constexpr double smallest_drawn = 2;     ///< [m2]
 
@@ -90,7 +90,7 @@ double setback_of(const BuildingModel& model, Draws& draws) {
         case BuildingUse::shop:
             return draws.between(0.5, 1.2);
         case BuildingUse::flats:
-            return is_in_row(model) ? draws.between(0.6, 1.6) : draws.between(3, 6);
+            return is_in_row(model) ? draws.between(0.8, 3.4) : draws.between(3, 6);
         case BuildingUse::office:
         case BuildingUse::tower:
             return draws.between(1, 4);
@@ -151,7 +151,7 @@ void Builder::build(std::uint32_t roadside, const Draft& draft, Draws& draws) {
 }
 
 Situation Builder::situation(const Roadside& roadside) const {
-    if (roadside.driven == world::none)
+    if (roadside.driven == world::none || land_.is_country(roadside))
         return Situation::quiet;
     const world::LaneT& lane = land_.town.lanes[roadside.driven];
     const bool single = lane.left == world::none && lane.right == world::none;
@@ -218,7 +218,9 @@ void Builder::add_landmarks() {
 /// A building with its near corner at s: a large one, the same model at its smallest, or a small
 /// one of the quiet kind.
 std::optional<Draft> Builder::find(const Roadside& roadside, double s, Draws& draws) const {
-    const BuildingStyle style = districts_.at(site(roadside, s, 8).position);
+    const BuildingStyle style = land_.is_country(roadside)
+                                    ? BuildingStyle::village
+                                    : districts_.at(site(roadside, s, 8).position);
     const std::uint32_t wanted = choose_model(style, situation(roadside), draws.between(0, 1));
     const std::uint32_t modest = choose_model(style, Situation::quiet, draws.between(0, 1));
     const std::array<std::pair<std::uint32_t, bool>, 3> tries{
@@ -237,11 +239,10 @@ void Builder::add_rows() {
     for (std::uint32_t i = 0; i < land_.roadsides.size(); ++i) {
         const Roadside& roadside = land_.roadsides[i];
         Draws draws(land_.seed, Purpose::building, i);
-        const bool country = roadside.driven != world::none &&
-                             land_.town.lanes[roadside.driven].speed_limit > country_speed;
+        const bool country = land_.is_country(roadside);
         double s = draws.between(0, 2);
         while (s < roadside.border.length - 6) {
-            if (!draws.chance(country ? 0.15 * kept : kept)) {
+            if (!draws.chance(country ? country_share * kept : kept)) {
                 s += 18;
                 continue;
             }
@@ -279,8 +280,7 @@ void Builder::add_rows_behind() {
     const double kept = share(40);
     for (std::uint32_t i = 0; i < land_.roadsides.size(); ++i) {
         const Roadside& roadside = land_.roadsides[i];
-        if (roadside.driven == world::none ||
-            land_.town.lanes[roadside.driven].speed_limit > country_speed)
+        if (roadside.driven == world::none || land_.is_country(roadside))
             continue;
         Draws draws(land_.seed, Purpose::building, 1U << 24 | i);
         for (const double row : {24.0, 44.0})

@@ -91,7 +91,7 @@ class Gardener {
 
 /// Off all that is driven and walked on; else there is none.
 bool Gardener::add_plot(const Footprint& footprint, double z, PlotKind kind) {
-    if (!land_.roads.is_clear(footprint, 0.1) || !land_.walks.is_clear(footprint, 0.02) ||
+    if (!land_.roads.is_clear(footprint, 0.02) || !land_.walks.is_clear(footprint, 0.02) ||
         !land_.junctions.is_clear(footprint, 0.1) || land_.is_steep(footprint.centre))
         return false;
     world::PlotT plot;
@@ -188,8 +188,14 @@ void Gardener::add_plants(const LotFrame& lot, double driveway_side, Draws& draw
 void Gardener::lay_out_house(const LotFrame& lot, Draws& draws) {
     const double end = lot.half() + side_strip;
     const double z = lot.building().centre().z();
-    for (const double back : {lot.back() + back_garden, lot.front()})
-        if (add_plot(lot.rectangle(-end, end, lot.border() + 0.1, back), z, PlotKind::lawn))
+    // Less of it where the road bends into it, or another one passes behind.
+    const double front = lot.border() + 0.1;
+    for (const auto& [from, to] : {std::pair{front, lot.back() + back_garden},
+                                   {front + 0.7, lot.back() + back_garden},
+                                   {front, lot.front()},
+                                   {front + 0.7, lot.front()},
+                                   {front + 1.5, lot.front()}})
+        if (add_plot(lot.rectangle(-end, end, from, to), z, PlotKind::lawn))
             break;
     const double side = draws.chance(0.5) ? 1 : -1;
     const bool has_drive = lot.front() - lot.border() > deep_enough && draws.chance(0.75) &&

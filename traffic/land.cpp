@@ -19,6 +19,7 @@ using world::Vec3;
 
 constexpr double level_cell = 24;     ///< [m]
 constexpr double level_apart = 2.5;   ///< [m] of height: one is a bridge over the other
+constexpr double country_speed = 19;  ///< [m/s]
 constexpr double narrowest = 1.25;    ///< [m] beside a path that is kept clear for cars
 constexpr double turning_half = 1.6;  ///< [m] beside a turning path: buses cut corners
 
@@ -105,6 +106,22 @@ bool Land::is_steep(const Vector2d& p) const {
                 high = std::max(high, cell->second.high);
             }
     return high - low > level_apart;
+}
+
+bool Land::is_country(const Roadside& roadside) const {
+    if (roadside.driven == world::none)
+        return false;
+    std::uint32_t lane = roadside.driven;
+    for (const bool to_left : {true, false})
+        for (;;) {
+            if (town.lanes[lane].opposite != world::none)
+                return town.lanes[lane].speed_limit > country_speed;
+            const std::uint32_t next = to_left ? town.lanes[lane].left : town.lanes[lane].right;
+            if (next == world::none)
+                break;
+            lane = next;
+        }
+    return roadside.walk == 0 || town.lanes[lane].speed_limit > country_speed;
 }
 
 double Land::ground(const Vector2d& p, double road_z) const {

@@ -37,6 +37,10 @@ struct Land {
     /// beside the road is then not as high as the road.
     bool is_steep(const Eigen::Vector2d& p) const;
 
+    /// Outside of built-up streets: fast roads, and one-way roads without a sidewalk (ramps,
+    /// carriageways of a motorway).
+    bool is_country(const Roadside& roadside) const;
+
     /// Height of the ground beside or under a road's side: sidewalks are raised. [m]
     double ground(const Eigen::Vector2d& p, double road_z) const;
 

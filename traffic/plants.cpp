@@ -19,7 +19,6 @@ constexpr double trunk_to_kerb = 0.8;
 constexpr double trunk_to_walk = 0.4;
 constexpr double trunk_to_solid = 0.8;
 constexpr double lorry_height = 4.5;
-constexpr double country_speed = 19;  ///< [m/s]
 constexpr double smallest_crown = 0.9;
 
 /// How tall and wide a kind grows. [m]
@@ -92,8 +91,7 @@ constexpr std::array<PlantKind, 7> wild_kinds{PlantKind::birch,
 /// One kind for a street, at an even distance, behind the sidewalk or on its outer edge where that
 /// is wide.
 void add_row(Land& land, const Roadside& roadside, Draws& draws) {
-    const bool country = roadside.driven != world::none &&
-                         land.town.lanes[roadside.driven].speed_limit > country_speed;
+    const bool country = land.is_country(roadside);
     const bool has_row = draws.chance(country ? 0.7 : 0.65);
     const PlantKind kind = country ? PlantKind::poplar : street_kinds[draws.index(3)];
     const double spacing = country ? draws.between(11, 15) : draws.between(8, 12);
