@@ -34,6 +34,14 @@ Vector2d kerb_point(const LaneT& lane, double s, double side) {
            Vector2d(-std::sin(at.yaw), std::cos(at.yaw)) * (side * lane.width / 2);
 }
 
+constexpr int directions = 16;
+
+/// One of those around a place.
+Vector2d direction(int k) {
+    const double angle = 2 * std::numbers::pi * k / directions;
+    return {std::cos(angle), std::sin(angle)};
+}
+
 }  // namespace
 
 Land::Land(world::TownT& target, const Place& source)
@@ -135,16 +143,30 @@ bool Land::may_stand(const Vector2d& p, double margin) const {
     return !walks.is_clear(p, 0) || junctions.is_clear(p, 0.1);
 }
 
+bool Land::leaves_way(const Vector2d& p) const {
+    constexpr double at_kerb = 0.75;
+    constexpr double at_edge = 0.35;
+    if (walks.is_clear(p, 0) || !roads.is_clear(p, at_kerb))
+        return true;
+    // At the outer edge the land begins within a step.
+    for (int k = 0; k < directions; ++k) {
+        const Vector2d step = p + direction(k) * at_edge;
+        if (walks.is_clear(step, 0) && crossings.is_clear(step, 0))
+            return true;
+    }
+    return false;
+}
+
 std::optional<Vector2d> Land::pole_place(const Vector2d& wish, double reach) const {
     constexpr double ring = 0.3;
-    constexpr int directions = 16;
-    for (int i = 0; i * ring <= reach; ++i)
-        for (int k = 0; k < (i == 0 ? 1 : directions); ++k) {
-            const double angle = 2 * std::numbers::pi * k / directions;
-            const Vector2d p = wish + Vector2d(std::cos(angle), std::sin(angle)) * (i * ring);
-            if (may_stand(p, pole_margin) && solid.is_clear(p, 0.3))
-                return p;
-        }
+    for (const bool out_of_the_way : {true, false})
+        for (int i = 0; i * ring <= reach; ++i)
+            for (int k = 0; k < (i == 0 ? 1 : directions); ++k) {
+                const Vector2d p = wish + direction(k) * (i * ring);
+                if (may_stand(p, pole_margin) && solid.is_clear(p, 0.3) &&
+                    (!out_of_the_way || leaves_way(p)))
+                    return p;
+            }
     return std::nullopt;
 }
 

@@ -48,7 +48,11 @@ struct Land {
     /// sidewalk or beside the road.
     bool may_stand(const Eigen::Vector2d& p, double margin) const;
 
-    /// The place nearest to `wish` where a pole may stand, at most `reach` away. [m]
+    /// Is a pole there off the sidewalks, or at their kerb or outer edge, where walkers pass by?
+    bool leaves_way(const Eigen::Vector2d& p) const;
+
+    /// The place nearest to `wish` where a pole may stand and leaves walkers their way; else where
+    /// it may stand at all. At most `reach` away. [m]
     std::optional<Eigen::Vector2d> pole_place(const Eigen::Vector2d& wish, double reach) const;
 
   private:

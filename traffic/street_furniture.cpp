@@ -26,10 +26,12 @@ double yaw_of(const Vector2d& way) {
     return std::atan2(way.y(), way.x());
 }
 
-/// On the sidewalk along its outer edge, where walkers can still pass by.
+/// On the sidewalk along its outer edge, where walkers can still pass by; not where another
+/// sidewalk lies behind that edge.
 std::optional<Item> on_walk(
     const Roadside& roadside, double s, PropKind kind, double length, double width, double height) {
-    if (roadside.walk - width - off_border < walking_width)
+    if (roadside.walk - width - off_border < walking_width ||
+        !land.walks.is_clear(site(roadside, s, 0.4).position, 0.1))
         return std::nullopt;
     const Site at = site(roadside, s, -off_border - width / 2);
     Item item;
@@ -159,7 +161,7 @@ void place_bus_stops(Land& land) {
         if (too_near || beside)
             continue;
         const double width = std::min(1.3, roadside.walk - walking_width - off_border);
-        auto item = on_walk(roadside, s, PropKind::bus_stop, 4, std::max(width, 0.7), 2.5);
+        auto item = on_walk(land, roadside, s, PropKind::bus_stop, 4, std::max(width, 0.7), 2.5);
         if (!item)
             continue;
         item->style = draws.style();
