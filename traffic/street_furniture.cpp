@@ -28,8 +28,13 @@ double yaw_of(const Vector2d& way) {
 
 /// On the sidewalk along its outer edge, where walkers can still pass by; not where another
 /// sidewalk lies behind that edge.
-std::optional<Item> on_walk(
-    const Roadside& roadside, double s, PropKind kind, double length, double width, double height) {
+std::optional<Item> on_walk(const Land& land,
+                            const Roadside& roadside,
+                            double s,
+                            PropKind kind,
+                            double length,
+                            double width,
+                            double height) {
     if (roadside.walk - width - off_border < walking_width ||
         !land.walks.is_clear(site(roadside, s, 0.4).position, 0.1))
         return std::nullopt;
@@ -93,8 +98,8 @@ void add_small(Land& land, const Roadside& roadside, Draws& draws) {
             std::begin(kinds), std::end(kinds), [&](const Kind& k) { return drawn < k.share; });
         const std::uint32_t style = draws.style();
         for (int i = 0; i < (kind->kind == PropKind::bollard ? 4 : 1); ++i) {
-            auto item =
-                on_walk(roadside, s + 1.6 * i, kind->kind, kind->length, kind->width, kind->height);
+            auto item = on_walk(
+                land, roadside, s + 1.6 * i, kind->kind, kind->length, kind->width, kind->height);
             if (!item)
                 continue;
             item->style = style;
