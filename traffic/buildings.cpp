@@ -215,16 +215,17 @@ void Builder::add_landmarks() {
         add_landmark(landmarks[i].model, landmarks[i].from_middle, i);
 }
 
-/// A building with its near corner at s: a large one, the same model at its smallest, or a small
-/// one of the quiet kind.
+/// A building with its near corner at s: a large one, the same model or another at its smallest, or
+/// a small one of the quiet kind.
 std::optional<Draft> Builder::find(const Roadside& roadside, double s, Draws& draws) const {
     const BuildingStyle style = land_.is_country(roadside)
                                     ? BuildingStyle::village
                                     : districts_.at(site(roadside, s, 8).position);
     const std::uint32_t wanted = choose_model(style, situation(roadside), draws.between(0, 1));
+    const std::uint32_t other = choose_model(style, situation(roadside), draws.between(0, 1));
     const std::uint32_t modest = choose_model(style, Situation::quiet, draws.between(0, 1));
-    const std::array<std::pair<std::uint32_t, bool>, 3> tries{
-        {{wanted, false}, {wanted, true}, {modest, true}}};
+    const std::array<std::pair<std::uint32_t, bool>, 4> tries{
+        {{wanted, false}, {wanted, true}, {other, true}, {modest, true}}};
     for (const auto& [model, small] : tries) {
         const Draft found = draft(roadside, s, model, draws, small);
         if (s + found.footprint.length <= roadside.border.length + 2 &&
@@ -248,7 +249,7 @@ void Builder::add_rows() {
             }
             const std::optional<Draft> found = find(roadside, s, draws);
             if (!found) {
-                s += 3;
+                s += 2;
                 continue;
             }
             build(i, *found, draws);

@@ -92,7 +92,8 @@ class Gardener {
 /// Off all that is driven and walked on; else there is none.
 bool Gardener::add_plot(const Footprint& footprint, double z, PlotKind kind) {
     if (!land_.roads.is_clear(footprint, 0.02) || !land_.walks.is_clear(footprint, 0.02) ||
-        !land_.junctions.is_clear(footprint, 0.1) || land_.is_steep(footprint.centre))
+        !land_.junctions.is_clear(footprint, 0.1) || !land_.reserved.is_clear(footprint, 0.1) ||
+        land_.is_steep(footprint.centre))
         return false;
     world::PlotT plot;
     plot.kind = kind;
@@ -213,8 +214,7 @@ void Gardener::lay_out_shop(const LotFrame& lot, Draws& draws) {
     const Footprint footprint =
         lot.rectangle(-half, half, lot.back() + 1, lot.back() + 1 + car_park_depth);
     const double z = lot.building().centre().z();
-    if (!land_.solid.is_clear(footprint, 0.5) || !land_.reserved.is_clear(footprint, 0.5) ||
-        !add_plot(footprint, z, PlotKind::car_park))
+    if (!land_.solid.is_clear(footprint, 0.5) || !add_plot(footprint, z, PlotKind::car_park))
         return;
     land_.reserved.add_footprint(footprint);
     fill_car_park(land_, corners(footprint), z, draws);

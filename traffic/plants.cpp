@@ -112,7 +112,7 @@ void add_groups(Land& land, const Roadside& roadside, double kept, Draws& draws)
     for (double s = draws.between(0, 20); s < roadside.border.length; s += draws.between(14, 30)) {
         if (!draws.chance(kept))
             continue;
-        const double away = draws.between(7, 65);
+        const double away = draws.between(7, 85);
         const PlantKind kind = wild_kinds[draws.index(wild_kinds.size())];
         const auto count = 1 + draws.index(6);
         for (std::uint32_t i = 0; i < count; ++i) {

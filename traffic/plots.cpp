@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "traffic/draws.h"
 #include "traffic/parked_cars.h"
@@ -26,10 +27,13 @@ constexpr double smallest = 4;  ///< [m2]
 /// One plot with all that is put on it.
 class Layout {
   public:
-    Layout(Land& land, const PlotT& plot, Draws& draws)
+    /// `over`: plots that lie over this one.
+    Layout(Land& land, const PlotT& plot, std::span<const PlotT> over, Draws& draws)
         : land_(land),
           loop_(world::in_plan(plot.outline)),
           draws_(draws) {
+        for (const PlotT& other : over)
+            over_.add_polygon(other.outline);
         for (const Vector2d& p : loop_)
             middle_ += p / static_cast<double>(loop_.size());
         for (const world::Vec3& p : plot.outline)
@@ -64,14 +68,17 @@ class Layout {
 
     Land& land_;
     Loop loop_;
+    Clearance over_{4};
     Draws& draws_;
     Vector2d middle_ = Vector2d::Zero();
     double z_ = 0;
     world::Box box_;
 };
 
-/// As far from the border as that, tried at eight points around.
+/// As far from the border as that, tried at eight points around; and off what lies over it.
 bool Layout::is_inside(const Vector2d& p, double margin) const {
+    if (!over_.is_clear(p, margin))
+        return false;
     for (int i = 0; i < 8; ++i) {
         const double angle = std::atan(1.0) * i;
         if (!world::contains(loop_, p + Vector2d(std::cos(angle), std::sin(angle)) * margin))
@@ -207,7 +214,7 @@ void lay_out_plots(Land& land) {
         if (area < 0)
             std::reverse(plot.outline.begin(), plot.outline.end());
         Draws draws(land.seed, Purpose::furniture, 1ULL << 32 | i);
-        Layout layout(land, plot, draws);
+        Layout layout(land, plot, std::span(land.place.plots).subspan(i + 1), draws);
         fill(layout, plot.kind);
         land.town.plots.push_back(std::move(plot));
     }

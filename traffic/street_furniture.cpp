@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "traffic/draws.h"
@@ -41,7 +42,8 @@ std::optional<Item> on_walk(const Land& land,
     const Site at = site(roadside, s, -off_border - width / 2);
     Item item;
     item.kind = kind;
-    item.footprint = {at.position, at.yaw, length, width};
+    // Who sits or waits there looks at the road: it is on the side of its y.
+    item.footprint = {at.position, facing_yaw(roadside, at) + std::numbers::pi, length, width};
     item.height = height;
     item.road_z = at.z;
     item.from_solid = walking_width;
