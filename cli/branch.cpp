@@ -33,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct WhatIf {
-    std::string script;
+    std::string script;  ///< names the output; the parent trace when its own script goes on
     fs::path output;
     world::BranchT branch;
 };
@@ -54,17 +54,17 @@ std::uint64_t branch_tick(const BranchOptions& options, const replay::TraceReade
     return tick;
 }
 
-/// One trace for one script; or a folder, which is made.
+/// One trace for one what-if; or a folder, which is made.
 fs::path output_of(const BranchOptions& options, const std::string& script) {
     const fs::path output = options.output;
-    if (options.scripts.size() == 1 && output.extension() == ".mcap")
+    if (options.scripts.size() <= 1 && output.extension() == ".mcap")
         return output;
     std::error_code error;
     fs::create_directories(output, error);
     if (error || !fs::is_directory(output))
         throw world::Error(fmt::format("-o {}: expected a folder for {} traces{}",
                                        options.output,
-                                       options.scripts.size(),
+                                       std::max<std::size_t>(options.scripts.size(), 1),
                                        error ? ": " + error.message() : ""));
     return output / (fs::path(script).stem().string() + ".mcap");
 }
@@ -76,12 +76,14 @@ std::vector<WhatIf> plan(const BranchOptions& options,
     overrides.duration = options.seconds;
     overrides.parameters = options.parameters;
     std::vector<WhatIf> all;
-    for (const std::string& script : options.scripts) {
-        world::BranchT branch = scripting::load_branch(script, overrides, trace.episode(), tick);
-        branch.parent_chain = trace.chain(tick);
-        all.push_back({script, "", std::move(branch)});
-    }
+    if (options.scripts.empty())
+        all.push_back(
+            {options.trace, "", scripting::change_branch(overrides, trace.episode(), tick)});
+    for (const std::string& script : options.scripts)
+        all.push_back(
+            {script, "", scripting::load_branch(script, overrides, trace.episode(), tick)});
     for (WhatIf& one : all) {
+        one.branch.parent_chain = trace.chain(tick);
         one.output = output_of(options, one.script);
         refuse_same_file(options.trace, one.output);
         for (const WhatIf& other : all)
@@ -136,6 +138,10 @@ int report(const WhatIf& what_if, int code) {
 }  // namespace
 
 int branch(const BranchOptions& options) {
+    if (options.scripts.empty() && options.parameters.empty())
+        throw world::Error(
+            "branch: nothing would be different: give --script WHAT_IF.lua, which takes over, or "
+            "--set KEY=VALUE, with which the run's own script goes on");
     self_test();
     replay::TraceReader trace(options.trace);
     replay::require_simulated(trace);

@@ -79,11 +79,12 @@ struct Screen {
             row("set", settings);
         for (const world::BranchT& branch : episode.branches) {
             row("branch",
-                fmt::format("at tick {} ({}) {} ({}) took over from chain {}",
+                fmt::format("at tick {} ({}) {} ({}) {} from chain {}",
                             branch.tick,
                             time(branch.tick),
                             branch.name,
                             branch.scenario_path,
+                            branch.scenario.empty() ? "went on" : "took over",
                             world::to_hex(branch.parent_chain)));
             for (const world::ParameterT& parameter : branch.parameters)
                 row("", parameter.key + " = " + parameter.value);

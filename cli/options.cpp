@@ -155,15 +155,17 @@ void add_expand(CLI::App& app, ExpandOptions& expand) {
 
 void add_branch(CLI::App& app, BranchOptions& branch, std::vector<std::string>& assignments) {
     CLI::App& command = *app.add_subcommand(
-        "branch", "What if: let another script take over in the middle of a recorded run");
+        "branch", "What if: let another script, or other parameters, take over in a recorded run");
     command.add_option("trace", branch.trace, "The trace")->required()->type_name("T.mcap");
-    command.add_option("--at", branch.at, "The last tick of what was, or time such as 12.5s")
+    command.add_option("--at", branch.at, "The last tick of what was, or time such as 12.5 or 12s")
         ->required()
         ->type_name("TICK");
     command
         .add_option(
-            "--script", branch.scripts, "What happens from there on; several share the way there")
-        ->required()
+            "--script",
+            branch.scripts,
+            "What happens from there on; several share the way there. Without it the run's own "
+            "script goes on where it is, and finds what --set says the next time it looks")
         ->type_name("WHAT_IF.lua")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
@@ -179,7 +181,8 @@ void add_branch(CLI::App& app, BranchOptions& branch, std::vector<std::string>& 
         "streams\n"
         "are in their true state. Exit status: 0 all checks passed, 1 one failed, or the run came\n"
         "out differently, 2 bad input.\n"
-        "Example: reprise branch a.mcap --at 12.5s --script brake.lua swerve.lua -o what_if");
+        "Examples: reprise branch a.mcap --at 12.5 --script brake.lua swerve.lua -o what_if\n"
+        "          reprise branch a.mcap --at 12.5 --set distance=10 -o closer.mcap");
 }
 
 void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignments) {

@@ -131,11 +131,15 @@ void Kernel::branch(const world::BranchT& branch) {
     REPRISE_CHECK(branch.tick == stage.last.view().index() && !stage.finished,
                   "a branch of tick " + std::to_string(branch.tick) + " at tick " +
                       std::to_string(stage.last.view().index()));
+    stage.episode.max_ticks = branch.max_ticks;
+    if (branch.scenario.empty()) {
+        stage.scenario.change(branch.parameters);
+        return;
+    }
     stage.episode.name = branch.name;
     stage.episode.scenario = branch.scenario;
     stage.episode.scenario_path = branch.scenario_path;
     stage.episode.parameters = branch.parameters;
-    stage.episode.max_ticks = branch.max_ticks;
     stage.scenario.take_over();
 }
 

@@ -38,9 +38,10 @@ class Kernel {
 
     std::vector<scripting::Scenario::Check> checks() const;
 
-    /// From here on another script says what happens: traffic, walkers, contacts and random streams
-    /// go on from where they are. What the recording itself names is done without being asked.
-    /// Throws world::Error, "brake.lua:3: ...", for a script that does not compile.
+    /// From here on another script says what happens, or the same with other parameters: traffic,
+    /// walkers, contacts and random streams go on from where they are. What the recording itself
+    /// names is done without being asked. Throws world::Error, "brake.lua:3: ...", for a script
+    /// that does not compile.
     void branch(const world::BranchT& branch);
 
     /// A drill, to be asked for before its tick. Not part of the recording.

@@ -181,6 +181,14 @@ Divergence only_starts_differ(TraceReader& expected,
     return divergence;
 }
 
+/// "distance = 10, gap = 2"
+std::string settings_text(const world::BranchT& branch) {
+    std::string text;
+    for (const world::ParameterT& parameter : branch.parameters)
+        text += (text.empty() ? "" : ", ") + parameter.key + " = " + parameter.value;
+    return text;
+}
+
 void check_undamaged(const TraceReader& trace) {
     if (const auto damage = trace.damage())
         throw world::Error(trace.path().string() + ": " + *damage);
@@ -206,7 +214,7 @@ std::string branch_text(const world::EpisodeT& expected, const world::EpisodeT& 
                             which,
                             branch.tick,
                             world::seconds(branch.tick, expected.step_ns),
-                            branch.scenario_path);
+                            branch.scenario.empty() ? settings_text(branch) : branch.scenario_path);
     };
     const bool both =
         parted.first != expected.branches.end() && parted.second != found.branches.end();

@@ -111,6 +111,15 @@ std::vector<world::ParameterT> recorded(const std::map<std::string, Value>& para
     return list;
 }
 
+/// Where a branch ends when nothing else is said, and when it is.
+std::uint64_t limit_of_branch(const world::EpisodeT& run,
+                              std::uint64_t tick,
+                              std::optional<double> duration) {
+    if (duration)
+        return tick + std::max<std::uint64_t>(1, ticks_of(*duration, run.step_ns));
+    return run.branches.empty() ? run.max_ticks : run.branches.back().max_ticks;
+}
+
 }  // namespace
 
 world::EpisodeT load_episode(const std::filesystem::path& scenario_lua,
@@ -161,11 +170,35 @@ world::BranchT load_branch(const std::filesystem::path& scenario_lua,
     override_parameters(header, overrides, branch.scenario_path);
     branch.name = header.name;
     branch.parameters = recorded(header.parameters);
-    branch.max_ticks = run.branches.empty() ? run.max_ticks : run.branches.back().max_ticks;
-    if (overrides.duration || header.has_duration)
-        branch.max_ticks =
-            tick + std::max<std::uint64_t>(
-                       1, ticks_of(overrides.duration.value_or(header.duration), run.step_ns));
+    std::optional<double> duration = overrides.duration;
+    if (!duration && header.has_duration)
+        duration = header.duration;
+    branch.max_ticks = limit_of_branch(run, tick, duration);
+    return branch;
+}
+
+world::BranchT change_branch(const Overrides& overrides,
+                             const world::EpisodeT& run,
+                             std::uint64_t tick) {
+    world::BranchT branch;
+    branch.tick = tick;
+    const auto script = std::find_if(run.branches.rbegin(),
+                                     run.branches.rend(),
+                                     [](const auto& earlier) { return !earlier.scenario.empty(); });
+    const bool in_branch = script != run.branches.rend();
+    branch.name = in_branch ? script->name : run.name;
+    branch.scenario_path = in_branch ? script->scenario_path : run.scenario_path;
+    Vm vm(branch.scenario_path);
+    vm.in_branch = in_branch;
+    Header header = read_header(vm, in_branch ? script->scenario : run.scenario);
+    override_parameters(header, overrides, branch.scenario_path);
+    branch.parameters = recorded(header.parameters);
+    std::erase_if(branch.parameters, [&](const world::ParameterT& parameter) {
+        return std::none_of(overrides.parameters.begin(),
+                            overrides.parameters.end(),
+                            [&](const auto& given) { return given.first == parameter.key; });
+    });
+    branch.max_ticks = limit_of_branch(run, tick, overrides.duration);
     return branch;
 }
 

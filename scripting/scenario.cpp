@@ -18,24 +18,35 @@ namespace reprise::scripting {
 
 namespace {
 
+constexpr int parameters_at = 1;                  // on the main stack
 constexpr std::uint64_t command_cost = 1000;      // [instructions]: at most 10,000 in a tick
 constexpr std::uint64_t look_cost = 300;          // [instructions] of a lane by its place
 constexpr std::uint64_t mistaken_lane_cost = 20;  // [instructions] a lane, to find what was meant
+
+/// Pushes the parameter's value.
+void push_value(lua_State* L, const std::string& script, const world::ParameterT& parameter) {
+    const auto value = parse_literal(parameter.value);
+    if (!value)
+        throw world::Error(fmt::format(
+            "{}: parameter '{}' is no literal: {}", script, parameter.key, parameter.value));
+    push(L, *value);
+}
 
 /// Pushes the parameters of this run, which know no others.
 void push_parameters(lua_State* L, const world::EpisodeT& episode) {
     lua_newtable(L);
     for (const auto& parameter : episode.parameters) {
-        const auto value = parse_literal(parameter.value);
-        if (!value)
-            throw world::Error(fmt::format("{}: parameter '{}' is no literal: {}",
-                                           episode.scenario_path,
-                                           parameter.key,
-                                           parameter.value));
-        push(L, *value);
+        push_value(L, episode.scenario_path, parameter);
         lua_setfield(L, -2, parameter.key.c_str());
     }
     refuse_unknown(L, "params");
+}
+
+void add(world::Hasher& hasher, const std::vector<world::ParameterT>& parameters) {
+    for (const world::ParameterT& parameter : parameters) {
+        hasher.add_text(parameter.key);
+        hasher.add_text(parameter.value);
+    }
 }
 
 }  // namespace
@@ -50,15 +61,16 @@ struct Scenario::Machine {
         const Header header = read_header(vm, run.episode.scenario);
         vm.run = &run;
         lua_State* L = vm.main();
+        push_parameters(L, run.episode);  // stays at `parameters_at`
         lua_rawgeti(L, LUA_REGISTRYINDEX, header.run);
-        push_parameters(L, run.episode);
+        lua_pushvalue(L, parameters_at);
         run.tasks.start(L, 1);
     }
 
     Vm vm;
     Run run;
     std::vector<Check> decided;    ///< of scripts whose place this one took
-    std::uint64_t taken_over = 0;  ///< digest of the scripts that took over; 0: none did
+    std::uint64_t taken_over = 0;  ///< digest of what branches changed; 0: nothing
 };
 
 world::CommandT& Run::say(lua_State* L, world::CommandKind kind, std::uint32_t actor) {
@@ -127,10 +139,7 @@ void Scenario::take_over() {
     world::Hasher scripts;
     scripts.add(machine_->taken_over);
     scripts.add_text(episode.scenario);
-    for (const world::ParameterT& parameter : episode.parameters) {
-        scripts.add_text(parameter.key);
-        scripts.add_text(parameter.value);
-    }
+    add(scripts, episode.parameters);
     machine_.reset();  // the new machine lies at the same addresses
     machine_ = std::make_unique<Machine>(episode, town);
     machine_->vm.in_branch = true;
@@ -139,6 +148,19 @@ void Scenario::take_over() {
     machine_->run.streams = std::move(streams);
     machine_->decided = std::move(decided);
     machine_->taken_over = scripts.digest64();
+}
+
+void Scenario::change(const std::vector<world::ParameterT>& parameters) {
+    lua_State* L = machine_->vm.main();
+    for (const world::ParameterT& parameter : parameters) {
+        lua_pushlstring(L, parameter.key.data(), parameter.key.size());
+        push_value(L, machine_->vm.script(), parameter);
+        lua_rawset(L, parameters_at);  // whatever the script made of the table
+    }
+    world::Hasher changes;
+    changes.add(machine_->taken_over);
+    add(changes, parameters);
+    machine_->taken_over = changes.digest64();
 }
 
 void Scenario::advance(const world::TickView& last, world::TickDraft& next) {

@@ -37,6 +37,12 @@ world::BranchT load_branch(const std::filesystem::path& scenario_lua,
                            const world::EpisodeT& run,
                            std::uint64_t tick);
 
+/// The script that runs at that tick goes on, and finds other parameters from there: those of
+/// `overrides`. Throws world::Error for one that the script does not have.
+world::BranchT change_branch(const Overrides& overrides,
+                             const world::EpisodeT& run,
+                             std::uint64_t tick);
+
 /// A running scenario: one Lua machine in a sandbox, coroutine tasks resumed once a tick.
 /// Everything it knows of the world is the last tick; everything it says is a Command.
 class Scenario {
@@ -57,6 +63,10 @@ class Scenario {
     /// there are (word: actor) and draws on from the streams; the old one's tasks end. Of its
     /// checks those that were decided stay, the others end with it.
     void take_over();
+
+    /// Puts values into the table that `run` was called with: the script goes on where it is and
+    /// finds them the next time it looks.
+    void change(const std::vector<world::ParameterT>& parameters);
 
     /// Of instruction count, memory, actors, task and check states, draw counts. The script's own
     /// variables are not read: a script that holds other values either goes another way, which

@@ -187,6 +187,71 @@ TEST_F(Branch, SaysWhatIsWrongAndLeavesNothing) {
     EXPECT_EQ(folder_.files(), before);
 }
 
+/// A wait for `p.wait` seconds that looks at its parameter in every tick.
+class BranchOfParameters : public Branch {
+  protected:
+    void SetUp() override {
+        write_file(folder_ / "patient.lua", R"(
+            return scenario 'patient' { town = 'town1', cars = 10, seed = 3,
+                params = { wait = 3, word = 'ready' },
+                run = function(p)
+                    local ego = spawn{ name = 'ego', model = 'sedan' }
+                    p.word = p.word .. '!'
+                    wait_until(function() return tick() >= p.wait * 20 end)
+                    print(p.word)
+                    ego:set_speed(0)
+                    wait(1)
+                end })");
+        run({"run", "patient.lua", "-o", "parent.mcap"}, 0);
+    }
+};
+
+TEST_F(BranchOfParameters, GoesOnWithTheRunsOwnScriptWhereItIs) {
+    run({"branch", "parent.mcap", "--at", "2.5", "--set", "wait=4", "-o", "late.mcap"}, 0);
+    EXPECT_THAT(
+        run({"diff", "parent.mcap", "late.mcap"}, 1),
+        HasSubstr(
+            "equal for 50 ticks; branched at tick 50 (2.50 s) by wait = 4; first difference"));
+    EXPECT_THAT(run({"verify", "late.mcap"}, 0), HasSubstr("equal at every one of 101 ticks"));
+    const std::string info = run({"info", "late.mcap"}, 0);
+    EXPECT_THAT(info, HasSubstr("at tick 50 (2.50 s) patient (patient.lua) went on from chain "));
+    EXPECT_THAT(info, HasSubstr("            wait = 4\n"));
+    EXPECT_THAT(info, HasSubstr("4.05 s  ready!\n"));
+
+    // What a run that had it from the start does, when nothing looked at it before.
+    run({"run", "patient.lua", "--set", "wait=4", "-o", "four.mcap"}, 0);
+    const auto places = [&](const std::string& trace) {
+        return run({"cat", trace, "--fields", "vehicles.position", "--format", "csv"}, 0);
+    };
+    EXPECT_EQ(places("late.mcap"), places("four.mcap"));
+    EXPECT_NE(places("late.mcap"), places("parent.mcap"));
+}
+
+TEST_F(BranchOfParameters, IsRememberedByEveryWayToMakeItAgain) {
+    run({"branch", "parent.mcap", "--at", "50t", "--set", "wait=4", "-o", "late.mcap"}, 0);
+    const std::string bytes = read_file(folder_ / "late.mcap");
+    run({"run", "late.mcap", "-o", "again.mcap"}, 0);
+    EXPECT_TRUE(read_file(folder_ / "again.mcap") == bytes);
+    run({"strip", "late.mcap", "-o", "s.mcap", "--level", "inputs"}, 0);
+    run({"expand", "s.mcap", "-o", "e.mcap"}, 0);
+    EXPECT_TRUE(read_file(folder_ / "e.mcap") == bytes);
+    // And may change once more; what the script itself wrote stays unless it is named.
+    run({"branch", "late.mcap", "--at", "60", "--set", "wait=3.5", "--set", "word=go", "-o", "b"},
+        0);
+    EXPECT_THAT(run({"verify", "b/late.mcap"}, 0), HasSubstr("equal at every one of 91 ticks"));
+    EXPECT_THAT(run({"info", "b/late.mcap"}, 0), HasSubstr("3.55 s  go\n"));
+}
+
+TEST_F(BranchOfParameters, SaysWhatIsWrong) {
+    EXPECT_THAT(run({"branch", "parent.mcap", "--at", "50", "-o", "x.mcap"}, 2),
+                HasSubstr("nothing would be different: give --script"));
+    EXPECT_THAT(run({"branch", "parent.mcap", "--at", "50", "--set", "wiat=1", "-o", "x.mcap"}, 2),
+                HasSubstr("--set wiat=1: no parameter 'wiat' (did you mean 'wait'?)"));
+    EXPECT_THAT(
+        run({"branch", "parent.mcap", "--at", "1.5t", "--set", "wait=1", "-o", "x.mcap"}, 2),
+        HasSubstr("expected a tick such as 120 or a time such as 2.5 or 10s, got '1.5t'"));
+}
+
 TEST_F(Branch, HasAWordThatOtherScenariosDoNot) {
     write_file(folder_ / "early.lua",
                "return scenario 'early' { run = function() actor('ego') end }");
