@@ -1,133 +1,145 @@
-// Writing and playing a trace of 100 cars, beside a bare zstd pass over the same bytes.
+// Encoding, writing, playing and verifying a trace of 100 cars and 100 walkers, each beside a bare
+// zstd pass over the same bytes, in turn.
 #include <benchmark/benchmark.h>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 #include <zlib.h>
 #include <zstd.h>
 
 #include "kernel/kernel.h"
+#include "kernel/verify.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
-#include "tests/bench/drive.h"
+#include "tests/bench/recorded_drive.h"
+#include "tests/bench/stopwatch.h"
 
 namespace {
 
 using namespace reprise;
+using namespace bench;
 
-constexpr std::uint64_t ticks = 1200;
-constexpr std::uint64_t chunk_ticks = 64;
+constexpr int rounds = 5;  // ours, bare, ours, bare, ...: the machine's mood hits both
 
-std::filesystem::path trace_path() {
-    return std::filesystem::temp_directory_path() / "reprise_trace_bench.mcap";
-}
-
-/// One minute among 100 cars, recorded once for all benchmarks here; and its bytes, in chunks.
-struct Drive {
-    replay::Recording recording = bench::free_drive(100);
-    std::vector<std::string> chunks;
-
-    Drive() {
-        replay::TraceWriter trace(trace_path(), recording);
-        kernel::Kernel kernel(recording);
-        for (std::uint64_t i = 0; i < ticks; ++i) {
-            const world::SealedTick& tick = kernel.step();
-            trace.append(tick);
-            if (i % chunk_ticks == 0)
-                chunks.emplace_back();
-            for (const auto bytes : {tick.tick_bytes(), tick.traffic_bytes()})
-                chunks.back().append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        }
-        trace.close(kernel.outcome());
-    }
-};
-
-const Drive& drive() {
-    static const Drive once;
-    return once;
-}
-
-void per_tick(benchmark::State& state) {
-    state.counters["ticks/s"] = benchmark::Counter(static_cast<double>(ticks),
-                                                   benchmark::Counter::kIsIterationInvariantRate);
-}
-
-void BareZstdCompress(benchmark::State& state) {
-    drive();
+void bare_compress() {
     std::string out;
-    for (auto _ : state)
-        for (const std::string& chunk : drive().chunks) {
-            out.resize(ZSTD_compressBound(chunk.size()));
-            benchmark::DoNotOptimize(
-                ZSTD_compress(out.data(), out.size(), chunk.data(), chunk.size(), 1));
-        }
-    per_tick(state);
-}
-
-void BareZstdDecompress(benchmark::State& state) {
-    std::vector<std::string> packed;
     for (const std::string& chunk : drive().chunks) {
-        std::string out(ZSTD_compressBound(chunk.size()), '\0');
-        out.resize(ZSTD_compress(out.data(), out.size(), chunk.data(), chunk.size(), 1));
-        packed.push_back(out);
+        out.resize(ZSTD_compressBound(chunk.size()));
+        benchmark::DoNotOptimize(
+            ZSTD_compress(out.data(), out.size(), chunk.data(), chunk.size(), 1));
     }
-    std::string out;
-    for (auto _ : state)
-        for (std::size_t i = 0; i < packed.size(); ++i) {
-            out.resize(drive().chunks[i].size());
-            benchmark::DoNotOptimize(
-                ZSTD_decompress(out.data(), out.size(), packed[i].data(), packed[i].size()));
-        }
-    per_tick(state);
 }
 
-void Play(benchmark::State& state) {
+void bare_decompress() {
+    std::string out;
+    for (std::size_t i = 0; i < drive().packed.size(); ++i) {
+        const std::string& packed = drive().packed[i];
+        out.resize(drive().chunks[i].size());
+        benchmark::DoNotOptimize(
+            ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size()));
+    }
+}
+
+/// What is said of a piece of work and its bare part. Their ratio is of time of CPU, of all
+/// threads: what others do on the machine does not count.
+void report(benchmark::State& state, const Best& ours, const Best& bare) {
+    state.SetIterationTime(ours.wall / static_cast<double>(ticks));
+    state.counters["cpu_us"] = us(ours.cpu);
+    state.counters["bare_cpu_us"] = us(bare.cpu);
+    state.counters["of_bare"] = ours.cpu / bare.cpu;
+}
+
+/// Both in turn, each by its best round.
+template <typename Ours, typename Bare>
+void beside(benchmark::State& state, const Ours& ours, const Bare& bare) {
     drive();
     for (auto _ : state) {
-        replay::TraceReader trace(trace_path());
-        double sum = 0;
-        for (std::uint64_t index = 1; index <= trace.ticks(); ++index)
-            for (const world::CarState& car : trace.tick(index).view.cars())
-                sum += car.position().x();
-        benchmark::DoNotOptimize(sum);
+        Best best;
+        Best best_bare;
+        for (int round = 0; round < rounds; ++round) {
+            best.time(ours);
+            best_bare.time(bare);
+        }
+        report(state, best, best_bare);
     }
-    per_tick(state);
+}
+
+/// The drive's ticks as the stages leave them.
+std::vector<world::TickDraft> drafts() {
+    replay::TraceReader source((drive(), trace_path()));
+    std::vector<world::TickDraft> all(source.ticks());
+    for (std::uint64_t index = 1; index <= source.ticks(); ++index) {
+        const auto tick = source.tick(index);
+        tick.view.tick->UnPackTo(&all[index - 1].tick);
+        tick.view.traffic->UnPackTo(&all[index - 1].traffic);
+    }
+    return all;
 }
 
 /// The drive's ticks as the kernel hands them over.
 std::vector<world::SealedTick> sealed_ticks() {
-    replay::TraceReader source((drive(), trace_path()));
     std::vector<world::SealedTick> sealed;
-    for (std::uint64_t index = 1; index <= source.ticks(); ++index) {
-        const auto tick = source.tick(index);
-        world::TickDraft draft;
-        tick.view.tick->UnPackTo(&draft.tick);
-        tick.view.traffic->UnPackTo(&draft.traffic);
+    for (world::TickDraft& draft : drafts())
         sealed.push_back(world::seal(draft, draft.tick.digests.chain()));
-    }
     return sealed;
 }
 
+/// From a tick's draft to its bytes, digest chain and all.
+void Encode(benchmark::State& state) {
+    std::vector<world::TickDraft> all = drafts();
+    beside(
+        state,
+        [&] {
+            for (world::TickDraft& draft : all)
+                benchmark::DoNotOptimize(world::seal(draft, draft.tick.digests.chain()));
+        },
+        bare_compress);
+}
+
+/// From the bytes to a whole file, back to back: with nothing to do between two ticks.
 void Write(benchmark::State& state) {
     const std::vector<world::SealedTick> sealed = sealed_ticks();
-    const auto path = std::filesystem::temp_directory_path() / "reprise_trace_bench_write.mcap";
-    for (auto _ : state) {
-        replay::TraceWriter trace(path, drive().recording);
-        for (const world::SealedTick& tick : sealed)
-            trace.append(tick);
-        trace.close({"completed", "", ticks});
-    }
+    const auto path = temporary("_write");
+    beside(
+        state,
+        [&] {
+            replay::TraceWriter trace(path, drive().recording);
+            for (const world::SealedTick& tick : sealed)
+                trace.append(tick);
+            trace.close({"completed", "", ticks});
+        },
+        bare_compress);
     std::filesystem::remove(path);
-    per_tick(state);
+}
+
+void Play(benchmark::State& state) {
+    beside(state, play, bare_decompress);
+}
+
+/// Simulates the recorded ticks again, comparing each. The kernel's making is left out.
+void Verify(benchmark::State& state) {
+    drive();
+    for (auto _ : state) {
+        Best best;
+        Best best_bare;
+        for (int round = 0; round < rounds; ++round) {
+            replay::TraceReader trace(trace_path());
+            kernel::Kernel kernel(trace.recording());
+            best.time([&] {
+                if (kernel::follow(kernel, trace, ticks))
+                    std::abort();
+            });
+            best_bare.time(bare_decompress);
+        }
+        report(state, best, best_bare);
+    }
 }
 
 /// Opens a trace of REPRISE_BENCH_GB gigabytes (made on first use; default: a quarter) and reads a
 /// tick anywhere in it.
 std::filesystem::path big_trace(double gigabytes) {
-    const auto path = std::filesystem::temp_directory_path() /
-                      ("reprise_trace_bench_" + std::to_string(gigabytes) + "GB.mcap");
+    const auto path = temporary("_" + std::to_string(gigabytes) + "GB");
     if (std::filesystem::exists(path))
         return path;
     const std::vector<world::SealedTick> sealed = sealed_ticks();
@@ -163,60 +175,36 @@ void OpenBigAndReadAnyTick(benchmark::State& state) {
     state.counters["GB"] = static_cast<double>(std::filesystem::file_size(path)) / 1e9;
 }
 
-void BareCrc(benchmark::State& state) {
-    for (auto _ : state)
-        for (const std::string& chunk : drive().chunks)
-            benchmark::DoNotOptimize(crc32(0,
-                                           reinterpret_cast<const unsigned char*>(chunk.data()),
-                                           static_cast<unsigned>(chunk.size())));
-    per_tick(state);
+void bare_crc() {
+    for (const std::string& chunk : drive().chunks)
+        benchmark::DoNotOptimize(crc32(0,
+                                       reinterpret_cast<const unsigned char*>(chunk.data()),
+                                       static_cast<unsigned>(chunk.size())));
 }
 
-/// Every checksum of the file, and every tick.
+/// Every checksum of the file, and every tick, beside bare checksums.
 void ReadAndCheckAll(benchmark::State& state) {
-    drive();
-    for (auto _ : state) {
-        replay::TraceReader trace(trace_path());
-        for (std::uint64_t index = 1; index <= trace.ticks(); ++index)
-            benchmark::DoNotOptimize(trace.tick(index).view.index());
-        benchmark::DoNotOptimize(trace.damage().has_value());
-    }
-    per_tick(state);
+    beside(
+        state,
+        [] {
+            replay::TraceReader trace(trace_path());
+            for (std::uint64_t index = 1; index <= trace.ticks(); ++index)
+                benchmark::DoNotOptimize(trace.tick(index).view.index());
+            benchmark::DoNotOptimize(trace.damage().has_value());
+        },
+        bare_crc);
 }
 
-/// The simulation itself, recorded and not: what recording costs, and how much faster playing is.
-void Simulate(benchmark::State& state) {
-    const bool recorded = state.range(0) != 0;
-    const auto path = std::filesystem::temp_directory_path() / "reprise_trace_bench_run.mcap";
-    for (auto _ : state) {
-        kernel::Kernel kernel(drive().recording);
-        std::optional<replay::TraceWriter> trace;
-        if (recorded)
-            trace.emplace(path, drive().recording);
-        for (std::uint64_t i = 0; i < ticks; ++i) {
-            const world::SealedTick& tick = kernel.step();
-            if (trace)
-                trace->append(tick);
-        }
-        if (trace)
-            trace->close(kernel.outcome());
-    }
-    per_tick(state);
+void once(benchmark::internal::Benchmark* bench) {
+    bench->UseManualTime()->Iterations(1)->Unit(benchmark::kMicrosecond);
 }
 
-BENCHMARK(Simulate)
-    ->ArgName("recorded")
-    ->Arg(0)
-    ->Arg(1)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
-BENCHMARK(BareCrc)->Unit(benchmark::kMillisecond);
-BENCHMARK(ReadAndCheckAll)->Unit(benchmark::kMillisecond);
+BENCHMARK(Encode)->Apply(once);
+BENCHMARK(Write)->Apply(once);
+BENCHMARK(Play)->Apply(once);
+BENCHMARK(Verify)->Apply(once);
+BENCHMARK(ReadAndCheckAll)->Apply(once);
 BENCHMARK(OpenBigAndReadAnyTick)->Unit(benchmark::kMillisecond);
-BENCHMARK(BareZstdCompress)->Unit(benchmark::kMillisecond);
-BENCHMARK(Write)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(BareZstdDecompress)->Unit(benchmark::kMillisecond);
-BENCHMARK(Play)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
