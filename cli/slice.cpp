@@ -6,6 +6,7 @@
 #include "cli/output.h"
 #include "cli/tick_range.h"
 #include "replay/slice.h"
+#include "world/check.h"
 
 namespace reprise::cli {
 
@@ -24,18 +25,23 @@ int slice(const SliceOptions& options) {
 }
 
 int merge(const MergeOptions& options) {
-    for (const std::string& trace : options.traces)
+    if (options.traces.size() < 2)
+        throw world::Error("merge: expected two slices or more");
+    std::vector<replay::TraceReader> parts;
+    for (const std::string& trace : options.traces) {
         refuse_overwriting(trace, options.output);
-    replay::TraceReader earlier(options.traces[0]);
-    replay::TraceReader later(options.traces[1]);
-    replay::merge(earlier, later, options.output);
-    const bool whole = earlier.first() == 1 && later.last() == earlier.run_ticks();
+        parts.emplace_back(trace);
+    }
+    replay::merge(parts, options.output);  // sorts them
+    const std::uint64_t first = parts.front().first();
+    const std::uint64_t last = parts.back().last();
+    const std::uint64_t run_ticks = parts.front().run_ticks();
     fmt::print("{}: ticks {} to {} of {}{}\n",
                options.output,
-               earlier.first(),
-               later.last(),
-               earlier.run_ticks(),
-               whole ? ", the whole run as it was recorded" : "");
+               first,
+               last,
+               run_ticks,
+               first == 1 && last == run_ticks ? ", the whole run as it was recorded" : "");
     return exit_good;
 }
 

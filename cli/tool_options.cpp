@@ -92,13 +92,11 @@ void add_slice(CLI::App& app, SliceOptions& slice) {
 }
 
 void add_merge(CLI::App& app, MergeOptions& merge) {
-    CLI::App& command = *app.add_subcommand("merge", "Join two slices of one run");
-    command
-        .add_option("traces", merge.traces, "The slices; the second goes on where the first ends")
+    CLI::App& command = *app.add_subcommand("merge", "Join slices of one run");
+    command.add_option("traces", merge.traces, "The slices, in any order")
         ->required()
         ->type_name("S.mcap")
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->expected(2, 2);
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("-o,--output", merge.output, "Where the result goes")
         ->required()
         ->type_name("T.mcap");

@@ -1,5 +1,6 @@
 #include "replay/slice.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <optional>
 
@@ -51,6 +52,34 @@ std::string joined(const TraceReader& trace) {
     return fmt::format("{} (ticks {} to {})", trace.path().string(), trace.first(), trace.last());
 }
 
+/// "tick 51 is" or "ticks 51 to 60 are".
+std::string ticks_are(std::uint64_t first, std::uint64_t last) {
+    return first == last ? fmt::format("tick {} is", first)
+                         : fmt::format("ticks {} to {} are", first, last);
+}
+
+/// Throws unless the later one goes on, in the same run, where the earlier one ends.
+void require_seam(TraceReader& earlier, TraceReader& later) {
+    const auto refuse = [&](const std::string& why) {
+        throw world::Error(
+            fmt::format("cannot join {} and {}: {}", joined(earlier), joined(later), why));
+    };
+    if (!(earlier.chain(0) == later.chain(0)))
+        refuse("they are of different runs (seed, scenario, town or settings differ)");
+    if (earlier.run_ticks() != later.run_ticks())
+        refuse("they are of different runs (one ended earlier)");
+    if (earlier.level() != later.level())
+        refuse(fmt::format("they are of the levels {} and {}; `reprise strip` gives both the lower",
+                           to_word(earlier.level()),
+                           to_word(later.level())));
+    if (later.first() > earlier.last() + 1)
+        refuse(ticks_are(earlier.last() + 1, later.first() - 1) + " missing between them");
+    if (later.first() <= earlier.last())
+        refuse(ticks_are(later.first(), std::min(earlier.last(), later.last())) + " in both");
+    if (!(later.chain(later.first() - 1) == earlier.chain(earlier.last())))
+        refuse("the second continues another history (its digest chain differs)");
+}
+
 }  // namespace
 
 void slice(TraceReader& trace,
@@ -68,26 +97,16 @@ void slice(TraceReader& trace,
     });
 }
 
-void merge(TraceReader& earlier, TraceReader& later, const std::filesystem::path& out) {
-    const auto refuse = [&](const std::string& why) {
-        throw world::Error(
-            fmt::format("cannot join {} and {}: {}", joined(earlier), joined(later), why));
-    };
-    if (!(earlier.chain(0) == later.chain(0)))
-        refuse("they are of different runs (seed, scenario, town or settings differ)");
-    if (earlier.run_ticks() != later.run_ticks())
-        refuse("they are of different runs (one ended earlier)");
-    if (earlier.level() != later.level())
-        refuse(fmt::format("they are of the levels {} and {}; `reprise strip` gives both the lower",
-                           to_word(earlier.level()),
-                           to_word(later.level())));
-    if (later.first() != earlier.last() + 1)
-        refuse(fmt::format("the second would have to begin at tick {}", earlier.last() + 1));
-    if (!(later.chain(later.first() - 1) == earlier.chain(earlier.last())))
-        refuse("the second continues another history (its digest chain differs)");
-    write(out, earlier, start_at(earlier, earlier.first()), later.last(), [&](TraceWriter& writer) {
-        copy(earlier, earlier.first(), earlier.last(), writer);
-        copy(later, later.first(), later.last(), writer);
+void merge(std::vector<TraceReader>& parts, const std::filesystem::path& out) {
+    REPRISE_CHECK(parts.size() >= 2, fmt::format("a merge of {} traces", parts.size()));
+    std::ranges::stable_sort(parts, {}, &TraceReader::first);
+    for (std::size_t i = 1; i < parts.size(); ++i)
+        require_seam(parts[i - 1], parts[i]);
+    TraceReader& start = parts.front();
+    const std::uint64_t last = parts.back().last();
+    write(out, start, start_at(start, start.first()), last, [&](TraceWriter& writer) {
+        for (TraceReader& part : parts)
+            copy(part, part.first(), part.last(), writer);
     });
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "replay/trace_reader.h"
 
@@ -16,10 +17,11 @@ void slice(TraceReader& trace,
            std::uint64_t last,
            const std::filesystem::path& out);
 
-/// Joins two slices of one run and level of which the second goes on where the first ends; that
-/// they do is shown by their chains. When no tick of the run is missing it comes out as it was
-/// recorded, byte for byte. Throws world::Error, one line that says what does not fit, otherwise.
-void merge(TraceReader& earlier, TraceReader& later, const std::filesystem::path& out);
+/// Joins slices of one run and level, at least two, of which each goes on where another ends; that
+/// they do is shown by their chains. In any order: they are sorted by their ticks. When no tick of
+/// the run is missing it comes out as it was recorded, byte for byte. Throws world::Error, one line
+/// that says what does not fit and which ticks are missing or in two of them, otherwise.
+void merge(std::vector<TraceReader>& parts, const std::filesystem::path& out);
 
 /// Throws world::Error for a slice that does not begin at tick 1: a run can only be simulated from
 /// its start.

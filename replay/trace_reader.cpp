@@ -64,10 +64,12 @@ struct TraceReader::File {
         read_start();
         if (index.whole && !salvage) {
             find_ranges();
+            check_end_of_slice();
             read_outcome();
             return;
         }
         drop_broken_end();
+        check_end_of_slice();
         if (!salvage)
             input.fail(index.data_end, cut_off());
         salvage_outcome();
@@ -135,6 +137,14 @@ struct TraceReader::File {
                  format::from_hex(text("slice.chain_before"))};
         if (slice.first < 1 || slice.first > slice.run_ticks)
             input.fail(0, "a slice of a run, but not one that says where it begins");
+    }
+
+    void check_end_of_slice() const {
+        if (slice.run_ticks != 0 && last() > slice.run_ticks)
+            input.fail(
+                0,
+                fmt::format(
+                    "a slice that holds tick {} of a run of {} ticks", last(), slice.run_ticks));
     }
 
     [[noreturn]] void fail_attachment(const std::string& name, const std::string& fault) {

@@ -38,6 +38,16 @@ TEST_F(SliceCommand, MergedIsTheRunByteForByte) {
     EXPECT_TRUE(read_file(folder_ / "whole.mcap") == read_file(folder_ / "t.mcap"));
 }
 
+TEST_F(SliceCommand, ManyAreMergedInAnyOrder) {
+    run({"slice", "head.mcap", "--ticks", "21..40", "-o", "middle.mcap"}, 0);
+    run({"slice", "head.mcap", "--ticks", "..20", "-o", "start.mcap"}, 0);
+    run({"merge", "tail.mcap", "start.mcap", "middle.mcap", "-o", "whole.mcap"}, 0);
+    EXPECT_TRUE(read_file(folder_ / "whole.mcap") == read_file(folder_ / "t.mcap"));
+    EXPECT_THAT(run({"merge", "tail.mcap", "start.mcap", "-o", "x.mcap"}, 2),
+                HasSubstr("cannot join start.mcap (ticks 1 to 20) and tail.mcap (ticks 41 to "));
+    EXPECT_THAT(run({"merge", "head.mcap", "-o", "x.mcap"}, 2), HasSubstr("merge: expected two slices or more"));
+}
+
 TEST_F(SliceCommand, FromTheStartIsVerifiedStrippedAndExpanded) {
     EXPECT_THAT(run({"verify", "head.mcap"}, 0), HasSubstr("equal at every one of 40 ticks"));
     run({"strip", "head.mcap", "-o", "small.mcap", "--level", "inputs"}, 0);

@@ -24,13 +24,16 @@ class Slice : public testing::Test {
         return path;
     }
 
+    std::filesystem::path join(const std::vector<std::filesystem::path>& paths) {
+        std::vector<TraceReader> parts(paths.begin(), paths.end());
+        const auto path = folder_ / "merged.mcap";
+        merge(parts, path);
+        return path;
+    }
+
     std::filesystem::path join(const std::filesystem::path& earlier,
                                const std::filesystem::path& later) {
-        TraceReader first(earlier);
-        TraceReader second(later);
-        const auto path = folder_ / "merged.mcap";
-        merge(first, second, path);
-        return path;
+        return join(std::vector{earlier, later});
     }
 
     std::string refusal(const std::filesystem::path& earlier, const std::filesystem::path& later) {
@@ -77,14 +80,26 @@ TEST_F(Slice, OfASliceIsTheSliceOfTheWhole) {
     EXPECT_TRUE(test::read_file(folder_ / "inner.mcap") == test::read_file(cut(70, 80)));
 }
 
+TEST_F(Slice, ManyAreMergedInWhateverOrderTheyAreGiven) {
+    const std::vector parts{cut(65, 100), cut(1, 1), cut(101, 150), cut(2, 64)};
+    EXPECT_TRUE(test::read_file(join(parts)) == test::read_file(whole_));
+    EXPECT_THAT(test::error_of([&] {
+                    join({folder_ / "101.mcap", folder_ / "1.mcap", folder_ / "65.mcap"});
+                }),
+                HasSubstr("ticks 2 to 64 are missing between them"));
+}
+
 TEST_F(Slice, MergedInTheMiddleIsASlice) {
     const auto merged = test::read_file(join(cut(20, 70), cut(71, 99)));
     EXPECT_TRUE(merged == test::read_file(cut(20, 99)));
 }
 
 TEST_F(Slice, MergeRefusesWhatDoesNotFit) {
-    EXPECT_THAT(refusal(cut(1, 50), cut(52, 60)), HasSubstr("would have to begin at tick 51"));
-    EXPECT_THAT(refusal(cut(40, 60), cut(1, 39)), HasSubstr("would have to begin at tick 61"));
+    EXPECT_THAT(refusal(cut(1, 50), cut(52, 60)), HasSubstr("tick 51 is missing between them"));
+    EXPECT_THAT(refusal(cut(70, 80), cut(1, 50)), HasSubstr("ticks 51 to 69 are missing"));
+    EXPECT_THAT(refusal(cut(40, 60), cut(1, 40)), HasSubstr("tick 40 is in both"));
+    EXPECT_THAT(refusal(cut(1, 60), cut(20, 30)), HasSubstr("ticks 20 to 30 are in both"));
+    EXPECT_THAT(refusal(cut(20, 30), cut(20, 30)), HasSubstr("ticks 20 to 30 are in both"));
     const auto other = folder_ / "other.mcap";
     test::write_trace(other, {.ticks = 150, .seed = 8});
     {
@@ -109,6 +124,24 @@ TEST_F(Slice, MergeRefusesAnotherHistory) {
     EXPECT_THAT(refusal(cut(1, 60), folder_ / "other_end.mcap"), HasSubstr("another history"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "merged.mcap"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "merged.mcap.partial"));
+}
+
+TEST_F(Slice, HoldsNoTickThatItsRunDidNotHave) {
+    const auto path = folder_ / "long.mcap";
+    TraceReader trace(whole_);
+    {
+        TraceWriter writer(path,
+                           trace.recording(),
+                           Level::full,
+                           Unfinished::remove,
+                           SliceStart{100, 120, trace.chain(99)});
+        for (std::uint64_t index = 100; index <= 121; ++index)
+            writer.append(trace.recorded(index));
+        writer.close(trace.outcome());
+    }
+    const std::string told = "a slice that holds tick 121 of a run of 120 ticks";
+    EXPECT_THAT(test::error_of([&] { TraceReader{path}; }), HasSubstr(told));
+    EXPECT_THAT(test::error_of([&] { TraceReader::salvage(path); }), HasSubstr(told));
 }
 
 TEST_F(Slice, OnlyTheStartOfARunCanBeSimulated) {
