@@ -1,5 +1,6 @@
 #include "cli/diff.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -40,7 +41,18 @@ std::string commands_again(const DiffOptions& options,
 struct Comparison {
     std::optional<replay::Divergence> divergence;
     std::optional<replay::Tolerance> tolerance;  ///< what was given, and the largest within it
+    std::vector<replay::StageDifference> all;    ///< when they were asked for
 };
+
+/// All that differs in the tick of the divergence, when both runs have it.
+std::vector<replay::StageDifference> all_of(const Comparison& result,
+                                            replay::TraceReader& expected,
+                                            replay::TraceReader& found) {
+    const std::uint64_t tick = result.divergence->tick;
+    if (tick == 0 || tick > std::min(expected.ticks(), found.ticks()))
+        return {};
+    return replay::all_differences(expected.recorded(tick), found.recorded(tick), result.tolerance);
+}
 
 Comparison compare(const DiffOptions& options,
                    replay::TraceReader& expected,
@@ -55,6 +67,8 @@ Comparison compare(const DiffOptions& options,
     if (result.divergence)
         result.divergence->again =
             commands_again(options, expected, found, result.divergence->tick);
+    if (result.divergence && options.all)
+        result.all = all_of(result, expected, found);
     return result;
 }
 
@@ -69,6 +83,18 @@ std::string largest(const replay::Tolerance& tolerance) {
                        tolerance.found);
 }
 
+/// "  physics       vehicles[id 1].velocity.x  8.1 / 8.2  (1 unit in the last place apart)".
+void print_all(const Comparison& result) {
+    fmt::print("all {} differences of tick {}:\n", result.all.size(), result.divergence->tick);
+    for (const auto& [stage, field] : result.all)
+        fmt::print("  {:<14}{}  {} / {}{}\n",
+                   stage,
+                   field.field,
+                   field.expected,
+                   field.found,
+                   field.distance.empty() ? "" : "  (" + field.distance + ")");
+}
+
 void print_text(const Comparison& result,
                 replay::TraceReader& expected,
                 replay::TraceReader& found) {
@@ -81,6 +107,8 @@ void print_text(const Comparison& result,
         else
             fmt::print("different\n");
         fmt::print("{}", to_text(*result.divergence, expected.episode().step_ns));
+        if (!result.all.empty())
+            print_all(result);
     } else if (result.tolerance) {
         fmt::print("equal within tolerance {:g}: {} ticks, {}\n",
                    result.tolerance->bound,
@@ -110,6 +138,18 @@ Json json_of(const replay::Divergence& divergence, std::uint64_t step_ns) {
             {"note", divergence.note},
             {"script", divergence.script},
             {"again", divergence.again}};
+}
+
+Json json_of(const std::vector<replay::StageDifference>& all) {
+    Json list = Json::array();
+    for (const auto& [stage, field] : all)
+        list.push_back({{"stage", stage},
+                        {"field", field.field},
+                        {"actor_id", field.actor},
+                        {"expected", field.expected},
+                        {"found", field.found},
+                        {"distance", field.distance}});
+    return list;
 }
 
 void print_json(const DiffOptions& options,
@@ -142,6 +182,8 @@ void print_json(const DiffOptions& options,
                             {"found", result.tolerance->found}};
     if (result.divergence)
         out["divergence"] = json_of(*result.divergence, expected.episode().step_ns);
+    if (options.all)
+        out["all"] = json_of(result.all);
     // Names may be no UTF-8: JSON must be.
     fmt::print("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
 }

@@ -64,6 +64,7 @@ struct DiffOptions {
     std::string found;
     std::optional<double> tolerance;
     bool json = false;
+    bool all = false;  ///< every differing field of the first differing tick
 };
 
 struct RenderOptions {

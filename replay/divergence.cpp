@@ -49,6 +49,24 @@ std::size_t stage_of(const world::Event& event) {
     }
 }
 
+/// "events[3]" of "events[3].text".
+std::string event_of(const FieldDifference& difference) {
+    return difference.field.substr(0, difference.field.find(']') + 1);
+}
+
+/// The earlier one of the stages that raised this event on either side; index in stages().
+std::size_t stage_of_event(const std::string& event,
+                           const world::Tick& expected,
+                           const world::Tick& found) {
+    const auto index = static_cast<flatbuffers::uoffset_t>(std::stoul(event.substr(7)));
+    std::size_t stage = stages().size();
+    for (const world::Tick* tick : {&expected, &found}) {
+        if (index < tick->events()->size())
+            stage = std::min(stage, stage_of(*tick->events()->Get(index)));
+    }
+    return stage;
+}
+
 /// The first event that differs. Events lie in the order of the stages, so it is also the one of
 /// the earliest stage; those behind it may only have moved along.
 struct EventDifference {
@@ -63,15 +81,9 @@ std::optional<EventDifference> first_event_difference(const world::Tick& expecte
         differences(*world::TickTypeTable(), &expected, &found, "events", tolerance);
     if (all.empty())
         return std::nullopt;
-    const std::string& first = all.front().field;
-    const std::string element = first.substr(0, first.find(']') + 1);
-    const auto index = static_cast<flatbuffers::uoffset_t>(std::stoul(element.substr(7)));
+    const std::string element = event_of(all.front());
     EventDifference difference;
-    difference.stage = stages().size();
-    for (const world::Tick* tick : {&expected, &found}) {
-        if (index < tick->events()->size())
-            difference.stage = std::min(difference.stage, stage_of(*tick->events()->Get(index)));
-    }
+    difference.stage = stage_of_event(element, expected, found);
     std::copy_if(all.begin(),
                  all.end(),
                  std::back_inserter(difference.fields),
@@ -234,6 +246,35 @@ std::optional<Divergence> compare_recorded(const RecordedTick& expected,
     check_same_index(expected, found);
     const CommonPart common(expected, found);
     return first_stage(common.expected.view, common.found.view, false, tolerance);
+}
+
+std::vector<StageDifference> all_differences(const RecordedTick& expected,
+                                             const RecordedTick& found,
+                                             const std::optional<Tolerance>& tolerance) {
+    check_same_index(expected, found);
+    const CommonPart common(expected, found);
+    const world::TickView& left = common.expected.view;
+    const world::TickView& right = common.found.view;
+    std::optional<Tolerance> noted = tolerance;
+    Tolerance* const tolerated = noted ? &*noted : nullptr;
+    const std::vector<FieldDifference> events =
+        differences(*world::TickTypeTable(), left.tick, right.tick, "events", tolerated);
+    std::vector<StageDifference> all;
+    for (std::size_t i = 0; i < stages().size(); ++i) {
+        const Stage& stage = stages()[i];
+        for (FieldDifference& field : recorded_differences(stage, left, right, tolerated))
+            all.push_back({stage.name, std::move(field)});
+        for (const FieldDifference& event : events)
+            if (stage_of_event(event_of(event), *left.tick, *right.tick) == i)
+                all.push_back({stage.name, event});
+        const std::uint64_t digest = (left.tick->digests()->*stage.digest)();
+        const std::uint64_t other = (right.tick->digests()->*stage.digest)();
+        if (!tolerance && digest != other)
+            all.push_back(
+                {stage.name,
+                 {fmt::format("digests.{}", stage.name), hex(digest), hex(other), "", 0}});
+    }
+    return all;
 }
 
 }  // namespace reprise::replay

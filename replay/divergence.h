@@ -57,6 +57,19 @@ std::optional<Divergence> compare_recorded(const RecordedTick& expected,
                                            const RecordedTick& found,
                                            Tolerance* tolerance = nullptr);
 
+/// A field in which two ticks differ, and the stage that made it.
+struct StageDifference {
+    std::string stage;
+    FieldDifference field;
+};
+
+/// Every recorded field in which two ticks of the same index differ, by more than is tolerated, and
+/// without a tolerance the stages' digests; in the order of the stages. Of events all are told: one
+/// more moves those behind it along.
+std::vector<StageDifference> all_differences(const RecordedTick& expected,
+                                             const RecordedTick& found,
+                                             const std::optional<Tolerance>& tolerance);
+
 /// How many ticks behind a difference that shows only in a digest are searched for one in the
 /// record, and how many before one for what the scenario said last.
 inline constexpr std::uint64_t longest_search = 1200;

@@ -108,6 +108,29 @@ TEST(Compare, NamesTheFirstOfSeveralStages) {
     EXPECT_EQ(found.field, "controls[actor 1].brake");
 }
 
+TEST(Compare, NamesAllDifferencesOfATickInTheOrderOfTheStages) {
+    const auto expected = drive({.ticks = 1});
+    const auto found = drive({.ticks = 1, .change = at(1, [](world::TickDraft& draft) {
+                                              draft.tick.measurements[0].mutate_speed(0);
+                                              draft.tick.vehicles[0].mutate_odometer(1);
+                                              draft.tick.digests.mutate_physics(1);
+                                              draft.tick.controls[0].mutate_brake(1);
+                                          })});
+    const auto names = [&](const std::optional<replay::Tolerance>& tolerance) {
+        std::vector<std::string> all;
+        for (const auto& [stage, field] : replay::all_differences(
+                 as_recorded(expected.back()), as_recorded(found.back()), tolerance))
+            all.push_back(stage + ": " + field.field);
+        return all;
+    };
+    EXPECT_THAT(names({}),
+                testing::ElementsAre("controls: controls[actor 1].brake",
+                                     "physics: vehicles[id 1].odometer",
+                                     "physics: digests.physics",
+                                     "measurements: measurements[actor 1].speed"));
+    EXPECT_THAT(names(replay::Tolerance{1e6}), testing::IsEmpty());
+}
+
 TEST(Compare, NamesActorsThatOnlyOneRunHas) {
     Divergence found =
         difference([](world::TickDraft& d) { d.traffic.cars.erase(d.traffic.cars.begin() + 2); });
