@@ -69,8 +69,10 @@ class Shower {
   }
 }
 
-/// `said` is JSON of `reprise cat`, `found` what the Shower made of the bytes.
+/// `said` is JSON of `reprise cat`, `found` what the Shower made of the bytes. A field that is not
+/// there, as in traces of inputs only, is null for `cat`, and the default of its type for the Shower.
 function compare(said, found, path) {
+  if (said === null && (found === 0 || (Array.isArray(found) && found.length === 0))) return;
   if (found !== null && typeof found === "object" && "float" in found) {
     assert.equal(Math.fround(said), found.float, path);
   } else if (Array.isArray(found)) {
@@ -93,7 +95,7 @@ async function readByIndex(path, file) {
     assert.equal(schema.encoding, "flatbuffer");
     showers.set(channel.id, new Shower(schema.data));
   }
-  const said = execFileSync(reprise, ["cat", path], { maxBuffer: 2 ** 30 }).toString().split("\n");
+  const said = execFileSync(reprise, ["cat", path], { maxBuffer: 2 ** 30, stdio: ["ignore", "pipe", "ignore"] }).toString().split("\n");
   let count = 0;
   for await (const message of reader.readMessages({ validateCrcs: true })) {
     const line = JSON.parse(said[count++]);

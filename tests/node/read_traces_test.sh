@@ -10,5 +10,18 @@ mkdir -p "$work"
 "$write_traces" "$work"
 "$reprise" run "$here/../../scenarios/cut_in.lua" -o "$work/cut_in.mcap" --for 8 >/dev/null
 "$reprise" run "$here/../../scenarios/free_drive.lua" -o "$work/free_drive.mcap" --for 3 >/dev/null
+# What else becomes of a trace: stripped, cut, joined, recovered, branched.
+cd "$work"
+for level in inputs core keyed; do
+    "$reprise" strip cut_in.mcap --level $level -o cut_in_$level.mcap >/dev/null
+done
+"$reprise" slice cut_in.mcap --ticks ..70 -o slice_head.mcap >/dev/null
+"$reprise" slice cut_in.mcap --ticks 71.. -o slice_tail.mcap >/dev/null
+"$reprise" slice cut_in_keyed.mcap --ticks 30..99 -o slice_keyed.mcap >/dev/null
+"$reprise" merge slice_tail.mcap slice_head.mcap -o merged.mcap >/dev/null
+head -c "$(($(stat -c %s cut_in.mcap) * 3 / 4))" cut_in.mcap >cut_off.partial
+"$reprise" recover cut_off.partial -o recovered.mcap >/dev/null || (($? == 3))
+printf "return scenario 'brake' { run = function() actor('ego'):set_speed(0) wait(3) end }" >brake.lua
+"$reprise" branch cut_in.mcap --at 4.0 --script brake.lua -o branched.mcap >/dev/null || (($? == 1))
 cp "$here/read_traces.mjs" "$packages/" # modules are looked for from where the file lies
 node "$packages/read_traces.mjs" "$reprise" "$work"
