@@ -23,9 +23,12 @@ struct Stage {
 
 const std::array<Stage, 6>& stages() {
     static const std::array<Stage, 6> all{{
-        {"scenario", &world::Digests::scenario, {"commands", "weather", "road_friction"}, {}},
+        {"scenario",
+         &world::Digests::scenario,
+         {"commands", "weather", "road_friction", "looks"},
+         {}},
         {"controls", &world::Digests::controls, {"controls"}, {}},
-        {"traffic", &world::Digests::traffic, {"signals"}, {"cars"}},
+        {"traffic", &world::Digests::traffic, {"signals"}, {"cars", "looks"}},
         {"pedestrians", &world::Digests::pedestrians, {}, {"walkers"}},
         {"physics", &world::Digests::physics, {"vehicles", "wheels"}, {}},
         {"measurements", &world::Digests::measurements, {"measurements"}, {}},

@@ -50,15 +50,30 @@ Value value_of(const Leaf& leaf, Bytes object) {
     return {};
 }
 
-/// The noun that has this list.
-const flatbuffers::TypeTable* owner_of(const std::string& table) {
-    for (const flatbuffers::TypeTable* type : {world::TickTypeTable(), world::TrafficTypeTable()}) {
-        const std::vector<Field> fields = fields_of(*type);
-        const Field* field = find_field(fields, table);
-        if (field != nullptr && field->repeating)
-            return type;
-    }
-    return nullptr;
+/// A list of the ticks, and the noun that has it.
+struct List {
+    const flatbuffers::TypeTable* owner = nullptr;
+    std::string field;
+};
+
+bool has_list(const flatbuffers::TypeTable& type, const std::string& name) {
+    const std::vector<Field> fields = fields_of(type);
+    const Field* field = find_field(fields, name);
+    return field != nullptr && field->repeating;
+}
+
+/// The list that is this table; of no noun when there is none. Of two that have one name, the
+/// traffic's is `traffic_` and the name.
+List list_of(const std::string& table) {
+    constexpr std::string_view prefix = "traffic_";
+    if (has_list(*world::TickTypeTable(), table))
+        return {world::TickTypeTable(), table};
+    std::string field = table;
+    if (table.starts_with(prefix) && has_list(*world::TickTypeTable(), table.substr(prefix.size())))
+        field.erase(0, prefix.size());
+    if (has_list(*world::TrafficTypeTable(), field))
+        return {world::TrafficTypeTable(), field};
+    return {};
 }
 
 bool is_index(const Shape& shape) {
@@ -108,14 +123,17 @@ struct Table::Plan {
         add_leaves(shapes, "", {});
     }
 
-    void plan_list(const flatbuffers::TypeTable& owner, Selection selection) {
-        of_traffic = &owner == world::TrafficTypeTable();
+    void plan_list(const List& list, Selection selection) {
+        of_traffic = list.owner == world::TrafficTypeTable();
         if (selection.fields.empty())
             selection.fields = {name};
+        for (std::string& field : selection.fields)
+            if (field == name || field.starts_with(name + "."))
+                field.replace(0, name.size(), list.field);
         std::vector<bool> used;
-        shapes = shapes_of(owner, selection, used);
+        shapes = shapes_of(*list.owner, selection, used);
         check_used(selection, used);
-        std::erase_if(shapes, [&](const Shape& s) { return s.field.name != name; });
+        std::erase_if(shapes, [&](const Shape& s) { return s.field.name != list.field; });
         if (shapes.front().field.type == flatbuffers::ET_SEQUENCE) {
             add_leaves(shapes.front().members, "", {});
         } else {
@@ -148,10 +166,16 @@ struct Table::Plan {
 std::vector<std::string> Table::names() {
     std::vector<std::string> names{ticks_table};
     for (const flatbuffers::TypeTable* type : {world::TickTypeTable(), world::TrafficTypeTable()})
-        for (const Field& field : fields_of(*type))
+        for (const Field& field : fields_of(*type)) {
+            const bool taken = std::find(names.begin(), names.end(), field.name) != names.end();
             if (field.repeating)
-                names.emplace_back(field.name);
+                names.push_back((taken ? "traffic_" : "") + std::string(field.name));
+        }
     return names;
+}
+
+bool Table::is_of_traffic(const std::string& name) {
+    return list_of(name).owner == world::TrafficTypeTable();
 }
 
 Table::Table(const std::string& name, const Selection& selection, std::uint64_t step_ns)
@@ -166,13 +190,13 @@ Table::Table(const std::string& name, const Selection& selection, std::uint64_t 
         plan_->plan_ticks(selection);
         return;
     }
-    const flatbuffers::TypeTable* owner = owner_of(name);
-    if (owner == nullptr)
+    const List list = list_of(name);
+    if (list.owner == nullptr)
         throw world::Error(fmt::format("no table '{}'{}; there are {}",
                                        name,
                                        world::did_you_mean(name, names()),
                                        fmt::join(names(), ", ")));
-    plan_->plan_list(*owner, selection);
+    plan_->plan_list(list, selection);
 }
 
 Table::~Table() = default;
@@ -210,7 +234,7 @@ std::string table_of(const Selection& selection) {
     std::string table;
     for (const std::string& field : selection.fields) {
         const std::string first = field.substr(0, field.find('.'));
-        const std::string name = owner_of(first) != nullptr ? first : ticks_table;
+        const std::string name = list_of(first).owner != nullptr ? first : ticks_table;
         if (!table.empty() && table != name)
             throw world::Error(
                 fmt::format("a CSV file holds one table, and '{}' is of '{}', not of '{}'; choose "

@@ -20,6 +20,9 @@ class Table {
   public:
     static std::vector<std::string> names();
 
+    /// Whether its rows lie in /sim/traffic.
+    static bool is_of_traffic(const std::string& name);
+
     /// Throws world::Error for a table or field that there is not.
     Table(const std::string& name, const Selection& selection, std::uint64_t step_ns);
     ~Table();
