@@ -3,20 +3,52 @@
 #include <unistd.h>
 
 #include "cli/guard.h"
+#include "cli/level_note.h"
 #include "cli/output.h"
 #include "cli/tick_range.h"
 #include "replay/actor_search.h"
 #include "replay/json_lines.h"
+#include "replay/kept.h"
 #include "replay/table.h"
 #include "replay/trace_parts.h"
 #include "world/check.h"
 
 namespace reprise::cli {
 
+namespace {
+
+/// The tables that these options ask for; none: whatever is there.
+std::vector<std::string> asked_tables(const CatOptions& options) {
+    std::vector<std::string> tables;
+    for (const std::string& field : options.fields)
+        tables.push_back(replay::table_of({{field}, {}}));
+    if (tables.empty() && options.topic == "traffic")
+        tables.emplace_back("cars");
+    if (!options.actor.empty())
+        tables.emplace_back("vehicles");  // who is who
+    return tables;
+}
+
+/// Refuses what the trace's level leaves out, and says where it leaves out some.
+void check_level(const CatOptions& options, const replay::TraceReader& trace) {
+    const std::vector<std::string> tables = asked_tables(options);
+    bool whole =
+        !tables.empty() || (options.topic == "tick" && trace.level() != replay::Level::inputs);
+    for (const std::string& table : tables) {
+        require_kept(trace, table);
+        whole = whole && kept(trace.level(), table) == replay::Kept::all;
+    }
+    if (!whole)
+        print_level_note(trace);
+}
+
+}  // namespace
+
 int cat(const CatOptions& options) {
     end_quietly_when_nobody_reads();
     replay::TraceReader trace(options.trace);
     const TickRange range = parse_ticks("--ticks", options.ticks, trace);
+    check_level(options, trace);
     replay::Selection selection{options.fields, {}};
     if (!options.actor.empty())
         selection.actor = replay::find_actor(trace, options.actor);
@@ -26,13 +58,13 @@ int cat(const CatOptions& options) {
         const replay::Table table(replay::table_of(selection), selection, step_ns);
         append_csv_header(table, output.text);
         for (std::uint64_t index = range.first; index <= range.last; ++index) {
-            append_csv(table, trace.tick(index), output.text);
+            append_csv(table, trace.recorded(index), output.text);
             output.flush_if_large();
         }
     } else {
         const replay::JsonLines lines(selection, step_ns);
         for (std::uint64_t index = range.first; index <= range.last; ++index) {
-            const replay::RecordedTick tick = trace.tick(index);
+            const replay::RecordedTick tick = trace.recorded(index);
             if (options.topic != "traffic")
                 lines.append_tick(tick, output.text);
             if (options.topic != "tick")

@@ -1,6 +1,7 @@
 #include "cli/query.h"
 
 #include "cli/guard.h"
+#include "cli/level_note.h"
 #include "cli/output.h"
 #include "replay/trace_reader.h"
 
@@ -43,6 +44,7 @@ int query(const QueryOptions& options) {
         output.finish();
         return exit_good;
     }
+    print_level_note(trace);
     const bool csv = options.format == "csv";
     std::vector<std::string> names;
     database.query(

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/guard.h"
+#include "cli/level_note.h"
 #include "cli/output.h"
 #include "replay/statistics.h"
 #include "replay/value.h"
@@ -78,8 +79,10 @@ void print_screen(const StatsOptions& options,
     };
     fmt::print("{}: {} in {}\n", options.trace, trace.episode().name, trace.episode().town);
     row("length", fmt::format("{} ticks, {:.2f} s", all.ticks, seconds(all.ticks, step_ns)));
-    row("cars", range_text(all.cars));
-    row("walkers", range_text(all.walkers));
+    if (all.traffic_ticks > 0) {
+        row("cars", range_text(all.cars));
+        row("walkers", range_text(all.walkers));
+    }
     row("events",
         fmt::format("{}, collisions {}; commands {}", all.events, all.collisions, all.commands));
     row("/sim/tick", size(all.tick_bytes));
@@ -148,8 +151,10 @@ std::string to_json(const replay::TraceReader& trace, const TraceStatistics& all
         JsonObject object(out);
         object.add("ticks", all.ticks);
         object.add("seconds", seconds(all.ticks, step_ns));
-        append_range(all.cars, object.key("cars"));
-        append_range(all.walkers, object.key("walkers"));
+        if (all.traffic_ticks > 0) {
+            append_range(all.cars, object.key("cars"));
+            append_range(all.walkers, object.key("walkers"));
+        }
         object.add("events", all.events);
         object.add("commands", all.commands);
         object.add("collisions", all.collisions);
@@ -173,6 +178,7 @@ int stats(const StatsOptions& options) {
     end_quietly_when_nobody_reads();
     replay::TraceReader trace(options.trace);
     const TraceStatistics all = replay::statistics(trace);
+    print_level_note(trace);
     if (options.json)
         fmt::print("{}", to_json(trace, all));
     else

@@ -132,8 +132,10 @@ void add_export(CLI::App& app, ExportOptions& options) {
         ->type_name("PATH");
     add_ticks(command, options.ticks);
     command
-        .add_option(
-            "--every", options.every, "foxglove: a scene every so many ticks (default 0.1s)")
+        .add_option("--every",
+                    options.every,
+                    "Every so many ticks, or time (default all; of foxglove's scenes 0.1s); what "
+                    "happened between is left out")
         ->type_name("N");
     command.add_option("--images", options.images, "foxglove: pictures that reprise render made")
         ->type_name("DIR");

@@ -51,8 +51,8 @@ struct ExportOptions {
     std::string format;
     std::string output;
     std::string ticks;
-    std::string every = "0.1s";  ///< foxglove only
-    std::string images;          ///< foxglove only
+    std::string every;   ///< empty: every tick; foxglove: 0.1s
+    std::string images;  ///< foxglove only
 };
 
 struct ImportOptions {

@@ -15,6 +15,8 @@
 #include <variant>
 #include <vector>
 
+#include "replay/kept.h"
+
 namespace reprise::exchange {
 
 namespace {
@@ -35,9 +37,10 @@ struct Cursor : sqlite3_vtab_cursor {
     void load() {
         rows.clear();
         row = 0;
-        source().table.read(source().trace->tick(tick), [&](std::span<const replay::Value> values) {
-            rows.emplace_back(values.begin(), values.end());
-        });
+        source().table.read(source().trace->recorded(tick),
+                            [&](std::span<const replay::Value> values) {
+                                rows.emplace_back(values.begin(), values.end());
+                            });
     }
 
     /// Goes on to the first tick that has rows.
@@ -162,6 +165,7 @@ int filter(
     Cursor& ours = of(cursor);
     return guarded(cursor->pVtab, [&] {
         const replay::TraceReader& trace = *ours.source().trace;
+        replay::require_kept(trace, ours.source().table.name());
         auto first = static_cast<double>(trace.first());
         auto last = static_cast<double>(trace.last());
         for (int i = 0; i < count; ++i) {

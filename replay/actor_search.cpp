@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <optional>
 
+#include "replay/kept.h"
 #include "world/check.h"
 
 namespace reprise::replay {
@@ -20,17 +21,19 @@ std::optional<std::uint32_t> id_in(const std::string& text) {
 }
 
 bool is_there(const world::TickView& view, std::uint32_t id) {
-    return world::find(view.vehicles(), id) != nullptr || world::find(view.cars(), id) != nullptr ||
-           world::find(view.walkers(), id) != nullptr;
+    return world::find(view.vehicles(), id) != nullptr ||
+           (view.traffic != nullptr && (world::find(view.cars(), id) != nullptr ||
+                                        world::find(view.walkers(), id) != nullptr));
 }
 
 }  // namespace
 
 std::uint32_t find_actor(TraceReader& trace, const std::string& name_or_id) {
+    require_kept(trace, "vehicles");
     const std::optional<std::uint32_t> id = id_in(name_or_id);
     std::vector<std::string> names;
     for (std::uint64_t index = trace.first(); index <= trace.last(); ++index) {
-        const world::TickView view = trace.tick(index).view;
+        const world::TickView view = trace.recorded(index).view;
         if (id && is_there(view, *id))
             return *id;
         for (const world::Event* event : *view.tick->events()) {

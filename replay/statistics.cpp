@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "replay/kept.h"
 #include "world/catalogue.h"
 
 namespace reprise::replay {
@@ -28,8 +29,11 @@ class Counter {
         ++result.ticks;
         result.tick_bytes += tick.tick_bytes.size();
         result.traffic_bytes += tick.traffic_bytes.size();
-        add(view.cars().size(), result.cars);
-        add(view.walkers().size(), result.walkers);
+        if (view.traffic != nullptr) {
+            ++result.traffic_ticks;
+            add(view.cars().size(), result.cars);
+            add(view.walkers().size(), result.walkers);
+        }
         result.commands += view.tick->commands()->size();
         for (const world::VehicleState& vehicle : view.vehicles())
             add(vehicle);
@@ -40,7 +44,7 @@ class Counter {
     }
 
     TraceStatistics finish() {
-        const auto ticks = static_cast<double>(std::max<std::uint64_t>(result.ticks, 1));
+        const auto ticks = static_cast<double>(std::max<std::uint64_t>(result.traffic_ticks, 1));
         result.cars.mean /= ticks;
         result.walkers.mean /= ticks;
         for (auto& [id, count] : vehicles_) {
@@ -57,7 +61,7 @@ class Counter {
 
   private:
     void add(std::size_t now, CountRange& range) const {
-        range.least = result.ticks == 1 ? now : std::min(range.least, now);
+        range.least = result.traffic_ticks == 1 ? now : std::min(range.least, now);
         range.most = std::max(range.most, now);
         range.mean += static_cast<double>(now);
     }
@@ -113,9 +117,10 @@ class Counter {
 }  // namespace
 
 TraceStatistics statistics(TraceReader& trace) {
+    require_kept(trace, "vehicles");
     Counter counter;
     for (std::uint64_t index = trace.first(); index <= trace.last(); ++index)
-        counter.add(trace.tick(index));
+        counter.add(trace.recorded(index));
     return counter.finish();
 }
 

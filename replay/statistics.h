@@ -44,6 +44,7 @@ struct CountRange {
 struct TraceStatistics {
     std::uint64_t ticks = 0;
     std::vector<VehicleStatistics> vehicles;  ///< by id
+    std::uint64_t traffic_ticks = 0;  ///< those in which the trace has it: the next two are of them
     CountRange cars;
     CountRange walkers;
     std::uint64_t events = 0;
@@ -53,7 +54,7 @@ struct TraceStatistics {
     std::uint64_t traffic_bytes = 0;
 };
 
-/// Reads all ticks once.
+/// Reads all ticks once. Throws world::Error for a trace of level inputs, which has no states.
 TraceStatistics statistics(TraceReader& trace);
 
 }  // namespace reprise::replay

@@ -76,6 +76,40 @@ TEST_F(Expand, LeavesNothingWhenATickComesOutDifferently) {
         EXPECT_THAT(file, testing::Not(HasSubstr("wrong")));
 }
 
+TEST_F(Expand, IsNotNeededForWhatIsThere) {
+    const auto cars = [&](const std::string& trace, int code) {
+        return run({"query", trace, "select count(distinct tick) as ticks from cars"}, code);
+    };
+    run({"strip", "full.mcap", "-o", "core.mcap", "--level", "core"}, 0);
+    run({"strip", "full.mcap", "-o", "keyed.mcap", "--level", "keyed"}, 0);
+    run({"strip", "full.mcap", "-o", "inputs.mcap", "--level", "inputs"}, 0);
+    const std::vector<std::string> vehicles{"--fields", "vehicles.position", "--format", "csv"};
+    const auto places = [&](const std::string& trace) {
+        return run({"cat", trace, vehicles[0], vehicles[1], vehicles[2], vehicles[3]}, 0);
+    };
+    EXPECT_EQ(places("core.mcap"), places("full.mcap"));
+    EXPECT_EQ(places("keyed.mcap"), places("full.mcap"));
+    EXPECT_THAT(run({"stats", "core.mcap"}, 0), HasSubstr("distance"));
+    EXPECT_THAT(run({"cat", "inputs.mcap", "--ticks", "1"}, 0), HasSubstr("\"vehicles\":null"));
+    EXPECT_THAT(cars("keyed.mcap", 0), HasSubstr("ticks\n6\n"));
+    EXPECT_THAT(run({"cat", "keyed.mcap", "--topic", "traffic", "--ticks", "1..2"}, 0),
+                HasSubstr("note: keyed.mcap holds traffic in ticks 1, 21, 41, ... only; "));
+    run({"export", "core.mcap", "--to", "csv", "-o", "tables", "--every", "1s"}, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "tables/vehicles.csv"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "tables/cars.csv"));
+    const std::string ticks = read_file(folder_ / "tables/ticks.csv");
+    EXPECT_THAT(ticks, HasSubstr("\n21,1.05,"));
+    EXPECT_THAT(ticks, testing::Not(HasSubstr("\n2,0.1,")));
+
+    const std::string hint = "core.mcap -o FULL.mcap` makes the rest again";
+    EXPECT_THAT(cars("core.mcap", 2), HasSubstr(hint));
+    EXPECT_THAT(run({"cat", "core.mcap", "--topic", "traffic"}, 2), HasSubstr(hint));
+    EXPECT_THAT(run({"cat", "core.mcap", "--fields", "cars.speed"}, 2), HasSubstr(hint));
+    EXPECT_THAT(run({"stats", "inputs.mcap"}, 2),
+                HasSubstr("'vehicles' is not there: inputs.mcap"));
+    EXPECT_THAT(run({"cat", "inputs.mcap", "--actor", "ego"}, 2), HasSubstr("'vehicles' is not"));
+}
+
 TEST_F(Expand, IsWhatOneIsToldToDoWhenThereIsNothingToSee) {
     run({"strip", "full.mcap", "-o", "s.mcap", "--level", "inputs"}, 0);
     const std::string hint = "s.mcap holds inputs only; `reprise expand s.mcap -o FULL.mcap` makes";
