@@ -160,9 +160,11 @@ struct Screen {
             return static_cast<double>(bytes) / hours / 1e6;
         };
         row("size",
-            fmt::format("{:.2f} MB; a simulated hour takes {:.0f} MB",
-                        static_cast<double>(trace.file_size()) / 1e6,
-                        an_hour(trace.file_size())));
+            fmt::format(
+                "{:.2f} MB, {:.2f} of them ticks; a simulated hour of these takes {:.0f} MB",
+                static_cast<double>(trace.file_size()) / 1e6,
+                static_cast<double>(trace.packed_bytes()) / 1e6,
+                an_hour(trace.packed_bytes())));
         const ChannelBytes channels = sample_channels(trace);
         row("",
             fmt::format("unpacked about {:.0f} MB: /sim/tick {:.0f}, /sim/traffic {:.0f}",
@@ -245,6 +247,13 @@ Json json_of(const std::vector<world::ParameterT>& parameters) {
 void print_json(const std::string& path, replay::TraceReader& trace, const TraceStory& story) {
     const world::EpisodeT& episode = trace.episode();
     const ChannelBytes channels = sample_channels(trace);
+    Json branches = Json::array();
+    for (const world::BranchT& branch : episode.branches)
+        branches.push_back({{"tick", std::to_string(branch.tick)},
+                            {"name", branch.name},
+                            {"script", branch.scenario.empty() ? "" : branch.scenario_path},
+                            {"parameters", json_of(branch.parameters)},
+                            {"parent_chain", world::to_hex(branch.parent_chain)}});
     const Json out{{"path", path},
                    {"name", episode.name},
                    {"scenario", episode.scenario_path},
@@ -265,7 +274,10 @@ void print_json(const std::string& path, replay::TraceReader& trace, const Trace
                    {"reason", trace.outcome().reason},
                    {"chain", world::to_hex(trace.chain(trace.last()))},
                    {"events", json_of(story)},
+                   {"level", replay::to_word(trace.level())},
+                   {"branches", branches},
                    {"bytes", std::to_string(trace.file_size())},
+                   {"tick_bytes", std::to_string(trace.packed_bytes())},
                    {"unpacked_bytes",
                     {{"/sim/tick", std::to_string(channels.tick)},
                      {"/sim/traffic", std::to_string(channels.traffic)}}},

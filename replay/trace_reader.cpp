@@ -397,6 +397,13 @@ std::uint64_t TraceReader::file_size() const {
     return file_->input.size();
 }
 
+std::uint64_t TraceReader::packed_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const mcap::Chunk& chunk : file_->index.chunks)
+        bytes += chunk.length;
+    return bytes;
+}
+
 std::uint64_t TraceReader::message_bytes() const {
     std::uint64_t bytes = 0;
     for (const mcap::Chunk& chunk : file_->index.chunks)

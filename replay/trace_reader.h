@@ -95,6 +95,9 @@ class TraceReader {
     std::uint64_t file_size() const;
     std::uint64_t message_bytes() const;
 
+    /// Bytes of the file that its ticks take: what grows with the run, unlike town and index.
+    std::uint64_t packed_bytes() const;
+
     /// Damage found in the chunk that holds this tick (CRC, decompression), or nothing. With
     /// damage, `tick` throws; `salvaged` gives the tick's bytes as far as they can be had: they are
     /// sound FlatBuffers of that tick, but their values may be wrong.

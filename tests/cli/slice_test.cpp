@@ -45,7 +45,8 @@ TEST_F(SliceCommand, ManyAreMergedInAnyOrder) {
     EXPECT_TRUE(read_file(folder_ / "whole.mcap") == read_file(folder_ / "t.mcap"));
     EXPECT_THAT(run({"merge", "tail.mcap", "start.mcap", "-o", "x.mcap"}, 2),
                 HasSubstr("cannot join start.mcap (ticks 1 to 20) and tail.mcap (ticks 41 to "));
-    EXPECT_THAT(run({"merge", "head.mcap", "-o", "x.mcap"}, 2), HasSubstr("merge: expected two slices or more"));
+    EXPECT_THAT(run({"merge", "head.mcap", "-o", "x.mcap"}, 2),
+                HasSubstr("merge: expected two slices or more"));
 }
 
 TEST_F(SliceCommand, FromTheStartIsVerifiedStrippedAndExpanded) {
