@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/builder.h"
 #include "render/noise.h"
 #include "render/town_mesh.h"
 
@@ -9,43 +10,17 @@ namespace reprise::render {
 namespace {
 
 using Eigen::Vector3f;
+using world::FacadeKind;
 
-/// Adds boxes and quads in a building's own frame.
-class Builder {
-  public:
-    Builder(Mesh& mesh, const world::Building& building, const Eigen::Vector3d& origin)
-        : mesh_(mesh) {
-        pose_ = Eigen::Isometry3f::Identity();
-        const auto yaw = static_cast<float>(building.yaw());
-        pose_.linear() = Eigen::AngleAxisf(yaw, Vector3f::UnitZ()).toRotationMatrix();
-        const Eigen::Vector3d centre(
-            building.centre().x(), building.centre().y(), building.centre().z());
-        pose_.translation() = (centre - origin).cast<float>();
-    }
-
-    void box(const Vector3f& low, const Vector3f& high, Finish finish) {
-        Eigen::Isometry3f middle = pose_;
-        middle.translation() = pose_ * Vector3f(0.5F * (low + high));
-        add_box(mesh_, middle, 0.5F * (high - low), finish);
-    }
-
-    void quad(const std::array<Vector3f, 4>& corners, Finish finish) {
-        add_quad(mesh_,
-                 {pose_ * corners[0], pose_ * corners[1], pose_ * corners[2], pose_ * corners[3]},
-                 finish);
-    }
-
-    void triangle(const std::array<Vector3f, 3>& corners, Finish finish) {
-        const std::uint32_t first = add_vertex(mesh_, pose_ * corners[0]);
-        add_vertex(mesh_, pose_ * corners[1]);
-        add_vertex(mesh_, pose_ * corners[2]);
-        add_triangle(mesh_, first, first + 1, first + 2, finish);
-    }
-
-  private:
-    Mesh& mesh_;
-    Eigen::Isometry3f pose_;
-};
+Eigen::Isometry3f pose_of(const world::Building& building, const Eigen::Vector3d& origin) {
+    Eigen::Isometry3f pose = Eigen::Isometry3f::Identity();
+    const auto yaw = static_cast<float>(building.yaw());
+    pose.linear() = Eigen::AngleAxisf(yaw, Vector3f::UnitZ()).toRotationMatrix();
+    const Eigen::Vector3d centre(
+        building.centre().x(), building.centre().y(), building.centre().z());
+    pose.translation() = (centre - origin).cast<float>();
+    return pose;
+}
 
 /// Half sizes of the footprint.
 struct Half {
@@ -181,7 +156,7 @@ void add_building(Mesh& mesh,
                     static_cast<float>(building.width()) * 0.5F};
     const Finish wall{Material::facade, index};
     const Finish roof{Material::roof, index};
-    Builder build(mesh, building, origin);
+    Builder build(mesh, pose_of(building, origin));
     add_walls(build, half, facade.eaves, wall);
     if (facade.gabled)
         add_gabled_roof(build, half, facade, static_cast<float>(building.height()), roof, wall);

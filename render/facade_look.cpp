@@ -6,6 +6,7 @@ namespace reprise::render {
 namespace {
 
 using Eigen::Vector3f;
+using world::FacadeKind;
 
 /// A place on a wall: u along it, z up from the ground, and how the view goes on behind it.
 struct WallPoint {
@@ -133,10 +134,9 @@ Color wall_color(const Facade& facade) {
             return stones[choice % 4];
         case FacadeKind::office:
             return panels[choice % 3];
-        case FacadeKind::glass:
+        default:
             return Color(.16F, .17F, .18F);
     }
-    return Color::Constant(0.5F);
 }
 
 Color wall_texture(const Facade& facade, const WallPoint& point, const Surface& at) {

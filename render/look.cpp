@@ -53,6 +53,10 @@ Look signal_lamp_look(const Stage& stage, const Surface& at) {
             lit = color == SignalColor::yellow || color == SignalColor::red_yellow;
             light = Color(1.0F, .42F, .02F);
             break;
+        case SignalLamp::turn:
+            lit = color == SignalColor::green;
+            light = Color(.02F, .95F, .24F);
+            break;
         case SignalLamp::green:
             lit = color == SignalColor::green || color == SignalColor::green_minor;
             light = Color(.02F, .95F, .24F);
@@ -115,6 +119,17 @@ Look walker_look(const Surface& at) {
         default:
             look.albedo = skins[pick(1, 5)];
     }
+    return look;
+}
+
+/// A parked car's paint is drawn by its style, and nobody has switched its lamps on.
+Look parked_look(const Stage& stage, const Surface& at) {
+    Instance named = *at.instance;
+    named.actor = at.instance->style;
+    Surface own = at;
+    own.instance = &named;
+    Look look = car_look(stage, own);
+    look.emission = Color::Zero();
     return look;
 }
 
@@ -183,14 +198,22 @@ Look look_of(const Stage& stage, const Surface& at) {
         case Material::car_body:
         case Material::car_cargo:
         case Material::car_under:
-            return car_look(stage, at);
+            return at.instance->kind == Kind::parked ? parked_look(stage, at)
+                                                     : car_look(stage, at);
         case Material::wheel:
             return wheel_look(at);
+        case Material::wall:
+        case Material::building:
+            return model_building_look(stage, at);
+        case Material::prop:
+            return prop_look(stage, at);
+        case Material::plot:
+            return plot_look(stage, at);
         case Material::bark:
-            look = bark_look(at);
+            look = at.instance->kind == Kind::plant ? plant_bark_look(at) : bark_look(at);
             break;
         case Material::leaf:
-            look = leaf_look(at);
+            look = at.instance->kind == Kind::plant ? plant_leaf_look(at) : leaf_look(at);
             break;
         case Material::signal_lamp:
             look = signal_lamp_look(stage, at);
@@ -214,12 +237,14 @@ world::SemanticClass semantic_class(const Scene& scene, const Hit& hit) {
     const Instance& instance = scene.instances()[hit.instance];
     switch (instance.kind) {
         case Kind::tree:
+        case Kind::plant:
             return SemanticClass::vegetation;
         case Kind::limb:
             return SemanticClass::pedestrian;
         case Kind::marking:
             return SemanticClass::road_line;
         case Kind::car_body:
+        case Kind::parked:
         case Kind::wheel:
             switch (scene.car_shape(instance.model).style) {
                 case world::BodyStyle::lorry:
@@ -231,9 +256,17 @@ world::SemanticClass semantic_class(const Scene& scene, const Hit& hit) {
             }
         case Kind::ground:
         case Kind::town:
+        case Kind::prop:
             break;
     }
+    const std::uint32_t tag = instance.prototype->mesh.tags[hit.triangle];
     switch (instance.prototype->mesh.materials[hit.triangle]) {
+        case Material::prop:
+            return prop_class(tag);
+        case Material::plot:
+            return plot_class(scene.plots()[tag].kind);
+        case Material::wall:
+        case Material::building:
         case Material::grass:
             return SemanticClass::terrain;
         case Material::pavement:

@@ -54,8 +54,17 @@ world::SemanticClass semantic_class(const Scene& scene, const Hit& hit);
 // One for each kind of surface, in files of their own.
 Look ground_look(const Stage& stage, const Surface& surface);
 Look building_look(const Stage& stage, const Surface& surface);
+Look model_building_look(const Stage& stage, const Surface& surface);
+Look prop_look(const Stage& stage, const Surface& surface);
+Look plot_look(const Stage& stage, const Surface& surface);
+Look plant_leaf_look(const Surface& surface);
+Look plant_bark_look(const Surface& surface);
 Look car_look(const Stage& stage, const Surface& surface);
 Look wheel_look(const Surface& surface);
+
+// Likewise: what class a prop's or plot's triangle has.
+world::SemanticClass prop_class(std::uint32_t tag);
+world::SemanticClass plot_class(world::PlotKind kind);
 
 /// How much detail of this size [m] a pixel can show: 1 all, 0 none. Fading what is smaller than a
 /// pixel to its mean is what keeps textures from flickering.

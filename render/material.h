@@ -16,6 +16,10 @@ enum class Material : std::uint8_t {
     marking,
     facade,  ///< tag: index in Town.buildings
     roof,    ///< tag: index in Town.buildings
+    wall,      ///< of a building with a model; tag: index in Facades.walls
+    building,  ///< its other parts; tag: see BuildingFinish
+    prop,      ///< tag: see PropTag
+    plot,      ///< tag: index in Town.plots
     bark,
     leaf,  ///< tag: hash of the leaf
     pole,
@@ -32,6 +36,6 @@ enum class Material : std::uint8_t {
     shoe
 };
 
-enum class SignalLamp : std::uint8_t { red, yellow, green };
+enum class SignalLamp : std::uint8_t { red, yellow, green, turn };
 
 }  // namespace reprise::render

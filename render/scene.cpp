@@ -67,8 +67,8 @@ Scene::Scene(const world::TownT& town, bool portable)
     : device_(portable ? nullptr : std::make_unique<Device>()),
       origin_(whole_metres_amid(town)),
       lanes_(town, origin_) {
-    build_town(town);
     build_models();
+    build_town(town);
     if (device_)
         device_->check();
 }

@@ -13,6 +13,7 @@
 #include "render/fast_math.h"
 #include "render/lane_raster.h"
 #include "render/mesh.h"
+#include "render/plot_mesh.h"
 #include "render/plain_tracer.h"
 #include "render/town_mesh.h"
 #include "world/tick.h"
@@ -23,7 +24,18 @@ struct RTCSceneTy;
 namespace reprise::render {
 
 /// What kind of thing an instance is: how its triangles are painted and which class they have.
-enum class Kind : std::uint8_t { ground, marking, town, tree, car_body, wheel, limb };
+enum class Kind : std::uint8_t {
+    ground,
+    marking,
+    town,
+    tree,
+    plant,
+    prop,
+    parked,  ///< a car's body that nobody drives
+    car_body,
+    wheel,
+    limb
+};
 
 /// A mesh with a tree over it, Embree's or our own, placed by any number of instances.
 struct Prototype {
@@ -38,7 +50,8 @@ struct Instance {
     Kind kind = Kind::town;
     Material material = Material::skin;                  ///< of a limb
     std::uint16_t lamps = 0;                             ///< Lamp bits of a car
-    std::uint16_t model = 0;                             ///< of a car
+    std::uint16_t model = 0;   ///< of a car; kind of a plant; value of a prop
+    std::uint32_t style = 0;   ///< of plants, props and parked cars: seeds what is left open
     std::uint32_t actor = 0;                             ///< 0: part of the town
     std::uint32_t mask = 1;                              ///< rays with a common bit see it
     Eigen::Affine3d pose = Eigen::Affine3d::Identity();  ///< to the scene's frame
@@ -85,6 +98,10 @@ class Scene {
 
     std::span<const BuildingFrame> buildings() const { return buildings_; }
 
+    const Facades& facades() const { return facades_; }
+
+    std::span<const PlotFrame> plots() const { return plots_; }
+
     const CarShape& car_shape(std::uint16_t model) const { return car_shapes_[model]; }
 
     const LaneRaster& lanes() const { return lanes_; }
@@ -100,6 +117,9 @@ class Scene {
 
     const Prototype* add_prototype(Mesh mesh);
     void build_town(const world::TownT& town);
+    void place_trees(const world::TownT& town);
+    void place_props(const world::TownT& town);
+    void park(const world::Prop& prop);
     void build_models();
     void place_car(const Eigen::Isometry3d& pose_world_car,
                    const Instance& body,
@@ -122,6 +142,8 @@ class Scene {
     const Prototype* ball_ = nullptr;
     const Prototype* bone_ = nullptr;
     std::vector<BuildingFrame> buildings_;
+    Facades facades_;
+    std::vector<PlotFrame> plots_;
     std::vector<Instance> town_;  // the instances that never move
     std::vector<Instance> instances_;
     std::vector<world::SignalColor> signals_;

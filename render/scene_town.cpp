@@ -1,7 +1,9 @@
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "render/scene.h"
+#include "render/signal_parts.h"
 #include "world/frames.h"
 #include "world/ground.h"
 
@@ -72,39 +74,72 @@ void Scene::build_town(const world::TownT& town) {
         instance.kind = kind;
         instance.mask = mask;
     };
-    Mesh ground = mesh_of(world::build_ground(town), origin_);
+    const world::GroundMesh levels = world::build_ground(town);
+    Mesh ground = mesh_of(levels, origin_);
     add_skirt(ground, town, origin_);
     add(std::move(ground), Kind::ground, solid_bit);
     Mesh markings = mesh_of(world::build_markings(town), origin_);
     if (!markings.triangles.empty())
         add(std::move(markings), Kind::marking, marking_bit);
 
+    Mesh plots = plot_mesh(town, levels, origin_);
+    for (const world::PlotT& plot : town.plots)
+        plots_.emplace_back(plot, origin_);
+    if (!plots.triangles.empty())
+        add(std::move(plots), Kind::ground, solid_bit);
+
     Mesh houses;
     for (std::uint32_t i = 0; i < town.buildings.size(); ++i) {
-        add_building(houses, town.buildings[i], i, origin_);
+        // Frames are found by the building's index, whether it has a model or not.
         buildings_.push_back(frame_of(town.buildings[i], origin_));
+        if (town.buildings[i].model() == 0)
+            add_building(houses, town.buildings[i], i, origin_);
+        else
+            add_model_building(houses, facades_, town.buildings[i], origin_);
     }
-    add_signals(houses, town, origin_);
+    for (const world::DrawnBuildingT& building : town.drawn_buildings)
+        add_drawn_building(houses, facades_, building, origin_);
+    if (town.heads.empty())
+        add_signals(houses, town, origin_);
+    else
+        add_signal_heads(houses, town, origin_);
     drop_degenerate(houses);
     if (!houses.triangles.empty())
         add(std::move(houses), Kind::town, solid_bit);
+    place_trees(town);
+    place_props(town);
+    town_.insert(town_.end(), instances_.begin(), instances_.end());
+    instances_.clear();
+}
 
-    std::vector<const Prototype*> kinds;
-    for (std::uint32_t kind = 0; kind < tree_kinds && !town.trees.empty(); ++kind)
-        kinds.push_back(add_prototype(tree_mesh(kind)));
+void Scene::place_trees(const world::TownT& town) {
+    // Prototypes are made when the first of their kind is met.
+    std::array<const Prototype*, tree_kinds> trees{};
+    std::map<world::PlantKind, const Prototype*> plants;
     for (const world::Tree& tree : town.trees) {
         Instance instance;
-        instance.kind = Kind::tree;
-        instance.prototype = kinds[tree.style() % tree_kinds];
-        instance.model = static_cast<std::uint16_t>(tree.style() & 0xffffu);
+        if (tree.kind() == world::PlantKind::any) {
+            const Prototype*& prototype = trees[tree.style() % tree_kinds];
+            if (prototype == nullptr)
+                prototype = add_prototype(tree_mesh(tree.style() % tree_kinds));
+            instance.kind = Kind::tree;
+            instance.prototype = prototype;
+            instance.model = static_cast<std::uint16_t>(tree.style() & 0xffffu);
+        } else {
+            const Prototype*& prototype = plants[tree.kind()];
+            if (prototype == nullptr)
+                prototype = add_prototype(plant_mesh(tree.kind()));
+            instance.kind = Kind::plant;
+            instance.prototype = prototype;
+            instance.model = static_cast<std::uint16_t>(tree.kind());
+            instance.style = tree.style();
+        }
         const double turn = static_cast<double>(tree.style() % 360) * 0.0174533;
         Eigen::Affine3d pose(Eigen::Translation3d(world::to_eigen(tree.position())));
         pose.rotate(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
         pose.scale(Vector3d(tree.crown_radius(), tree.crown_radius(), tree.height()));
         add_instance(instance, pose);
     }
-    town_.insert(town_.end(), instances_.begin(), instances_.end());
-    instances_.clear();
 }
 
 }  // namespace reprise::render

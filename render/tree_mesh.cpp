@@ -1,7 +1,6 @@
 #include <cmath>
-#include <numbers>
 
-#include "render/noise.h"
+#include "render/foliage.h"
 #include "render/town_mesh.h"
 
 namespace reprise::render {
@@ -12,29 +11,6 @@ using Eigen::Vector3f;
 
 /// Crown radius over height of a usual tree: keeps leaves and trunk round after stretching.
 constexpr float slenderness = 0.3F;
-
-/// Numbers in [0, 1) one after the other.
-class Draws {
-  public:
-    explicit Draws(std::uint32_t seed) : seed_(seed) {}
-
-    float next() { return unit(hash(seed_, count_++)); }
-
-    std::uint32_t bits() { return hash(seed_, count_++); }
-
-    Vector3f direction() {
-        const float z = 2 * next() - 1;
-        const double angle = 2 * std::numbers::pi * static_cast<double>(next());
-        const float wide = std::sqrt(1 - z * z);
-        return {wide * static_cast<float>(std::cos(angle)),
-                wide * static_cast<float>(std::sin(angle)),
-                z};
-    }
-
-  private:
-    std::uint32_t seed_;
-    std::uint32_t count_ = 0;
-};
 
 struct Crown {
     float low;      ///< share of the height
@@ -47,42 +23,9 @@ Vector3f stretched(const Vector3f& round) {
     return {round.x(), round.y(), round.z() * slenderness};
 }
 
-void set_normal(Mesh& mesh, const Vector3f& normal) {
-    mesh.normals.push_back({normal, normal, normal});
-}
-
 /// Flat-shaded parts get their corner normals before the leaves bring their own.
 void fill_normals(Mesh& mesh) {
     smooth(mesh, 1.2);
-}
-
-void add_leaves(Mesh& mesh, const Vector3f& centre, float radius, int count, Draws& draws) {
-    for (int i = 0; i < count; ++i) {
-        const Vector3f out = draws.direction();
-        const float depth = 0.70F + 0.42F * draws.next();
-        const Vector3f place = centre + stretched(radius * depth * out);
-        // A leaf bunch lies about across its direction outwards, so that it covers the bough.
-        const Vector3f lean = (out + 0.9F * draws.direction()).normalized();
-        const Vector3f u = lean.unitOrthogonal();
-        const Vector3f v = lean.cross(u);
-        const float size = 0.036F + 0.042F * draws.next();
-        const float turn = 6.2831853F * draws.next();
-        const Vector3f along = std::cos(turn) * u + std::sin(turn) * v;
-        const Vector3f across = lean.cross(along);
-        const std::uint32_t first = add_vertex(mesh, place + stretched(size * along));
-        add_vertex(mesh, place + stretched(size * 0.62F * across));
-        add_vertex(mesh, place - stretched(size * along));
-        add_vertex(mesh, place - stretched(size * 0.62F * across));
-        const Finish leaf{Material::leaf, draws.bits()};
-        add_triangle(mesh, first, first + 1, first + 2, leaf);
-        add_triangle(mesh, first, first + 2, first + 3, leaf);
-        // Lit as the round bough that it belongs to; as after stretching, see Instance.
-        const Vector3f normal = Vector3f(out.x() + 0.35F * lean.x(),
-                                         out.y() + 0.35F * lean.y(),
-                                         (out.z() + 0.35F * lean.z()) / slenderness);
-        set_normal(mesh, normal.normalized());
-        set_normal(mesh, normal.normalized());
-    }
 }
 
 }  // namespace
@@ -119,7 +62,9 @@ Mesh tree_mesh(std::uint32_t kind) {
     }
     fill_normals(mesh);
     for (const auto& [centre, radius] : boughs)
-        add_leaves(mesh, centre, radius, static_cast<int>(1050 * radius), draws);
+        add_leaves(mesh,
+                   {centre, radius, static_cast<int>(1050 * radius), 0.036F, 0.042F, slenderness},
+                   draws);
     drop_degenerate(mesh);
     return mesh;
 }

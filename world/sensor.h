@@ -62,7 +62,11 @@ enum class SemanticClass : std::uint8_t {
     car = 14,
     truck = 15,
     bus = 16,
-    road_line = 24
+    static_object = 20,   ///< benches, bus stops, hydrants
+    dynamic_object = 21,  ///< what could be carried away, such as bins
+    water = 23,
+    road_line = 24,
+    ground = 25  ///< squares, paths, car parks
 };
 
 }  // namespace reprise::world

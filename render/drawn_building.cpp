@@ -1,0 +1,162 @@
+#include <algorithm>
+
+#include "render/building_site.h"
+#include "render/noise.h"
+#include "render/town_mesh.h"
+#include "world/frames.h"
+#include "world/polygons.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector2f;
+using Eigen::Vector3f;
+
+using Outline = std::vector<Vector2f>;
+
+Vector3f at_height(const Vector2f& p, float z) {
+    return {p.x(), p.y(), z};
+}
+
+/// Four corners without a notch, as most houses have.
+bool is_convex_quad(const Outline& outline) {
+    if (outline.size() != 4)
+        return false;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vector2f side = outline[(i + 1) % 4] - outline[i];
+        const Vector2f next = outline[(i + 2) % 4] - outline[(i + 1) % 4];
+        if (side.x() * next.y() - side.y() * next.x() <= 0.01F)
+            return false;
+    }
+    return true;
+}
+
+/// Four slopes over any convex quadrangle; the ridge runs between the middles of its short sides.
+void add_hips(BuildingSite& site, Outline outline, float eaves) {
+    const float first = (outline[1] - outline[0]).norm() + (outline[3] - outline[2]).norm();
+    const float second = (outline[2] - outline[1]).norm() + (outline[0] - outline[3]).norm();
+    if (first < second)
+        std::rotate(outline.begin(), outline.begin() + 1, outline.end());
+    const float narrow = 0.5F * std::min(first, second);
+    const Vector2f west = 0.5F * (outline[3] + outline[0]);
+    const Vector2f east = 0.5F * (outline[1] + outline[2]);
+    const float length = std::max(0.1F, (east - west).norm());
+    const Vector2f inset = (east - west) * std::min(0.46F, 0.5F * narrow / length);
+    const float rise = std::min(5.0F, 0.30F * narrow);
+    const Vector3f ridge_west = at_height(west + inset, eaves + rise);
+    const Vector3f ridge_east = at_height(east - inset, eaves + rise);
+    const Vector2f middle = 0.25F * (outline[0] + outline[1] + outline[2] + outline[3]);
+    std::array<Vector3f, 4> corner;
+    for (std::size_t i = 0; i < 4; ++i)
+        corner[i] = at_height(outline[i] + (outline[i] - middle) * (0.5F / narrow), eaves - .12F);
+    const Finish tiles = site.finish(BuildingFinish::tiles);
+    const Finish trim = site.finish(BuildingFinish::trim);
+    const auto slope = [&](std::vector<Vector3f> corners) {
+        for (Vector3f& p : corners)
+            p.z() += .16F;
+        site.build.plate(corners, .16F, tiles, trim);
+    };
+    slope({corner[0], corner[1], ridge_east, ridge_west});
+    slope({corner[1], corner[2], ridge_east});
+    slope({corner[2], corner[3], ridge_west, ridge_east});
+    slope({corner[3], corner[0], ridge_west});
+}
+
+/// A deck below the walls' upper end, and a coping along them.
+void add_deck(BuildingSite& site, const Outline& outline, float eaves) {
+    world::Area area(Eigen::Vector2d::Zero());
+    world::Loop loop;
+    for (const Vector2f& p : outline)
+        loop.push_back(p.cast<double>());
+    area.add(loop);
+    const Finish deck = site.finish(BuildingFinish::deck);
+    for (const world::Loop& piece : area.pieces())
+        for (std::size_t i = 2; i < piece.size(); ++i)
+            site.build.triangle({at_height(piece[0].cast<float>(), eaves - .4F),
+                                 at_height(piece[i - 1].cast<float>(), eaves - .4F),
+                                 at_height(piece[i].cast<float>(), eaves - .4F)},
+                                deck);
+    const Finish trim = site.finish(BuildingFinish::trim);
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vector2f& from = outline[i];
+        const Vector2f& to = outline[(i + 1) % outline.size()];
+        const Vector2f along = (to - from).normalized();
+        const Vector2f out(along.y(), -along.x());
+        const Vector2f a = from - 0.05F * along;
+        const Vector2f b = to + 0.05F * along;
+        site.build.plate({at_height(a + 0.06F * out, eaves + .06F),
+                          at_height(b + 0.06F * out, eaves + .06F),
+                          at_height(b - 0.25F * out, eaves + .06F),
+                          at_height(a - 0.25F * out, eaves + .06F)},
+                         .12F,
+                         trim,
+                         trim);
+    }
+}
+
+/// In plan, relative to `foot`, without repeated points; counter-clockwise.
+Outline outline_of(const world::DrawnBuildingT& building, const Eigen::Vector3d& foot) {
+    world::Loop loop;
+    for (const world::Vec3& corner : building.outline) {
+        const Eigen::Vector2d p = world::in_plan(corner) - foot.head<2>();
+        if (loop.empty() || (p - loop.back()).norm() > 0.02)
+            loop.push_back(p);
+    }
+    while (loop.size() > 1 && (loop.front() - loop.back()).norm() <= 0.02)
+        loop.pop_back();
+    if (world::signed_area(loop) < 0)
+        std::reverse(loop.begin(), loop.end());
+    Outline outline;
+    for (const Eigen::Vector2d& p : loop)
+        outline.push_back(p.cast<float>());
+    return outline;
+}
+
+}  // namespace
+
+void add_drawn_building(Mesh& mesh,
+                        Facades& facades,
+                        const world::DrawnBuildingT& building,
+                        const Eigen::Vector3d& origin) {
+    if (building.outline.size() < 3)
+        return;
+    Eigen::Vector3d foot = world::to_eigen(building.outline.front());
+    for (const world::Vec3& corner : building.outline)
+        foot.z() = std::min(foot.z(), corner.z());
+    const Outline outline = outline_of(building, foot);
+    if (outline.size() < 3)
+        return;
+    const world::BuildingModel& model =
+        BuildingPlan::model_of(building.model, building.height, building.style);
+    const BuildingPlan plan(model, 10, 10, building.height, building.style);
+    Eigen::Isometry3f pose = Eigen::Isometry3f::Identity();
+    pose.translation() = (foot - origin).cast<float>();
+    BuildingSite site{Builder(mesh, pose),
+                      plan,
+                      facades.walls,
+                      static_cast<std::uint32_t>(facades.buildings.size())};
+    facades.buildings.emplace_back(model, plan.seed);
+    std::size_t longest = 0;
+    const auto side = [&](std::size_t i) {
+        return (outline[(i + 1) % outline.size()] - outline[i]).norm();
+    };
+    for (std::size_t i = 1; i < outline.size(); ++i)
+        if (side(i) > side(longest))
+            longest = i;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        site.wall(at_height(outline[i], 0),
+                  at_height(outline[(i + 1) % outline.size()], 0),
+                  plan.eaves,
+                  i == longest    ? WallUse::front
+                  : side(i) < 1.6F ? WallUse::blank
+                                  : WallUse::side);
+    const bool pitched =
+        model.roof == world::RoofKind::gabled || model.roof == world::RoofKind::hipped;
+    if (pitched && is_convex_quad(outline))
+        add_hips(site, outline, plan.eaves);
+    else
+        add_deck(site, outline, plan.eaves);
+}
+
+}  // namespace reprise::render
