@@ -17,13 +17,16 @@ Vector3f Draws::direction() {
 }
 
 void add_leaves(Mesh& mesh, const LeafBunch& bunch, Draws& draws) {
+    const auto in_bough = [&](const Vector3f& round) {
+        return Vector3f(round.x(), round.y(), round.z() * bunch.slenderness * bunch.lie);
+    };
     const auto stretched = [&](const Vector3f& round) {
         return Vector3f(round.x(), round.y(), round.z() * bunch.slenderness);
     };
     for (int i = 0; i < bunch.count; ++i) {
         const Vector3f out = draws.direction();
         const float depth = 0.70F + 0.42F * draws.next();
-        const Vector3f place = bunch.centre + stretched(bunch.radius * depth * out);
+        const Vector3f place = bunch.centre + in_bough(bunch.radius * depth * out);
         // A leaf bunch lies about across its direction outwards, so that it covers the bough.
         const Vector3f lean = (out + 0.9F * draws.direction()).normalized();
         const Vector3f u = lean.unitOrthogonal();

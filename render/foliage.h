@@ -31,6 +31,7 @@ struct LeafBunch {
     float smallest;  ///< half the length of a leaf bunch, in crown radii
     float spread;    ///< the largest is so much larger
     float slenderness;
+    float lie = 1;  ///< height of the bough over its width, once stretched
 };
 
 /// Appends leaves with normals of their own: the mesh's other triangles must have theirs.

@@ -56,6 +56,25 @@ float blossoms(PlantKind kind, std::uint32_t style, Color& color) {
     return kind == PlantKind::cherry && hash(style, 4) % 2 == 0 ? 0.85F : 0.0F;
 }
 
+/// Leaves on a bunch, or on the solid inside of a bough: patches that lean all ways, some in the
+/// shade of others.
+void dapple(Look& look, const Surface& at, float strength) {
+    const Eigen::Vector3f p = at.position * 8.0F;
+    const float bend = 2 * value_noise(p.x() * 0.7F + p.z() * 0.4F, p.y() * 0.7F - p.z() * 0.5F, 9);
+    const int column = floor_int(p.x() + bend + 0.5F * p.z());
+    const int row = floor_int(p.y() - bend + 0.3F * p.x());
+    const int level = floor_int(p.z() * 1.3F + bend);
+    const std::uint32_t patch = hash(static_cast<std::uint32_t>(column),
+                                     static_cast<std::uint32_t>(row),
+                                     static_cast<std::uint32_t>(level));
+    const float near = detail(at, 0.25F);
+    look.albedo *= mix(1 - 0.45F * strength, 1 + strength * (0.75F * unit(patch) - 0.75F), near);
+    const Eigen::Vector3f lean(unit(hash(patch, 1)) - 0.5F,
+                               unit(hash(patch, 2)) - 0.5F,
+                               unit(hash(patch, 3)) - 0.5F);
+    look.normal = (at.normal + 1.5F * strength * near * lean).normalized();
+}
+
 }  // namespace
 
 Look plant_leaf_look(const Surface& at) {
@@ -72,13 +91,12 @@ Look plant_leaf_look(const Surface& at) {
     look.albedo = green * (0.65F + 0.5F * own + 0.35F * patch);
     Color flower;
     const bool blooms = unit(hash(at.tag, 7)) < blossoms(kind, style, flower);
-    if (at.tag == 0)
-        look.albedo *= 0.42F;
-    else if (blooms)
+    if (blooms)
         look.albedo = flower * (0.75F + 0.4F * own);
     look.translucency = at.tag == 0 ? 0 : 0.42F;
     look.f0 = 0.02F;
     look.normal = at.normal;
+    dapple(look, at, at.tag == 0 ? 1.0F : 0.4F);
     return look;
 }
 

@@ -23,32 +23,33 @@ struct Habit {
     int leaves;
     float leaf;  ///< half the length of the smallest bunch; the largest is 2 times as large
     float core;  ///< how much of a bough is solid: dense crowns hide the sky
+    float lie;   ///< height of a bough over its width: below 1 in layers, above 1 hanging
 };
 
 Habit habit_of(PlantKind kind) {
     switch (kind) {
         case PlantKind::lime:
-            return {.34F, .075F, .20F, .42F, 2.0F, 18, .32F, 1300, .036F, .80F};
+            return {.34F, .075F, .20F, .42F, 2.0F, 20, .32F, 1550, .045F, .76F, 1.0F};
         case PlantKind::birch:
-            return {.24F, .060F, .28F, .40F, 1.5F, 17, .26F, 1250, .034F, .45F};
+            return {.24F, .060F, .24F, .40F, 1.5F, 22, .24F, 1600, .040F, .42F, 1.5F};
         case PlantKind::poplar:
-            return {.14F, .150F, .07F, .35F, 2.6F, 20, .52F, 1350, .060F, .82F};
+            return {.14F, .150F, .06F, .35F, 2.6F, 20, .52F, 1500, .075F, .78F, 1.2F};
         case PlantKind::plane:
-            return {.46F, .060F, .32F, .50F, 2.3F, 17, .34F, 1400, .040F, .72F};
+            return {.46F, .060F, .30F, .50F, 2.3F, 20, .34F, 1600, .046F, .70F, 0.9F};
         case PlantKind::maple:
-            return {.42F, .055F, .24F, .45F, 2.8F, 18, .34F, 1400, .036F, .82F};
+            return {.42F, .055F, .22F, .45F, 2.8F, 20, .34F, 1600, .045F, .78F, 0.9F};
         case PlantKind::cherry:
-            return {.52F, .060F, .30F, .62F, 1.8F, 16, .30F, 1350, .032F, .62F};
+            return {.52F, .060F, .28F, .62F, 1.8F, 18, .30F, 1550, .040F, .62F, 0.8F};
         case PlantKind::pine:
-            return {.32F, .075F, .52F, .45F, 2.0F, 13, .34F, 1350, .034F, .62F};
+            return {.34F, .050F, .46F, .45F, 2.4F, 18, .32F, 1500, .046F, .55F, 0.5F};
         case PlantKind::round_bush:
-            return {.62F, 0, .0F, .45F, 2.6F, 11, .46F, 1250, .055F, .90F};
+            return {.62F, 0, .0F, .45F, 2.6F, 12, .46F, 1400, .065F, .86F, 1.0F};
         case PlantKind::tall_bush:
-            return {.36F, 0, .0F, .50F, 2.4F, 13, .46F, 1250, .055F, .85F};
+            return {.36F, 0, .0F, .50F, 2.4F, 14, .46F, 1400, .065F, .80F, 1.2F};
         case PlantKind::flowering_bush:
-            return {.60F, 0, .0F, .50F, 2.2F, 11, .44F, 1250, .050F, .86F};
+            return {.60F, 0, .0F, .50F, 2.2F, 12, .44F, 1400, .060F, .82F, 1.0F};
         default:
-            return {.30F, .085F, .30F, .45F, 2.0F, 17, .30F, 1300, .036F, .78F};
+            return {.30F, .085F, .30F, .45F, 2.0F, 17, .30F, 1300, .036F, .78F, 1.0F};
     }
 }
 
@@ -126,7 +127,7 @@ Mesh plant_mesh(PlantKind kind) {
         const float up = (static_cast<float>(i) + 0.7F * draws.next()) / static_cast<float>(habit.boughs);
         const double angle = 2.399963 * i + static_cast<double>(draws.next());
         const float radius = habit.bough * (1 + 0.5F * draws.next());
-        const float reach = radius * habit.slenderness;
+        const float reach = radius * habit.slenderness * habit.lie;
         const float away = std::max(0.0F, crown_radius(habit, up) - radius) * (0.85F + 0.15F * draws.next());
         const float z = mix(std::max(habit.low + reach * 0.6F, reach * 0.8F), 1 - reach * 1.02F, up);
         const Vector3f centre(away * static_cast<float>(std::cos(angle)), away * static_cast<float>(std::sin(angle)), z);
@@ -134,12 +135,12 @@ Mesh plant_mesh(PlantKind kind) {
         area += radius * radius;
         if (habit.trunk > 0)
             add_tube(mesh, {{0, .02F, std::max(habit.low, z - .16F)}, centre, .3F * habit.trunk, .12F * habit.trunk, 5}, bark);
-        add_ellipsoid(mesh, centre, Vector3f(radius, radius, radius * habit.slenderness) * habit.core, 8, {Material::leaf, 0});
+        add_ellipsoid(mesh, centre, Vector3f(radius, radius, reach) * habit.core, 7, {Material::leaf, 0});
     }
     smooth(mesh, 1.2);
     for (const auto& [centre, radius] : boughs)
         add_leaves(mesh,
-                   {centre, radius, static_cast<int>(static_cast<float>(habit.leaves) * radius * radius / area), habit.leaf, habit.leaf, habit.slenderness},
+                   {centre, radius, static_cast<int>(static_cast<float>(habit.leaves) * radius * radius / area), habit.leaf, habit.leaf, habit.slenderness, habit.lie},
                    draws);
     drop_degenerate(mesh);
     return mesh;
