@@ -39,7 +39,7 @@ std::uint64_t step_ns(const ImportOptions& options) {
 std::optional<exchange::CarlaTown> read_town(const ImportOptions& options) {
     if (options.town.empty())
         return std::nullopt;
-    traffic::Network network = traffic::load_network(find_network(options.town, options.log));
+    traffic::Network network = load_town(options.town, options.log);
     if (!network.notes.empty())
         fmt::print(stderr, "{}", network.notes);
     exchange::CarlaTown town;
