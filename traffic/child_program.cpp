@@ -42,19 +42,18 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 
 /// From here on, and for what the child does from now on: it has just begun.
 void limit(pid_t child, const ProgramLimits& limits) {
-    const auto set = [child](auto what, std::uint64_t value) {
-        const rlimit bound{value, value};
+    const auto set = [child](auto what, std::uint64_t value, std::uint64_t grace = 0) {
+        const rlimit bound{value, value + grace};
         prlimit(child, what, &bound, nullptr);
     };
     set(RLIMIT_AS, limits.memory);
-    set(RLIMIT_CPU, limits.seconds);
+    set(RLIMIT_CPU, limits.seconds, 10);  // at the harder one it would be killed without a reason
     set(RLIMIT_FSIZE, limits.file);
     set(RLIMIT_CORE, 0);
 }
 
 std::string text_of(int ended_by, const ProgramLimits& limits) {
-    // At its hard limit of processor time a process is killed outright.
-    if (ended_by == SIGXCPU || ended_by == SIGKILL)
+    if (ended_by == SIGXCPU)
         return fmt::format("was stopped: it needed more than {} s of processor time",
                            limits.seconds);
     if (ended_by == SIGXFSZ)

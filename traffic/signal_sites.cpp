@@ -1,14 +1,12 @@
 #include "traffic/signal_sites.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <pugixml.hpp>
-#include <tuple>
+#include <set>
 
 #include "traffic/lanes.h"
 #include "traffic/links.h"
@@ -133,32 +131,50 @@ std::optional<double> distance_to(const SignalSite& site, const world::SignalT& 
     return seen ? std::optional(off.norm()) : std::nullopt;
 }
 
-/// Which light stands for which signals of the town: the nearest of those that netconvert gave to
-/// a lane's links and that can be seen from there. Key: index of the site and the program.
-std::map<std::pair<std::size_t, std::string>, std::vector<std::uint32_t>> lights_of_links(
-    const std::vector<SignalSite>& sites, const ImportedRoads& roads) {
-    std::map<std::string, std::size_t> by_id;
-    for (std::size_t i = 0; i < sites.size(); ++i)
-        if (sites[i].signal->kind == Kind::light)
-            by_id.emplace(sites[i].signal->id, i);
-    // The lights of all links of a lane together: a lane has one head.
-    std::map<std::pair<std::string, std::uint32_t>, std::vector<std::uint32_t>> lanes;
-    for (std::uint32_t i = 0; i < roads.town.signals.size(); ++i)
-        if (!roads.town.signals[i].for_walkers)
-            lanes[{roads.town.signals[i].program, roads.town.signals[i].lane}].push_back(i);
-    std::map<std::pair<std::size_t, std::string>, std::vector<std::uint32_t>> found;
-    for (const auto& [key, signals] : lanes) {
-        std::optional<std::pair<double, std::size_t>> best;
+/// Signals of a lane's links, by program and lane: they share a head.
+using LaneSignals = std::map<std::pair<std::string, std::uint32_t>, std::vector<std::uint32_t>>;
+
+LaneSignals signals_by_lane(const world::TownT& town) {
+    LaneSignals lanes;
+    for (std::uint32_t i = 0; i < town.signals.size(); ++i)
+        if (const std::uint32_t lane = town.signals[i].lane;
+            lane != world::none && town.lanes[lane].kind == LaneKind::driving)
+            lanes[{town.signals[i].program, town.signals[i].lane}].push_back(i);
+    return lanes;
+}
+
+/// The nearest of those lights that can be seen from a lane's end.
+std::optional<std::size_t> nearest_light(const std::vector<SignalSite>& sites,
+                                         const world::SignalT& signal,
+                                         const std::set<std::string>& ids) {
+    constexpr double nearby = 15;  // [m] for a light that netconvert has not tied to the lane
+    std::optional<std::pair<double, std::size_t>> best;
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        if (sites[i].signal->kind != Kind::light ||
+            (!ids.empty() && ids.count(sites[i].signal->id) == 0))
+            continue;
+        const std::optional<double> far = distance_to(sites[i], signal);
+        if (far && (!ids.empty() || *far < nearby) && (!best || std::pair(*far, i) < *best))
+            best = {*far, i};
+    }
+    return best ? std::optional(best->second) : std::nullopt;
+}
+
+/// Links that a light stands for. Key: index of the site, and the program.
+using LightLinks = std::map<std::pair<std::size_t, std::string>, std::vector<std::uint32_t>>;
+
+/// netconvert ties lights to links, at times those of the other side of the road as well, at times
+/// none: of those, or else of all, the nearest that can be seen counts.
+LightLinks lights_of_links(const std::vector<SignalSite>& sites, const ImportedRoads& roads) {
+    LightLinks found;
+    for (const auto& [key, signals] : signals_by_lane(roads.town)) {
+        std::set<std::string> ids;
         for (const std::uint32_t signal : signals)
-            for (const std::string& id : roads.lights[signal])
-                if (const auto light = by_id.find(id); light != by_id.end())
-                    if (const auto far =
-                            distance_to(sites[light->second], roads.town.signals[signal]))
-                        if (!best || std::pair(*far, light->second) < *best)
-                            best = {*far, light->second};
+            ids.insert(roads.lights[signal].begin(), roads.lights[signal].end());
+        const auto light = nearest_light(sites, roads.town.signals[signals.front()], ids);
         for (const std::uint32_t signal : signals)
-            if (best)
-                found[{best->second, key.first}].push_back(roads.town.signals[signal].index);
+            if (light)
+                found[{*light, key.first}].push_back(roads.town.signals[signal].index);
     }
     return found;
 }

@@ -135,7 +135,8 @@ class Import {
             signals.heads,
             signals.signs);
         if (signals.moved > 0)
-            say("poles: {} stood on a road and were moved to its edge", signals.moved);
+            say("poles: {} would stand on a road and were moved to its edge, where heads get an arm",
+                signals.moved);
         if (signals.lost > 0)
             say("lost: {} signals and signs that control nothing or have no place", signals.lost);
         if (map.other_signs > 0)

@@ -1,0 +1,413 @@
+#include "traffic/town_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/traffic/stage.h"
+#include "traffic/child_program.h"
+#include "traffic/place.h"
+#include "traffic/right_of_way.h"
+#include "traffic/signal_sites.h"
+#include "world/building_models.h"
+#include "world/check.h"
+#include "world/frames.h"
+
+namespace reprise::traffic {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using world::LaneKind;
+
+std::string bytes(const fs::path& path) {
+    std::ostringstream all;
+    all << std::ifstream(path, std::ios::binary).rdbuf();
+    return std::move(all).str();
+}
+
+/// A folder of this test's own, with a comma in its name: SUMO's programs split paths there.
+class Imports : public ::testing::Test {
+  protected:
+    Imports()
+        : folder_(fs::path(::testing::TempDir()) /
+                  ("reprise import, " + std::to_string(getpid()))) {
+        fs::create_directories(folder_);
+    }
+
+    ~Imports() override { fs::remove_all(folder_); }
+
+    fs::path empty(const std::string& name) const {
+        fs::create_directory(folder_ / name);
+        return folder_ / name;
+    }
+
+    fs::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return folder_ / name;
+    }
+
+    std::string message(const TownImport& wish) const {
+        try {
+            import_town(wish, empty("refused"));
+        } catch (const world::Error& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+
+    fs::path folder_;
+};
+
+fs::path village() {
+    return fs::path(REPRISE_SOURCE_DIR) / "tests/traffic/village.osm";
+}
+
+fs::path shared_map(const std::string& name) {
+    return fs::path(REPRISE_SOURCE_DIR) / "../shared/maps" / name;
+}
+
+TEST_F(Imports, AStreetMapBecomesATown) {
+    const std::string report = import_town({village(), "", true, false}, empty("t"));
+    EXPECT_EQ(report, bytes(folder_ / "t/import.txt"));
+    std::set<std::string> files;
+    for (const auto& entry : fs::directory_iterator(folder_ / "t"))
+        files.insert(entry.path().filename().string());
+    EXPECT_THAT(files, testing::ElementsAre("import.txt", "village.net.xml", "village.place.xml"));
+
+    const Network network = load_network(folder_ / "t/village.net.xml");
+    EXPECT_THAT(network.xml, Not(HasSubstr("<!--")));
+    const world::TownT town = read_town(network);
+    EXPECT_TRUE(town.left_hand);
+    EXPECT_EQ(std::count_if(town.junctions.begin(),
+                            town.junctions.end(),
+                            [](const auto& junction) { return junction.lit; }),
+              1);
+    EXPECT_THAT(network.xml, HasSubstr("name=\"High Street &amp; Quay\""));
+    // 30 mph as tagged, 50 km/h where nothing is.
+    EXPECT_THAT(network.xml, HasSubstr("speed=\"13.411\""));
+    double fastest = 0;
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind == LaneKind::driving)
+            fastest = std::max(fastest, lane.speed_limit);
+    EXPECT_LE(fastest, 13.9);
+}
+
+TEST_F(Imports, FootprintsKeepTheirPlaceAndHeight) {
+    import_town({village(), "", false, false}, empty("t"));
+    const Place place = read_place(bytes(folder_ / "t/village.place.xml"), "village.place.xml");
+    // One lies 2 km away, one is the courtyard of another.
+    ASSERT_EQ(place.buildings.size(), 7U);
+    const auto with_height = [&](double height) {
+        return std::find_if(place.buildings.begin(), place.buildings.end(), [&](const auto& b) {
+            return std::abs(b.height - height) < 1e-3;
+        });
+    };
+    const auto church = with_height(18.288);  // 60'
+    ASSERT_NE(church, place.buildings.end());
+    EXPECT_EQ(church->model, *world::find_building_model("church") + 1);
+    // 16 m x 40 m on the map; projected, within the scale of UTM.
+    ASSERT_EQ(church->outline.size(), 4U);
+    const auto side = [&](std::size_t i, std::size_t j) {
+        return std::hypot(church->outline[i].x() - church->outline[j].x(),
+                          church->outline[i].y() - church->outline[j].y());
+    };
+    EXPECT_NEAR(std::min(side(0, 1), side(1, 2)), 16, 0.1);
+    EXPECT_NEAR(std::max(side(0, 1), side(1, 2)), 40, 0.1);
+    EXPECT_NE(with_height(11.5), place.buildings.end());
+    EXPECT_NE(with_height(15), place.buildings.end()) << "five floors";
+    std::multiset<world::PlotKind> kinds;
+    for (const world::PlotT& plot : place.plots)
+        kinds.insert(plot.kind);
+    EXPECT_EQ(kinds,
+              (std::multiset<world::PlotKind>{world::PlotKind::park,
+                                              world::PlotKind::water,
+                                              world::PlotKind::car_park,
+                                              world::PlotKind::playground,
+                                              world::PlotKind::lawn}));
+}
+
+double area_of(const std::vector<world::Vec3>& outline) {
+    double twice = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const world::Vec3& p = outline[i];
+        const world::Vec3& q = outline[(i + 1) % outline.size()];
+        twice += p.x() * q.y() - q.x() * p.y();
+    }
+    return twice / 2;
+}
+
+TEST_F(Imports, BuildingsAreCutBackToTheRoadsOrLeftOut) {
+    // One that a road grazes, one in the middle of it; drawn clockwise, in degrees.
+    std::string map = bytes(village());
+    const auto add = [&](int id, double north, double depth) {
+        constexpr double metre = 1 / 111'200.0, metre_east = metre / 0.6232;
+        std::string nodes, way = "<way id=\"" + std::to_string(id) + "\">";
+        const double corners[4][2] = {{170, 0}, {170, depth}, {190, depth}, {190, 0}};
+        for (int i = 0; i < 5; ++i) {
+            const int node = id * 10 + i % 4;
+            if (i < 4)
+                nodes += "<node id=\"" + std::to_string(node) + "\" lat=\"" +
+                         std::to_string(51.4520 + (north + corners[i][1]) * metre) + "\" lon=\"" +
+                         std::to_string(-2.59 + corners[i][0] * metre_east) + "\"/>";
+            way += "<nd ref=\"" + std::to_string(node) + "\"/>";
+        }
+        map.insert(map.find(" <way"), nodes);
+        map.insert(map.rfind("</osm>"), way + "<tag k=\"building\" v=\"yes\"/></way>\n");
+    };
+    add(9001, 178, 18);  // North Road runs at 180 m: its strip is cut off
+    add(9002, 178, 4);   // nothing is left
+    const std::string report = import_town({write("cut.osm", map), "", false, false}, empty("t"));
+    EXPECT_THAT(report, HasSubstr("8 with their own footprints; 1 cut back"));
+    EXPECT_THAT(report, HasSubstr("1 left out"));
+    const Place place = read_place(bytes(folder_ / "t/cut.place.xml"), "cut.place.xml");
+    for (const world::DrawnBuildingT& building : place.buildings)
+        EXPECT_GT(area_of(building.outline), 0) << "counter-clockwise";
+}
+
+TEST_F(Imports, TheSameMapGivesTheSameBytes) {
+    for (const fs::path& map : {village(), shared_map("Town07.xodr")}) {
+        if (!fs::exists(map)) {
+            std::printf("skipped: no map %s\n", map.c_str());
+            continue;
+        }
+        const std::string name = map.stem().string();
+        import_town({map, "", false, false}, empty(name + "1"));
+        import_town({map, "", false, false}, empty(name + "2"));
+        for (const std::string& ending :
+             {name + ".net.xml", name + ".place.xml", std::string("import.txt")}) {
+            const std::string first = bytes(folder_ / (name + "1") / ending);
+            EXPECT_FALSE(first.empty()) << ending;
+            EXPECT_EQ(first, bytes(folder_ / (name + "2") / ending)) << ending;
+        }
+    }
+}
+
+TEST_F(Imports, PackedMapsAreTheSame) {
+    const std::string map = bytes(village());
+    gzFile file = gzopen((folder_ / "village.osm.gz").c_str(), "wb");
+    gzwrite(file, map.data(), static_cast<unsigned>(map.size()));
+    gzclose(file);
+    import_town({folder_ / "village.osm.gz", "", false, false}, empty("packed"));
+    import_town({village(), "", false, false}, empty("plain"));
+    for (const char* name : {"village.net.xml", "village.place.xml"})
+        EXPECT_EQ(bytes(folder_ / "packed" / name), bytes(folder_ / "plain" / name)) << name;
+}
+
+TEST_F(Imports, ANetworkStaysAsItIs) {
+    const fs::path own = fs::path(REPRISE_SOURCE_DIR) / "scenarios/towns/town2/town2.net.xml";
+    import_town({own, "mine", false, false}, empty("t"));
+    const Network made = load_network(folder_ / "t/mine.net.xml");
+    EXPECT_EQ(made.name, "mine");
+    EXPECT_EQ(read_town(made).lanes, test::own_town("town2").town.lanes);
+}
+
+TEST_F(Imports, SidewalksAreGuessedOnRequest) {
+    const auto sidewalks = [](const fs::path& network) {
+        const world::TownT town = read_town(load_network(network));
+        return std::count_if(town.lanes.begin(), town.lanes.end(), [](const world::LaneT& lane) {
+            return lane.kind == LaneKind::sidewalk || lane.kind == LaneKind::crossing;
+        });
+    };
+    import_town({village(), "", false, false}, empty("without"));
+    import_town({village(), "", false, true}, empty("with"));
+    EXPECT_GT(sidewalks(folder_ / "with/village.net.xml"),
+              sidewalks(folder_ / "without/village.net.xml"));
+}
+
+/// [m] of driving lanes.
+double driven(const world::TownT& town) {
+    double length = 0;
+    for (const world::LaneT& lane : town.lanes)
+        length += lane.kind == LaneKind::driving ? lane.length : 0;
+    return length;
+}
+
+TEST_F(Imports, OurOwnTownComesBackThroughOpenDrive) {
+    const fs::path own = fs::path(REPRISE_SOURCE_DIR) / "scenarios/towns/town2/town2.net.xml";
+    fs::copy_file(own, folder_ / "in.xml");
+    ASSERT_EQ(run_program("netconvert",
+                          {"-X", "never", "-s", "in.xml", "--opendrive-output", "own.xodr"},
+                          folder_)
+                  .code,
+              0);
+    import_town({folder_ / "own.xodr", "", false, false}, empty("t"));
+    const world::TownT town = read_town(load_network(folder_ / "t/own.net.xml"));
+    const world::TownT& same = test::own_town("town2").town;
+    EXPECT_NEAR(driven(town), driven(same), 0.01 * driven(same));
+    const auto limits = [](const world::TownT& of) {
+        std::multiset<int> found;
+        for (const world::LaneT& lane : of.lanes)
+            if (lane.kind == LaneKind::driving)
+                found.insert(static_cast<int>(std::lround(lane.speed_limit * 3.6)));
+        return found;
+    };
+    EXPECT_EQ(limits(town), limits(same));
+    // Its lights hang over the lanes' ends: there is one for each lane, its pole at the kerb.
+    const Place place = read_place(bytes(folder_ / "t/own.place.xml"), "own.place.xml");
+    EXPECT_EQ(place.heads.size(), 18U);
+    for (const Place::Head& head : place.heads) {
+        EXPECT_GT(head.arm, 1);
+        EXPECT_GT(head.height, 5);
+    }
+}
+
+/// Every head stands near the end of the lanes that it is for, and faces those who come there.
+void expect_heads_suit(const ImportedRoads& roads, const Place& place) {
+    for (const Place::Head& head : place.heads)
+        for (const world::SignalT& signal : roads.town.signals)
+            if (signal.program == head.program &&
+                std::count(head.links.begin(), head.links.end(), signal.index) > 0) {
+                EXPECT_LT(std::abs(world::wrap_angle(signal.yaw - head.yaw)), 0.1) << head.program;
+                EXPECT_LT(std::hypot(signal.position.x() - head.foot.x(),
+                                     signal.position.y() - head.foot.y()),
+                          26)
+                    << head.program;
+            }
+}
+
+TEST_F(Imports, Town01KeepsItsLightsAndLimits) {
+    if (!fs::exists(shared_map("Town01.xodr")))
+        GTEST_SKIP() << "skipped: no map";
+    import_town({shared_map("Town01.xodr"), "", false, false}, empty("t"));
+    const fs::path network = folder_ / "t/Town01.net.xml";
+    const world::TownT town = read_town(load_network(network));
+    EXPECT_EQ(town.junctions.size(), 12U);
+    EXPECT_EQ(std::count_if(town.lanes.begin(),
+                            town.lanes.end(),
+                            [](const auto& lane) { return lane.kind == LaneKind::crossing; }),
+              36);
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind == LaneKind::driving) {
+            EXPECT_NEAR(lane.speed_limit, 11.176, 1e-3) << lane.name << ": 25 mph";
+        }
+    const Place place = read_place(bytes(folder_ / "t/Town01.place.xml"), "Town01.place.xml");
+    EXPECT_EQ(place.heads.size(), 36U);
+    const ImportedRoads roads = read_roads(bytes(network), "Town01");
+    expect_heads_suit(roads, place);
+    // Each lane that a light controls has one.
+    std::map<std::pair<std::string, std::uint32_t>, int> heads;
+    for (const Place::Head& head : place.heads)
+        for (const std::uint32_t link : head.links)
+            ++heads[{head.program, link}];
+    for (const world::SignalT& signal : roads.town.signals)
+        if (signal.lane != world::none && roads.town.lanes[signal.lane].kind == LaneKind::driving) {
+            EXPECT_EQ((heads[{signal.program, signal.index}]), 1) << signal.program;
+        }
+}
+
+TEST_F(Imports, Town07FollowsItsStopAndYieldSigns) {
+    if (!fs::exists(shared_map("Town07.xodr")))
+        GTEST_SKIP() << "skipped: no map";
+    import_town({shared_map("Town07.xodr"), "", false, false}, empty("t"));
+    const Place place = read_place(bytes(folder_ / "t/Town07.place.xml"), "Town07.place.xml");
+    std::map<world::PropKind, int> signs;
+    for (const world::Prop& sign : place.signs)
+        ++signs[sign.kind()];
+    EXPECT_EQ(signs[world::PropKind::stop_sign], 19);
+    EXPECT_EQ(signs[world::PropKind::yield_sign], 20);
+    EXPECT_EQ(place.heads.size(), 17U);
+    const std::string network = bytes(folder_ / "t/Town07.net.xml");
+    const ImportedRoads roads = read_roads(network, "Town07");
+    expect_heads_suit(roads, place);
+    EXPECT_THAT(network, HasSubstr("type=\"allway_stop\""));
+    const OpenDrive map = read_opendrive(bytes(shared_map("Town07.xodr")), "Town07.xodr");
+    const SignsThatBind bind = signs_that_bind(map, roads);
+    EXPECT_EQ(bind.roads, 39);
+    EXPECT_GE(bind.giving_way, 36) << "the rest stand where a road only goes on";
+    // The signs stand on their own side of the road.
+    for (const SignalSite& site : site_signals(map, roads))
+        if (site.signal->kind == RoadSignal::Kind::stop) {
+            EXPECT_TRUE(site.lane) << site.signal->id;
+        }
+}
+
+TEST_F(Imports, ImportedTownsCarryTraffic) {
+    for (const fs::path& map : {village(), shared_map("Town07.xodr")}) {
+        if (!fs::exists(map)) {
+            std::printf("skipped: no map %s\n", map.c_str());
+            continue;
+        }
+        const fs::path made = empty(map.stem().string());
+        import_town({map, "", false, false}, made);
+        const test::Loaded loaded = test::load(made / (map.stem().string() + ".net.xml"));
+        test::Stage stage(loaded, 20);
+        double fastest = 0;
+        for (int i = 0; i < 200; ++i)
+            for (const world::CarState& car : stage.step().traffic.cars)
+                fastest = std::max(fastest, static_cast<double>(car.speed()));
+        EXPECT_GT(fastest, 5) << map;
+        EXPECT_GE(stage.draft().traffic.cars.size(), 15U) << map;
+    }
+}
+
+TEST_F(Imports, WhatIsNoMapIsRefusedInOneLine) {
+    struct Case {
+        const char* name;
+        std::string text;
+        const char* said;
+    };
+
+    std::string cut = bytes(village());
+    cut.resize(cut.size() / 2);
+    const Case cases[] = {
+        {"empty.xodr", "", "empty.xodr: is empty"},
+        {"binary.osm",
+         std::string("\x7f"
+                     "ELF\0\0\0",
+                     7),
+         "binary.osm: is not XML"},
+        {"page.osm", "<html></html>", "page.osm: begins with <html>"},
+        {"none.xodr", "<OpenDRIVE/>", "none.xodr:1: has no <road>"},
+        {"bare.xodr",
+         "<OpenDRIVE><road id='1' length='9' junction='-1'/></OpenDRIVE>",
+         "bare.xodr: netconvert refuses it: "},
+        {"cut.xodr", "<OpenDRIVE>\n<road id='1'", "cut.xodr:2: is not an OpenDRIVE map"},
+        {"cut.osm", cut, "cut.osm: netconvert refuses it: unexpected end of input"},
+        {"noroads.osm",
+         "<osm version='0.6'><node id='1' lat='1' lon='1'/></osm>",
+         "noroads.osm: netconvert refuses it: No nodes loaded: it has no roads"},
+        {"path.osm",
+         "<osm version='0.6'><node id='1' lat='1' lon='1'/><node id='2' lat='1.001' lon='1'/>"
+         "<way id='5'><nd ref='1'/><nd ref='2'/><tag k='highway' v='footway'/></way></osm>",
+         "path.osm: what came out of it is no town: has no edge that a passenger car may use"},
+        {"cut.osm.gz", "\x1f\x8b\x08 and no more", "cut.osm.gz: is damaged or cut off"},
+    };
+    for (const Case& one : cases) {
+        const std::string said = message({write(one.name, one.text), "", false, false});
+        EXPECT_THAT(said, HasSubstr(one.said)) << one.name;
+        EXPECT_THAT(said, Not(HasSubstr("\n"))) << one.name;
+        fs::remove_all(folder_ / "refused");
+    }
+    EXPECT_THAT(message({folder_, "", false, false}), HasSubstr("is a folder"));
+    fs::remove_all(folder_ / "refused");
+    EXPECT_THAT(message({folder_ / "none.osm", "", false, false}),
+                HasSubstr("none.osm: no such file"));
+    fs::remove_all(folder_ / "refused");
+    const fs::path own = fs::path(REPRISE_SOURCE_DIR) / "scenarios/towns/town2/town2.net.xml";
+    EXPECT_THAT(message({own, "", true, false}), HasSubstr("--lefthand is for OpenStreetMap"));
+}
+
+TEST_F(Imports, HugeGarbageIsRefusedBeforeItIsRead) {
+    for (const char* beginning : {"", "<osm version='0.6'>\n", "<OpenDRIVE>"}) {
+        const fs::path path = write("big.osm", beginning);
+        fs::resize_file(path, std::uintmax_t{3} << 30);  // sparse
+        EXPECT_THAT(message({path, "", false, false}),
+                    testing::AnyOf(HasSubstr("is not XML"), HasSubstr("has 3072 MB")));
+        fs::remove_all(folder_ / "refused");
+    }
+}
+
+}  // namespace
+}  // namespace reprise::traffic
