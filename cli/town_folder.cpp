@@ -15,11 +15,12 @@ class Partial {
   public:
     explicit Partial(const fs::path& path) : path_(path) {
         std::error_code error;
+        // Left by an import that was interrupted: nothing else makes such a folder.
+        if (fs::is_directory(path / "work", error))
+            fs::remove_all(path);
         if (!fs::create_directory(path, error))
             throw world::Error(path.string() + ": cannot be made" +
-                               (error ? ": " + error.message()
-                                      : ": it is there already, left by an import that was "
-                                        "interrupted; remove it"));
+                               (error ? ": " + error.message() : ": is there already"));
     }
 
     ~Partial() {

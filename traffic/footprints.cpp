@@ -155,10 +155,9 @@ Box reach(const Tree& lanes) {
 }
 
 bool is_near_road(const Polygon& outline, const Tree& lanes) {
-    const auto nearest = lanes.qbegin(bg::index::nearest(outline.outer().front(), 1));
     Box around = bg::return_envelope<Box>(outline);
     bg::buffer(around, around, neighbourhood);
-    return nearest != lanes.qend() && bg::intersects(nearest->first, around);
+    return lanes.qbegin(bg::index::intersects(around)) != lanes.qend();
 }
 
 /// The strip of a lane and a little more.

@@ -119,7 +119,6 @@ std::vector<std::string> openstreetmap_words(const std::string& file, bool left_
         "--osm.sidewalks",
         "--crossings.guess",
         "--walkingareas",
-        "--output.street-names",
     };
     if (left_hand)
         words.emplace_back("--lefthand");

@@ -77,6 +77,16 @@ int set_limits(const pugi::xml_node& road) {
     return set;
 }
 
+/// RoadRunner names roads Road 0, Road 1, ...: these are no streets, and netconvert does not join
+/// roads of different names.
+void drop_made_up_name(pugi::xml_node road) {
+    constexpr std::string_view beginning = "Road ";
+    const std::string_view name = text(road, "name");
+    if (name.starts_with(beginning) &&
+        name.find_first_not_of("0123456789", beginning.size()) == std::string_view::npos)
+        road.remove_attribute("name");
+}
+
 // ---- signals ----------------------------------------------------------------------------------
 
 /// A cubic of the road, such as its elevation, at s.
@@ -198,6 +208,7 @@ OpenDrive read_opendrive(const std::string& xml, const std::string& file) {
     for (const pugi::xml_node road : root.children("road")) {
         map.left_hand = map.left_hand && text(road, "rule") == "LHT";
         map.limits_set += set_limits(road);
+        drop_made_up_name(road);
         read_signals(road, map);
     }
     std::ostringstream prepared;

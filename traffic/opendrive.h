@@ -33,8 +33,8 @@ struct OpenDrive {
 };
 
 /// Reads it out of the map's text. netconvert 1.15 ignores speed limits of a whole road
-/// (<type><speed>): they are written into its lanes. `file` is for messages. Throws world::Error
-/// "file:line: what" when it is not XML or has no road.
+/// (<type><speed>): they are written into its lanes. Names that a program made up are taken out.
+/// `file` is for messages. Throws world::Error "file:line: what" when it is not XML or has no road.
 OpenDrive read_opendrive(const std::string& xml, const std::string& file);
 
 }  // namespace reprise::traffic

@@ -104,11 +104,13 @@ class Import {
 
     /// Runs netconvert; the network it made is in the file `made` and in `network`.
     void convert(std::vector<std::string> words) {
-        words.insert(words.end(), {"--precision", "3", "--output-file", made});
+        words.insert(words.end(),
+                     {"--output.street-names", "--precision", "3", "--output-file", made});
         const int warnings = run_sumo_tool("netconvert", std::move(words), work_, map_);
         if (!fs::exists(work_ / made))
             throw world::Error(map_ + ": netconvert made no network of it");
         network = without_comments(read_text(work_ / made));
+        replace_all(network, "&amp;amp;", "&amp;");  // some names are escaped twice
         if (warnings > 0)
             say("netconvert gave {} warnings", warnings);
     }
@@ -135,7 +137,8 @@ class Import {
             signals.heads,
             signals.signs);
         if (signals.moved > 0)
-            say("poles: {} would stand on a road and were moved to its edge, where heads get an arm",
+            say("poles: {} would stand on a road and were moved to its edge, where heads get an "
+                "arm",
                 signals.moved);
         if (signals.lost > 0)
             say("lost: {} signals and signs that control nothing or have no place", signals.lost);
@@ -176,7 +179,6 @@ class Import {
         if (wish.guess_sidewalks)
             words.emplace_back("--sidewalks.guess");
         convert(words);
-        replace_all(network, "&amp;amp;", "&amp;");  // netconvert escapes street names twice
         const ImportedRoads roads = read_roads(network, map_);
         if (roads.town.lanes.empty())
             return;  // a clearer word is said when the network is read

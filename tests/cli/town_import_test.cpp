@@ -67,6 +67,20 @@ TEST(TownImport, ReplacesATownOnlyWhenForced) {
     EXPECT_EQ(read_file(folder / "v/thesis.txt"), "years of work");
 }
 
+TEST(TownImport, ClearsAwayWhatAnInterruptedOneLeft) {
+    const Folder folder;
+    std::filesystem::create_directories(folder / "v.partial/work");
+    write_file(folder / "v.partial/work/map.xodr", "half");
+    EXPECT_EQ(reprise({"town", "import", village(), "-o", "v"}, folder.path()).code, 0);
+    EXPECT_THAT(folder.files(),
+                ElementsAre("v/import.txt", "v/village.net.xml", "v/village.place.xml"));
+    // A folder of somebody else's stays.
+    std::filesystem::create_directories(folder / "w.partial");
+    write_file(folder / "w.partial/mine.txt", "mine");
+    EXPECT_EQ(reprise({"town", "import", village(), "-o", "w"}, folder.path()).code, 2);
+    EXPECT_EQ(read_file(folder / "w.partial/mine.txt"), "mine");
+}
+
 struct Mistake {
     const char* name;
     std::vector<std::string> words;  ///< behind `town import`

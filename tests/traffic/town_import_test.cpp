@@ -263,6 +263,18 @@ TEST_F(Imports, OurOwnTownComesBackThroughOpenDrive) {
     }
 }
 
+TEST_F(Imports, StreetNamesStayAndMadeUpOnesGo) {
+    if (!fs::exists(shared_map("Town01.xodr")))
+        GTEST_SKIP() << "skipped: no map";
+    std::string map = bytes(shared_map("Town01.xodr"));
+    const std::string made_up = "<road name=\"Road 1\"";
+    map.replace(map.find(made_up), made_up.size(), "<road name=\"Road 1 &amp; Quay\"");
+    import_town({write("named.xodr", map), "", false, false}, empty("t"));
+    const std::string network = bytes(folder_ / "t/named.net.xml");
+    EXPECT_THAT(network, HasSubstr("name=\"Road 1 &amp; Quay\""));
+    EXPECT_THAT(network, Not(HasSubstr("name=\"Road 2\"")));
+}
+
 /// Every head stands near the end of the lanes that it is for, and faces those who come there.
 void expect_heads_suit(const ImportedRoads& roads, const Place& place) {
     for (const Place::Head& head : place.heads)
