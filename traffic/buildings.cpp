@@ -114,7 +114,8 @@ Draft Builder::draft(
         site(roadside, s + found.footprint.length / 2, found.setback + found.footprint.width / 2);
     found.footprint.centre = at.position;
     found.footprint.yaw = facing_yaw(roadside, at);
-    found.z = at.z;
+    // On a slope the lower end decides: no door hangs in the air.
+    found.z = std::min(site(roadside, s, 0).z, site(roadside, s + found.footprint.length, 0).z);
     return found;
 }
 

@@ -18,7 +18,7 @@ using world::LaneT;
 using world::Vec3;
 
 constexpr double level_cell = 24;     ///< [m]
-constexpr double level_apart = 2.5;   ///< [m] of height: one is a bridge over the other
+constexpr double level_apart = 4;     ///< [m] of height: a bridge, or a slope of 6 %
 constexpr double country_speed = 19;  ///< [m/s]
 constexpr double narrowest = 1.25;    ///< [m] beside a path that is kept clear for cars
 constexpr double turning_half = 1.6;  ///< [m] beside a turning path: buses cut corners
@@ -44,9 +44,10 @@ Vector2d direction(int k) {
 
 }  // namespace
 
-Land::Land(world::TownT& target, const Place& source)
+Land::Land(world::TownT& target, const Place& source, const std::vector<GiveWay>& signed_lanes)
     : town(target),
       place(source),
+      right_of_way(signed_lanes),
       seed(world::digest128(target.name).low()),
       roadsides(traffic::roadsides(target)) {
     add_lanes();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "traffic/clearance.h"
+#include "traffic/give_way.h"
 #include "traffic/place.h"
 #include "traffic/roadside.h"
 #include "world/town_generated.h"
@@ -16,11 +17,12 @@ namespace reprise::traffic {
 /// What all that fills a town with scenery works on: the town so far, and what its land is taken
 /// by.
 struct Land {
-    Land(world::TownT& target, const Place& source);
+    Land(world::TownT& target, const Place& source, const std::vector<GiveWay>& signed_lanes);
 
     world::TownT& town;
     const Place& place;
-    std::uint64_t seed;  ///< of the town's name
+    const std::vector<GiveWay>& right_of_way;  ///< one for each lane
+    std::uint64_t seed;                        ///< of the town's name
     std::vector<Roadside> roadsides;
 
     // Each as far as what stands must be able to ask about. Metres from the border.

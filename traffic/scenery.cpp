@@ -1,7 +1,5 @@
 #include "traffic/scenery.h"
 
-#include <vector>
-
 #include "traffic/buildings.h"
 #include "traffic/gardens.h"
 #include "traffic/heads.h"
@@ -15,8 +13,10 @@
 
 namespace reprise::traffic {
 
-void place_scenery(world::TownT& town, const Place& place) {
-    Land land(town, place);
+void place_scenery(world::TownT& town,
+                   const Place& place,
+                   const std::vector<GiveWay>& right_of_way) {
+    Land land(town, place, right_of_way);
     // What drivers need first; then what takes the most room; what finds a place anywhere last.
     place_heads(land);
     place_signs(land);

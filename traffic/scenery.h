@@ -1,5 +1,8 @@
 #pragma once
 
+#include <vector>
+
+#include "traffic/give_way.h"
 #include "traffic/place.h"
 #include "world/town_generated.h"
 
@@ -7,8 +10,10 @@ namespace reprise::traffic {
 
 /// Fills a town with all that stands in it: signal heads, signs, buildings, plants, furniture,
 /// plots and spawn points. What the place knows is kept; the rest is drawn from the town's name, so
-/// that the same network makes the same town. Lanes, links, signals and junctions must be there.
-/// Town 1: 100 ms.
-void place_scenery(world::TownT& town, const Place& place);
+/// that the same network makes the same town. Lanes, links, signals and junctions must be there;
+/// `right_of_way` has an entry for each lane. Town 1: 100 ms.
+void place_scenery(world::TownT& town,
+                   const Place& place,
+                   const std::vector<GiveWay>& right_of_way);
 
 }  // namespace reprise::traffic

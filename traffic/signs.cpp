@@ -21,7 +21,6 @@ constexpr double from_kerb = 0.6;
 constexpr double sign_height = 2.4;  ///< of the plate's middle
 constexpr double plate = 0.6;
 constexpr double search = 6;
-constexpr double fast = 15;  ///< [m/s] whoever meets such a road stops
 constexpr double near_crossing = 5;
 
 /// Makes the signs of one town. Roads are told by the kerb-side border of their driving lanes.
@@ -47,14 +46,6 @@ class Signs {
 /// The whole figure that is painted on the sign.
 int painted_limit(double speed) {
     return static_cast<int>(std::lround(speed * 3.6 / 5)) * 5;
-}
-
-/// Must everyone who comes from there give way?
-bool gives_way(const LaneT& lane) {
-    return !lane.links.empty() &&
-           std::all_of(lane.links.begin(), lane.links.end(), [](const world::Link& link) {
-               return link.yields() || link.turn() == world::Turn::around;
-           });
 }
 
 bool Signs::knows(PropKind kind) const {
@@ -160,19 +151,11 @@ void Signs::add_limits() {
 void Signs::add_priorities() {
     if (knows(PropKind::stop_sign) || knows(PropKind::yield_sign))
         return;
-    // Where all give way to each other (priority to the right) there are no signs.
-    std::vector<double> fastest_priority(town_.junctions.size(), 0);
-    for (const LaneT& lane : town_.lanes)
-        if (lane.kind == LaneKind::driving && lane.junction != world::none && !lane.links.empty() &&
-            !gives_way(lane))
-            fastest_priority[lane.junction] =
-                std::max(fastest_priority[lane.junction], lane.speed_limit);
     for (const std::uint32_t road : roads()) {
         const LaneT& lane = town_.lanes[road];
-        if (lane.junction == world::none || town_.junctions[lane.junction].lit ||
-            fastest_priority[lane.junction] == 0 || !gives_way(lane))
+        if (land_.right_of_way[road] == GiveWay::none)
             continue;
-        add(fastest_priority[lane.junction] > fast ? PropKind::stop_sign : PropKind::yield_sign,
+        add(land_.right_of_way[road] == GiveWay::stop ? PropKind::stop_sign : PropKind::yield_sign,
             road,
             std::max(lane.length - 1, lane.length / 2),
             0);

@@ -58,7 +58,9 @@ world::TownT read_town(const Network& network) {
         throw world::Error(network.name + ".net.xml:1: has no lane that a passenger car may use");
     world::level_paths(town);
     read_links(net, town);
-    place_scenery(town, Place());
+    const Place place =
+        network.place.empty() ? Place() : read_place(network.place, network.name + ".place.xml");
+    place_scenery(town, place, read_give_way(net, town));
     measure(town);
     return town;
 }

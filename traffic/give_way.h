@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "world/town_generated.h"
+
+namespace pugi {
+class xml_node;
+}
+
+namespace reprise::traffic {
+
+/// What a sign at the end of a driving lane would say, at junctions without lights.
+enum class GiveWay : std::uint8_t {
+    none,   ///< it goes first, or all give way to the right, or nobody is met
+    yield,  ///< every way on from there gives way to other vehicles
+    stop    ///< and stops before
+};
+
+/// One for each lane of the town. Links say whether one yields to anybody, walkers on a crossing
+/// included; which of them yield to vehicles is in the network's <request> elements.
+std::vector<GiveWay> read_give_way(const pugi::xml_node& net, const world::TownT& town);
+
+}  // namespace reprise::traffic
