@@ -21,6 +21,7 @@ constexpr double light_height = 7.5;
 constexpr double pole_width = 0.16;
 constexpr double stop_spacing = 400;
 constexpr double shortest_for_stop = 90;
+constexpr double at_kerb = 0.65;     ///< [m] of a bollard's middle from the kerb
 constexpr double off_border = 0.05;  ///< [m] inside of a sidewalk's outer edge
 
 double yaw_of(const Vector2d& way) {
@@ -104,6 +105,10 @@ void add_small(Land& land, const Roadside& roadside, Draws& draws) {
                 land, roadside, s + 1.6 * i, kind->kind, kind->length, kind->width, kind->height);
             if (!item)
                 continue;
+            // Bollards keep cars off: they stand at the kerb.
+            if (kind->kind == PropKind::bollard)
+                item->footprint.centre =
+                    site(roadside, s + 1.6 * i, at_kerb - roadside.walk).position;
             item->style = style;
             place_prop(land, *item);
         }
