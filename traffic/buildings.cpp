@@ -88,7 +88,10 @@ double setback_of(const BuildingModel& model, Draws& draws) {
             return draws.between(4, 7);
         case BuildingUse::terrace:
         case BuildingUse::shop:
-            return draws.between(0.5, 1.2);
+            // Steps and bays need room of their own before the sidewalk.
+            return (model.parts & (world::part_porch | world::part_bays)) != 0
+                       ? draws.between(1.4, 2.4)
+                       : draws.between(0.5, 1.2);
         case BuildingUse::flats:
             return is_in_row(model) ? draws.between(0.8, 3.4) : draws.between(3, 6);
         case BuildingUse::office:

@@ -29,6 +29,7 @@ constexpr double fence_offset = 0.4;  ///< [m] of a fence behind the border of t
 constexpr double gateway = 1.6;       ///< [m] opening before the door
 constexpr double driveway = 3;        ///< [m] wide
 constexpr double deep_enough = 5.6;   ///< [m] of front garden for a car
+constexpr double forecourt = 3.5;     ///< [m] before a building that is paved
 constexpr double car_park_depth = 17;
 
 /// One lot in the frame of its building: x along the street, front and street at -y.
@@ -75,6 +76,7 @@ class Gardener {
 
     void lay_out_house(const LotFrame& lot, Draws& draws);
     void lay_out_shop(const LotFrame& lot, Draws& draws);
+    void pave_front(const LotFrame& lot);
 
   private:
     bool add_plot(const Footprint& footprint, double z, PlotKind kind);
@@ -208,7 +210,14 @@ void Gardener::lay_out_house(const LotFrame& lot, Draws& draws) {
     add_plants(lot, has_drive ? side : 0, draws);
 }
 
-/// A car park behind a shop, an office or flats, where there is room.
+/// Paving between the sidewalk and what stands right behind it.
+void Gardener::pave_front(const LotFrame& lot) {
+    add_plot(lot.rectangle(-lot.half(), lot.half(), lot.border() + 0.03, lot.front()),
+             lot.building().centre().z(),
+             PlotKind::square);
+}
+
+/// A car park behind a shop or an office, where there is room.
 void Gardener::lay_out_shop(const LotFrame& lot, Draws& draws) {
     const double half = std::max(lot.half(), 9.0);
     const Footprint footprint =
@@ -232,6 +241,8 @@ void lay_out_gardens(Land& land, std::span<const Lot> lots) {
         const BuildingUse use = world::building_models()[building.model() - 1].use;
         Draws draws(land.seed, Purpose::plant, 1ULL << 32 | lot.building);
         const LotFrame frame(building, lot.setback);
+        if (use != BuildingUse::house && lot.setback < forecourt)
+            gardener.pave_front(frame);
         if (use == BuildingUse::house && lot.setback < 12)
             gardener.lay_out_house(frame, draws);
         else if ((use == BuildingUse::shop || use == BuildingUse::office) && draws.chance(0.5))

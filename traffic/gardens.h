@@ -7,7 +7,8 @@
 namespace reprise::traffic {
 
 /// What lies around houses: lawns, fences, walls and hedges along the street, bushes before the
-/// walls, here and there a driveway with a car; and car parks behind shops.
+/// walls, here and there a driveway with a car; paving before shops and terraces, and car parks
+/// behind shops and offices.
 void lay_out_gardens(Land& land, std::span<const Lot> lots);
 
 }  // namespace reprise::traffic
