@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -139,6 +140,10 @@ std::vector<LegendEntry> legend_of(const world::TownT& town) {
     add_road(0, 35, "up to 30 km/h");
     add_road(35, 62, "up to 60 km/h");
     add_road(62, 1000, "above 60 km/h");
+    if (any(town.lanes, [](const world::LaneT& lane) {
+            return lane.kind == world::LaneKind::other && !lane.edge.starts_with(':');
+        }))
+        legend.push_back({Shape::area, {164, 138, 128}, "not for cars"});
     legend.push_back({Shape::arrow, {226, 229, 233}, "lane direction"});
     legend.push_back({Shape::area, {216, 209, 196}, "sidewalk"});
     if (!town.buildings.empty() || !town.drawn_buildings.empty())

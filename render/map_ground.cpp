@@ -43,16 +43,55 @@ double brightness(const GroundMesh& mesh, std::size_t triangle) {
     return 1 + std::clamp(0.6 * (normal.y() - normal.x()), -0.16, 0.08);
 }
 
-/// By the lane that a piece of road belongs to.
-Ink ink_of_road(const world::TownT& town, const world::LaneMap& lanes, const Eigen::Vector3d& p) {
-    Ink ink = other_lane_ink;
-    for (const world::LaneMap::Found& found : lanes.at(p, 0.1)) {
-        const world::LaneT& lane = town.lanes[found.lane];
-        if (lane.kind == world::LaneKind::driving)
-            return road_ink(lane.speed_limit);
-        ink = junction_ink;
+/// Lanes for others than cars (buses, bicycles, trams) outside of junctions, by place.
+class OtherLanes {
+  public:
+    explicit OtherLanes(const world::TownT& town) : town_(&town) {
+        std::vector<world::BoxGrid::Entry> entries;
+        for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
+            if (town.lanes[i].kind == world::LaneKind::other &&
+                !town.lanes[i].edge.starts_with(':'))
+                entries.push_back(
+                    {world::box_around(world::in_plan(town.lanes[i].centre), town.lanes[i].width),
+                     i});
+        by_place_ = world::BoxGrid(entries);
     }
-    return ink;
+
+    bool holds(const Eigen::Vector3d& p) const {
+        world::Box place;
+        place.take(p.head<2>());
+        for (const std::uint32_t i : by_place_.near(place))
+            if (world::project(town_->lanes[i], p).distance < town_->lanes[i].width / 2)
+                return true;
+        return false;
+    }
+
+  private:
+    const world::TownT* town_;
+    world::BoxGrid by_place_;
+};
+
+/// By the lane that a piece of road belongs to.
+Ink ink_of_road(const world::TownT& town,
+                const world::LaneMap& lanes,
+                const OtherLanes& others,
+                const Eigen::Vector3d& p) {
+    const std::vector<world::LaneMap::Found> found = lanes.at(p, 0.1);
+    for (const world::LaneMap::Found& lane : found)
+        if (town.lanes[lane.lane].kind == world::LaneKind::driving)
+            return road_ink(town.lanes[lane.lane].speed_limit);
+    return found.empty() && others.holds(p) ? other_lane_ink : junction_ink;
+}
+
+/// Where roads are finer than lines should be: as lines.
+void draw_roads_as_lines(const world::TownT& town, MapCanvas& canvas) {
+    const double least = 2.4 * canvas.unit();  // [pixels]
+    for (const world::LaneT& lane : town.lanes)
+        if (world::is_for_cars(lane) && lane.width * canvas.pixels_per_metre() < least)
+            canvas.line(
+                world::in_plan(lane.centre),
+                least,
+                lane.kind == world::LaneKind::driving ? road_ink(lane.speed_limit) : junction_ink);
 }
 
 }  // namespace
@@ -101,12 +140,13 @@ void draw_roads(const world::TownT& town, const GroundMesh& ground, MapCanvas& c
             order.emplace_back(middle_of(ground, i).z(), i);
     std::sort(order.begin(), order.end());
     const world::LaneMap lanes(town);
+    const OtherLanes others(town);
     const bool shows_kerbs = canvas.pixels_per_metre() > 1;
     for (const auto& [z, i] : order) {
         const world::Loop corners = corners_of(ground, i);
         switch (ground.surfaces[i]) {
             case Surface::road:
-                canvas.fill(corners, ink_of_road(town, lanes, middle_of(ground, i)));
+                canvas.fill(corners, ink_of_road(town, lanes, others, middle_of(ground, i)));
                 break;
             case Surface::crossing:
                 canvas.fill(corners, junction_ink);
@@ -122,6 +162,7 @@ void draw_roads(const world::TownT& town, const GroundMesh& ground, MapCanvas& c
                 break;
         }
     }
+    draw_roads_as_lines(town, canvas);
 }
 
 }  // namespace reprise::render

@@ -7,7 +7,7 @@
 
 namespace reprise::render {
 
-inline constexpr Ink land_ink{236, 234, 222};
+inline constexpr Ink land_ink{230, 234, 214};
 
 /// A line of the legend.
 struct LegendEntry {

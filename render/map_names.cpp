@@ -62,13 +62,27 @@ struct Written {
     double angle = 0;  ///< [rad]
 };
 
+/// The lane of each edge that lies at the road's middle: the one that knows the other direction, or
+/// else the edge's first.
+std::map<std::string, const world::LaneT*> middle_lanes(const world::TownT& town) {
+    std::map<std::string, const world::LaneT*> lanes;
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind == world::LaneKind::driving) {
+            const world::LaneT*& middle = lanes[lane.edge];
+            if (middle == nullptr || lane.opposite < town.lanes.size())
+                middle = &lane;
+        }
+    return lanes;
+}
+
 /// Both directions of a road share a name, and the middle between them.
 std::vector<Written> names_of_edges(const world::TownT& town) {
     std::vector<Written> names;
     std::set<std::string> seen;
-    for (const world::LaneT& lane : town.lanes) {
-        if (lane.kind != world::LaneKind::driving || !seen.insert(lane.edge).second)
+    for (const auto& [edge, middle] : middle_lanes(town)) {
+        if (!seen.insert(edge).second)
             continue;
+        const world::LaneT& lane = *middle;
         const auto text = writable(lane.street.empty() ? lane.edge : lane.street);
         if (!text)
             continue;
@@ -97,15 +111,21 @@ std::vector<Written> names_of_edges(const world::TownT& town) {
 
 void draw_names(const world::TownT& town, MapCanvas& canvas) {
     const double height = letter_height * canvas.unit();
-    // Junctions first: there is little choice where their names go.
-    std::vector<bool> has_signals_or_links(town.junctions.size(), false);
+    // Junctions first: there is little choice where their names go. Only where roads meet, and
+    // where the name is hardly wider than the place itself.
+    std::vector<bool> is_passed(town.junctions.size(), false);
     for (const world::LaneT& lane : town.lanes)
         if (lane.kind == world::LaneKind::internal && lane.junction < town.junctions.size())
-            has_signals_or_links[lane.junction] = true;
+            is_passed[lane.junction] = true;
     for (std::size_t i = 0; i < town.junctions.size(); ++i) {
-        const auto text = writable(town.junctions[i].name);
-        if (text && text->size() <= 12 && has_signals_or_links[i])
-            canvas.label(*text, world::in_plan(town.junctions[i].centre), 0, 0.95 * height);
+        const world::JunctionT& junction = town.junctions[i];
+        const auto text = writable(junction.name);
+        if (!text || !is_passed[i] || junction.outline.empty())
+            continue;
+        const world::Box box = world::box_around(world::in_plan(junction.outline));
+        const double room = (box.high - box.low).maxCoeff() * canvas.pixels_per_metre();
+        if (canvas.text_width(*text, 0.95 * height) < 1.4 * room)
+            canvas.label(*text, world::in_plan(junction.centre), 0, 0.95 * height);
     }
     // The longest of a street carries its name; others repeat it far from there only.
     constexpr double again = 450;  // [pixels] of a sheet of 1600

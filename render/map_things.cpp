@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "render/map_layers.h"
 #include "world/frames.h"
@@ -133,7 +134,8 @@ void draw_buildings(const world::TownT& town, MapCanvas& canvas) {
     for (const Roof& roof : roofs) {
         const Ink ink = roof_inks[roof.style % roof_inks.size()];
         canvas.fill(roof.outline, ink);
-        canvas.line(roof.outline, 0.8 * canvas.unit(), ink.times(0.72), true);
+        if (canvas.pixels_per_metre() > 0.9 * canvas.unit())
+            canvas.line(roof.outline, 0.8 * canvas.unit(), ink.times(0.72), true);
     }
 }
 

@@ -1,17 +1,21 @@
 #include "render/town_map.h"
 
+#include <algorithm>
+
 #include "render/map_layers.h"
 
 namespace reprise::render {
 
 namespace {
 
-/// The whole town with a little land around it.
+/// All that is for cars and walkers, with room around it for what stands beside the road.
 world::Box whole(const world::TownT& town) {
     world::Box box;
-    box.take(world::in_plan(town.low));
-    box.take(world::in_plan(town.high));
-    const double margin = std::max(10.0, 0.02 * (box.high - box.low).maxCoeff());  // [m]
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind != world::LaneKind::other)
+            for (const world::Vec3& p : lane.centre)
+                box.take(world::in_plan(p));
+    const double margin = std::max(32.0, 0.02 * (box.high - box.low).maxCoeff());  // [m]
     box.low -= Eigen::Vector2d::Constant(margin);
     box.high += Eigen::Vector2d::Constant(margin);
     return box;

@@ -36,10 +36,11 @@ inline constexpr double kerb_height = 0.15;
 /// Town 1: about 40 ms and 7,400 triangles.
 GroundMesh build_ground(const TownT& town);
 
-/// Painted lines of the town (Surface::marking): lane dividers, centre lines, edge lines, stop
-/// lines, zebra stripes. Derived, because road networks do not hold them: same-direction neighbours
-/// dashed, opposite directions a solid centre line, stop line where a lane ends at a signal or must
-/// give way.
+/// Painted lines of the town (Surface::marking). Derived, because road networks do not hold them:
+/// dashes between lanes of one direction; between directions a centre line, dashed in towns and
+/// solid near junctions, in bends and on fast or wide roads; edge lines where there is no kerb; stop
+/// lines at signals and stop signs, shark's teeth where one must give way; arrows where lanes lead
+/// to different turns; zebra stripes.
 GroundMesh build_markings(const TownT& town);
 
 }  // namespace reprise::world

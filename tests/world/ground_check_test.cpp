@@ -1,0 +1,129 @@
+#include "world/ground_check.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/worlds.h"
+#include "tests/world/places.h"
+#include "world/ground_probe.h"
+#include "world/town.h"
+
+namespace reprise {
+namespace {
+
+using world::Criterion;
+using world::GroundMesh;
+using world::LaneKind;
+using world::Surface;
+using world::TownT;
+
+const Criterion& find(const std::vector<Criterion>& criteria, const std::string& name) {
+    for (const Criterion& criterion : criteria)
+        if (criterion.name == name)
+            return criterion;
+    ADD_FAILURE() << "no criterion " << name;
+    return criteria.front();
+}
+
+/// Moves every vertex of some surface.
+GroundMesh moved(GroundMesh mesh, Surface surface, const Eigen::Vector3d& by) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        if (mesh.surfaces[i] == surface)
+            for (std::uint32_t& vertex : mesh.triangles[i]) {
+                mesh.vertices.push_back(mesh.vertices[vertex] + by);
+                vertex = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+            }
+    return mesh;
+}
+
+TEST(GroundCheck, PassesTheGroundOfItsTown) {
+    for (const TownT& town :
+         {test::t_junction(), test::t_junction(0.03), test::bridge(), test::straight_road(100, 2)})
+        for (const Criterion& criterion : world::check_ground(town, world::build_ground(town)))
+            EXPECT_TRUE(criterion.passed())
+                << town.name << ": " << criterion.name << ' ' << criterion.figure;
+}
+
+TEST(GroundCheck, MeasuresHowFarTheGroundIsOffItsLane) {
+    const TownT town = test::t_junction();
+    const GroundMesh ground = moved(world::build_ground(town), Surface::road, {0, 0, 0.08});
+    const auto criteria = world::check_ground(town, ground);
+    const Criterion& off = find(criteria, "ground under lanes");
+    EXPECT_FALSE(off.passed());
+    EXPECT_NEAR(off.figure, 0.08, 1e-9);
+    ASSERT_EQ(off.worst.size(), 5U);
+    EXPECT_NEAR(off.worst[0].value, 0.08, 1e-9);
+}
+
+TEST(GroundCheck, NamesTheLaneWithoutARoad) {
+    TownT town = test::t_junction();
+    const GroundMesh ground = world::build_ground(town);
+    town.lanes.push_back(test::lane("nowhere_0", LaneKind::driving, {{0, 40, 0}, {40, 40, 0}}));
+    const Criterion off = find(world::check_ground(town, ground), "ground under lanes");
+    EXPECT_FALSE(off.passed());
+    ASSERT_EQ(off.worst.size(), 1U);
+    EXPECT_EQ(off.worst[0].name, "nowhere_0");
+    EXPECT_NEAR(off.worst[0].position.y(), 40, 1e-9);
+}
+
+TEST(GroundCheck, MeasuresTheDistanceOfKerbs) {
+    // The northern sidewalk starts 1.75 m from the centre line of the lanes that go west.
+    const TownT town = test::straight_road(100);
+    const GroundMesh ground = world::build_ground(town);
+    const double clear = find(world::check_ground(town, ground), "kerbs clear of lanes").figure;
+    EXPECT_NEAR(clear, 1.75, 0.01);
+    const GroundMesh nearer =
+        moved(moved(ground, Surface::kerb, {0, 1.2, 0}), Surface::sidewalk, {0, 1.2, 0});
+    const Criterion kerbs = find(world::check_ground(town, nearer), "kerbs clear of lanes");
+    EXPECT_FALSE(kerbs.passed());
+    EXPECT_NEAR(kerbs.figure, clear - 1.2, 0.01);
+}
+
+TEST(GroundCheck, CountsHolesAndGaps) {
+    TownT town = test::t_junction();
+    GroundMesh ground = world::build_ground(town);
+    GroundMesh roads{ground.vertices, {}, {}};
+    for (std::size_t i = 0; i < ground.triangles.size(); ++i)
+        if (ground.surfaces[i] != Surface::terrain) {
+            roads.triangles.push_back(ground.triangles[i]);
+            roads.surfaces.push_back(ground.surfaces[i]);
+        }
+    EXPECT_GT(find(world::check_ground(town, roads), "holes in the ground").figure, 100);
+
+    EXPECT_EQ(find(world::check_ground(town, ground), "lanes join").figure, 0.05) << "no links yet";
+    // east_in_1 leads to west_out_1 by :t_2_0, which starts where it ends.
+    const auto at = [&](const char* name) { return *world::find_lane(town, name); };
+    town.lanes[at("east_in_1")].links = {
+        world::Link(at("west_out_1"), at(":t_2_0"), world::none, world::Turn::straight, false, 0)};
+    EXPECT_EQ(find(world::check_ground(town, ground), "lanes join").figure, 0);
+    town.lanes[at(":t_2_0")].centre[0] = world::Vec3(60, 1.75, 0.2);
+    EXPECT_NEAR(find(world::check_ground(town, ground), "lanes join").figure, 0.2, 1e-9);
+}
+
+TEST(GroundProbe, AgreesWithAPlumbLineThatAsksEveryTriangle) {
+    const GroundMesh ground = world::build_ground(test::t_junction(0.04));
+    const world::GroundProbe probe(ground);
+    int hits = 0;
+    for (double x = -3.3; x < 105; x += 3.7)
+        for (double y = -61.1; y < 10; y += 2.9)
+            for (const double z : {1.0, 50.0}) {
+                const auto slow = test::plumb(ground, {x, y, z});
+                const auto fast = probe.below({x, y, z});
+                ASSERT_EQ(slow.has_value(), fast.has_value()) << x << ' ' << y;
+                if (!slow)
+                    continue;
+                EXPECT_NEAR(slow->z, fast->z, 1e-9);
+                ++hits;
+            }
+    EXPECT_GT(hits, 500);
+}
+
+TEST(GroundCheck, SeesEveryBitOfAMesh) {
+    const GroundMesh ground = world::build_ground(test::t_junction());
+    GroundMesh other = ground;
+    EXPECT_EQ(world::digest_of(ground), world::digest_of(other));
+    other.vertices[3].z() += 1e-12;
+    EXPECT_NE(world::to_hex(world::digest_of(ground)), world::to_hex(world::digest_of(other)));
+}
+
+}  // namespace
+}  // namespace reprise
