@@ -43,7 +43,8 @@ struct Path {
 struct Meeting {
     int one = fixed;
     int other = fixed;
-    double difference = 0;  ///< [m] of the second's height less the first's
+    double difference =
+        0;  ///< [m] of the second's height over the junction's plane less the first's
     double weight = 0;
 };
 
@@ -89,7 +90,7 @@ class LeastSquares {
 /// The paths of one junction.
 class Leveller {
   public:
-    Leveller(const TownT& town, const JunctionParts& parts);
+    Leveller(const TownT& town, std::uint32_t junction, const JunctionParts& parts);
 
     /// Do paths disagree anywhere?
     bool is_needed() const;
@@ -104,10 +105,12 @@ class Leveller {
 
     std::vector<Path> paths_;
     std::vector<Meeting> meetings_;
+    Eigen::Vector2d slope_;  ///< of the junction: samples beside each other may differ by it
     int unknowns_ = 0;
 };
 
-Leveller::Leveller(const TownT& town, const JunctionParts& parts) {
+Leveller::Leveller(const TownT& town, std::uint32_t junction, const JunctionParts& parts)
+    : slope_(height_of_junction(town, junction, parts).slope()) {
     for (const std::uint32_t lane : parts.paths)
         paths_.push_back({lane, resampled(clean_line(town.lanes[lane].centre)), {}});
     number_samples();
@@ -150,8 +153,10 @@ void Leveller::meet(const Path& one, const Path& other) {
             const Eigen::Vector3d apart = other.samples[k] - one.samples[i];
             const double distance = apart.head<2>().norm();
             if (distance < reach && std::abs(apart.z()) < storey)
-                meetings_.push_back(
-                    {one.unknowns[i], other.unknowns[k], apart.z(), 1 - distance / reach});
+                meetings_.push_back({one.unknowns[i],
+                                     other.unknowns[k],
+                                     apart.z() - slope_.dot(apart.head<2>()),
+                                     1 - distance / reach});
         }
 }
 
@@ -222,8 +227,9 @@ void Leveller::apply(TownT& town) const {
 }  // namespace
 
 void level_paths(TownT& town) {
-    for (const JunctionParts& parts : parts_of_junctions(town)) {
-        const Leveller leveller(town, parts);
+    const std::vector<JunctionParts> parts = parts_of_junctions(town);
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+        const Leveller leveller(town, i, parts[i]);
         if (leveller.is_needed())
             leveller.apply(town);
     }

@@ -29,6 +29,9 @@ class SurfaceHeight {
     /// Is it one plane, so that it need not be cut into cells?
     bool is_plane() const { return is_plane_; }
 
+    /// Of the plane that fits best. [m/m], east and north.
+    const Eigen::Vector2d& slope() const { return slope_; }
+
   private:
     bool is_plane_ = true;
     Eigen::Vector3d base_ = Eigen::Vector3d::Zero();  ///< a point of the plane

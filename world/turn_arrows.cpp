@@ -16,8 +16,10 @@ constexpr double next_arrow = 24.0;     ///< [m] between arrows
 constexpr double half_shaft = 0.075;    ///< [m]
 constexpr double head_length = 1.6;     ///< [m] of the straight head
 constexpr double half_head = 0.38;      ///< [m]
-constexpr double side_head = 0.75;      ///< [m] of a turn's head, across the lane
+constexpr double cross_shaft = 0.5;     ///< [m] of a turn, from the lane's middle to its head
+constexpr double side_head = 0.7;       ///< [m] of a turn's head, across the lane
 constexpr double half_side_head = 0.7;  ///< [m] of the same, along the lane
+constexpr double slant = 0.3;           ///< [m] by which a turn's shaft leans ahead
 constexpr double elbow = 2.9;           ///< [m] from the arrow's foot to a turn's shaft
 
 struct Turns {
@@ -58,22 +60,23 @@ bool has_a_choice(const TownT& town, std::uint32_t lane) {
 
 /// A turn to one side: +1 left, -1 right.
 void paint_side(const Line& centre, double foot, double side, Paint& paint) {
-    const double at = foot + elbow;
-    const double shaft_end = 0.3;  // [m] of the cross shaft, from the middle
+    const double from = foot + elbow;
+    const double to = from + slant;
+    constexpr double half = 1.6 * half_shaft;  // seen slantwise from a car
     paint.shape(centre,
-                {{at - half_shaft, side * half_shaft},
-                 {at + half_shaft, side * half_shaft},
-                 {at + half_shaft + 0.35, side * shaft_end},
-                 {at - half_shaft + 0.35, side * shaft_end}});
+                {{from - half, 0},
+                 {from + half, 0},
+                 {to + half, side * cross_shaft},
+                 {to - half, side * cross_shaft}});
     paint.shape(centre,
-                {{at + 0.35 - half_side_head, side * shaft_end},
-                 {at + 0.35 + half_side_head, side * shaft_end},
-                 {at + 0.55, side * (shaft_end + side_head)}});
+                {{to - half_side_head, side * cross_shaft},
+                 {to + half_side_head, side * cross_shaft},
+                 {to + slant, side * (cross_shaft + side_head)}});
 }
 
 void paint_arrow(const Line& centre, double tip, const Turns& turns, Paint& paint) {
     const double foot = tip - arrow_length;
-    const double shaft = turns.straight ? tip - head_length : foot + elbow + half_shaft;
+    const double shaft = turns.straight ? tip - head_length : foot + elbow;
     paint.shape(
         centre,
         {{foot, -half_shaft}, {shaft, -half_shaft}, {shaft, half_shaft}, {foot, half_shaft}});
