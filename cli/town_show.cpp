@@ -1,5 +1,7 @@
 #include "cli/town_show.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "cli/guard.h"
@@ -16,6 +18,12 @@ world::Box region_of(const std::vector<double>& numbers) {
     world::Box region;
     if (numbers.empty())
         return region;
+    const bool finite = std::all_of(
+        numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
+    if (numbers.size() != 4 || !finite)
+        throw world::Error(
+            "--region: expected four numbers: x and y of the south-west corner, width and height "
+            "in metres, such as 0,150,80,60");
     const Eigen::Vector2d corner(numbers[0], numbers[1]);
     const Eigen::Vector2d size(numbers[2], numbers[3]);
     constexpr double least = 10;  // [m]
