@@ -17,14 +17,16 @@ void add_fence(Builder& build, const PropSize& size) {
     const float half = 0.5F * size.length;
     const int panels = std::max(1, static_cast<int>(size.length / 2.5F + 0.5F));
     for (int i = 0; i <= panels; ++i) {
-        const float x = mix(-half + .04F, half - .04F, static_cast<float>(i) / static_cast<float>(panels));
+        const float x =
+            mix(-half + .04F, half - .04F, static_cast<float>(i) / static_cast<float>(panels));
         build.box({x - .04F, -.04F, -.2F}, {x + .04F, .04F, size.height + .06F}, timber);
     }
     for (const float z : {.22F, size.height - .2F})
         build.box({-half, .005F, z - .035F}, {half, .03F, z + .035F}, timber);
     const int pales = std::max(2, static_cast<int>(size.length / 0.155F));
     for (int i = 0; i < pales; ++i) {
-        const float x = mix(-half, half, (static_cast<float>(i) + 0.5F) / static_cast<float>(pales));
+        const float x =
+            mix(-half, half, (static_cast<float>(i) + 0.5F) / static_cast<float>(pales));
         const float low = .08F;
         const float high = size.height - .05F;
         // Boards with points: both faces, and the edges that are seen from the street.
@@ -35,11 +37,19 @@ void add_fence(Builder& build, const PropSize& size) {
             const Vector3f c(x + .042F, y, high);
             const Vector3f d(x - .042F, y, high);
             const Vector3f tip(x, y, high + .05F);
-            build.quad(front ? std::array<Vector3f, 4>{a, b, c, d} : std::array<Vector3f, 4>{b, a, d, c}, timber);
-            build.triangle(front ? std::array<Vector3f, 3>{d, c, tip} : std::array<Vector3f, 3>{c, d, tip}, timber);
+            build.quad(
+                front ? std::array<Vector3f, 4>{a, b, c, d} : std::array<Vector3f, 4>{b, a, d, c},
+                timber);
+            build.triangle(
+                front ? std::array<Vector3f, 3>{d, c, tip} : std::array<Vector3f, 3>{c, d, tip},
+                timber);
         }
         for (const float side : {-.042F, .042F})
-            build.quad({Vector3f(x + side, .004F, low), Vector3f(x + side, -.018F, low), Vector3f(x + side, -.018F, high), Vector3f(x + side, .004F, high)}, timber);
+            build.quad({Vector3f(x + side, .004F, low),
+                        Vector3f(x + side, -.018F, low),
+                        Vector3f(x + side, -.018F, high),
+                        Vector3f(x + side, .004F, high)},
+                       timber);
     }
 }
 
@@ -53,9 +63,13 @@ void add_wall(Builder& build, const PropSize& size) {
     const int piers = static_cast<int>(size.length / 4);
     for (int i = 0; i <= piers && size.height > .9F; ++i) {
         const float reach = half - .22F;
-        const float x = piers == 0 ? -reach : mix(-reach, reach, static_cast<float>(i) / static_cast<float>(piers));
+        const float x = piers == 0
+                            ? -reach
+                            : mix(-reach, reach, static_cast<float>(i) / static_cast<float>(piers));
         build.box({x - .22F, -y - .05F, -.3F}, {x + .22F, y + .05F, size.height + .02F}, masonry);
-        build.box({x - .26F, -y - .09F, size.height + .02F}, {x + .26F, y + .09F, size.height + .10F}, coping);
+        build.box({x - .26F, -y - .09F, size.height + .02F},
+                  {x + .26F, y + .09F, size.height + .10F},
+                  coping);
     }
 }
 
@@ -64,7 +78,9 @@ void add_hedge(Mesh& mesh, Builder& build, const PropSize& size) {
     const PropTag tag{PropKind::hedge, PropFinish::foliage};
     const Finish leaf{Material::prop, tag.bits()};
     const Vector3f half(0.5F * size.length, 0.5F * size.width, 0.5F * size.height);
-    build.box({-half.x() + .08F, -half.y() + .08F, -.1F}, {half.x() - .08F, half.y() - .08F, size.height - .08F}, leaf);
+    build.box({-half.x() + .08F, -half.y() + .08F, -.1F},
+              {half.x() - .08F, half.y() - .08F, size.height - .08F},
+              leaf);
     smooth(mesh, 0.3);
     Draws draws(hash(static_cast<std::uint32_t>(size.length * 10), 81));
     const float area = 2 * size.height * (size.length + size.width) + size.length * size.width;

@@ -13,6 +13,9 @@ class Builder {
 
     const Eigen::Isometry3f& pose() const { return pose_; }
 
+    /// One that adds to the same mesh in another frame.
+    Builder in(const Eigen::Isometry3f& pose) const { return {mesh_, pose}; }
+
     void box(const Eigen::Vector3f& low, const Eigen::Vector3f& high, Finish finish);
 
     /// Corners counter-clockwise seen from outside.
@@ -29,8 +32,7 @@ class Builder {
                Finish rest);
 
     /// From a square of half size `low` at `foot` to one of half size `high`, `height` above it.
-    void frustum(
-        const Eigen::Vector3f& foot, float low, float high, float height, Finish finish);
+    void frustum(const Eigen::Vector3f& foot, float low, float high, float height, Finish finish);
 
     /// Round about the vertical through `foot`: pairs of radius and height above it, upwards.
     void lathe(const Eigen::Vector3f& foot,

@@ -20,7 +20,8 @@ enum class Railing : std::uint8_t { panel, glass, bars };
 /// A slab with a railing on three sides, standing out of the wall at y.
 void add_balcony(BuildingSite& site, float left, float right, float y, float z, Railing railing) {
     const float out = y - 1.15F;
-    site.build.box({left, out, z - .16F}, {right, y + .02F, z + .02F}, site.finish(BuildingFinish::trim));
+    site.build.box(
+        {left, out, z - .16F}, {right, y + .02F, z + .02F}, site.finish(BuildingFinish::trim));
     const Finish metal = site.finish(BuildingFinish::metal);
     const auto fence = [&](float low, float high, float thickness, Finish finish) {
         site.build.box({left, out, z + low}, {right, out + thickness, z + high}, finish);
@@ -50,7 +51,12 @@ void add_balconies(BuildingSite& site) {
     for (int level = 1; level <= plan.floors; ++level)
         for (int i = 0; i < columns; ++i)
             if (has_balcony(plan.model, i, columns))
-                add_balcony(site, column_at(plan, i) + .1F, column_at(plan, i + 1) - .1F, -plan.y, plan.floor(level), railing);
+                add_balcony(site,
+                            column_at(plan, i) + .1F,
+                            column_at(plan, i + 1) - .1F,
+                            -plan.y,
+                            plan.floor(level),
+                            railing);
 }
 
 /// Bay windows over the height of the front, with small roofs.
@@ -59,8 +65,10 @@ void add_bays(BuildingSite& site) {
     const int columns = plan.columns(2 * plan.x);
     const float out = 0.6F;
     for (int i = 0; i < columns; ++i) {
-        const bool door = plan.model.use == world::BuildingUse::terrace ? i % 2 == 0 : i == columns / 2;
-        const bool here = plan.model.use == world::BuildingUse::terrace ? !door : (i == 0 || i == columns - 1);
+        const bool door =
+            plan.model.use == world::BuildingUse::terrace ? i % 2 == 0 : i == columns / 2;
+        const bool here =
+            plan.model.use == world::BuildingUse::terrace ? !door : (i == 0 || i == columns - 1);
         if (!here)
             continue;
         const float left = column_at(plan, i) + .2F;
@@ -71,7 +79,13 @@ void add_bays(BuildingSite& site) {
         site.wall({left, y, 0}, {left + .3F, y - out, 0}, top, WallUse::blank);
         site.wall({right - .3F, y - out, 0}, {right, y, 0}, top, WallUse::blank);
         const Finish trim = site.finish(BuildingFinish::trim);
-        site.build.plate({{left - .1F, y, top + .1F}, {left + .25F, y - out - .1F, top + .1F}, {right - .25F, y - out - .1F, top + .1F}, {right + .1F, y, top + .1F}}, .16F, trim, trim);
+        site.build.plate({{left - .1F, y, top + .1F},
+                          {left + .25F, y - out - .1F, top + .1F},
+                          {right - .25F, y - out - .1F, top + .1F},
+                          {right + .1F, y, top + .1F}},
+                         .16F,
+                         trim,
+                         trim);
     }
 }
 
@@ -91,9 +105,14 @@ void add_porch(BuildingSite& site, float x, bool posts) {
         else
             site.build.plate({ridge, eave, eave + in, ridge + in}, .08F, tiles, timber);
         if (posts)
-            site.build.box({x + side * .82F - .06F, y - out + .1F, 0}, {x + side * .82F + .06F, y - out + .22F, z}, timber);
+            site.build.box({x + side * .82F - .06F, y - out + .1F, 0},
+                           {x + side * .82F + .06F, y - out + .22F, z},
+                           timber);
     }
-    site.build.triangle({Vector3f(x - .95F, y - out + .04F, z), Vector3f(x + .95F, y - out + .04F, z), Vector3f(x, y - out + .04F, z + .55F)}, timber);
+    site.build.triangle({Vector3f(x - .95F, y - out + .04F, z),
+                         Vector3f(x + .95F, y - out + .04F, z),
+                         Vector3f(x, y - out + .04F, z + .55F)},
+                        timber);
     site.build.box({x - .8F, y - out, -.3F}, {x + .8F, y, .13F}, site.finish(BuildingFinish::trim));
 }
 
@@ -113,21 +132,34 @@ void add_shop(BuildingSite& site, float y) {
     const float high = plan.ground_floor - .22F;
     const float x = plan.x - .35F;
     // One board a shop: wide houses hold several.
-    const int shops = plan.model.use == world::BuildingUse::shop && plan.model.longest > 35 ? 1 : std::max(1, static_cast<int>(2 * plan.x / 8.5F));
+    const int shops = plan.model.use == world::BuildingUse::shop && plan.model.longest > 35
+                          ? 1
+                          : std::max(1, static_cast<int>(2 * plan.x / 8.5F));
     const float width = 2 * x / static_cast<float>(shops);
     const Finish trim = site.finish(BuildingFinish::trim);
     for (int i = 0; i < shops; ++i) {
         const float left = -x + width * static_cast<float>(i) + .12F;
         const float right = left + width - .24F;
         site.build.box({left, y - .10F, low}, {right, y + .02F, high}, trim);
-        site.wall({left + .03F, y - .115F, low + .03F}, {right - .03F, y - .115F, low + .03F}, high - .03F, WallUse::sign);
-        if (!plan.has(world::part_awning) || hash(plan.seed, 45, static_cast<std::uint32_t>(i)) % 4 == 0)
+        site.wall({left + .03F, y - .115F, low + .03F},
+                  {right - .03F, y - .115F, low + .03F},
+                  high - .03F,
+                  WallUse::sign);
+        if (!plan.has(world::part_awning) ||
+            hash(plan.seed, 45, static_cast<std::uint32_t>(i)) % 4 == 0)
             continue;
         const Finish awning = site.finish(BuildingFinish::awning);
         const float out = y - 1.25F;
         const float edge = low - .72F;
-        site.build.plate({{left + .1F, out, edge}, {right - .1F, out, edge}, {right - .1F, y, low - .04F}, {left + .1F, y, low - .04F}}, .03F, awning, awning);
-        site.build.box({left + .1F, out - .015F, edge - .24F}, {right - .1F, out + .01F, edge}, awning);
+        site.build.plate({{left + .1F, out, edge},
+                          {right - .1F, out, edge},
+                          {right - .1F, y, low - .04F},
+                          {left + .1F, y, low - .04F}},
+                         .03F,
+                         awning,
+                         awning);
+        site.build.box(
+            {left + .1F, out - .015F, edge - .24F}, {right - .1F, out + .01F, edge}, awning);
     }
 }
 
@@ -168,12 +200,15 @@ void add_fire_escape(BuildingSite& site) {
             const Vector3f low = at(0, across, 0);
             const Vector3f high = at(1, across, 0);
             site.build.tube({low, high, .05F, .05F, 4}, metal);
-            site.build.tube({low + Vector3f(0, 0, .85F), high + Vector3f(0, 0, .85F), .02F, .02F, 4}, metal);
+            site.build.tube(
+                {low + Vector3f(0, 0, .85F), high + Vector3f(0, 0, .85F), .02F, .02F, 4}, metal);
         }
         const int steps = 11;
         for (int i = 1; i < steps; ++i) {
             const Vector3f p = at(static_cast<float>(i) / steps, 0, 0);
-            site.build.box({p.x() - .11F, out + .16F, p.z() - .02F}, {p.x() + .11F, out + .7F, p.z() + .01F}, metal);
+            site.build.box({p.x() - .11F, out + .16F, p.z() - .02F},
+                           {p.x() + .11F, out + .7F, p.z() + .01F},
+                           metal);
         }
     }
 }

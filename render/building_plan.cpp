@@ -48,14 +48,16 @@ std::span<const Scheme> schemes(FacadeKind facade) {
                                               {{.57F, .52F, .43F}, {.63F, .59F, .51F}, bronze},
                                               {{.38F, .36F, .34F}, pale_stone, anthracite},
                                               {{.52F, .43F, .33F}, {.60F, .54F, .44F}, white}}};
-    static const std::array<Scheme, 5> office{{{{.42F, .43F, .44F}, white, anthracite},
-                                               {{.58F, .57F, .54F}, white, anthracite},
-                                               {{.29F, .31F, .34F}, {.45F, .46F, .47F}, anthracite},
-                                               {{.52F, .46F, .38F}, white, bronze},
-                                               {{.60F, .61F, .62F}, {.35F, .37F, .40F}, anthracite}}};
-    static const std::array<Scheme, 3> glass{{{{.16F, .17F, .18F}, {.30F, .31F, .32F}, anthracite},
-                                              {{.10F, .12F, .13F}, {.24F, .27F, .28F}, anthracite},
-                                              {{.34F, .35F, .36F}, {.50F, .51F, .52F}, anthracite}}};
+    static const std::array<Scheme, 5> office{
+        {{{.42F, .43F, .44F}, white, anthracite},
+         {{.58F, .57F, .54F}, white, anthracite},
+         {{.29F, .31F, .34F}, {.45F, .46F, .47F}, anthracite},
+         {{.52F, .46F, .38F}, white, bronze},
+         {{.60F, .61F, .62F}, {.35F, .37F, .40F}, anthracite}}};
+    static const std::array<Scheme, 3> glass{
+        {{{.16F, .17F, .18F}, {.30F, .31F, .32F}, anthracite},
+         {{.10F, .12F, .13F}, {.24F, .27F, .28F}, anthracite},
+         {{.34F, .35F, .36F}, {.50F, .51F, .52F}, anthracite}}};
     static const std::array<Scheme, 7> timber{{{{.66F, .65F, .61F}, white, white},
                                                {{.30F, .065F, .045F}, white, white},
                                                {{.34F, .40F, .34F}, white, white},
@@ -113,7 +115,8 @@ float roof_rise(const world::BuildingModel& model, float x, float y, std::uint32
 }  // namespace
 
 BuildingPaint::BuildingPaint(const world::BuildingModel& of, std::uint32_t seed_of_it)
-    : model(&of), seed(seed_of_it) {
+    : model(&of),
+      seed(seed_of_it) {
     static const std::array<Color, 6> tiles{Color(.35F, .115F, .058F),
                                             Color(.26F, .095F, .062F),
                                             Color(.115F, .118F, .128F),
@@ -162,11 +165,8 @@ BuildingPaint::BuildingPaint(const world::BuildingModel& of, std::uint32_t seed_
     door_every = of.use == BuildingUse::terrace && !has(world::part_shop_front) ? 2 : 0;
 }
 
-BuildingPlan::BuildingPlan(const world::BuildingModel& of,
-                           double length,
-                           double width,
-                           double height,
-                           std::uint32_t style)
+BuildingPlan::BuildingPlan(
+    const world::BuildingModel& of, double length, double width, double height, std::uint32_t style)
     : model(of),
       seed(hash(style, 0x5eedu)),
       x(static_cast<float>(length / 2)),

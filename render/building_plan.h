@@ -27,10 +27,10 @@ struct Wall {
     Eigen::Vector3f along;  ///< unit vector to the right
     float length;
     float height;
-    float ground_floor;    ///< height of the ground floor above `foot`; 0: none
-    float floor_height;    ///< of those above
-    int floors;            ///< above the ground floor
-    int columns;           ///< of windows
+    float ground_floor;  ///< height of the ground floor above `foot`; 0: none
+    float floor_height;  ///< of those above
+    int floors;          ///< above the ground floor
+    int columns;         ///< of windows
     WallUse use;
     std::uint32_t building;  ///< index in Facades.buildings
     std::uint32_t seed;
@@ -46,10 +46,10 @@ struct BuildingPaint {
     Color trim;   ///< sills, ledges, columns
     Color frame;  ///< of windows
     Color door;
-    Color roof;    ///< tiles or slates
-    Color accent;  ///< awnings, signs, shutters, gates
-    bool arched;        ///< windows with round heads
-    bool shutters;      ///< beside the windows
+    Color roof;          ///< tiles or slates
+    Color accent;        ///< awnings, signs, shutters, gates
+    bool arched;         ///< windows with round heads
+    bool shutters;       ///< beside the windows
     bool half_timbered;  ///< beams on pale infill
     int door_every;      ///< columns from one front door to the next; 0: one door
 
@@ -82,11 +82,15 @@ inline constexpr std::uint32_t building_finishes = 16;
 /// A building's numbers; mesh and looks agree through them. Frame: x along the street, front at -y,
 /// origin in the middle of the footprint, on the ground. [m]
 struct BuildingPlan {
-    BuildingPlan(const world::BuildingModel& model, double length, double width, double height,
+    BuildingPlan(const world::BuildingModel& model,
+                 double length,
+                 double width,
+                 double height,
                  std::uint32_t style);
 
     /// That of a building of the town; for one without a model by its style.
-    static const world::BuildingModel& model_of(std::uint32_t model, double height,
+    static const world::BuildingModel& model_of(std::uint32_t model,
+                                                double height,
                                                 std::uint32_t style);
 
     const world::BuildingModel& model;
@@ -96,8 +100,8 @@ struct BuildingPlan {
     float eaves;  ///< height of the walls
     float ground_floor;
     float floor_height;
-    int floors;   ///< above the ground floor
-    float rise;   ///< of the roof above the eaves; 0 when flat
+    int floors;  ///< above the ground floor
+    float rise;  ///< of the roof above the eaves; 0 when flat
 
     bool has(world::BuildingPart part) const { return (model.parts & part) != 0; }
 

@@ -20,10 +20,8 @@ void add_slope(BuildingSite& site, const std::vector<Vector3f>& corners) {
     std::vector<Vector3f> raised;
     for (const Vector3f& corner : corners)
         raised.push_back(corner + Vector3f(0, 0, thick));
-    site.build.plate(raised,
-                     thick,
-                     site.finish(BuildingFinish::tiles),
-                     site.finish(BuildingFinish::trim));
+    site.build.plate(
+        raised, thick, site.finish(BuildingFinish::tiles), site.finish(BuildingFinish::trim));
 }
 
 /// Steep lower and flat upper slopes all around.
@@ -121,7 +119,14 @@ void add_dome(BuildingSite& site) {
     const float radius = 0.36F * std::min(plan.x, plan.y);
     const Vector3f foot(0, 0, plan.eaves - .5F);
     site.build.lathe(foot,
-                     {{0, 0}, {radius * 1.15F, 0}, {radius * 1.15F, .9F}, {radius * 1.02F, .9F}, {radius * 1.02F, 3.1F}, {radius * 1.12F, 3.15F}, {radius * 1.12F, 3.4F}, {0, 3.4F}},
+                     {{0, 0},
+                      {radius * 1.15F, 0},
+                      {radius * 1.15F, .9F},
+                      {radius * 1.02F, .9F},
+                      {radius * 1.02F, 3.1F},
+                      {radius * 1.12F, 3.15F},
+                      {radius * 1.12F, 3.4F},
+                      {0, 3.4F}},
                      24,
                      site.finish(BuildingFinish::trim));
     std::vector<Vector2f> cap;
@@ -133,7 +138,12 @@ void add_dome(BuildingSite& site) {
     site.build.lathe(foot, cap, 24, site.finish(BuildingFinish::copper));
     const float top = 3.4F + radius * 1.08F;
     site.build.lathe(foot,
-                     {{.55F, top - .2F}, {.5F, top + 1.2F}, {.65F, top + 1.25F}, {.05F, top + 2.1F}, {.03F, top + 3.1F}, {0, top + 3.1F}},
+                     {{.55F, top - .2F},
+                      {.5F, top + 1.2F},
+                      {.65F, top + 1.25F},
+                      {.05F, top + 2.1F},
+                      {.03F, top + 3.1F},
+                      {0, top + 3.1F}},
                      10,
                      site.finish(BuildingFinish::copper));
 }
@@ -148,18 +158,34 @@ void add_church(BuildingSite& site) {
     const float x = -plan.x + half - 0.02F;
     const Vector3f low(x - half, -half, plan.eaves - 1);
     site.walls_around(low, {x + half, half, tower - 3.4F}, WallUse::blank, WallUse::blank);
-    site.walls_around({low.x(), low.y(), tower - 3.4F}, {x + half, half, tower}, WallUse::belfry, WallUse::belfry);
+    site.walls_around({low.x(), low.y(), tower - 3.4F},
+                      {x + half, half, tower},
+                      WallUse::belfry,
+                      WallUse::belfry);
     const Finish trim = site.finish(BuildingFinish::trim);
-    site.build.box({x - half - .15F, -half - .15F, tower - .1F}, {x + half + .15F, half + .15F, tower + .2F}, trim);
-    site.build.frustum({x, 0, tower + .2F}, half + .1F, .04F, half * (large ? 4.2F : 3.0F),
+    site.build.box({x - half - .15F, -half - .15F, tower - .1F},
+                   {x + half + .15F, half + .15F, tower + .2F},
+                   trim);
+    site.build.frustum({x, 0, tower + .2F},
+                       half + .1F,
+                       .04F,
+                       half * (large ? 4.2F : 3.0F),
                        site.finish(large ? BuildingFinish::copper : BuildingFinish::tiles));
-    site.build.tube({{x, 0, tower + half * 3}, {x, 0, tower + half * (large ? 4.2F : 3.0F) + 1.3F}, .05F, .04F, 5}, site.finish(BuildingFinish::metal));
+    site.build.tube({{x, 0, tower + half * 3},
+                     {x, 0, tower + half * (large ? 4.2F : 3.0F) + 1.3F},
+                     .05F,
+                     .04F,
+                     5},
+                    site.finish(BuildingFinish::metal));
     if (large) {
         const float face = 0.75F * half;
         for (const float side : {-1.0F, 1.0F}) {
             const float y = side * (half + .03F);
             const float low_z = tower - 3.4F - 2 * face;
-            site.wall({x + side * face, y, low_z}, {x - side * face, y, low_z}, tower - 3.4F, WallUse::clock);
+            site.wall({x + side * face, y, low_z},
+                      {x - side * face, y, low_z},
+                      tower - 3.4F,
+                      WallUse::clock);
         }
     }
     // Buttresses between the windows of the nave.
@@ -167,9 +193,10 @@ void add_church(BuildingSite& site) {
     for (int i = 1; i < columns && large; ++i) {
         const float at = -plan.x + 2 * plan.x * static_cast<float>(i) / static_cast<float>(columns);
         for (const float side : {-1.0F, 1.0F})
-            site.build.box({at - .3F, std::min(side * plan.y, side * (plan.y + .55F)), -.4F},
-                           {at + .3F, std::max(side * plan.y, side * (plan.y + .55F)), plan.eaves * 0.8F},
-                           trim);
+            site.build.box(
+                {at - .3F, std::min(side * plan.y, side * (plan.y + .55F)), -.4F},
+                {at + .3F, std::max(side * plan.y, side * (plan.y + .55F)), plan.eaves * 0.8F},
+                trim);
     }
 }
 

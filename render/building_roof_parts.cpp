@@ -36,8 +36,13 @@ void add_chimneys(BuildingSite& site) {
         // On every other party wall.
         const int homes = std::max(2, plan.columns(2 * plan.x) / 2);
         for (int i = 0; i <= homes; i += 2) {
-            const float x = -plan.x + 0.6F + (2 * plan.x - 1.2F) * static_cast<float>(i) / static_cast<float>(homes);
-            add_chimney(site, x, plan.y * 0.12F, plan.eaves + plan.rise + (plan.model.roof == RoofKind::mansard ? 1.6F : 0.9F));
+            const float x = -plan.x + 0.6F +
+                            (2 * plan.x - 1.2F) * static_cast<float>(i) / static_cast<float>(homes);
+            add_chimney(
+                site,
+                x,
+                plan.y * 0.12F,
+                plan.eaves + plan.rise + (plan.model.roof == RoofKind::mansard ? 1.6F : 0.9F));
         }
         return;
     }
@@ -46,7 +51,8 @@ void add_chimneys(BuildingSite& site) {
     add_chimney(site, side * plan.x * 0.55F, plan.y * 0.22F, plan.eaves + high);
 }
 
-/// A small house front with a roof of its own, standing out of a slope. `y`: its face; `z`: its sill.
+/// A small house front with a roof of its own, standing out of a slope. `y`: its face; `z`: its
+/// sill.
 void add_dormer(BuildingSite& site, float x, float y, float z, float back) {
     const float half = 0.72F;
     const float top = z + 1.45F;
@@ -54,7 +60,9 @@ void add_dormer(BuildingSite& site, float x, float y, float z, float back) {
     site.wall({x - side * half, y, z}, {x + side * half, y, z}, top, WallUse::window);
     const Finish cheek = site.finish(BuildingFinish::tiles);
     for (const float at : {-half, half})
-        site.build.box({x + at - .05F, std::min(y + side * .02F, back), z - .6F}, {x + at + .05F, std::max(y + side * .02F, back), top}, cheek);
+        site.build.box({x + at - .05F, std::min(y + side * .02F, back), z - .6F},
+                       {x + at + .05F, std::max(y + side * .02F, back), top},
+                       cheek);
     const Finish tiles = site.finish(BuildingFinish::tiles);
     const Finish trim = site.finish(BuildingFinish::trim);
     const float front = y - side * .18F;
@@ -82,11 +90,14 @@ void add_dormers(BuildingSite& site) {
     const float reach = plan.x - (hipped ? 0.7F * plan.y : 1.2F);
     const int count = std::max(1, static_cast<int>(2 * reach / (mansard ? 3.2F : 4.2F)));
     const float from_ridge = plan.y * 0.74F;
-    const float sill = mansard ? plan.eaves + .45F : plan.eaves + roof_height(plan, from_ridge) - .1F;
+    const float sill =
+        mansard ? plan.eaves + .45F : plan.eaves + roof_height(plan, from_ridge) - .1F;
     const float back = mansard ? plan.y - 1.3F : plan.y * 0.2F;
     const float face = mansard ? plan.y - .35F : from_ridge;
     for (int i = 0; i < count; ++i) {
-        const float x = count == 1 ? 0 : -reach + reach / static_cast<float>(count) * static_cast<float>(2 * i + 1);
+        const float x =
+            count == 1 ? 0
+                       : -reach + reach / static_cast<float>(count) * static_cast<float>(2 * i + 1);
         add_dormer(site, x, -face, sill, -back);
         if (hash(plan.seed, 33) % 2 == 0)
             add_dormer(site, x, face, sill, back);
@@ -111,12 +122,18 @@ void add_roof_plant(BuildingSite& site) {
         const float at = plan.x * 0.72F * (2 * unit(draw) - 1);
         const float across = (draw & 1u) == 0 ? plan.y * 0.5F : -plan.y * 0.5F;
         const float half = 0.7F + 0.6F * unit(hash(draw));
-        site.build.box({at - half * 1.4F, across - half, deck + .15F}, {at + half * 1.4F, across + half, deck + 1.5F}, machine);
-        site.build.tube({{at, across, deck + 1.5F}, {at, across, deck + 1.72F}, half * .7F, half * .7F, 12}, site.finish(BuildingFinish::metal));
+        site.build.box({at - half * 1.4F, across - half, deck + .15F},
+                       {at + half * 1.4F, across + half, deck + 1.5F},
+                       machine);
+        site.build.tube(
+            {{at, across, deck + 1.5F}, {at, across, deck + 1.72F}, half * .7F, half * .7F, 12},
+            site.finish(BuildingFinish::metal));
     }
-    site.build.tube({{-x, plan.y * .2F, deck}, {-x, plan.y * .2F, plan.eaves + 1.4F}, .16F, .16F, 8}, machine);
+    site.build.tube(
+        {{-x, plan.y * .2F, deck}, {-x, plan.y * .2F, plan.eaves + 1.4F}, .16F, .16F, 8}, machine);
     if (plan.model.use == world::BuildingUse::tower)
-        site.build.tube({{x, 0, plan.eaves + 2}, {x, 0, plan.eaves + 9}, .09F, .03F, 6}, site.finish(BuildingFinish::metal));
+        site.build.tube({{x, 0, plan.eaves + 2}, {x, 0, plan.eaves + 9}, .09F, .03F, 6},
+                        site.finish(BuildingFinish::metal));
 }
 
 /// A turret with clocks in the middle of the roof's front.
@@ -127,14 +144,18 @@ void add_turret(BuildingSite& site) {
     const float foot = dome ? plan.eaves - .4F : plan.eaves + 0.55F * plan.rise;
     const float top = dome ? plan.eaves + 2.6F : plan.eaves + plan.rise + 2.4F;
     const float y = dome ? -plan.y + half + .1F : 0;
-    site.walls_around({-half, y - half, foot}, {half, y + half, top}, WallUse::blank, WallUse::blank);
+    site.walls_around(
+        {-half, y - half, foot}, {half, y + half, top}, WallUse::blank, WallUse::blank);
     const float face = half * .78F;
     const float out = half + .03F;
     const float low = top - .12F - 2 * face;
     site.wall({-face, y - out, low}, {face, y - out, low}, top - .12F, WallUse::clock);
     site.wall({face, y + out, low}, {-face, y + out, low}, top - .12F, WallUse::clock);
-    site.build.box({-half - .14F, y - half - .14F, top - .06F}, {half + .14F, y + half + .14F, top + .1F}, site.finish(BuildingFinish::trim));
-    site.build.frustum({0, y, top + .1F}, half + .1F, .03F, half * 1.7F, site.finish(BuildingFinish::copper));
+    site.build.box({-half - .14F, y - half - .14F, top - .06F},
+                   {half + .14F, y + half + .14F, top + .1F},
+                   site.finish(BuildingFinish::trim));
+    site.build.frustum(
+        {0, y, top + .1F}, half + .1F, .03F, half * 1.7F, site.finish(BuildingFinish::copper));
 }
 
 }  // namespace

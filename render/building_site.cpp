@@ -25,8 +25,7 @@ void BuildingSite::wall(const Vector3f& left, const Vector3f& right, float top, 
         wall.columns = 1;
         wall.floor_height = std::min(wall.floor_height, wall.height);
         wall.floors = std::max(
-            0,
-            static_cast<int>((wall.height - wall.ground_floor) / wall.floor_height + 0.3F));
+            0, static_cast<int>((wall.height - wall.ground_floor) / wall.floor_height + 0.3F));
     }
     wall.use = use;
     wall.building = paint;

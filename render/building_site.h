@@ -11,13 +11,15 @@ struct BuildingSite {
     const BuildingPlan& plan;
     std::vector<Wall>& walls;
     std::uint32_t paint;  ///< index in Facades.buildings
+    const BuildingPaint& painted;
+    std::size_t first_wall;  ///< of this building, in `walls`
 
     Finish finish(BuildingFinish of) const {
         return {Material::building, building_finishes * paint + static_cast<std::uint32_t>(of)};
     }
 
-    /// An upright face; `left` and `right` are its lower corners for who looks at it, at one height,
-    /// in the building's frame. At the ground it reaches 0.4 m below it.
+    /// An upright face; `left` and `right` are its lower corners for who looks at it, at one
+    /// height, in the building's frame. At the ground it reaches 0.4 m below it.
     void wall(const Eigen::Vector3f& left, const Eigen::Vector3f& right, float top, WallUse use);
 
     /// Finish for more triangles of the wall added last, such as a gable.
@@ -52,6 +54,9 @@ void add_flat_roof(BuildingSite& site, const Eigen::Vector2f& half, float top);
 
 /// What is on the roof: chimneys, dormers, machines, turrets.
 void add_roof_parts(BuildingSite& site);
+
+/// Sills under the windows, gutters and downpipes.
+void add_details(BuildingSite& site);
 
 /// What is before the front: balconies, bays, porches, shop signs, awnings, fire escapes.
 void add_front_parts(BuildingSite& site);

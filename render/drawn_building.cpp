@@ -132,11 +132,14 @@ void add_drawn_building(Mesh& mesh,
     const BuildingPlan plan(model, 10, 10, building.height, building.style);
     Eigen::Isometry3f pose = Eigen::Isometry3f::Identity();
     pose.translation() = (foot - origin).cast<float>();
+    const auto paint = static_cast<std::uint32_t>(facades.buildings.size());
+    facades.buildings.emplace_back(model, plan.seed);
     BuildingSite site{Builder(mesh, pose),
                       plan,
                       facades.walls,
-                      static_cast<std::uint32_t>(facades.buildings.size())};
-    facades.buildings.emplace_back(model, plan.seed);
+                      paint,
+                      facades.buildings.back(),
+                      facades.walls.size()};
     std::size_t longest = 0;
     const auto side = [&](std::size_t i) {
         return (outline[(i + 1) % outline.size()] - outline[i]).norm();
@@ -148,9 +151,9 @@ void add_drawn_building(Mesh& mesh,
         site.wall(at_height(outline[i], 0),
                   at_height(outline[(i + 1) % outline.size()], 0),
                   plan.eaves,
-                  i == longest    ? WallUse::front
+                  i == longest     ? WallUse::front
                   : side(i) < 1.6F ? WallUse::blank
-                                  : WallUse::side);
+                                   : WallUse::side);
     const bool pitched =
         model.roof == world::RoofKind::gabled || model.roof == world::RoofKind::hipped;
     if (pitched && is_convex_quad(outline))

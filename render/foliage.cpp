@@ -11,9 +11,8 @@ Vector3f Draws::direction() {
     const float z = 2 * next() - 1;
     const double angle = 2 * std::numbers::pi * static_cast<double>(next());
     const float wide = std::sqrt(1 - z * z);
-    return {wide * static_cast<float>(std::cos(angle)),
-            wide * static_cast<float>(std::sin(angle)),
-            z};
+    return {
+        wide * static_cast<float>(std::cos(angle)), wide * static_cast<float>(std::sin(angle)), z};
 }
 
 void add_leaves(Mesh& mesh, const LeafBunch& bunch, Draws& draws) {

@@ -35,20 +35,26 @@ std::uint32_t main_signal(const world::TownT& town, const std::vector<std::uint3
 }
 
 /// A lamp for a turn, beside the case's lowest one.
-void add_turn_lamp(Mesh& mesh, const Eigen::Isometry3f& frame, float y, float bottom, std::uint32_t signal) {
+void add_turn_lamp(
+    Mesh& mesh, const Eigen::Isometry3f& frame, float y, float bottom, std::uint32_t signal) {
     constexpr float radius = 0.10F;
     Builder build(mesh, frame);
     build.box({.03F, y - .15F, bottom}, {.20F, y + .15F, bottom + .32F}, {Material::signal_case});
-    add_signal_lamp(mesh,
-                    frame,
-                    {.02F, y, bottom + .16F},
-                    radius,
-                    {Material::signal_lamp, 4 * signal + static_cast<std::uint32_t>(SignalLamp::turn)});
+    add_signal_lamp(
+        mesh,
+        frame,
+        {.02F, y, bottom + .16F},
+        radius,
+        {Material::signal_lamp, 4 * signal + static_cast<std::uint32_t>(SignalLamp::turn)});
 }
 
-void add_head(Mesh& mesh, const world::TownT& town, const world::SignalHeadT& head, const Eigen::Vector3d& origin) {
+void add_head(Mesh& mesh,
+              const world::TownT& town,
+              const world::SignalHeadT& head,
+              const Eigen::Vector3d& origin) {
     Eigen::Isometry3f frame = Eigen::Isometry3f::Identity();
-    frame.linear() = Eigen::AngleAxisf(static_cast<float>(head.yaw), Vector3f::UnitZ()).toRotationMatrix();
+    frame.linear() =
+        Eigen::AngleAxisf(static_cast<float>(head.yaw), Vector3f::UnitZ()).toRotationMatrix();
     // The pole stands on the foot, the lamps before it.
     frame.translation() = (world::to_eigen(head.foot) - origin).cast<float>();
     frame.translation() -= frame.linear() * Vector3f(signal_pole, 0, 0);
@@ -68,7 +74,10 @@ void add_head(Mesh& mesh, const world::TownT& town, const world::SignalHeadT& he
                   10},
                  {Material::pole});
     else
-        Builder(mesh, frame).box({.18F, arm - .03F, middle - .03F}, {.32F, arm + .03F, middle + .03F}, {Material::signal_case});
+        Builder(mesh, frame)
+            .box({.18F, arm - .03F, middle - .03F},
+                 {.32F, arm + .03F, middle + .03F},
+                 {Material::signal_case});
     add_signal_case(mesh, frame, arm, top, shown, head.for_walkers);
     if (head.for_walkers)
         return;

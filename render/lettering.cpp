@@ -64,11 +64,11 @@ float Lettering::width() const {
 
 const Lettering& shop_name(std::uint32_t seed) {
     static const std::array<Lettering, 20> names{
-        Lettering("BAKERY"),  Lettering("CAFE"),   Lettering("BOOKS"),     Lettering("PHARMACY"),
-        Lettering("FLOWERS"), Lettering("SHOES"),  Lettering("OPTICIAN"),  Lettering("BARBER"),
-        Lettering("BISTRO"),  Lettering("TOYS"),   Lettering("CYCLES"),    Lettering("GROCERY"),
-        Lettering("TAILOR"),  Lettering("MUSIC"),  Lettering("WINE & TEA"), Lettering("HARDWARE"),
-        Lettering("PIZZERIA"), Lettering("PHOTO"), Lettering("DELI"),      Lettering("LAUNDRY")};
+        Lettering("BAKERY"),   Lettering("CAFE"),  Lettering("BOOKS"),      Lettering("PHARMACY"),
+        Lettering("FLOWERS"),  Lettering("SHOES"), Lettering("OPTICIAN"),   Lettering("BARBER"),
+        Lettering("BISTRO"),   Lettering("TOYS"),  Lettering("CYCLES"),     Lettering("GROCERY"),
+        Lettering("TAILOR"),   Lettering("MUSIC"), Lettering("WINE & TEA"), Lettering("HARDWARE"),
+        Lettering("PIZZERIA"), Lettering("PHOTO"), Lettering("DELI"),       Lettering("LAUNDRY")};
     return names[seed % names.size()];
 }
 

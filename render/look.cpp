@@ -198,8 +198,7 @@ Look look_of(const Stage& stage, const Surface& at) {
         case Material::car_body:
         case Material::car_cargo:
         case Material::car_under:
-            return at.instance->kind == Kind::parked ? parked_look(stage, at)
-                                                     : car_look(stage, at);
+            return at.instance->kind == Kind::parked ? parked_look(stage, at) : car_look(stage, at);
         case Material::wheel:
             return wheel_look(at);
         case Material::wall:

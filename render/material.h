@@ -14,8 +14,8 @@ enum class Material : std::uint8_t {
     pavement,
     kerb,
     marking,
-    facade,  ///< tag: index in Town.buildings
-    roof,    ///< tag: index in Town.buildings
+    facade,    ///< tag: index in Town.buildings
+    roof,      ///< tag: index in Town.buildings
     wall,      ///< of a building with a model; tag: index in Facades.walls
     building,  ///< its other parts; tag: see BuildingFinish
     prop,      ///< tag: see PropTag

@@ -30,8 +30,11 @@ void add_arcade(BuildingSite& site) {
             plan.x - half,
             std::max(-plan.x + half,
                      -plan.x + 2 * plan.x * static_cast<float>(i) / static_cast<float>(columns)));
-        site.build.box({at - half, -plan.y + .04F, 0}, {at + half, -plan.y + .04F + 2 * half, top}, trim);
-        site.build.box({at - half - .08F, -plan.y - .02F, top - .75F}, {at + half + .08F, -plan.y + .1F + 2 * half, top - .43F}, trim);
+        site.build.box(
+            {at - half, -plan.y + .04F, 0}, {at + half, -plan.y + .04F + 2 * half, top}, trim);
+        site.build.box({at - half - .08F, -plan.y - .02F, top - .75F},
+                       {at + half + .08F, -plan.y + .1F + 2 * half, top - .43F},
+                       trim);
     }
     // Ends of what lies above, and of the walls beside the arcade.
     if (plan.eaves > top + .01F)
@@ -52,10 +55,13 @@ void add_ledges(BuildingSite& site) {
         site.build.box({plan.x - .02F, -plan.y, low}, {x, plan.y, high}, trim);
     };
     const FacadeKind facade = plan.model.facade;
-    const bool open = plan.has(world::part_arcade) || plan.has(world::part_shop_front) || plan.has(world::part_gate);
+    const bool open = plan.has(world::part_arcade) || plan.has(world::part_shop_front) ||
+                      plan.has(world::part_gate);
     if (facade != FacadeKind::glass && !plan.has(world::part_bays))
         ledge(.05F, -.4F, .42F, !open);
-    const bool noble = facade == FacadeKind::stone || (facade == FacadeKind::brick && plan.floors >= 2 && hash(plan.seed, 51) % 2 == 0);
+    const bool noble =
+        facade == FacadeKind::stone ||
+        (facade == FacadeKind::brick && plan.floors >= 2 && hash(plan.seed, 51) % 2 == 0);
     if (noble && plan.floors > 0 && !plan.has(world::part_bays))
         ledge(.10F, plan.ground_floor - .16F, plan.ground_floor + .02F, true);
     if (noble && plan.rise <= 0) {
@@ -87,6 +93,7 @@ void build(BuildingSite& site) {
     add_roof(site);
     add_roof_parts(site);
     add_front_parts(site);
+    add_details(site);
 }
 
 }  // namespace
@@ -100,14 +107,17 @@ void add_model_building(Mesh& mesh,
     const BuildingPlan plan(
         model, building.length(), building.width(), building.height(), building.style());
     Eigen::Isometry3f pose = Eigen::Isometry3f::Identity();
-    pose.linear() = Eigen::AngleAxisf(static_cast<float>(building.yaw()), Vector3f::UnitZ())
-                        .toRotationMatrix();
+    pose.linear() =
+        Eigen::AngleAxisf(static_cast<float>(building.yaw()), Vector3f::UnitZ()).toRotationMatrix();
     pose.translation() = (world::to_eigen(building.centre()) - origin).cast<float>();
+    const auto paint = static_cast<std::uint32_t>(facades.buildings.size());
+    facades.buildings.emplace_back(model, plan.seed);
     BuildingSite site{Builder(mesh, pose),
                       plan,
                       facades.walls,
-                      static_cast<std::uint32_t>(facades.buildings.size())};
-    facades.buildings.emplace_back(model, plan.seed);
+                      paint,
+                      facades.buildings.back(),
+                      facades.walls.size()};
     build(site);
 }
 

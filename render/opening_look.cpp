@@ -12,7 +12,13 @@ using Eigen::Vector3f;
 using world::FacadeKind;
 
 /// Glass with what is behind it: a curtain, a dark room, or a lit one at dusk.
-void glaze(Look& look, const Stage& stage, const Surface& at, const WallSpot& spot, const Opening& opening, float u, float z) {
+void glaze(Look& look,
+           const Stage& stage,
+           const Surface& at,
+           const WallSpot& spot,
+           const Opening& opening,
+           float u,
+           float z) {
     const bool shop = opening.kind == OpeningKind::shop || opening.kind == OpeningKind::shop_door;
     const float share = (u - opening.left) / (opening.right - opening.left);
     const float fate = unit(hash(opening.seed, 2));
@@ -36,13 +42,17 @@ void glaze(Look& look, const Stage& stage, const Surface& at, const WallSpot& sp
         const int shelf = floor_int(room_z / 0.42F);
         const int item = floor_int(room_u / 0.22F + cell_noise(shelf, 3, 9));
         const float hue = cell_noise(item, shelf, opening.seed & 0xffffu);
-        const Color goods(0.10F + 0.30F * hue, 0.10F + 0.22F * fraction(hue * 7), 0.08F + 0.24F * fraction(hue * 13));
-        room = mix(room, goods, 0.75F * detail(at, 0.6F) * (fraction(room_z / 0.42F) < 0.7F ? 1.0F : 0.2F));
+        const Color goods(0.09F + 0.20F * hue,
+                          0.08F + 0.14F * fraction(hue * 7),
+                          0.07F + 0.12F * fraction(hue * 13));
+        room = mix(
+            room, goods, 0.6F * detail(at, 0.6F) * (fraction(room_z / 0.42F) < 0.7F ? 1.0F : 0.2F));
     }
     const bool lit = stage.sky.dim() && (shop ? fate < 0.75F : fate < (tinted ? 0.5F : 0.34F));
     Color lamp = Color::Zero();
     if (lit) {
-        const Color warm = fate < 0.2F && !tinted ? Color(1.0F, .66F, .34F) : Color(1.0F, .84F, .64F);
+        const Color warm =
+            fate < 0.2F && !tinted ? Color(1.0F, .66F, .34F) : Color(1.0F, .84F, .64F);
         lamp = warm * ((shop ? 0.38F : 0.42F) * (0.45F + 0.9F * back) / stage.sky.exposure());
         if (shop)
             lamp *= 0.5F + 2.2F * room;
@@ -55,24 +65,28 @@ void glaze(Look& look, const Stage& stage, const Surface& at, const WallSpot& sp
         room = Color(.36F, .34F, .30F) * fold;
         lamp *= 0.8F * fold;
     } else if (tinted && blind < 0.35F && z > mix(opening.low, opening.high, 1 - 1.6F * blind)) {
-        const float slat = 0.8F + 0.2F * detail(at, 0.06F) * (fraction(z / 0.05F) < 0.5F ? 1.0F : -1.0F);
+        const float slat =
+            0.8F + 0.2F * detail(at, 0.06F) * (fraction(z / 0.05F) < 0.5F ? 1.0F : -1.0F);
         room = Color(.30F, .30F, .29F) * slat;
     }
     look.albedo = room * 0.6F;
     look.emission = lamp * 0.8F;
 }
 
-void door_leaf(Look& look, const Surface& at, const WallSpot& spot, const Opening& opening, float u, float z) {
+void door_leaf(
+    Look& look, const Surface& at, const WallSpot& spot, const Opening& opening, float u, float z) {
     const float edge = opening.edge(u, z);
     const float middle = 0.5F * (opening.left + opening.right);
     // Homes of a row have doors of their own.
-    const Color own = spot.paint.door_every > 0 ? BuildingPaint(*spot.paint.model, opening.seed).door
-                                                : spot.paint.door;
+    const Color own = spot.paint.door_every > 0
+                          ? BuildingPaint(*spot.paint.model, opening.seed).door
+                          : spot.paint.door;
     const bool wide = opening.right - opening.left > 1.3F;
     const float from_seam = wide ? std::abs(u - middle) : 9.0F;
     const float height = z - opening.low;
     const float panel_u = wide ? std::min(edge, from_seam) : edge;
-    const bool panel = panel_u > 0.13F && std::abs(height - 0.95F) > 0.07F && std::abs(height - 1.62F) > 0.06F;
+    const bool panel =
+        panel_u > 0.13F && std::abs(height - 0.95F) > 0.07F && std::abs(height - 1.62F) > 0.06F;
     look.albedo = own * (panel ? 0.85F : 1.05F);
     if (edge < 0.06F)
         look.albedo = spot.paint.frame;
@@ -86,7 +100,13 @@ void door_leaf(Look& look, const Surface& at, const WallSpot& spot, const Openin
     static_cast<void>(at);
 }
 
-void gate_leaf(Look& look, const Stage& stage, const Surface& at, const WallSpot& spot, const Opening& opening, float u, float z) {
+void gate_leaf(Look& look,
+               const Stage& stage,
+               const Surface& at,
+               const WallSpot& spot,
+               const Opening& opening,
+               float u,
+               float z) {
     const bool fire = spot.paint.model->most_floors > 1;
     const Color color = fire ? Color(.36F, .035F, .03F) : spot.paint.accent * 0.6F + 0.12F;
     const float row = fraction(z / 0.55F);
@@ -110,7 +130,10 @@ bool on_bar(const BuildingPaint& paint, const Opening& opening, float u, float z
             return false;
         case FacadeKind::office:
         case FacadeKind::metal:
-            return fraction((u - opening.left) / (width / std::max(1.0F, std::round(width / 1.2F)))) * 1.2F < 0.03F;
+            return fraction((u - opening.left) /
+                            (width / std::max(1.0F, std::round(width / 1.2F)))) *
+                       1.2F <
+                   0.03F;
         default:
             break;
     }
@@ -130,7 +153,12 @@ bool on_bar(const BuildingPaint& paint, const Opening& opening, float u, float z
 }
 
 /// Darkens what the reveal keeps the sun from. `depth`: of the pane behind the wall. [m]
-float sun_in_reveal(const Stage& stage, const WallSpot& spot, const Opening& opening, float u, float z, float depth) {
+float sun_in_reveal(const Stage& stage,
+                    const WallSpot& spot,
+                    const Opening& opening,
+                    float u,
+                    float z,
+                    float depth) {
     const Vector3f& sun = stage.sky.to_sun();
     const float out = -sun.dot(spot.inwards);
     if (out <= 0.02F)
@@ -142,7 +170,22 @@ float sun_in_reveal(const Stage& stage, const WallSpot& spot, const Opening& ope
 
 }  // namespace
 
-Look opening_look(const Stage& stage, const Surface& at, const WallSpot& spot, const Opening& opening) {
+WallSpot::WallSpot(const Wall& of, const BuildingPaint& painted, const Surface& at)
+    : wall(of),
+      paint(painted),
+      inwards(-at.flat) {
+    const Eigen::Vector3f away = at.position - wall.foot;
+    u = away.dot(wall.along);
+    z = away.z();
+    const float depth = std::max(0.06F, at.view.dot(inwards));
+    slope_u = at.view.dot(wall.along) / depth;
+    slope_z = at.view.z() / depth;
+}
+
+Look opening_look(const Stage& stage,
+                  const Surface& at,
+                  const WallSpot& spot,
+                  const Opening& opening) {
     const BuildingPaint& paint = spot.paint;
     Look look;
     look.normal = at.normal;
@@ -153,9 +196,12 @@ Look opening_look(const Stage& stage, const Surface& at, const WallSpot& spot, c
     const float z = spot.z + spot.slope_z * depth;
     if (!opening.holds(u, z)) {
         const bool sideways = u <= opening.left || u >= opening.right;
-        look.albedo = mix(paint.wall, paint.trim, 0.6F) * (sideways ? 0.85F : z <= opening.low ? 1.0F : 0.6F);
-        look.normal = sideways ? Vector3f(u <= opening.left ? spot.wall.along : Vector3f(-spot.wall.along))
-                               : Vector3f(0, 0, z <= opening.low ? 1.0F : -1.0F);
+        look.albedo = mix(paint.wall, paint.trim, 0.6F) * (sideways           ? 0.85F
+                                                           : z <= opening.low ? 1.0F
+                                                                              : 0.6F);
+        look.normal =
+            sideways ? Vector3f(u <= opening.left ? spot.wall.along : Vector3f(-spot.wall.along))
+                     : Vector3f(0, 0, z <= opening.low ? 1.0F : -1.0F);
         return look;
     }
     const float edge = opening.edge(u, z);
@@ -164,7 +210,8 @@ Look opening_look(const Stage& stage, const Surface& at, const WallSpot& spot, c
         look.albedo = Color(.12F, .09F, .065F) * (0.35F + 0.9F * slat);
     } else if (opening.kind == OpeningKind::gate) {
         gate_leaf(look, stage, at, spot, opening, u, z);
-    } else if (opening.kind == OpeningKind::door && (glass || paint.model->facade == FacadeKind::office)) {
+    } else if (opening.kind == OpeningKind::door &&
+               (glass || paint.model->facade == FacadeKind::office)) {
         if (edge < 0.08F || std::abs(u - 0.5F * (opening.left + opening.right)) < 0.05F)
             look.albedo = paint.frame;
         else

@@ -1,8 +1,9 @@
+#include "render/openings.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "render/noise.h"
-#include "render/wall_spot.h"
 
 namespace reprise::render {
 
@@ -39,22 +40,21 @@ Size window_size(const BuildingPaint& paint, float column, float floor) {
     return {std::min(half, 0.34F * column), modern ? 0.65F : 0.86F, std::min(floor - 0.4F, 2.35F)};
 }
 
-bool is_door_column(const WallSpot& spot, int column) {
-    const BuildingPaint& paint = spot.paint;
-    if (spot.wall.use == WallUse::back)
-        return column == static_cast<int>(hash(spot.wall.seed, 61) %
-                                          static_cast<std::uint32_t>(spot.wall.columns));
-    if (spot.wall.use != WallUse::front)
+bool is_door_column(const Wall& wall, const BuildingPaint& paint, int column) {
+    if (wall.use == WallUse::back)
+        return column ==
+               static_cast<int>(hash(wall.seed, 61) % static_cast<std::uint32_t>(wall.columns));
+    if (wall.use != WallUse::front)
         return false;
-    return paint.door_every > 0 ? column % paint.door_every == 0 : column == spot.wall.columns / 2;
+    return paint.door_every > 0 ? column % paint.door_every == 0 : column == wall.columns / 2;
 }
 
 /// The ground floor of a front: shops, gates, doors.
-void open_ground(Opening& opening, const WallSpot& spot, int column, float width) {
-    const BuildingPaint& paint = spot.paint;
-    const float floor = spot.wall.ground_floor;
-    const bool front = spot.wall.use == WallUse::front;
-    const bool door = is_door_column(spot, column);
+void open_ground(
+    Opening& opening, const Wall& wall, const BuildingPaint& paint, int column, float width) {
+    const float floor = wall.ground_floor;
+    const bool front = wall.use == WallUse::front;
+    const bool door = is_door_column(wall, paint, column);
     float half = 0.5F * (opening.right - opening.left);
     const float middle = 0.5F * (opening.left + opening.right);
     if (front && paint.has(world::part_gate)) {
@@ -86,16 +86,6 @@ void open_ground(Opening& opening, const WallSpot& spot, int column, float width
 
 }  // namespace
 
-WallSpot::WallSpot(const Wall& of, const BuildingPaint& painted, const Surface& at)
-    : wall(of), paint(painted), inwards(-at.flat) {
-    const Eigen::Vector3f away = at.position - wall.foot;
-    u = away.dot(wall.along);
-    z = away.z();
-    const float depth = std::max(0.06F, at.view.dot(inwards));
-    slope_u = at.view.dot(wall.along) / depth;
-    slope_z = at.view.z() / depth;
-}
-
 bool Opening::holds(float u, float z) const {
     if (kind == OpeningKind::none || u <= left || u >= right || z <= low || z >= high)
         return false;
@@ -119,17 +109,14 @@ float Opening::edge(float u, float z) const {
     return half - std::sqrt(across * across + (z - spring) * (z - spring));
 }
 
-Opening opening_at(const WallSpot& spot) {
-    const Wall& wall = spot.wall;
-    const BuildingPaint& paint = spot.paint;
+Opening opening_at(const Wall& wall, const BuildingPaint& paint, float u, float z) {
     Opening opening;
-    if (spot.z < 0 || wall.use >= WallUse::sign || wall.use == WallUse::blank)
+    if (z < 0 || wall.use >= WallUse::sign || wall.use == WallUse::blank)
         return opening;
     const float width = wall.length / static_cast<float>(wall.columns);
-    const int column = std::min(wall.columns - 1, std::max(0, floor_int(spot.u / width)));
-    const bool ground = spot.z < wall.ground_floor;
-    const int level =
-        ground ? 0 : 1 + floor_int((spot.z - wall.ground_floor) / wall.floor_height);
+    const int column = std::min(wall.columns - 1, std::max(0, floor_int(u / width)));
+    const bool ground = z < wall.ground_floor;
+    const int level = ground ? 0 : 1 + floor_int((z - wall.ground_floor) / wall.floor_height);
     const float base =
         ground ? 0 : wall.ground_floor + wall.floor_height * static_cast<float>(level - 1);
     if (!ground && level > wall.floors)
@@ -154,17 +141,17 @@ Opening opening_at(const WallSpot& spot) {
     opening.left = middle - size.half;
     opening.right = middle + size.half;
     if (ground)
-        open_ground(opening, spot, column, width);
+        open_ground(opening, wall, paint, column, width);
     else if (wall.use == WallUse::front && has_balcony(*paint.model, column, wall.columns)) {
         opening.low = base + 0.06F;
         opening.left = middle - std::max(size.half, std::min(0.9F, 0.36F * width));
         opening.right = 2 * middle - opening.left;
     }
-    const bool skipped = (wall.use == WallUse::side && hash(opening.seed, 62) % 5 < 2 &&
-                          paint.model->facade != FacadeKind::glass &&
-                          paint.model->use != BuildingUse::tower) ||
-                         (paint.model->facade == FacadeKind::metal &&
-                          opening.kind == OpeningKind::window && column % 2 == 1);
+    const bool skipped =
+        (wall.use == WallUse::side && hash(opening.seed, 62) % 5 < 2 &&
+         paint.model->facade != FacadeKind::glass && paint.model->use != BuildingUse::tower) ||
+        (paint.model->facade == FacadeKind::metal && opening.kind == OpeningKind::window &&
+         column % 2 == 1);
     if (skipped && opening.kind == OpeningKind::window)
         opening.kind = OpeningKind::none;
     return opening;

@@ -69,9 +69,8 @@ void dapple(Look& look, const Surface& at, float strength) {
                                      static_cast<std::uint32_t>(level));
     const float near = detail(at, 0.25F);
     look.albedo *= mix(1 - 0.45F * strength, 1 + strength * (0.75F * unit(patch) - 0.75F), near);
-    const Eigen::Vector3f lean(unit(hash(patch, 1)) - 0.5F,
-                               unit(hash(patch, 2)) - 0.5F,
-                               unit(hash(patch, 3)) - 0.5F);
+    const Eigen::Vector3f lean(
+        unit(hash(patch, 1)) - 0.5F, unit(hash(patch, 2)) - 0.5F, unit(hash(patch, 3)) - 0.5F);
     look.normal = (at.normal + 1.5F * strength * near * lean).normalized();
 }
 
@@ -84,7 +83,8 @@ Look plant_leaf_look(const Surface& at) {
     const Greens greens = greens_of(kind);
     // Few maples are red.
     const float hue = unit(hash(style, 5));
-    const Color green = mix(greens.dark, greens.bright, kind == PlantKind::maple ? hue * hue * hue : hue);
+    const Color green =
+        mix(greens.dark, greens.bright, kind == PlantKind::maple ? hue * hue * hue : hue);
     const float own = unit(hash(at.tag, 6));
     const float patch =
         value_noise(at.position.x() * 0.9F, at.position.y() * 0.9F + at.position.z(), 8);
@@ -109,12 +109,15 @@ Look plant_bark_look(const Surface& at) {
     if (kind == PlantKind::birch) {
         // White, with dark bands across.
         const float band = value_noise(x * 0.3F, at.position.z() * 9, 2);
-        look.albedo = mix(Color(.56F, .54F, .49F), Color(.06F, .055F, .05F), smooth_step(.66F, .76F, band));
+        look.albedo =
+            mix(Color(.56F, .54F, .49F), Color(.06F, .055F, .05F), smooth_step(.66F, .76F, band));
     } else if (kind == PlantKind::plane) {
         const float flake = value_noise(x * 0.5F, at.position.z() * 4, 4);
-        look.albedo = mix(Color(.36F, .34F, .24F), Color(.20F, .18F, .14F), smooth_step(.42F, .58F, flake));
+        look.albedo =
+            mix(Color(.36F, .34F, .24F), Color(.20F, .18F, .14F), smooth_step(.42F, .58F, flake));
     } else if (kind == PlantKind::pine) {
-        look.albedo = mix(look.albedo, Color(.27F, .13F, .07F), 0.6F * smooth_step(0.35F, 0.6F, at.local.z()));
+        look.albedo = mix(
+            look.albedo, Color(.27F, .13F, .07F), 0.6F * smooth_step(0.35F, 0.6F, at.local.z()));
     } else if (kind == PlantKind::cherry) {
         look.albedo *= Color(.9F, .7F, .7F);
     }

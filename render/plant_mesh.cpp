@@ -11,13 +11,14 @@ namespace {
 using Eigen::Vector3f;
 using world::PlantKind;
 
-/// How a kind of plant grows. Heights are shares of the plant's height, widths of the crown's radius.
+/// How a kind of plant grows. Heights are shares of the plant's height, widths of the crown's
+/// radius.
 struct Habit {
     float slenderness;  ///< crown radius over height of a usual one
     float trunk;        ///< radius at the foot
     float low;          ///< where the crown begins
     float wide_at;      ///< share of the crown's height where it is widest
-    float taper;        ///< how quickly the crown narrows from there: 1 a cone, 2 a ball, 4 a column
+    float taper;  ///< how quickly the crown narrows from there: 1 a cone, 2 a ball, 4 a column
     int boughs;
     float bough;  ///< their radius, the smallest; the largest is 1.5 times as large
     int leaves;
@@ -29,19 +30,19 @@ struct Habit {
 Habit habit_of(PlantKind kind) {
     switch (kind) {
         case PlantKind::lime:
-            return {.34F, .075F, .20F, .42F, 2.0F, 20, .32F, 1550, .045F, .76F, 1.0F};
+            return {.34F, .075F, .20F, .42F, 2.0F, 20, .32F, 1440, .047F, .76F, 1.0F};
         case PlantKind::birch:
-            return {.24F, .060F, .24F, .40F, 1.5F, 22, .24F, 1600, .040F, .42F, 1.5F};
+            return {.24F, .060F, .24F, .40F, 1.5F, 22, .24F, 1420, .042F, .42F, 1.5F};
         case PlantKind::poplar:
-            return {.14F, .150F, .06F, .35F, 2.6F, 20, .52F, 1500, .075F, .78F, 1.2F};
+            return {.14F, .150F, .06F, .35F, 2.6F, 20, .52F, 1440, .076F, .78F, 1.2F};
         case PlantKind::plane:
-            return {.46F, .060F, .30F, .50F, 2.3F, 20, .34F, 1600, .046F, .70F, 0.9F};
+            return {.46F, .060F, .30F, .50F, 2.3F, 20, .34F, 1420, .048F, .70F, 0.9F};
         case PlantKind::maple:
             return {.42F, .055F, .22F, .45F, 2.8F, 20, .34F, 1600, .045F, .78F, 0.9F};
         case PlantKind::cherry:
-            return {.52F, .060F, .28F, .62F, 1.8F, 18, .30F, 1550, .040F, .62F, 0.8F};
+            return {.52F, .060F, .28F, .62F, 1.8F, 18, .30F, 1420, .041F, .62F, 0.8F};
         case PlantKind::pine:
-            return {.34F, .050F, .46F, .45F, 2.4F, 18, .32F, 1500, .046F, .55F, 0.5F};
+            return {.34F, .050F, .46F, .45F, 2.4F, 18, .32F, 1400, .047F, .55F, 0.5F};
         case PlantKind::round_bush:
             return {.62F, 0, .0F, .45F, 2.6F, 12, .46F, 1400, .065F, .86F, 1.0F};
         case PlantKind::tall_bush:
@@ -75,8 +76,10 @@ Mesh spruce_mesh() {
         const float reach = 0.06F + 0.94F * (1 - up);
         const int fronds = 6 + static_cast<int>(20 * reach);
         for (int i = 0; i < fronds; ++i) {
-            const double angle = 2 * std::numbers::pi * (i + static_cast<double>(draws.next())) / fronds;
-            const Vector3f out(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0);
+            const double angle =
+                2 * std::numbers::pi * (i + static_cast<double>(draws.next())) / fronds;
+            const Vector3f out(
+                static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0);
             const Vector3f across(-out.y(), out.x(), 0);
             const float own = reach * (0.82F + 0.24F * draws.next());
             const float foot = 0.09F + 0.86F * up + 0.03F * draws.next();
@@ -86,8 +89,10 @@ Mesh spruce_mesh() {
                 const float to = from + 0.30F * own;
                 const float half = own * (0.16F - 0.035F * static_cast<float>(part)) + 0.012F;
                 const auto at = [&](float far, float side) {
-                    const float hang = 0.30F * far * far / std::max(own, 0.1F) * slenderness + 0.02F * std::abs(side);
-                    return Vector3f(far * out + side * across + Vector3f(0, 0, foot + 0.035F - hang - 0.012F * draws.next()));
+                    const float hang = 0.30F * far * far / std::max(own, 0.1F) * slenderness +
+                                       0.02F * std::abs(side);
+                    return Vector3f(far * out + side * across +
+                                    Vector3f(0, 0, foot + 0.035F - hang - 0.012F * draws.next()));
                 };
                 const std::uint32_t first = add_vertex(mesh, at(from, -half));
                 add_vertex(mesh, at(from + 0.02F, half));
@@ -96,7 +101,8 @@ Mesh spruce_mesh() {
                 const Finish leaf{Material::leaf, draws.bits()};
                 add_triangle(mesh, first, first + 1, first + 2, leaf);
                 add_triangle(mesh, first, first + 2, first + 3, leaf);
-                const Vector3f normal = Vector3f(out.x(), out.y(), 0.9F / slenderness * 0.3F).normalized();
+                const Vector3f normal =
+                    Vector3f(out.x(), out.y(), 0.9F / slenderness * 0.3F).normalized();
                 mesh.normals.push_back({normal, normal, normal});
                 mesh.normals.push_back({normal, normal, normal});
             }
@@ -118,29 +124,50 @@ Mesh plant_mesh(PlantKind kind) {
     const Finish bark{Material::bark};
     if (habit.trunk > 0) {
         const float fork = habit.low + .12F;
-        add_tube(mesh, {{0, 0, -.03F}, {.02F, .01F, fork}, habit.trunk, .62F * habit.trunk, 9}, bark);
-        add_tube(mesh, {{.02F, .01F, fork}, {0, .03F, .84F}, .62F * habit.trunk, .2F * habit.trunk, 7}, bark);
+        add_tube(
+            mesh, {{0, 0, -.03F}, {.02F, .01F, fork}, habit.trunk, .62F * habit.trunk, 9}, bark);
+        add_tube(mesh,
+                 {{.02F, .01F, fork}, {0, .03F, .84F}, .62F * habit.trunk, .2F * habit.trunk, 7},
+                 bark);
     }
     std::vector<std::pair<Vector3f, float>> boughs;
     float area = 0;
     for (int i = 0; i < habit.boughs; ++i) {
-        const float up = (static_cast<float>(i) + 0.7F * draws.next()) / static_cast<float>(habit.boughs);
+        const float up =
+            (static_cast<float>(i) + 0.7F * draws.next()) / static_cast<float>(habit.boughs);
         const double angle = 2.399963 * i + static_cast<double>(draws.next());
         const float radius = habit.bough * (1 + 0.5F * draws.next());
         const float reach = radius * habit.slenderness * habit.lie;
-        const float away = std::max(0.0F, crown_radius(habit, up) - radius) * (0.85F + 0.15F * draws.next());
-        const float z = mix(std::max(habit.low + reach * 0.6F, reach * 0.8F), 1 - reach * 1.02F, up);
-        const Vector3f centre(away * static_cast<float>(std::cos(angle)), away * static_cast<float>(std::sin(angle)), z);
+        const float away =
+            std::max(0.0F, crown_radius(habit, up) - radius) * (0.85F + 0.15F * draws.next());
+        const float z =
+            mix(std::max(habit.low + reach * 0.6F, reach * 0.8F), 1 - reach * 1.02F, up);
+        const Vector3f centre(away * static_cast<float>(std::cos(angle)),
+                              away * static_cast<float>(std::sin(angle)),
+                              z);
         boughs.emplace_back(centre, radius);
         area += radius * radius;
         if (habit.trunk > 0)
-            add_tube(mesh, {{0, .02F, std::max(habit.low, z - .16F)}, centre, .3F * habit.trunk, .12F * habit.trunk, 5}, bark);
-        add_ellipsoid(mesh, centre, Vector3f(radius, radius, reach) * habit.core, 7, {Material::leaf, 0});
+            add_tube(mesh,
+                     {{0, .02F, std::max(habit.low, z - .16F)},
+                      centre,
+                      .3F * habit.trunk,
+                      .12F * habit.trunk,
+                      4},
+                     bark);
+        add_ellipsoid(
+            mesh, centre, Vector3f(radius, radius, reach) * habit.core, 7, {Material::leaf, 0});
     }
     smooth(mesh, 1.2);
     for (const auto& [centre, radius] : boughs)
         add_leaves(mesh,
-                   {centre, radius, static_cast<int>(static_cast<float>(habit.leaves) * radius * radius / area), habit.leaf, habit.leaf, habit.slenderness, habit.lie},
+                   {centre,
+                    radius,
+                    static_cast<int>(static_cast<float>(habit.leaves) * radius * radius / area),
+                    habit.leaf,
+                    habit.leaf,
+                    habit.slenderness,
+                    habit.lie},
                    draws);
     drop_degenerate(mesh);
     return mesh;

@@ -22,7 +22,8 @@ Look as_ground(const Stage& stage, const Surface& at, Material material) {
 Look lawn(const Stage& stage, const Surface& at) {
     Look look = as_ground(stage, at, Material::grass);
     // Cut short: evenly green, in stripes that the mower left.
-    const float stripe = fraction((at.position.x() + at.position.y()) / 3.2F) < 0.5F ? 1.06F : 0.95F;
+    const float stripe =
+        fraction((at.position.x() + at.position.y()) / 3.2F) < 0.5F ? 1.06F : 0.95F;
     const Color even = Color(.070F, .125F, .028F) * (luminance(look.albedo) / 0.10F);
     look.albedo = mix(look.albedo, even, 0.7F) * stripe;
     return look;
@@ -56,7 +57,10 @@ Look paving(const Surface& at, const PlotFrame& plot, float edge) {
     tone *= 1 - 0.5F * detail(at, 0.05F) * smooth_step(0.014F, 0.006F, joint);
     const bool dark = !border && floor_int(u / 4.8F) % 2 == 0 && floor_int(v / 4.8F) % 2 == 0;
     Look look;
-    look.albedo = (border ? Color(.17F, .165F, .16F) : dark ? Color(.33F, .27F, .22F) : Color(.40F, .37F, .32F)) * tone;
+    look.albedo = (border ? Color(.17F, .165F, .16F)
+                   : dark ? Color(.33F, .27F, .22F)
+                          : Color(.40F, .37F, .32F)) *
+                  tone;
     look.normal = at.normal;
     return look;
 }
@@ -84,10 +88,12 @@ Look car_park(const Stage& stage, const Surface& at, const PlotFrame& plot) {
     const Vector2f away = at.position.head<2>() - plot.start;
     const float u = away.dot(plot.along);
     const float v = plot.along.x() * away.y() - plot.along.y() * away.x();
-    // Bays of 2.5 m by 5 m on both sides of a lane of 6 m, again and again.
-    const float across = fraction(v / 16.0F) * 16;
-    const float bay = fraction(u / 2.5F) * 2.5F;
-    const bool in_bays = (across < 5 || across > 11) && u > 0.2F && u < plot.longest - 0.2F;
+    // Bays of 2.5 m by 5 m on both sides of an aisle of 6 m, again and again: as those who park
+    // cars by program count them, from half a metre inside the longest side.
+    const float across = fraction((v - 0.5F) / 16.4F) * 16.4F;
+    const float bay = fraction((u - 0.5F) / 2.5F) * 2.5F;
+    const bool in_bays = (across < 5 || (across > 11 && across < 16)) && v > 0.5F && u > 0.4F &&
+                         u < plot.longest - 0.4F;
     const bool line = in_bays && std::min(bay, 2.5F - bay) < 0.06F;
     return as_ground(stage, at, line ? Material::marking : Material::asphalt);
 }
@@ -112,7 +118,8 @@ Look forest_floor(const Surface& at) {
     const float x = at.position.x();
     const float y = at.position.y();
     const float moss = smooth_step(.42F, .66F, fractal_noise(x * 0.35F, y * 0.35F, 3, 172));
-    const float litter = value_noise(x * 16, y * 16, 173) * 0.6F + value_noise(x * 37, y * 37, 174) * 0.4F;
+    const float litter =
+        value_noise(x * 16, y * 16, 173) * 0.6F + value_noise(x * 37, y * 37, 174) * 0.4F;
     Look look;
     look.normal = at.normal;
     look.albedo = mix(Color(.115F, .078F, .046F), Color(.055F, .085F, .026F), moss) *

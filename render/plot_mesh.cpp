@@ -16,8 +16,8 @@ using Eigen::Vector2f;
 using Eigen::Vector3d;
 using world::Loop;
 
-/// The part of a convex polygon to the left of the line from `from` to `to` (Sutherland and Hodgman,
-/// "Reentrant polygon clipping", 1974).
+/// The part of a convex polygon to the left of the line from `from` to `to` (Sutherland and
+/// Hodgman, "Reentrant polygon clipping", 1974).
 Loop left_part(const Loop& polygon, const Vector2d& from, const Vector2d& to) {
     Loop kept;
     const auto side = [&](const Vector2d& p) { return world::cross(to - from, p - from); };
@@ -37,7 +37,12 @@ Loop left_part(const Loop& polygon, const Vector2d& from, const Vector2d& to) {
 using Corners = std::array<Vector3d, 3>;
 
 /// Lays what a terrain triangle and a convex piece have in common onto the triangle.
-void drape(Mesh& mesh, const Corners& corners, const Loop& piece, double lift, const Vector3d& origin, Finish finish) {
+void drape(Mesh& mesh,
+           const Corners& corners,
+           const Loop& piece,
+           double lift,
+           const Vector3d& origin,
+           Finish finish) {
     Loop common = {corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()};
     for (std::size_t i = 0; i < piece.size() && common.size() >= 3; ++i)
         common = left_part(common, piece[i], piece[(i + 1) % piece.size()]);
@@ -81,7 +86,9 @@ struct TerrainGrid {
 
 }  // namespace
 
-PlotFrame::PlotFrame(const world::PlotT& plot, const Vector3d& origin) : kind(plot.kind), longest(0) {
+PlotFrame::PlotFrame(const world::PlotT& plot, const Vector3d& origin)
+    : kind(plot.kind),
+      longest(0) {
     for (const world::Vec3& corner : plot.outline)
         outline.emplace_back((world::in_plan(corner) - origin.head<2>()).cast<float>());
     start = outline.empty() ? Vector2f(0, 0) : outline.front();

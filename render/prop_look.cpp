@@ -40,7 +40,9 @@ Color stop(float x, float y) {
 Color yield(float x, float y) {
     // Distance inwards from the nearest side of a triangle that stands on its point.
     const float radius = 1.28F;
-    const float inner = 0.5F * radius - std::max(y, std::max(0.8660254F * x - 0.5F * y, -0.8660254F * x - 0.5F * y));
+    const float inner =
+        0.5F * radius -
+        std::max(y, std::max(0.8660254F * x - 0.5F * y, -0.8660254F * x - 0.5F * y));
     return inner < 0.19F ? (inner < 0.015F ? sign_white : sign_red) : sign_white;
 }
 
@@ -59,8 +61,9 @@ Color crossing(float x, float y) {
         return ex * ex + ey * ey < half * half;
     };
     const bool figure = limb(.02F, .32F, .02F, .33F, .075F) || limb(0, .2F, -.02F, -.05F, .075F) ||
-                        limb(-.02F, -.05F, -.16F, -.38F, .05F) || limb(-.02F, -.05F, .15F, -.38F, .05F) ||
-                        limb(0, .17F, -.17F, 0, .04F) || limb(0, .17F, .18F, .02F, .04F);
+                        limb(-.02F, -.05F, -.16F, -.38F, .05F) ||
+                        limb(-.02F, -.05F, .15F, -.38F, .05F) || limb(0, .17F, -.17F, 0, .04F) ||
+                        limb(0, .17F, .18F, .02F, .04F);
     const bool stripe = y < -.40F && y > -.48F && fraction(x / .16F) < .5F;
     return figure || stripe ? sign_black : sign_white;
 }
@@ -123,16 +126,19 @@ Color painted(const PropTag& tag, std::uint32_t style) {
 }
 
 Color masonry(const Surface& at, std::uint32_t style) {
-    const float u = at.local.x() * std::abs(at.local_normal.y()) + at.local.y() * std::abs(at.local_normal.x());
+    const float u =
+        at.local.x() * std::abs(at.local_normal.y()) + at.local.y() * std::abs(at.local_normal.x());
     const float z = at.local.z();
     const bool brick = hash(style, 71) % 2 == 0;
     const float course_height = brick ? 0.075F : 0.3F;
     const float length = brick ? 0.25F : 0.55F;
     const int course = floor_int(z / course_height);
     const float shifted = u / length + (course % 2 == 0 ? 0.0F : 0.5F);
-    const bool joint = fraction(shifted) * length < 0.012F || fraction(z / course_height) * course_height < 0.011F;
-    const float tone = (0.85F + 0.3F * fractal_noise(u * 0.6F, z, 2, 72)) *
-                       (1 + 0.35F * detail(at, 0.15F) * (cell_noise(floor_int(shifted), course, 73) - 0.5F));
+    const bool joint =
+        fraction(shifted) * length < 0.012F || fraction(z / course_height) * course_height < 0.011F;
+    const float tone =
+        (0.85F + 0.3F * fractal_noise(u * 0.6F, z, 2, 72)) *
+        (1 + 0.35F * detail(at, 0.15F) * (cell_noise(floor_int(shifted), course, 73) - 0.5F));
     const Color color = brick ? Color(.28F, .12F, .08F) : Color(.40F, .38F, .34F);
     return mix(color, Color(.38F, .36F, .33F), joint ? 0.7F * detail(at, 0.03F) : 0.0F) * tone;
 }
@@ -179,7 +185,10 @@ Look prop_look(const Stage& stage, const Surface& at) {
             as_timber(look, at);
             break;
         case PropFinish::concrete:
-            look.albedo = Color(.42F, .40F, .36F) * (0.8F + 0.4F * fractal_noise(at.local.x() * 1.5F + at.local.z(), at.local.y() * 1.5F, 3, 75));
+            look.albedo =
+                Color(.42F, .40F, .36F) *
+                (0.8F + 0.4F * fractal_noise(
+                                   at.local.x() * 1.5F + at.local.z(), at.local.y() * 1.5F, 3, 75));
             break;
         case PropFinish::masonry:
             look.albedo = masonry(at, style);
@@ -204,8 +213,9 @@ Look prop_look(const Stage& stage, const Surface& at) {
             look.roughness = 0.05F;
             break;
         case PropFinish::foliage:
-            look.albedo = mix(Color(.040F, .085F, .022F), Color(.070F, .115F, .030F), unit(hash(style, 76))) *
-                          (tag.centre_mm == 0 ? 0.5F : 0.65F + 0.6F * unit(hash(at.tag, 77)));
+            look.albedo =
+                mix(Color(.040F, .085F, .022F), Color(.070F, .115F, .030F), unit(hash(style, 76))) *
+                (tag.centre_mm == 0 ? 0.5F : 0.65F + 0.6F * unit(hash(at.tag, 77)));
             look.translucency = tag.centre_mm == 0 ? 0 : 0.35F;
             break;
     }

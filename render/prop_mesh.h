@@ -7,16 +7,16 @@ namespace reprise::render {
 
 /// What a part of a prop is made of.
 enum class PropFinish : std::uint8_t {
-    steel,     ///< galvanised
-    iron,      ///< painted dark
-    plate,     ///< a sign's face
+    steel,  ///< galvanised
+    iron,   ///< painted dark
+    plate,  ///< a sign's face
     plate_back,
-    lamp,      ///< shines at dusk
+    lamp,  ///< shines at dusk
     timber,
     concrete,
     masonry,
     coping,
-    paint,     ///< by style
+    paint,  ///< by style
     glass,
     water,
     foliage

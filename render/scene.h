@@ -13,8 +13,8 @@
 #include "render/fast_math.h"
 #include "render/lane_raster.h"
 #include "render/mesh.h"
-#include "render/plot_mesh.h"
 #include "render/plain_tracer.h"
+#include "render/plot_mesh.h"
 #include "render/town_mesh.h"
 #include "world/tick.h"
 #include "world/town_generated.h"
@@ -48,12 +48,12 @@ struct Prototype {
 struct Instance {
     const Prototype* prototype = nullptr;
     Kind kind = Kind::town;
-    Material material = Material::skin;                  ///< of a limb
-    std::uint16_t lamps = 0;                             ///< Lamp bits of a car
-    std::uint16_t model = 0;   ///< of a car; kind of a plant; value of a prop
-    std::uint32_t style = 0;   ///< of plants, props and parked cars: seeds what is left open
-    std::uint32_t actor = 0;                             ///< 0: part of the town
-    std::uint32_t mask = 1;                              ///< rays with a common bit see it
+    Material material = Material::skin;  ///< of a limb
+    std::uint16_t lamps = 0;             ///< Lamp bits of a car
+    std::uint16_t model = 0;             ///< of a car; kind of a plant; value of a prop
+    std::uint32_t style = 0;  ///< of plants, props and parked cars: seeds what is left open
+    std::uint32_t actor = 0;  ///< 0: part of the town
+    std::uint32_t mask = 1;   ///< rays with a common bit see it
     Eigen::Affine3d pose = Eigen::Affine3d::Identity();  ///< to the scene's frame
     Eigen::Matrix3f normal_to_scene = Eigen::Matrix3f::Identity();
 };

@@ -74,8 +74,9 @@ void Scene::park(const world::Prop& prop) {
     body.model = prop.value();
     body.style = prop.style();
     // A prop stands on its middle, a car's frame on its rear axle.
-    const Eigen::Isometry3d pose = world::pose(prop.position(), prop.yaw(), 0) *
-                                   Eigen::Translation3d(model.rear_overhang - model.length / 2, 0, 0);
+    const Eigen::Isometry3d pose =
+        world::pose(prop.position(), prop.yaw(), 0) *
+        Eigen::Translation3d(model.rear_overhang - model.length / 2, 0, 0);
     const std::size_t first = instances_.size();
     place_car(pose, body, 0, {}, 0);
     for (std::size_t i = first; i < instances_.size(); ++i)

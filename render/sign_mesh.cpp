@@ -43,7 +43,7 @@ void add_sign(Mesh& mesh, PropKind kind, const PropSize& size) {
     build.tube({{.045F, 0, -.1F}, {.045F, 0, size.height}, .03F, .03F, 10}, pole);
     const Outline outline = outline_of(kind);
     // Straight edges reach the same width as a round sign.
-    const float reach = outline.corners == 4 ? sign_radius * 1.35F
+    const float reach = outline.corners == 4   ? sign_radius * 1.35F
                         : outline.corners == 3 ? sign_radius * 1.28F
                                                : sign_radius * 1.04F;
     const float lift = outline.corners == 3 ? 0.08F : 0.0F;
@@ -56,7 +56,8 @@ void add_sign(Mesh& mesh, PropKind kind, const PropSize& size) {
     };
     for (int i = 0; i < outline.corners; ++i) {
         build.triangle({Vector3f(0, 0, middle + lift), corner(i, 0), corner(i + 1, 0)}, face);
-        build.triangle({Vector3f(.012F, 0, middle + lift), corner(i + 1, .012F), corner(i, .012F)}, back);
+        build.triangle({Vector3f(.012F, 0, middle + lift), corner(i + 1, .012F), corner(i, .012F)},
+                       back);
         build.quad({corner(i, 0), corner(i, .012F), corner(i + 1, .012F), corner(i + 1, 0)}, back);
     }
     for (const float z : {-.16F, .16F})

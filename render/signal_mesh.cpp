@@ -81,7 +81,8 @@ void add_signal_pole(Mesh& mesh, const Eigen::Isometry3f& frame, float y, float 
              pole);
 }
 
-void add_signal_lamp(Mesh& mesh, const Eigen::Isometry3f& frame, const Vector3f& at, float radius, Finish lamp) {
+void add_signal_lamp(
+    Mesh& mesh, const Eigen::Isometry3f& frame, const Vector3f& at, float radius, Finish lamp) {
     const Vector3f out(-1, 0, 0);
     add_tube(
         mesh, {frame * at, frame * Vector3f(at + .025F * out), radius, radius * 0.9F, 16}, lamp);
@@ -102,11 +103,11 @@ void add_signal_lamp(Mesh& mesh, const Eigen::Isometry3f& frame, const Vector3f&
 }
 
 void add_signal_case(Mesh& mesh,
-              const Eigen::Isometry3f& frame,
-              float y,
-              float top,
-              std::uint32_t signal,
-              bool for_walkers) {
+                     const Eigen::Isometry3f& frame,
+                     float y,
+                     float top,
+                     std::uint32_t signal,
+                     bool for_walkers) {
     const float radius = for_walkers ? 0.085F : 0.115F;
     const float step = radius * 2.75F;
     const int lamps = for_walkers ? 2 : 3;
@@ -124,10 +125,10 @@ void add_signal_case(Mesh& mesh,
                                                  : SignalLamp::yellow;
         const float z = top - 0.03F - step * (static_cast<float>(i) + 0.5F);
         add_signal_lamp(mesh,
-                 frame,
-                 {.02F, y, z},
-                 radius,
-                 {Material::signal_lamp, 4 * signal + static_cast<std::uint32_t>(lamp)});
+                        frame,
+                        {.02F, y, z},
+                        radius,
+                        {Material::signal_lamp, 4 * signal + static_cast<std::uint32_t>(lamp)});
     }
 }
 

@@ -19,7 +19,8 @@ bool around_opening(Look& look, const Surface& at, const WallSpot& spot, const O
     const FacadeKind facade = paint.model->facade;
     if (opening.kind != OpeningKind::window && opening.kind != OpeningKind::door)
         return false;
-    if (facade == FacadeKind::glass || facade == FacadeKind::metal || spot.wall.use == WallUse::belfry)
+    if (facade == FacadeKind::glass || facade == FacadeKind::metal ||
+        spot.wall.use == WallUse::belfry)
         return false;
     const float out = std::max(opening.left - spot.u, spot.u - opening.right);
     const bool beside = out < 0.10F;
@@ -35,8 +36,11 @@ bool around_opening(Look& look, const Surface& at, const WallSpot& spot, const O
     }
     if (facade == FacadeKind::office)
         return false;
-    const bool lintel = above > 0 && above < (facade == FacadeKind::stone ? 0.24F : 0.17F) && out < 0.16F;
-    const bool jamb = out > 0 && out < 0.12F && below < 0 && above < 0 && (facade == FacadeKind::stone || facade == FacadeKind::timber || (facade == FacadeKind::plaster && hash(paint.seed, 64) % 2 == 0));
+    const bool lintel =
+        above > 0 && above < (facade == FacadeKind::stone ? 0.24F : 0.17F) && out < 0.16F;
+    const bool jamb = out > 0 && out < 0.12F && below < 0 && above < 0 &&
+                      (facade == FacadeKind::stone || facade == FacadeKind::timber ||
+                       (facade == FacadeKind::plaster && hash(paint.seed, 64) % 2 == 0));
     if (facade == FacadeKind::brick && lintel && hash(paint.seed, 65) % 2 == 0) {
         // Bricks on end.
         const float joint = fraction(spot.u / 0.075F);
@@ -47,8 +51,9 @@ bool around_opening(Look& look, const Surface& at, const WallSpot& spot, const O
         look.albedo = paint.trim * (opening.arched ? 0.97F : 1.0F);
         return true;
     }
-    if (paint.shutters && opening.kind == OpeningKind::window && below < 0 && above < 0 && out > 0.10F &&
-        out < 0.10F + 0.42F * (opening.right - opening.left) && spot.wall.use != WallUse::window) {
+    if (paint.shutters && opening.kind == OpeningKind::window && below < 0 && above < 0 &&
+        out > 0.10F && out < 0.10F + 0.42F * (opening.right - opening.left) &&
+        spot.wall.use != WallUse::window) {
         const float slat = fraction(spot.z / 0.075F);
         look.albedo = paint.accent * (0.9F + 0.45F * detail(at, 0.08F) * (slat - 0.5F));
         return true;
@@ -63,12 +68,15 @@ bool on_beam(const WallSpot& spot) {
     const float u = fraction(spot.u / width) * width;
     const float above = spot.z - wall.ground_floor;
     const float floor = above < 0 ? wall.ground_floor : wall.floor_height;
-    const float z = above < 0 ? spot.z : above - floor * static_cast<float>(floor_int(above / floor));
+    const float z =
+        above < 0 ? spot.z : above - floor * static_cast<float>(floor_int(above / floor));
     if (z < 0.16F || z > floor - 0.04F || u < 0.09F || u > width - 0.09F)
         return true;
-    if (std::abs(z - 0.82F) < 0.06F || std::abs(u - 0.22F * width) < 0.06F || std::abs(u - 0.78F * width) < 0.06F)
+    if (std::abs(z - 0.82F) < 0.06F || std::abs(u - 0.22F * width) < 0.06F ||
+        std::abs(u - 0.78F * width) < 0.06F)
         return true;
-    const bool east = hash(static_cast<std::uint32_t>(floor_int(spot.u / width)), wall.seed) % 2 == 0;
+    const bool east =
+        hash(static_cast<std::uint32_t>(floor_int(spot.u / width)), wall.seed) % 2 == 0;
     const float share = (east ? u : width - u) / width;
     return z < 0.82F && std::abs(z / 0.82F - share) < 0.12F;
 }
@@ -125,7 +133,7 @@ Look wall_look(const Stage& stage, const Surface& at, const WallSpot& spot) {
         return sign_look(stage, at, spot);
     if (spot.wall.use == WallUse::clock)
         return clock_look(stage, at, spot);
-    const Opening opening = opening_at(spot);
+    const Opening opening = opening_at(spot.wall, spot.paint, spot.u, spot.z);
     if (opening.holds(spot.u, spot.z))
         return opening_look(stage, at, spot, opening);
     Look look;
@@ -142,16 +150,21 @@ Look wall_look(const Stage& stage, const Surface& at, const WallSpot& spot) {
         look.f0 = 0.08F;
         look.gloss = 0.5F;
         look.roughness = 0.1F;
-    } else if ((opening.kind == OpeningKind::shop || opening.kind == OpeningKind::shop_door) && spot.z < opening.high + 0.15F) {
+    } else if ((opening.kind == OpeningKind::shop || opening.kind == OpeningKind::shop_door) &&
+               spot.z < opening.high + 0.15F) {
         look.albedo = spot.paint.accent * 0.85F;
     }
     return look;
 }
 
-Look part_look(const Stage& stage, const Surface& at, const BuildingPaint& paint, BuildingFinish finish) {
+Look part_look(const Stage& stage,
+               const Surface& at,
+               const BuildingPaint& paint,
+               BuildingFinish finish) {
     Look look;
     look.normal = at.normal;
-    const float across = std::max(1e-3F, std::sqrt(at.flat.x() * at.flat.x() + at.flat.y() * at.flat.y()));
+    const float across =
+        std::max(1e-3F, std::sqrt(at.flat.x() * at.flat.x() + at.flat.y() * at.flat.y()));
     const float u = (at.position.y() * at.flat.x() - at.position.x() * at.flat.y()) / across;
     const float x = at.position.x();
     const float y = at.position.y();
@@ -168,25 +181,34 @@ Look part_look(const Stage& stage, const Surface& at, const BuildingPaint& paint
             // Rows along the slope: farther apart in height the flatter it is.
             const float row = z / (0.21F * std::max(0.25F, across));
             const float shifted = u / 0.24F + (floor_int(row) % 2 == 0 ? 0.0F : 0.5F);
-            const float shade = 1 - 0.45F * detail(at, 0.2F) * smooth_step(0.25F, 0.0F, fraction(row));
-            const float tone = (0.82F + 0.36F * fractal_noise(u * 0.7F, z, 2, 151)) *
-                               (1 + 0.35F * detail(at, 0.24F) * (cell_noise(floor_int(shifted), floor_int(row), 152) - 0.5F));
-            look.albedo = paint.roof * (paint.model->facade == FacadeKind::metal ? 1.0F : shade * tone);
+            const float shade =
+                1 - 0.45F * detail(at, 0.2F) * smooth_step(0.25F, 0.0F, fraction(row));
+            const float tone =
+                (0.82F + 0.36F * fractal_noise(u * 0.7F, z, 2, 151)) *
+                (1 + 0.35F * detail(at, 0.24F) *
+                         (cell_noise(floor_int(shifted), floor_int(row), 152) - 0.5F));
+            look.albedo =
+                paint.roof * (paint.model->facade == FacadeKind::metal ? 1.0F : shade * tone);
             break;
         }
         case BuildingFinish::deck:
-            look.albedo = Color(.20F, .195F, .19F) * grain * (1 + 0.3F * detail(at, 0.05F) * (value_noise(x * 40, y * 40, 153) - 0.5F));
+            look.albedo =
+                Color(.20F, .195F, .19F) * grain *
+                (1 + 0.3F * detail(at, 0.05F) * (value_noise(x * 40, y * 40, 153) - 0.5F));
             break;
         case BuildingFinish::metal:
             look.albedo = Color(.035F, .036F, .038F);
             look.roughness = 0.4F;
             break;
         case BuildingFinish::machine:
-            look.albedo = Color(.42F, .43F, .43F) * grain * (fraction(z / 0.18F) < 0.2F * detail(at, 0.15F) ? 0.6F : 1.0F);
+            look.albedo = Color(.42F, .43F, .43F) * grain *
+                          (fraction(z / 0.18F) < 0.2F * detail(at, 0.15F) ? 0.6F : 1.0F);
             look.roughness = 0.4F;
             break;
         case BuildingFinish::copper:
-            look.albedo = mix(Color(.19F, .36F, .30F), Color(.13F, .20F, .16F), fractal_noise(u * 0.9F, z * 0.5F, 3, 154));
+            look.albedo = mix(Color(.19F, .36F, .30F),
+                              Color(.13F, .20F, .16F),
+                              fractal_noise(u * 0.9F, z * 0.5F, 3, 154));
             break;
         case BuildingFinish::glass:
             look.albedo = Color(.07F, .085F, .085F);
@@ -199,7 +221,10 @@ Look part_look(const Stage& stage, const Surface& at, const BuildingPaint& paint
             look.translucency = 0.15F;
             break;
         case BuildingFinish::timber:
-            look.albedo = mix(paint.frame, Color(.30F, .22F, .15F), hash(paint.seed, 67) % 2 == 0 ? 0.0F : 0.8F) * grain;
+            look.albedo = mix(paint.frame,
+                              Color(.30F, .22F, .15F),
+                              hash(paint.seed, 67) % 2 == 0 ? 0.0F : 0.8F) *
+                          grain;
             break;
     }
     static_cast<void>(stage);
@@ -224,7 +249,9 @@ Color wall_texture(const BuildingPaint& paint, float u, float z, const Surface& 
             tone *= 1 + bricks * 0.45F * (cell_noise(floor_int(shifted), course, 7) - 0.5F);
             // From far the mean of bricks and mortar.
             const float near = detail(at, 0.03F);
-            color = mix(color, Color(.42F, .39F, .35F), (mortar ? 0.75F : 0.0F) * near + 0.14F * (1 - near));
+            color = mix(color,
+                        Color(.42F, .39F, .35F),
+                        (mortar ? 0.75F : 0.0F) * near + 0.14F * (1 - near));
             break;
         }
         case FacadeKind::stone: {
@@ -232,7 +259,8 @@ Color wall_texture(const BuildingPaint& paint, float u, float z, const Surface& 
             const float block = u / 0.9F + (odd ? 0.0F : 0.5F);
             const float joint = std::min(fraction(z / 0.6F) * 0.6F, fraction(block) * 0.9F);
             tone *= 1 - 0.35F * detail(at, 0.06F) * smooth_step(0.02F, 0.008F, joint);
-            tone *= 1 + 0.14F * detail(at, 0.6F) * (cell_noise(floor_int(block), floor_int(z / 0.6F), 8) - 0.5F);
+            tone *= 1 + 0.14F * detail(at, 0.6F) *
+                            (cell_noise(floor_int(block), floor_int(z / 0.6F), 8) - 0.5F);
             break;
         }
         case FacadeKind::timber:
@@ -241,7 +269,8 @@ Color wall_texture(const BuildingPaint& paint, float u, float z, const Surface& 
             } else {
                 const float board = fraction(z / 0.17F);
                 tone *= 1 - 0.38F * detail(at, 0.09F) * smooth_step(0.16F, 0.02F, board);
-                tone *= 1 + 0.10F * detail(at, 0.17F) * (cell_noise(floor_int(u / 3.1F), floor_int(z / 0.17F), 9) - 0.5F);
+                tone *= 1 + 0.10F * detail(at, 0.17F) *
+                                (cell_noise(floor_int(u / 3.1F), floor_int(z / 0.17F), 9) - 0.5F);
             }
             break;
         case FacadeKind::metal:
@@ -265,7 +294,9 @@ Look model_building_look(const Stage& stage, const Surface& at) {
         const Wall& wall = facades.walls[at.tag];
         look = wall_look(stage, at, WallSpot(wall, facades.buildings[wall.building], at));
     } else {
-        look = part_look(stage, at, facades.buildings[at.tag / building_finishes],
+        look = part_look(stage,
+                         at,
+                         facades.buildings[at.tag / building_finishes],
                          static_cast<BuildingFinish>(at.tag % building_finishes));
     }
     const float wetness = stage.sky.weather().wetness();

@@ -2,6 +2,7 @@
 
 #include "render/building_plan.h"
 #include "render/look.h"
+#include "render/openings.h"
 
 namespace reprise::render {
 
@@ -18,31 +19,13 @@ struct WallSpot {
     Eigen::Vector3f inwards;  ///< scene
 };
 
-enum class OpeningKind : std::uint8_t { none, window, shop, door, shop_door, gate };
-
-/// A window, door or gate of a wall, in its coordinates.
-struct Opening {
-    OpeningKind kind = OpeningKind::none;
-    float left = 0;
-    float right = 0;
-    float low = 0;
-    float high = 0;  ///< of a round head: its crown
-    bool arched = false;
-    std::uint32_t seed = 0;
-
-    bool holds(float u, float z) const;
-
-    /// Distance to the nearest edge, from inside. [m]
-    float edge(float u, float z) const;
-};
-
-/// The opening whose column and floor this place belongs to.
-Opening opening_at(const WallSpot& spot);
-
 /// Colour of a wall between its openings, `u` along it and `z` above the ground. [m]
 Color wall_texture(const BuildingPaint& paint, float u, float z, const Surface& at);
 
 /// What is seen in an opening: panes with a room behind them, frames, leaves of doors.
-Look opening_look(const Stage& stage, const Surface& at, const WallSpot& spot, const Opening& opening);
+Look opening_look(const Stage& stage,
+                  const Surface& at,
+                  const WallSpot& spot,
+                  const Opening& opening);
 
 }  // namespace reprise::render
