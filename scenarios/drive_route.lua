@@ -1,5 +1,6 @@
 -- One car drives the shortest way from a place to another in an empty town, as the tasks of
 -- towns/town1/tasks.json ask for: it arrives in the time that 10 km/h would need, and touches nothing.
+-- Without places: from one lane to another, both chosen by the seed.
 return scenario 'drive_route' {
     town = 'town1',
     duration = 1200,
@@ -7,18 +8,20 @@ return scenario 'drive_route' {
     cars = 0,
     weather = 'clear_noon',
     params = {
-        start = 'b1_b2_1', s = 10,        -- [m] on that lane
-        goal = 'm2e_c3_1', goal_s = 40,   -- [m] on that one
+        start = '', s = 10,      -- lane, and [m] on it
+        goal = '', goal_s = 30,
     },
 
     run = function(p)
-        local ego = spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = p.start, s = p.s }
-        local length = ego:route_to{ lane = p.goal, s = p.goal_s }
+        local start = p.start ~= '' and p.start or pick_lane{ length = 50 }
+        local goal = p.goal ~= '' and p.goal or pick_lane{ length = 50 }
+        local ego = spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = start, s = p.s }
+        local length = ego:route_to{ lane = goal, s = p.goal_s }
         print(string.format('%.0f m to go', length))
 
         -- The goal may lie on the lane that we start from, behind us.
         local function arrived()
-            return ego:distance_driven() > length - 10 and ego:lane() == p.goal and ego:s() >= p.goal_s
+            return ego:distance_driven() > length - 10 and ego:lane() == goal and ego:s() >= p.goal_s
         end
         check.never('collision', function() return ego:collided() end)
         check.eventually('arrived in time', arrived, { within = length / (10 / 3.6) + 10 })
