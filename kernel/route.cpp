@@ -1,11 +1,9 @@
 #include "kernel/route.h"
 
 #include <algorithm>
-#include <limits>
-#include <queue>
-#include <utility>
 
 #include "world/check.h"
+#include "world/planner.h"
 
 namespace reprise::kernel {
 
@@ -14,10 +12,6 @@ namespace {
 using world::LaneKind;
 using world::LaneT;
 using world::Link;
-
-constexpr double lane_change_cost = 40;    // [m]
-constexpr double short_lane = 40;          // [m] too short to change lanes with ease
-constexpr double short_change_cost = 200;  // [m]
 
 bool leads_somewhere(const world::TownT& town, const Link& link) {
     return link.to() < town.lanes.size() && world::is_for_cars(town.lanes[link.to()]);
@@ -154,44 +148,15 @@ std::span<const std::uint32_t> LaneGraph::incoming(std::uint32_t junction) const
 }
 
 std::vector<std::uint32_t> LaneGraph::shortest(std::uint32_t source, std::uint32_t target) const {
-    const std::size_t count = town_->lanes.size();
-    std::vector<double> cost(count, std::numeric_limits<double>::infinity());
-    std::vector<std::uint32_t> from(count, world::none);
-    using Entry = std::pair<double, std::uint32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    cost[source] = 0;
-    open.emplace(0, source);
-    while (!open.empty()) {
-        const auto [reached, lane] = open.top();
-        open.pop();
-        if (lane == target)
-            break;
-        if (reached > cost[lane])
-            continue;
-        const auto relax = [&, here = lane, base = reached](std::uint32_t next, double length) {
-            if (next >= count || town_->lanes[next].kind != LaneKind::driving ||
-                !(base + length < cost[next]))
-                return;
-            cost[next] = base + length;
-            from[next] = here;
-            open.emplace(cost[next], next);
-        };
-        const LaneT& here = town_->lanes[lane];
-        for (const Link& link : here.links)
-            if (link.to() < count)
-                relax(link.to(), here.length);
-        if (here.kind == LaneKind::internal)
-            relax(exit_[lane], here.length);
-        const double change = here.length < short_lane ? short_change_cost : lane_change_cost;
-        relax(here.right, change);
-        relax(here.left, change);
-    }
-    std::vector<std::uint32_t> way;
-    if (cost[target] == std::numeric_limits<double>::infinity())
-        return way;
-    for (std::uint32_t lane = target; lane != world::none; lane = from[lane])
-        way.push_back(lane);
-    std::reverse(way.begin(), way.end());
+    const LaneT& goal = town_->lanes[target];
+    if (goal.kind != LaneKind::driving)
+        return {};
+    const auto route = world::Planner(*town_).plan({source, 0}, {target, goal.length});
+    if (!route)
+        return {};
+    std::vector<std::uint32_t> way = world::driving_lanes(*town_, *route);
+    if (way.front() != source)  // an internal lane
+        way.insert(way.begin(), source);
     return way;
 }
 

@@ -41,9 +41,8 @@ class LaneGraph {
     /// Driving lanes that end at a junction, ascending.
     std::span<const std::uint32_t> incoming(std::uint32_t junction) const;
 
-    /// The shortest way over links and neighbours, both ends included; empty: none. Dijkstra's
-    /// algorithm over metres; a change of lanes costs as much as a detour of 40 m. Ties go to the
-    /// lower lane.
+    /// The driving lanes of world::Planner's way from the start of one lane to the end of another,
+    /// both included; empty: none.
     std::vector<std::uint32_t> shortest(std::uint32_t source, std::uint32_t target) const;
 
     /// The way that passes all of `stops` in their order. Throws world::Error naming the lane that

@@ -60,6 +60,9 @@ world::TownT ring() {
     town.lanes[2].junction = 2;
     town.lanes[2].links = {make_link(3, 10, Turn::straight), make_link(4, 11, Turn::right)};
     town.lanes[3].links = {make_link(0, 12, Turn::straight)};
+    for (const world::LaneT& lane : std::vector(town.lanes))
+        for (const world::Link& link : lane.links)
+            town.lanes[link.via()].links = {make_link(link.to(), world::none, link.turn())};
     return town;
 }
 
