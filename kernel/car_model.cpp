@@ -35,6 +35,18 @@ Kind kind_of(world::BodyStyle body) {
             return {1.15, 0.42, false, 0.45, 0.85, 7.5, 0.008, 1.7};
         case world::BodyStyle::bus:
             return {1.15, 0.36, false, 0.32, 0.85, 7.5, 0.008, 1.6};
+        case world::BodyStyle::wagon:
+            return {0.56, 0.54, true, 0.22, 1.05, 9.5, 0.012, 1.4};
+        case world::BodyStyle::coupe:
+            return {0.46, 0.48, false, 0.19, 1.10, 10.2, 0.012, 1.7};
+        case world::BodyStyle::pickup:
+            return {0.72, 0.55, false, 0.28, 1.00, 9.0, 0.012, 1.5};
+        case world::BodyStyle::minibus:
+            return {0.85, 0.50, false, 0.26, 0.95, 8.5, 0.011, 1.5};
+        case world::BodyStyle::motorcycle:
+            return {0.18, 0.50, false, 0.22, 1.00, 8.8, 0.015, 2.4};
+        case world::BodyStyle::bicycle:
+            return {0.16, 0.45, false, 0.22, 0.80, 7.0, 0.006, 2.4};
     }
     return {};
 }

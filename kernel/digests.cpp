@@ -40,6 +40,7 @@ std::uint64_t digest_of(const traffic::Background& background, const world::Tick
     world::Hasher hasher;
     hasher.add(background.digest());
     hasher.add(std::span<const world::CarState>(next.traffic.cars));
+    hasher.add(std::span<const world::Look>(next.traffic.looks));
     hasher.add(std::span<const world::SignalColor>(next.tick.signals));
     return hasher.digest64();
 }
@@ -56,6 +57,7 @@ std::uint64_t digest_of(const Physics& physics, const world::TickDraft& next) {
     hasher.add(physics.digest());
     hasher.add(std::span<const world::VehicleState>(next.tick.vehicles));
     hasher.add(std::span<const world::WheelState>(next.tick.wheels));
+    hasher.add(std::span<const world::Look>(next.tick.looks));
     return hasher.digest64();
 }
 

@@ -17,7 +17,6 @@ namespace {
 using world::rounded;
 
 constexpr double walking_acceleration = 2;  // [m/s^2]
-constexpr double leg_share = 0.53;          // of the height
 
 bool is_raised(const world::LaneT& lane) {
     return lane.kind == world::LaneKind::sidewalk || lane.kind == world::LaneKind::walking_area;
@@ -25,14 +24,10 @@ bool is_raised(const world::LaneT& lane) {
 
 }  // namespace
 
-double walk_cycle_length(double speed, double height) {
-    const double leg = leg_share * height;
-    return 1.346 * std::sqrt(speed / leg) * leg;
-}
-
 Pedestrians::Pedestrians(const world::EpisodeT& episode, const world::TownT& town)
     : town_(&town),
       lanes_(town),
+      seed_(episode.seed),
       step_(static_cast<double>(episode.step_ns) * 1e-9) {}
 
 Pedestrians::Walker* Pedestrians::find(std::uint32_t id) {
@@ -62,7 +57,7 @@ void Pedestrians::advance(const world::TickView& last, world::TickDraft& next) {
                                           walker.model,
                                           walker.down,
                                           std::uint8_t{0},
-                                          std::uint32_t{0});
+                                          world::drawn_look(seed_, walker.id).look());
     }
 }
 

@@ -5,17 +5,13 @@
 #include <vector>
 
 #include "world/episode_generated.h"
+#include "world/gait.h"
 #include "world/tick.h"
 #include "world/town.h"
 
 namespace reprise::kernel {
 
-/// Length of one walk cycle (two steps). [m]; speed in m/s, height of the walker in m.
-/// Boulic, Thalmann and Thalmann, "A global human walking model with real-time kinematic
-/// personification", The Visual Computer 6 (1990): 1.346 sqrt(v) in leg lengths, v in leg lengths
-/// per second; the leg is 0.53 of the height (Winter, "Biomechanics and Motor Control of Human
-/// Movement", 4th ed., ch. 4).
-double walk_cycle_length(double speed, double height);
+using world::walk_cycle_length;
 
 /// The walkers that a scenario spawns: each goes in a straight line to where it was told, at the
 /// speed it was told (reached with 2 m/s^2), and stops there. One that a vehicle with mass has hit
@@ -65,6 +61,7 @@ class Pedestrians {
 
     const world::TownT* town_;
     world::LaneMap lanes_;
+    std::uint64_t seed_;           ///< of the looks
     double step_;                  ///< [s]
     std::vector<Walker> walkers_;  ///< sorted by id
 };

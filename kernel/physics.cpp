@@ -88,7 +88,8 @@ void add_manifolds(world::Hasher& hasher, btCollisionDispatcher& dispatcher) {
 
 struct Physics::World {
     World(const world::EpisodeT& episode, const world::TownT& town, const world::GroundMesh& mesh)
-        : substeps(static_cast<int>(episode.substeps)),
+        : seed(episode.seed),
+          substeps(static_cast<int>(episode.substeps)),
           step(static_cast<double>(episode.step_ns) * 1e-9),
           substep(step / substeps),
           ground(mesh, bullet.world),
@@ -108,6 +109,7 @@ struct Physics::World {
     void make_substep(int index, double road_friction);
     void write(world::TickT& tick);
 
+    std::uint64_t seed;
     int substeps;
     double step;     ///< [s] a tick
     double substep;  ///< [s]
@@ -190,8 +192,10 @@ void Physics::World::make_substep(int index, double road_friction) {
 void Physics::World::write(world::TickT& tick) {
     tick.vehicles.clear();
     tick.wheels.clear();
+    tick.looks.clear();
     for (const auto& vehicle : vehicles) {
         tick.vehicles.push_back(vehicle->state_after(step));
+        tick.looks.push_back(world::drawn_look(seed, vehicle->id()));
         const world::Vec3& position = tick.vehicles.back().position();
         REPRISE_CHECK(std::isfinite(position.x() + position.y() + position.z()),
                       "tick " + std::to_string(tick.index) + ", vehicle " +

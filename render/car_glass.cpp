@@ -6,25 +6,55 @@ namespace {
 
 using world::BodyStyle;
 
+/// Where the side windows end behind, and whether a small one is set apart.
+struct SideWindows {
+    float last;  ///< x
+    bool quarter;
+};
+
+SideWindows side_windows(const CarSpot& at) {
+    switch (at.shape.style) {
+        case BodyStyle::sedan:
+            return {0.02F, false};
+        case BodyStyle::coupe:
+            return {0.10F, false};
+        case BodyStyle::pickup:
+            return {at.shape.rear + 0.405F * at.shape.length(), false};
+        case BodyStyle::van:
+            return {middle_pillar(at) + 0.35F, false};
+        case BodyStyle::minibus:
+            return {at.shape.rear + 0.35F, false};
+        case BodyStyle::wagon:
+            return {-0.74F, true};
+        default:
+            return {-0.42F, true};
+    }
+}
+
+/// `top`: of the body's outline here.
+bool is_side_glass(const CarSpot& at, float top) {
+    if (std::abs(at.normal.y()) < 0.62F || at.z > std::min(top - 0.10F, 0.915F * at.height))
+        return false;
+    const SideWindows windows = side_windows(at);
+    const float pillar = middle_pillar(at);
+    if (at.shape.style == BodyStyle::minibus && at.x < pillar - 0.05F)
+        return at.x > windows.last && fraction((pillar - at.x) / 1.32F) > 0.07F;
+    const bool quarter = windows.quarter && std::abs(at.x - 0.10F) < 0.035F;
+    return at.x > windows.last && std::abs(at.x - pillar) > 0.045F && !quarter;
+}
+
 /// Windows of cars with one cabin. Front and rear doors meet at the middle pillar.
 bool is_car_glass(const CarSpot& at) {
     const float top = at.shape.top(at.x);
     if (top - at.belt < 0.16F || at.z < at.belt + 0.045F)
         return false;
-    const bool van = at.shape.style == BodyStyle::van;
+    const bool van = at.shape.style == BodyStyle::van || at.shape.style == BodyStyle::minibus;
     if (at.normal.x() > 0.22F && std::abs(at.normal.y()) < 0.52F)
         return at.z < 0.945F * at.height && at.shape.along(at.x) > 0.5F;
     if (at.normal.x() < -0.22F && std::abs(at.normal.y()) < 0.52F)
         return at.z < 0.93F * at.height && at.z > at.belt + 0.09F && at.side < at.half * 0.72F &&
                (!van || at.side > 0.03F);
-    if (std::abs(at.normal.y()) < 0.62F || at.z > std::min(top - 0.10F, 0.915F * at.height))
-        return false;
-    const float pillar = 0.47F * at.shape.wheelbase();
-    if (van)
-        return at.x > pillar + 0.35F;
-    const float last = at.shape.style == BodyStyle::sedan ? 0.02F : -0.42F;
-    const bool quarter = std::abs(at.x - 0.10F) < 0.035F && at.shape.style != BodyStyle::sedan;
-    return at.x > last && std::abs(at.x - pillar) > 0.045F && !quarter;
+    return is_side_glass(at, top);
 }
 
 bool is_bus_glass(const CarSpot& at) {

@@ -1,13 +1,13 @@
+#include "render/car_parts.h"
 #include "render/car_spot.h"
 
 namespace reprise::render {
 
 namespace {
 
-/// Lamps flash twice in three seconds, all cars together: ticks are 50 ms.
 bool flashing(const CarSpot& at) {
     const unsigned bit = at.y > 0 ? world::lamp_left : world::lamp_right;
-    return (at.lamps & bit) != 0 && at.tick % 16 < 9;
+    return (at.lamps & bit) != 0 && flashes_now(at.tick);
 }
 
 }  // namespace

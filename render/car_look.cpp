@@ -1,4 +1,6 @@
+#include "render/car_parts.h"
 #include "render/car_spot.h"
+#include "render/paint.h"
 
 namespace reprise::render {
 
@@ -6,27 +8,6 @@ namespace {
 
 using Eigen::Vector3f;
 using world::BodyStyle;
-
-Color paint_of(std::uint32_t actor) {
-    // By what is sold: white, black and greys first.
-    static const std::array<Color, 16> paints{Color(.62F, .62F, .61F),
-                                              Color(.58F, .58F, .57F),
-                                              Color(.030F, .031F, .034F),
-                                              Color(.022F, .023F, .026F),
-                                              Color(.13F, .135F, .145F),
-                                              Color(.20F, .205F, .21F),
-                                              Color(.33F, .335F, .34F),
-                                              Color(.40F, .405F, .41F),
-                                              Color(.035F, .075F, .22F),
-                                              Color(.025F, .045F, .12F),
-                                              Color(.42F, .022F, .020F),
-                                              Color(.26F, .016F, .022F),
-                                              Color(.05F, .13F, .085F),
-                                              Color(.36F, .27F, .17F),
-                                              Color(.55F, .22F, .03F),
-                                              Color(.10F, .24F, .34F)};
-    return paints[hash(actor, 11) % paints.size()];
-}
 
 void as_paint(Look& look, const Color& color) {
     look.albedo = color;
@@ -40,6 +21,16 @@ void as_glass(Look& look) {
     look.f0 = 0.09F;
     look.gloss = 1;
     look.roughness = 0.03F;
+}
+
+bool has_van_doors(const CarSpot& at) {
+    return at.shape.style == BodyStyle::van || at.shape.style == BodyStyle::minibus;
+}
+
+/// The number plate sits below a boot lid rather than in a hatch.
+bool is_low_tailed(const CarSpot& at) {
+    const BodyStyle style = at.shape.style;
+    return style == BodyStyle::sedan || style == BodyStyle::coupe || style == BodyStyle::pickup;
 }
 
 /// A seam between panels at `edge`, 9 mm wide.
@@ -93,7 +84,31 @@ bool front_details(Look& look, const Stage& stage, const CarSpot& at, std::uint3
     return false;
 }
 
-bool rear_details(Look& look, const Stage& stage, const CarSpot& at, std::uint32_t actor) {
+/// Heights and inner edge of a car's rear lamps, as shares of its height and half width.
+struct RearLamps {
+    float low;
+    float high;
+    float inner;
+};
+
+RearLamps rear_lamps(BodyStyle style) {
+    switch (style) {
+        case BodyStyle::van:
+        case BodyStyle::minibus:
+            return {0.30F, 0.50F, 0.84F};
+        case BodyStyle::pickup:
+            return {0.38F, 0.53F, 0.83F};
+        case BodyStyle::sedan:
+            return {0.485F, 0.605F, 0.56F};
+        case BodyStyle::coupe:
+            return {0.555F, 0.635F, 0.42F};
+        default:
+            return {0.485F, 0.625F, 0.56F};
+    }
+}
+
+bool rear_details(
+    Look& look, const Stage& stage, const CarSpot& at, std::uint32_t actor, const Color& color) {
     const float h = at.height;
     if (at.from_rear > 0.34F)
         return false;
@@ -101,21 +116,18 @@ bool rear_details(Look& look, const Stage& stage, const CarSpot& at, std::uint32
         return at.normal.x() < -0.5F &&
                (rear_lamp(look, stage, at, 0.22F * h, 0.33F * h, 0.78F * at.half) ||
                 number_plate(look, at, 0.16F * h, actor));
-    const bool van = at.shape.style == BodyStyle::van;
-    const float low = van ? 0.36F * h : 0.485F * h;
-    const float high = van                                  ? 0.56F * h
-                       : at.shape.style == BodyStyle::sedan ? 0.605F * h
-                                                            : 0.625F * h;
-    if (rear_lamp(look, stage, at, low, high, (van ? 0.82F : 0.56F) * at.half) &&
+    const bool van = has_van_doors(at);
+    const RearLamps lamps = rear_lamps(at.shape.style);
+    if (rear_lamp(look, stage, at, lamps.low * h, lamps.high * h, lamps.inner * at.half) &&
         (at.normal.x() < -0.15F || at.from_rear < 0.2F))
         return true;
     if (at.normal.x() > -0.45F) {
-        as_paint(look, paint_of(actor));
+        as_paint(look, color);
         look.emission = Color::Zero();
         return false;
     }
-    if (number_plate(
-            look, at, (at.shape.style == BodyStyle::sedan || van ? 0.325F : 0.40F) * h, actor))
+    const bool low_plate = van || is_low_tailed(at);
+    if (number_plate(look, at, (low_plate ? 0.325F : 0.40F) * h, actor))
         return true;
     if (at.z < 0.245F * h) {
         as_trim(look);
@@ -134,30 +146,29 @@ void side_details(Look& look, const CarSpot& at, const Color& color) {
     }
     if (is_long(at) || std::abs(at.normal.y()) < 0.5F)
         return;
-    const float pillar = 0.47F * at.shape.wheelbase();
+    const float pillar = middle_pillar(at);
+    const bool rear_door = !has_van_doors(at) && at.shape.style != BodyStyle::coupe;
     const bool below_windows = at.z < at.belt && at.z > at.shape.sill + 0.12F;
     const float arch = at.shape.wheel_radius() * 1.2F;
     const float last = arch + 0.02F + std::max(0.0F, 0.25F * (0.75F - at.z));
     if (below_windows &&
         (seam(at, at.x, pillar) || seam(at, at.x, at.shape.wheelbase() - arch - 0.10F) ||
-         (at.shape.style != BodyStyle::van && seam(at, at.x, last))))
+         (rear_door && seam(at, at.x, last))))
         as_trim(look);
     if (at.x > last && at.x < at.shape.wheelbase() - arch && seam(at, at.z, at.shape.sill + 0.13F))
         as_trim(look);
     const float z = at.z - (at.belt - 0.11F);
     const bool handle =
-        std::abs(z) < 0.016F &&
-        ((at.x > pillar + .06F && at.x < pillar + .24F) ||
-         (at.x > last + .05F && at.x < last + .23F && at.shape.style != BodyStyle::van));
+        std::abs(z) < 0.016F && ((at.x > pillar + .06F && at.x < pillar + .24F) ||
+                                 (at.x > last + .05F && at.x < last + .23F && rear_door));
     if (handle)
         look.albedo = color * 0.45F + Color::Constant(0.05F);
 }
 
-Look cargo_look(const Stage& stage, const CarSpot& at, std::uint32_t actor) {
+Look cargo_look(const Stage& stage, const CarSpot& at, std::uint32_t actor, const Color& brand) {
     Look look;
     look.albedo = Color(.58F, .58F, .56F);
     look.roughness = 0.35F;
-    const Color brand = paint_of(hash(actor, 3));
     const float low = 0.325F * at.height;
     const float share = (at.z - low) / (at.height - low);
     if (std::abs(at.normal.y()) > 0.5F && share > 0.32F && share < 0.62F)
@@ -193,13 +204,11 @@ Look car_look(const Stage& stage, const Surface& surface) {
                      car.lamps,
                      stage.tick};
     Look look;
-    const Color color = shape.style == BodyStyle::bus && hash(car.actor) % 2 == 0
-                            ? Color(.50F, .03F, .03F)
-                            : paint_of(car.actor);
+    const Color& color = car.color;
     if (surface.material == Material::car_under) {
         as_trim(look, Color::Constant(0.010F));
     } else if (surface.material == Material::car_cargo) {
-        look = cargo_look(stage, at, car.actor);
+        look = cargo_look(stage, at, car.actor, paint_of(*shape.model, car.look).cargo);
     } else if (at.side > shape.half_width(p.x()) + 0.012F) {
         // Mirrors: glass towards the driver.
         if (at.normal.x() < -0.7F)
@@ -210,12 +219,18 @@ Look car_look(const Stage& stage, const Surface& surface) {
             as_paint(look, color);
     } else if (at.normal.z() < -0.7F) {
         as_trim(look, Color::Constant(0.010F));
+    } else if (shape.style == BodyStyle::pickup && at.normal.z() > 0.6F &&
+               shape.along(at.x) < 0.37F) {
+        as_trim(look);  // the cover over the bed
     } else if (is_glass(at)) {
         as_glass(look);
     } else {
         as_paint(look, color);
-        if (!front_details(look, stage, at, car.actor) && !rear_details(look, stage, at, car.actor))
-            side_details(look, at, color);
+        if (!front_details(look, stage, at, car.actor) &&
+            !rear_details(look, stage, at, car.actor, color)) {
+            paint_livery(look, at);
+            side_details(look, at, look.albedo);
+        }
     }
     look.normal = surface.normal;
     return look;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/car_parts.h"
 #include "render/car_shape.h"
 #include "render/fast_math.h"
 
@@ -164,6 +165,7 @@ Mesh car_body_mesh(const CarShape& shape) {
     add_mirrors(mesh, shape);
     if (shape.style == world::BodyStyle::lorry)
         add_cargo(mesh, shape);
+    add_service_parts(mesh, shape);
     drop_degenerate(mesh);
     smooth(mesh, 0.6);
     return mesh;

@@ -36,6 +36,20 @@ inline void as_trim(Look& look, const Color& color = black) {
 
 bool is_glass(const CarSpot& at);
 
+/// x of the pillar behind the front doors.
+inline float middle_pillar(const CarSpot& at) {
+    switch (at.shape.style) {
+        case world::BodyStyle::coupe:
+            return 0.26F * at.shape.wheelbase();
+        case world::BodyStyle::minibus:
+            return 0.70F * at.shape.wheelbase();
+        case world::BodyStyle::pickup:
+            return 0.53F * at.shape.wheelbase();
+        default:
+            return 0.47F * at.shape.wheelbase();
+    }
+}
+
 // Each paints its thing and says so, when the spot lies on it. `low` and `high` are heights,
 // `inner` the distance from the middle where a lamp begins.
 bool front_lamp(

@@ -3,12 +3,19 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/body.h"
+#include "render/carried.h"
+#include "render/noise.h"
+#include "render/posture.h"
+#include "world/check.h"
+
 namespace reprise::render {
 
 namespace {
 
 using Eigen::Affine3d;
 using Eigen::Vector3d;
+using world::Clothing;
 
 Affine3d stretched_bone(const Vector3d& from, const Vector3d& to, double radius) {
     const Vector3d axis = to - from;
@@ -27,129 +34,192 @@ Affine3d stretched_ball(const Vector3d& centre, const Vector3d& radii) {
     return pose;
 }
 
-/// In the plane of walking: `angle` swings forward from straight down.
-Vector3d hanging(double length, double angle) {
-    return {length * std::sin(angle), 0, -length * std::cos(angle)};
-}
-
-struct Body {
-    double height;
-    double shoulder;
-    double hip_height;
-    double stride;  ///< 0 standing, 1 walking
-    std::vector<Limb> limbs;
-
-    void bone(Material material, const Vector3d& from, const Vector3d& to, double radius) {
-        limbs.push_back({Limb::Shape::bone, material, stretched_bone(from, to, radius)});
-    }
-
-    void ball(Material material, const Vector3d& centre, const Vector3d& radii) {
-        limbs.push_back({Limb::Shape::ball, material, stretched_ball(centre, radii)});
-    }
+/// What legs and arms are clad in.
+struct Cover {
+    Material thigh, shank, upper_arm, forearm;
 };
 
-void add_leg(Body& body, double side, double cycle) {
-    const double h = body.height;
-    const double hip = body.stride * (0.40 * std::cos(cycle) + 0.06);
-    const double bend = std::max(0.0, std::sin(cycle + 3.6));
-    const double knee = 0.06 + body.stride * 0.95 * bend * bend;
-    const Vector3d top(0, side * 0.052 * h, body.hip_height);
-    const Vector3d middle = top + hanging(0.245 * h, hip);
-    const Vector3d ankle = middle + hanging(0.235 * h, hip - knee);
-    body.bone(Material::trousers, top, middle, 0.048 * h);
-    body.bone(Material::trousers, middle, ankle, 0.036 * h);
-    const double pitch = hip - knee + 0.06;
-    const Vector3d toe(0.105 * h * std::cos(pitch), 0, 0.105 * h * std::sin(pitch) - 0.012 * h);
-    body.bone(
-        Material::shoe, ankle - 0.25 * toe - Vector3d(0, 0, 0.012 * h), ankle + toe, 0.026 * h);
+Cover cover_of(Clothing clothing, const Outfit& outfit) {
+    const Material leg = outfit.stockings ? Material::trousers : Material::skin;
+    const Material arm = outfit.short_sleeves ? Material::skin : Material::shirt;
+    switch (clothing) {
+        case Clothing::shorts:
+            return {Material::trousers, Material::skin, Material::shirt, arm};
+        case Clothing::skirt:
+        case Clothing::dress:
+            return {leg, leg, Material::shirt, arm};
+        case Clothing::gown:
+            return {Material::trousers, Material::trousers, Material::shirt, Material::shirt};
+        default:
+            return {Material::trousers, Material::trousers, Material::shirt, arm};
+    }
 }
 
-void add_arm(Body& body, double side, double cycle) {
-    const double h = body.height;
-    const double swing = -0.38 * body.stride * std::cos(cycle);
-    const Vector3d top(0, side * body.shoulder * 0.43, 0.795 * h);
-    const Vector3d out(0, side * 0.022 * h, 0);
-    body.ball(Material::shirt, top, Vector3d::Constant(0.033 * h));
-    const Vector3d elbow = top + hanging(0.17 * h, swing) + out;
-    const Vector3d wrist = elbow + hanging(0.145 * h, swing + 0.25 + 0.15 * body.stride);
-    body.bone(Material::shirt, top, elbow, 0.034 * h);
-    body.bone(Material::shirt, elbow, wrist, 0.026 * h);
-    body.ball(Material::skin, wrist, Vector3d(.022, .016, .03) * h);
+void add_leg(std::vector<Limb>& limbs,
+             const Posture& posture,
+             const Build& build,
+             const Cover& cover,
+             std::size_t side) {
+    const double h = build.height * build.stoutness;
+    const double out = side == 0 ? 1 : -1;
+    const Vector3d hip = posture.hip + Vector3d(0, out * build.half_hip, 0);
+    const Vector3d ankle = posture.ankle(build, side);
+    const Vector3d knee =
+        joint_between(hip, ankle, build.thigh, build.thigh, Vector3d(1, 0.08 * out, 0));
+    const bool loose = cover.shank == Material::trousers;
+    limbs.push_back({Limb::Shape::bone, cover.thigh, stretched_bone(hip, knee, .053 * h)});
+    limbs.push_back(
+        {Limb::Shape::bone, cover.shank, stretched_bone(knee, ankle, (loose ? .042 : .036) * h)});
+    Affine3d shoe = Affine3d::Identity();
+    shoe.translation() = posture.toe[side];
+    shoe.rotate(Eigen::AngleAxisd(posture.pitch[side], Vector3d::UnitY()));
+    shoe.scale(build.foot);
+    limbs.push_back({Limb::Shape::shoe, Material::shoe, shoe});
 }
 
-void add_trunk(Body& body) {
-    const double h = body.height;
-    const double wide = body.shoulder * 0.5;
-    body.ball(
-        Material::trousers, {0, 0, body.hip_height + .015 * h}, {.068 * h, .088 * h, .075 * h});
-    body.ball(Material::shirt, {0, 0, .635 * h}, {.072 * h, wide * .74, .125 * h});
-    body.ball(Material::shirt, {0.004 * h, 0, .735 * h}, {.075 * h, wide * .88, .105 * h});
-    body.bone(Material::skin, {0, 0, .80 * h}, {.008 * h, 0, .88 * h}, .034 * h);
-    body.ball(Material::skin, {.012 * h, 0, .925 * h}, {.054 * h, .046 * h, .070 * h});
-    body.ball(Material::hair, {-.006 * h, 0, .942 * h}, {.056 * h, .050 * h, .062 * h});
+void add_arm(std::vector<Limb>& limbs,
+             const Posture& posture,
+             const Build& build,
+             const Cover& cover,
+             std::size_t side) {
+    const double h = build.height * build.stoutness;
+    const double out = side == 0 ? 1 : -1;
+    const Vector3d shoulder = posture.shoulder(build, side) - Vector3d(0, 0, 0.012 * h);
+    const Vector3d& wrist = posture.wrist[side];
+    const Vector3d elbow = joint_between(
+        shoulder, wrist, build.upper_arm, build.forearm, Vector3d(-1, 0.5 * out, -0.3));
+    const Vector3d along = (wrist - elbow).normalized();
+    limbs.push_back({Limb::Shape::ball,
+                     cover.upper_arm,
+                     stretched_ball(shoulder, Vector3d::Constant(.036 * h))});
+    limbs.push_back(
+        {Limb::Shape::bone, cover.upper_arm, stretched_bone(shoulder, elbow, .034 * h)});
+    limbs.push_back({Limb::Shape::bone, cover.forearm, stretched_bone(elbow, wrist, .027 * h)});
+    limbs.push_back(
+        {Limb::Shape::bone,
+         Material::skin,
+         stretched_bone(wrist - 0.004 * h * along, wrist + .085 * build.height * along, .020 * h)});
+}
+
+std::vector<Limb> limbs_of(const world::WalkerModel& model,
+                           const Build& build,
+                           const Posture& posture,
+                           const Outfit& outfit) {
+    std::vector<Limb> limbs;
+    const Cover cover = cover_of(model.clothing, outfit);
+    limbs.push_back({Limb::Shape::trunk, Material::skin, Affine3d(posture.trunk())});
+    for (const std::size_t side : {0U, 1U}) {
+        add_leg(limbs, posture, build, cover, side);
+        add_arm(limbs, posture, build, cover, side);
+    }
+    return limbs;
+}
+
+/// It gives way to the knees: wider while the legs are apart.
+Limb hem(const world::WalkerModel& model, const Build& build, const Posture& posture) {
+    const double share = hem_length(model) / build.hip;
+    const double apart = std::abs(posture.toe[0].x() - posture.toe[1].x()) * share;
+    Affine3d pose(Eigen::Translation3d(posture.hip));
+    pose.scale(Vector3d(1 + 1.1 * apart / (0.2 * build.height), 1, 1));
+    return {Limb::Shape::hem, Material::shirt, pose};
 }
 
 }  // namespace
 
-Mesh ball_mesh() {
-    Mesh mesh;
-    add_ellipsoid(mesh, Eigen::Vector3f::Zero(), Eigen::Vector3f::Ones(), 16, {Material::skin});
-    drop_degenerate(mesh);
-    smooth(mesh, 3);
-    return mesh;
+std::uint32_t look_of(const world::WalkerState& walker) {
+    return walker.look() != 0 ? walker.look() : hash(walker.id(), 1);
 }
 
-Mesh bone_mesh() {
-    // Rings from pole to pole; the ends bulge by a third of the radius, as seen after stretching.
-    Mesh mesh;
-    std::vector<std::vector<Eigen::Vector3f>> rings;
-    const std::vector<Eigen::Vector2d> outline{{0, -.10},
-                                               {.6, -.075},
-                                               {.9, -.03},
-                                               {1, .05},
-                                               {.97, .3},
-                                               {.84, .7},
-                                               {.72, .95},
-                                               {.62, 1.03},
-                                               {.4, 1.065},
-                                               {0, 1.08}};
-    for (const Eigen::Vector2d& point : outline) {
-        std::vector<Eigen::Vector3f>& ring = rings.emplace_back();
-        for (int i = 0; i < 12; ++i) {
-            const double angle = 2 * std::numbers::pi * i / 12;
-            ring.emplace_back(static_cast<float>(point.x() * std::cos(angle)),
-                              static_cast<float>(point.x() * std::sin(angle)),
-                              static_cast<float>(point.y()));
-        }
+std::vector<Limb> figure(const world::WalkerModel& model,
+                         const world::WalkerState& walker,
+                         bool rains) {
+    const Build build(model);
+    const std::uint32_t look = look_of(walker);
+    const Outfit outfit = outfit_of(model, look);
+    const auto speed = static_cast<double>(walker.speed());
+    const bool walks = speed > 0.05 && !walker.down();
+    Posture posture = walks ? striding(model, speed, static_cast<double>(walker.phase()))
+                            : standing(model, hash(look, 40));
+    if (!walker.down())
+        hold(posture, build, outfit.carried, rains);
+    std::vector<Limb> limbs = limbs_of(model, build, posture, outfit);
+    if (hem_length(model) > 0)
+        limbs.push_back(hem(model, build, posture));
+    if (!walker.down()) {
+        add_carried(limbs, posture, build, outfit.carried, rains);
+        return limbs;
     }
-    add_loft(mesh, rings, true, {Material::skin});
-    drop_degenerate(mesh);
-    smooth(mesh, 3);
-    return mesh;
+    Affine3d lying = Affine3d::Identity();
+    lying.linear() = Eigen::AngleAxisd(-std::numbers::pi / 2, Vector3d::UnitY()).toRotationMatrix();
+    lying.translation() = Vector3d(model.height / 2, 0, 0.13);
+    for (Limb& limb : limbs)
+        limb.pose = lying * limb.pose;
+    return limbs;
 }
 
-std::vector<Limb> figure(const world::WalkerModel& model, const world::WalkerState& walker) {
-    Body body{model.height, model.shoulder_width, 0.495 * model.height, 0, {}};
-    const bool walks = walker.speed() > 0.05F && !walker.down();
-    body.stride = walks ? std::min(1.0, 0.45 + static_cast<double>(walker.speed()) / 2.2) : 0;
-    const double cycle = 2 * std::numbers::pi * static_cast<double>(walker.phase());
-    // Straddled legs stand lower; the hip bobs twice a cycle.
-    body.hip_height -= body.stride * 0.016 * model.height * (1 + std::cos(2 * cycle) * 0.6);
-    for (const double side : {1.0, -1.0}) {
-        const double leg = side > 0 ? cycle : cycle + std::numbers::pi;
-        add_leg(body, side, leg);
-        add_arm(body, side, leg);
+std::vector<Limb> rider(const CarShape& shape,
+                        const Outfit& outfit,
+                        double steering,
+                        double crank) {
+    const world::WalkerModel& model = rider_of(shape.style);
+    const Build build(model);
+    const Seat seat = seat_of(shape);
+    Posture posture;
+    posture.hip = seat.saddle + Vector3d(0, 0, 0.05 * build.height);
+    posture.lean = seat.lean;
+    const Vector3d axle(static_cast<double>(shape.wheelbase()), 0, 0);
+    for (const std::size_t side : {0U, 1U}) {
+        const Vector3d mirror(1, side == 0 ? 1 : -1, 1);
+        const double angle = crank + (side == 0 ? 0 : std::numbers::pi);
+        const Vector3d pedal = seat.foot.cwiseProduct(mirror) -
+                               seat.crank * Vector3d(std::sin(angle), 0, std::cos(angle));
+        posture.pitch[side] = seat.crank > 0 ? 0.15 - 0.25 * std::cos(angle) : 0.1;
+        posture.toe[side] = pedal + Vector3d(0.3 * build.foot, 0, 0.01);
+        const Vector3d grip = seat.grip.cwiseProduct(mirror) - axle;
+        const Vector3d turned = axle + Eigen::AngleAxisd(steering, Vector3d::UnitZ()) * grip;
+        // The wrist is behind the hand.
+        posture.wrist[side] = turned - Vector3d(0.045 * build.height, 0, -0.012 * build.height);
     }
-    add_trunk(body);
-    if (walker.down()) {
-        Affine3d lying = Affine3d::Identity();
-        lying.linear() =
-            Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitY()).toRotationMatrix();
-        lying.translation() = Vector3d(-model.height / 2, 0, 0.14);
-        for (Limb& limb : body.limbs)
-            limb.pose = lying * limb.pose;
+    return limbs_of(model, build, posture, outfit);
+}
+
+const world::WalkerModel& rider_of(world::BodyStyle style) {
+    static constexpr world::WalkerModel motorcyclist{"motorcyclist",
+                                                     1.77,
+                                                     0.47,
+                                                     80,
+                                                     1.3,
+                                                     0.92,
+                                                     world::Age::adult,
+                                                     Clothing::uniform,
+                                                     world::Hair::helmet};
+    static constexpr world::WalkerModel cyclist{"cyclist",
+                                                1.75,
+                                                0.45,
+                                                72,
+                                                1.3,
+                                                0.82,
+                                                world::Age::adult,
+                                                Clothing::casual,
+                                                world::Hair::helmet};
+    return style == world::BodyStyle::motorcycle ? motorcyclist : cyclist;
+}
+
+Mesh limb_mesh(Limb::Shape shape, const world::WalkerModel& model) {
+    switch (shape) {
+        case Limb::Shape::trunk:
+            return trunk_mesh(model);
+        case Limb::Shape::hem:
+            return hem_mesh(model);
+        case Limb::Shape::ball:
+            return ball_mesh();
+        case Limb::Shape::bone:
+            return bone_mesh();
+        case Limb::Shape::shoe:
+            return shoe_mesh();
+        default:
+            return thing_mesh(shape);
     }
-    return body.limbs;
 }
 
 }  // namespace reprise::render

@@ -1,32 +1,34 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include <Eigen/Geometry>
-
+#include "render/limb.h"
 #include "render/mesh.h"
+#include "render/two_wheeler.h"
+#include "render/wardrobe.h"
 #include "world/catalogue.h"
 #include "world/traffic_generated.h"
 
 namespace reprise::render {
 
-/// A piece of a walker: a unit shape, stretched and placed.
-struct Limb {
-    enum class Shape : std::uint8_t { ball, bone };
-    Shape shape;
-    Material material;
-    Eigen::Affine3d pose;  ///< from the unit shape's frame to the walker's frame
-};
+/// Bits of a walker's look; of an older trace, from his id.
+std::uint32_t look_of(const world::WalkerState& walker);
 
-/// Radius 1 around the origin.
-Mesh ball_mesh();
+/// The limbs of a walker at his phase of the walk (see posture.h) with what he carries. Frame: x
+/// ahead, on the ground between his feet. One who was hit lies on his back.
+std::vector<Limb> figure(const world::WalkerModel& model,
+                         const world::WalkerState& walker,
+                         bool rains);
 
-/// From (0, 0, 0) to (0, 0, 1), round ends, radius 1 at the start and 0.72 at the end.
-Mesh bone_mesh();
+/// A rider in the frame of his upright two-wheeler. `steering` of its front wheel [rad]; `crank`
+/// [rad], 0: left pedal down. `outfit` as drawn by the look of the vehicle.
+std::vector<Limb> rider(const CarShape& shape, const Outfit& outfit, double steering, double crank);
 
-/// The limbs of a walker at his phase of the walk, x ahead, on the ground between his feet. Angles
-/// of hip and knee after Winter, "Biomechanics and Motor Control of Human Movement", as two
-/// harmonics; feet do not slide because the phase comes from the distance walked.
-std::vector<Limb> figure(const world::WalkerModel& model, const world::WalkerState& walker);
+/// Who rides it.
+const world::WalkerModel& rider_of(world::BodyStyle style);
+
+/// The mesh of a shape. `model` matters for a trunk and a hem only.
+Mesh limb_mesh(Limb::Shape shape, const world::WalkerModel& model);
 
 }  // namespace reprise::render

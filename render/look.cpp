@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "render/car_parts.h"
 #include "render/noise.h"
 
 namespace reprise::render {
@@ -72,60 +73,10 @@ Look signal_lamp_look(const Stage& stage, const Surface& at) {
     return look;
 }
 
-Look walker_look(const Surface& at) {
-    const std::uint32_t id = at.instance->actor;
-    const auto pick = [&](std::uint32_t salt, std::uint32_t count) {
-        return hash(id, salt) % count;
-    };
-    static const std::array<Color, 5> skins{Color(.62F, .42F, .32F),
-                                            Color(.50F, .32F, .23F),
-                                            Color(.36F, .21F, .14F),
-                                            Color(.20F, .115F, .075F),
-                                            Color(.66F, .47F, .37F)};
-    static const std::array<Color, 8> shirts{Color(.45F, .05F, .05F),
-                                             Color(.06F, .12F, .32F),
-                                             Color(.55F, .53F, .50F),
-                                             Color(.05F, .05F, .06F),
-                                             Color(.10F, .26F, .16F),
-                                             Color(.60F, .38F, .06F),
-                                             Color(.32F, .36F, .42F),
-                                             Color(.30F, .12F, .22F)};
-    static const std::array<Color, 5> trousers{Color(.035F, .05F, .10F),
-                                               Color(.04F, .04F, .045F),
-                                               Color(.26F, .21F, .15F),
-                                               Color(.10F, .13F, .20F),
-                                               Color(.16F, .16F, .17F)};
-    static const std::array<Color, 4> hairs{Color(.03F, .02F, .015F),
-                                            Color(.10F, .055F, .03F),
-                                            Color(.30F, .20F, .09F),
-                                            Color(.33F, .32F, .31F)};
-    Look look;
-    switch (at.instance->material) {
-        case Material::hair:
-            // The face is the front of the ball that is not hair.
-            look.albedo = hairs[pick(4, 4)];
-            if (at.local.x() > 0.25F && at.local.z() < 0.45F)
-                look.albedo = skins[pick(1, 5)];
-            break;
-        case Material::shirt:
-            look.albedo = shirts[pick(2, 8)];
-            break;
-        case Material::trousers:
-            look.albedo = trousers[pick(3, 5)];
-            break;
-        case Material::shoe:
-            look.albedo = pick(5, 3) == 0 ? Color(.5F, .5F, .5F) : Color(.03F, .028F, .026F);
-            break;
-        default:
-            look.albedo = skins[pick(1, 5)];
-    }
-    return look;
-}
-
-/// A parked car's paint is drawn by its style, and nobody has switched its lamps on.
+/// Nobody has switched a parked car's lamps on, and its number plate comes from its look.
 Look parked_look(const Stage& stage, const Surface& at) {
     Instance named = *at.instance;
-    named.actor = at.instance->style;
+    named.actor = at.instance->look;
     Surface own = at;
     own.instance = &named;
     Look look = car_look(stage, own);
@@ -158,7 +109,9 @@ Surface surface_at(const Scene& scene,
     const Vector3f& c = mesh.vertices[corners[2]];
     Surface at;
     at.instance = &instance;
-    at.material = instance.kind == Kind::limb ? instance.material : mesh.materials[hit.triangle];
+    at.material = mesh.materials[hit.triangle];
+    if (at.material == Material::limb)
+        at.material = instance.material;
     at.tag = mesh.tags[hit.triangle];
     at.position = eye + hit.distance * direction;
     at.local = (1 - hit.u - hit.v) * a + hit.u * b + hit.v * c;
@@ -200,7 +153,7 @@ Look look_of(const Stage& stage, const Surface& at) {
         case Material::car_under:
             return at.instance->kind == Kind::parked ? parked_look(stage, at) : car_look(stage, at);
         case Material::wheel:
-            return wheel_look(at);
+            return wheel_look(stage, at);
         case Material::wall:
         case Material::building:
             return model_building_look(stage, at);
@@ -208,6 +161,9 @@ Look look_of(const Stage& stage, const Surface& at) {
             return prop_look(stage, at);
         case Material::plot:
             return plot_look(stage, at);
+        case Material::car_part:
+            look = car_part_look(stage, at);
+            break;
         case Material::bark:
             look = at.instance->kind == Kind::plant ? plant_bark_look(at) : bark_look(at);
             break;
@@ -222,7 +178,7 @@ Look look_of(const Stage& stage, const Surface& at) {
             look = metal_look(stage, at);
             break;
         default:
-            look = walker_look(at);
+            look = walker_look(stage, at);
     }
     look.normal = at.normal;
     // Soaked cloth, bark and leaves are darker.
@@ -240,6 +196,8 @@ world::SemanticClass semantic_class(const Scene& scene, const Hit& hit) {
             return SemanticClass::vegetation;
         case Kind::limb:
             return SemanticClass::pedestrian;
+        case Kind::rider:
+            return SemanticClass::rider;
         case Kind::marking:
             return SemanticClass::road_line;
         case Kind::car_body:
@@ -250,6 +208,10 @@ world::SemanticClass semantic_class(const Scene& scene, const Hit& hit) {
                     return SemanticClass::truck;
                 case world::BodyStyle::bus:
                     return SemanticClass::bus;
+                case world::BodyStyle::motorcycle:
+                    return SemanticClass::motorcycle;
+                case world::BodyStyle::bicycle:
+                    return SemanticClass::bicycle;
                 default:
                     return SemanticClass::car;
             }

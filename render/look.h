@@ -60,7 +60,8 @@ Look plot_look(const Stage& stage, const Surface& surface);
 Look plant_leaf_look(const Surface& surface);
 Look plant_bark_look(const Surface& surface);
 Look car_look(const Stage& stage, const Surface& surface);
-Look wheel_look(const Surface& surface);
+Look wheel_look(const Stage& stage, const Surface& surface);
+Look walker_look(const Stage& stage, const Surface& surface);
 
 // Likewise: what class a prop's or plot's triangle has.
 world::SemanticClass prop_class(std::uint32_t tag);

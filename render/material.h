@@ -28,12 +28,20 @@ enum class Material : std::uint8_t {
     car_body,     ///< paint, glass and lamps: tag is unused
     car_cargo,    ///< the box of a lorry
     car_under,    ///< black: chassis, wheel housings, mirrors' backs
+    car_part,     ///< tag: CarPart
     wheel,
+    limb,  ///< as the instance says: one of the following
     skin,
+    eye,
+    lips,
     hair,
+    headgear,
     shirt,
     trousers,
-    shoe
+    shoe,
+    trim,  ///< vest, belt, tie, apron
+    bag,
+    umbrella
 };
 
 enum class SignalLamp : std::uint8_t { red, yellow, green, turn };

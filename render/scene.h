@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -12,10 +13,12 @@
 #include "render/car_shape.h"
 #include "render/fast_math.h"
 #include "render/lane_raster.h"
+#include "render/limb.h"
 #include "render/mesh.h"
 #include "render/plain_tracer.h"
 #include "render/plot_mesh.h"
 #include "render/town_mesh.h"
+#include "render/wardrobe.h"
 #include "world/tick.h"
 #include "world/town_generated.h"
 
@@ -34,7 +37,8 @@ enum class Kind : std::uint8_t {
     parked,  ///< a car's body that nobody drives
     car_body,
     wheel,
-    limb
+    limb,
+    rider
 };
 
 /// A mesh with a tree over it, Embree's or our own, placed by any number of instances.
@@ -51,9 +55,12 @@ struct Instance {
     Material material = Material::skin;  ///< of a limb
     std::uint16_t lamps = 0;             ///< Lamp bits of a car
     std::uint16_t model = 0;             ///< of a car; kind of a plant; value of a prop
-    std::uint32_t style = 0;  ///< of plants, props and parked cars: seeds what is left open
-    std::uint32_t actor = 0;  ///< 0: part of the town
-    std::uint32_t mask = 1;   ///< rays with a common bit see it
+    std::uint16_t outfit = 0;            ///< of a limb: index in Scene::outfits()
+    std::uint32_t look = 0;              ///< of a car, see world::Look
+    Color color{0.5F, 0.5F, 0.5F};       ///< of a car's paint
+    std::uint32_t style = 0;             ///< of plants and props: seeds what is left open
+    std::uint32_t actor = 0;             ///< 0: part of the town
+    std::uint32_t mask = 1;              ///< rays with a common bit see it
     Eigen::Affine3d pose = Eigen::Affine3d::Identity();  ///< to the scene's frame
     Eigen::Matrix3f normal_to_scene = Eigen::Matrix3f::Identity();
 };
@@ -82,7 +89,8 @@ class Scene {
 
     /// Places everybody. The actors in `mounts` can be hidden from rays, see mask_hiding.
     /// Nothing is kept from the last tick: the same tick gives the same tree. 0.5 ms for 100 cars.
-    void place(const world::TickView& tick, std::span<const std::uint32_t> mounts);
+    /// Umbrellas are open when it `rains`.
+    void place(const world::TickView& tick, std::span<const std::uint32_t> mounts, bool rains);
 
     /// For rays of a camera that sits inside this actor.
     std::uint32_t mask_hiding(std::uint32_t actor) const;
@@ -104,6 +112,8 @@ class Scene {
 
     const CarShape& car_shape(std::uint16_t model) const { return car_shapes_[model]; }
 
+    std::span<const Outfit> outfits() const { return outfits_; }
+
     const LaneRaster& lanes() const { return lanes_; }
 
     const Eigen::Vector3d& origin() const { return origin_; }
@@ -121,12 +131,27 @@ class Scene {
     void place_props(const world::TownT& town);
     void park(const world::Prop& prop);
     void build_models();
+    void build_people();
+    Instance body_of(std::uint32_t id,
+                     std::uint16_t model,
+                     std::uint16_t lamps,
+                     std::span<const world::Look> looks) const;
     void place_car(const Eigen::Isometry3d& pose_world_car,
                    const Instance& body,
                    double steering,
                    std::span<const world::WheelState> wheels,
                    double roll);
-    void place_walker(const world::WalkerState& walker);
+    void place_two_wheeler(const Eigen::Isometry3d& pose_world_vehicle,
+                           const Instance& body,
+                           double steering,
+                           double rolled);
+    void place_vehicles(const world::TickView& tick);
+    void place_cars(const world::TickView& tick);
+    void place_walker(const world::WalkerState& walker, bool rains);
+    void place_limbs(std::span<const Limb> limbs,
+                     std::size_t person,
+                     const Eigen::Isometry3d& pose,
+                     Instance part);
     void add_instance(Instance instance, const Eigen::Affine3d& pose_world);
     void commit();
 
@@ -139,8 +164,13 @@ class Scene {
     std::vector<CarShape> car_shapes_;
     std::vector<const Prototype*> car_bodies_;
     std::vector<const Prototype*> wheels_;
-    const Prototype* ball_ = nullptr;
-    const Prototype* bone_ = nullptr;
+    std::vector<const Prototype*> forks_;   // of two-wheelers, else none
+    std::vector<const Prototype*> cranks_;  // of bicycles, else none
+    // Of the pedestrian models, then of the riders of a motorcycle and a bicycle.
+    std::vector<const Prototype*> trunks_;
+    std::vector<const Prototype*> hems_;
+    std::array<const Prototype*, limb_shapes> limbs_{};  // by Limb::Shape
+    std::vector<Outfit> outfits_;
     std::vector<BuildingFrame> buildings_;
     Facades facades_;
     std::vector<PlotFrame> plots_;

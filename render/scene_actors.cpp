@@ -2,8 +2,10 @@
 #include <numbers>
 #include <string>
 
-#include "render/figure.h"
+#include "render/noise.h"
+#include "render/paint.h"
 #include "render/scene.h"
+#include "render/two_wheeler.h"
 #include "world/check.h"
 #include "world/frames.h"
 
@@ -24,12 +26,15 @@ double mean_length(std::span<const world::WheelState> wheels) {
 
 void Scene::build_models() {
     for (const world::VehicleModel& model : world::vehicle_models()) {
-        car_shapes_.emplace_back(model);
-        car_bodies_.push_back(add_prototype(car_body_mesh(car_shapes_.back())));
-        wheels_.push_back(add_prototype(wheel_mesh(car_shapes_.back())));
+        const CarShape& shape = car_shapes_.emplace_back(model);
+        const bool thin = world::is_two_wheeler(model.body);
+        const bool pedalled = thin && seat_of(shape).crank > 0;
+        car_bodies_.push_back(add_prototype(thin ? two_wheeler_mesh(shape) : car_body_mesh(shape)));
+        wheels_.push_back(add_prototype(thin ? thin_wheel_mesh(shape) : wheel_mesh(shape)));
+        forks_.push_back(thin ? add_prototype(fork_mesh(shape)) : nullptr);
+        cranks_.push_back(pedalled ? add_prototype(crank_mesh(shape)) : nullptr);
     }
-    ball_ = add_prototype(ball_mesh());
-    bone_ = add_prototype(bone_mesh());
+    build_people();
 }
 
 void Scene::place_car(const Eigen::Isometry3d& pose_world_car,
@@ -65,33 +70,23 @@ void Scene::place_car(const Eigen::Isometry3d& pose_world_car,
     }
 }
 
-void Scene::place_walker(const world::WalkerState& walker) {
-    const auto models = world::walker_models();
-    REPRISE_CHECK(walker.model() < models.size(), "walker " + std::to_string(walker.id()));
-    const Eigen::Isometry3d pose =
-        world::pose(walker.position(), static_cast<double>(walker.yaw()), 0);
-    Instance part;
-    part.kind = Kind::limb;
-    part.actor = walker.id();
-    for (const Limb& limb : figure(models[walker.model()], walker)) {
-        part.material = limb.material;
-        part.prototype = limb.shape == Limb::Shape::ball ? ball_ : bone_;
-        add_instance(part, pose * limb.pose);
-    }
+/// What an actor's own triangles have in common. Traces from before looks were recorded: by id.
+Instance Scene::body_of(std::uint32_t id,
+                        std::uint16_t model,
+                        std::uint16_t lamps,
+                        std::span<const world::Look> looks) const {
+    REPRISE_CHECK(model < car_bodies_.size(), "vehicle " + std::to_string(id));
+    const world::Look* look = world::find(looks, id);
+    Instance body;
+    body.actor = id;
+    body.model = model;
+    body.lamps = lamps;
+    body.look = look != nullptr ? look->look() : hash(id);
+    body.color = paint_of(world::vehicle_models()[model], body.look).body;
+    return body;
 }
 
-void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mounts) {
-    mounts_.assign(mounts.begin(), mounts.end());
-    signals_.assign(tick.signals().begin(), tick.signals().end());
-    instances_ = town_;
-    const auto body_of = [&](std::uint32_t id, std::uint16_t model, std::uint16_t lamps) {
-        REPRISE_CHECK(model < car_bodies_.size(), "vehicle " + std::to_string(id));
-        Instance body;
-        body.actor = id;
-        body.model = model;
-        body.lamps = lamps;
-        return body;
-    };
+void Scene::place_vehicles(const world::TickView& tick) {
     std::span<const world::WheelState> wheels = tick.wheels();
     for (const world::VehicleState& vehicle : tick.vehicles()) {
         while (!wheels.empty() && wheels.front().vehicle() < vehicle.id())
@@ -99,25 +94,52 @@ void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mo
         std::size_t own = 0;
         while (own < wheels.size() && wheels[own].vehicle() == vehicle.id())
             ++own;
-        place_car(world::pose(vehicle.position(), vehicle.orientation()),
-                  body_of(vehicle.id(), vehicle.model(), vehicle.lamps()),
-                  vehicle.steering_angle(),
-                  wheels.first(own),
-                  0);
+        const Instance body =
+            body_of(vehicle.id(), vehicle.model(), vehicle.lamps(), tick.vehicle_looks());
+        const Eigen::Isometry3d pose = world::pose(vehicle.position(), vehicle.orientation());
+        if (!world::is_two_wheeler(world::vehicle_models()[vehicle.model()].body)) {
+            place_car(pose, body, vehicle.steering_angle(), wheels.first(own), 0);
+            continue;
+        }
+        // Its four-wheeled body stands upright: it is drawn leaning as much as the bend asks for.
+        const Vector3d ahead = pose.linear().col(0);
+        const double yaw = std::atan2(ahead.y(), ahead.x());
+        const double pitch = std::atan2(ahead.z(), ahead.head<2>().norm());
+        const double lean = lean_angle(world::to_eigen(vehicle.velocity()).dot(ahead),
+                                       vehicle.angular_velocity().z());
+        const bool fell = pose.linear()(2, 2) < 0.7;
+        place_two_wheeler(fell ? pose
+                               : world::pose(vehicle.position(), yaw, pitch) *
+                                     Eigen::AngleAxisd(-lean, Vector3d::UnitX()),
+                          body,
+                          vehicle.steering_angle(),
+                          vehicle.odometer());
     }
+}
+
+void Scene::place_cars(const world::TickView& tick) {
     for (const world::CarState& car : tick.cars()) {
-        const Instance body = body_of(car.id(), car.model(), car.lamps());
-        const double radius = car_shape(car.model()).model->wheel_radius;
-        place_car(
-            world::pose(
-                car.position(), static_cast<double>(car.yaw()), static_cast<double>(car.pitch())),
-            body,
-            0,
-            {},
-            static_cast<double>(car.lane_s()) / radius);
+        const Instance body = body_of(car.id(), car.model(), car.lamps(), tick.car_looks());
+        const Eigen::Isometry3d pose = world::pose(
+            car.position(), static_cast<double>(car.yaw()), static_cast<double>(car.pitch()));
+        const world::VehicleModel& model = *car_shape(car.model()).model;
+        const auto rolled = static_cast<double>(car.lane_s());
+        if (world::is_two_wheeler(model.body))
+            place_two_wheeler(pose, body, 0, rolled);
+        else
+            place_car(pose, body, 0, {}, rolled / model.wheel_radius);
     }
+}
+
+void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mounts, bool rains) {
+    mounts_.assign(mounts.begin(), mounts.end());
+    signals_.assign(tick.signals().begin(), tick.signals().end());
+    instances_ = town_;
+    outfits_.clear();
+    place_vehicles(tick);
+    place_cars(tick);
     for (const world::WalkerState& walker : tick.walkers())
-        place_walker(walker);
+        place_walker(walker, rains);
     commit();
 }
 

@@ -3,6 +3,8 @@
 #include <string>
 #include <tuple>
 
+#include "render/noise.h"
+#include "render/paint.h"
 #include "render/prop_mesh.h"
 #include "render/scene.h"
 #include "world/check.h"
@@ -72,7 +74,8 @@ void Scene::park(const world::Prop& prop) {
     const world::VehicleModel& model = *car_shape(prop.value()).model;
     Instance body;
     body.model = prop.value();
-    body.style = prop.style();
+    body.look = hash(prop.style());
+    body.color = paint_of(model, body.look).body;
     // A prop stands on its middle, a car's frame on its rear axle.
     const Eigen::Isometry3d pose =
         world::pose(prop.position(), prop.yaw(), 0) *

@@ -30,7 +30,7 @@ const std::array<Stage, 6>& stages() {
         {"controls", &world::Digests::controls, {"controls"}, {}},
         {"traffic", &world::Digests::traffic, {"signals"}, {"cars", "looks"}},
         {"pedestrians", &world::Digests::pedestrians, {}, {"walkers"}},
-        {"physics", &world::Digests::physics, {"vehicles", "wheels"}, {}},
+        {"physics", &world::Digests::physics, {"vehicles", "wheels", "looks"}, {}},
         {"measurements", &world::Digests::measurements, {"measurements"}, {}},
     }};
     return all;

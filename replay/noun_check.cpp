@@ -48,12 +48,12 @@ constexpr auto actor_of = [](const auto& item) { return item.actor(); };
 bool vectors_usable(const world::Tick& tick) {
     return tick.commands() != nullptr && tick.events() != nullptr && tick.signals() != nullptr &&
            usable(tick.controls()) && usable(tick.vehicles()) && usable(tick.wheels()) &&
-           usable(tick.measurements());
+           usable(tick.measurements()) && usable_or_absent(tick.looks());
 }
 
 bool sorted(const world::TickView& view) {
     return ascending(view.controls(), actor_of) && ascending(view.vehicles(), id_of) &&
-           ascending(view.measurements(), actor_of) &&
+           ascending(view.measurements(), actor_of) && ascending(view.vehicle_looks(), actor_of) &&
            ascending(view.wheels(), [](const world::WheelState& wheel) {
                return std::tuple(wheel.vehicle(), wheel.index());
            });
@@ -147,7 +147,7 @@ std::optional<std::string> fault_of_inputs(mcap::View bytes, std::uint64_t index
         return "a part of the tick is missing or misplaced";
     if (tick.weather() != nullptr || tick.commands() != nullptr || tick.vehicles() != nullptr ||
         tick.wheels() != nullptr || tick.signals() != nullptr || tick.measurements() != nullptr ||
-        tick.events() != nullptr)
+        tick.events() != nullptr || tick.looks() != nullptr)
         return "it holds more than inputs";
     if (!ascending(world::TickView{&tick, nullptr}.controls(), actor_of))
         return "ids are out of order";
@@ -161,10 +161,11 @@ std::optional<std::string> fault_of_traffic(mcap::View bytes, std::uint64_t inde
     const world::Traffic& traffic = *world::GetTraffic(bytes.data());
     if (traffic.tick() != index)
         return fmt::format("its traffic says that it is of tick {}", traffic.tick());
-    if (!usable(traffic.cars()) || !usable(traffic.walkers()))
+    if (!usable(traffic.cars()) || !usable(traffic.walkers()) || !usable_or_absent(traffic.looks()))
         return "a part of the traffic is missing or misplaced";
     const world::TickView view{nullptr, &traffic};
-    if (!ascending(view.cars(), id_of) || !ascending(view.walkers(), id_of))
+    if (!ascending(view.cars(), id_of) || !ascending(view.walkers(), id_of) ||
+        !ascending(view.car_looks(), actor_of))
         return "ids of the traffic are out of order";
     for (const world::CarState& car : view.cars()) {
         if (car.model() >= world::vehicle_models().size())

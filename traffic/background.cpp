@@ -79,6 +79,7 @@ Background::Sumo::Sumo(const world::EpisodeT& episode_in,
       lane_map(town_in),
       graph(town_in, lane_classes(town_in)),
       places(town_in, graph),
+      at_home(places.common_classes()),
       mirrors(town_in, lane_map, graph, step),
       signals(town_in.signals.size(), SignalColor::off) {
     for (std::uint32_t i = 0; i < town.lanes.size(); ++i)

@@ -57,6 +57,7 @@ struct Background::Sumo {
     world::LaneMap lane_map;
     RoadGraph graph;
     Places places;
+    ClassSet at_home;  ///< classes that most roads are open to
     Mirrors mirrors;
     std::unordered_map<std::string_view, std::uint32_t> lanes_by_name;  ///< looked up, never walked
 

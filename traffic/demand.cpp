@@ -89,8 +89,8 @@ bool Background::Sumo::add_demand_car(const std::vector<Taken>& taken,
                                       world::TickDraft& next) {
     Car car;
     car.id = next_id;
-    car.model =
-        demand_model(world::draw(episode.seed, tick, world::Purpose::demand_model, place_draws));
+    const double drawn = world::draw(episode.seed, tick, world::Purpose::demand_model, place_draws);
+    car.model = demand_model(drawn, at_home);
     const double length = world::vehicle_models()[car.model].length;
     const ClassSet classes = model_class(car.model);
     PlaceSearch search{episode.seed,

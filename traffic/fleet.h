@@ -18,8 +18,9 @@ std::string scripted_type(std::uint16_t model);
 /// What may drive where the model's class is asked for.
 ClassSet model_class(std::uint16_t model);
 
-/// The model for a draw in [0, 1): mostly cars, some vans, few lorries and buses.
-std::uint16_t demand_model(double drawn);
+/// The model for a draw in [0, 1): mostly cars, some vans, few lorries, buses and two-wheelers.
+/// `at_home`: the classes that the town's roads are open to; others do not come.
+std::uint16_t demand_model(double drawn, ClassSet at_home);
 
 /// Metres from the origin (rear axle) to the front bumper, which is where SUMO's positions lie.
 double origin_to_front(std::uint16_t model);

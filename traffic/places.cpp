@@ -39,6 +39,20 @@ std::optional<Place> Places::at(double drawn, double car_length, ClassSet car) c
     return Place{lane, s};
 }
 
+ClassSet Places::common_classes() const {
+    ClassSet common = 0;
+    const double total = ends_.empty() ? 0 : ends_.back();
+    for (const std::string_view name : vehicle_class_names()) {
+        double open = 0;
+        for (const std::uint32_t lane : lanes_)
+            if (graph_->may_use(lane, class_bit(name)))
+                open += town_->lanes[lane].length;
+        if (open >= total / 2)
+            common |= class_bit(name);
+    }
+    return common;
+}
+
 Taken Places::ground(const Place& place, double car_length) const {
     const world::LanePoint at = world::point_at(town_->lanes[place.lane], place.s - car_length / 2);
     return {at.position.head<2>(), at.yaw, car_length, false};

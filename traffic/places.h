@@ -36,6 +36,9 @@ class Places {
     /// where the car does not fit between the ends of the lane or may not drive.
     std::optional<Place> at(double drawn, double car_length, ClassSet car) const;
 
+    /// The classes that may use at least half of the driving lanes' length.
+    ClassSet common_classes() const;
+
     /// Is there nothing within `margin` metres before and behind a car of this length there, and no
     /// eye within `sight`?
     bool is_free(const Place& place,

@@ -158,8 +158,11 @@ void Background::Sumo::write_cars(world::TickDraft& next) const {
     constexpr double per_radian = 8192;
     constexpr double per_acceleration = 64;  // a lamp and a plot need no more
     auto& out = next.traffic.cars;
+    auto& looks = next.traffic.looks;
     out.clear();
+    looks.clear();
     out.reserve(cars.size());
+    looks.reserve(cars.size());
     for (const Car& car : cars) {
         double lane_s = 0;
         if (car.lane != none)
@@ -180,6 +183,7 @@ void Background::Sumo::write_cars(world::TickDraft& next) const {
                          car.model,
                          car.lamps,
                          static_cast<float>(rounded(car.acceleration, per_acceleration)));
+        looks.push_back(world::drawn_look(episode.seed, car.id));
     }
 }
 

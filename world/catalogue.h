@@ -18,12 +18,35 @@ enum Lamp : std::uint16_t {
     lamp_reverse = 16
 };
 
-enum class BodyStyle : std::uint8_t { hatchback, sedan, suv, van, lorry, bus };
+enum class BodyStyle : std::uint8_t {
+    hatchback,
+    sedan,
+    suv,
+    van,
+    lorry,
+    bus,
+    wagon,
+    coupe,
+    pickup,
+    minibus,
+    motorcycle,  ///< from here on two-wheelers, with their rider
+    bicycle
+};
 
-/// A vehicle model: real dimensions of a typical car of its kind. [m], [kg], [W], [N].
+inline bool is_two_wheeler(BodyStyle body) {
+    return body >= BodyStyle::motorcycle;
+}
+
+/// Whose service a vehicle is painted for.
+enum class Livery : std::uint8_t { plain, taxi, police, ambulance };
+
+/// A vehicle model: real dimensions of a typical vehicle of its kind. [m], [kg], [W], [N].
+/// A two-wheeler's `height` and `mass` are with its rider; its `track` is the physics' alone, which
+/// knows four wheels (kernel/car_model.h).
 struct VehicleModel {
     const char* name;
     BodyStyle body;
+    Livery livery;
     double length;
     double width;
     double height;
@@ -45,12 +68,35 @@ std::span<const VehicleModel> vehicle_models();
 /// Index in vehicle_models().
 std::optional<std::uint16_t> find_vehicle_model(std::string_view name);
 
+enum class Age : std::uint8_t { child, teen, adult, senior };
+
+enum class Clothing : std::uint8_t {
+    casual,  ///< shirt or pullover, long trousers
+    shorts,
+    skirt,
+    dress,
+    gown,  ///< down to the ankles
+    coat,
+    suit,
+    sportswear,
+    uniform,  ///< one colour, with a belt
+    workwear  ///< with a reflecting vest
+};
+
+enum class Hair : std::uint8_t { bald, cropped, bob, loose, bun, cap, hat, helmet, scarf };
+
+/// A pedestrian model: body, pace and kind of clothes. [m], [kg]. Colours and what he carries are
+/// his look's, see render/wardrobe.h.
 struct WalkerModel {
     const char* name;
     double height;
     double shoulder_width;
     double mass;
     double walking_speed;  ///< [m/s]
+    double girth;          ///< around the waist
+    Age age;
+    Clothing clothing;
+    Hair hair;
 };
 
 /// The pedestrian catalogue. Append only.

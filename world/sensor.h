@@ -62,6 +62,8 @@ enum class SemanticClass : std::uint8_t {
     car = 14,
     truck = 15,
     bus = 16,
+    motorcycle = 18,
+    bicycle = 19,
     static_object = 20,   ///< benches, bus stops, hydrants
     dynamic_object = 21,  ///< what could be carried away, such as bins
     water = 23,

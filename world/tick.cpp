@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "world/digest.h"
+#include "world/random.h"
 
 namespace reprise::world {
 
@@ -57,6 +58,14 @@ std::span<const WalkerState> TickView::walkers() const {
     return structs(traffic->walkers());
 }
 
+std::span<const Look> TickView::vehicle_looks() const {
+    return structs(tick->looks());
+}
+
+std::span<const Look> TickView::car_looks() const {
+    return structs(traffic->looks());
+}
+
 SealedTick seal(TickDraft& draft, const Digest128& previous) {
     Digests& digests = draft.tick.digests;
     const Digests stages = digests;
@@ -78,8 +87,9 @@ SealedTick seal(TickDraft& draft, const Digest128& previous) {
     flatbuffers::FlatBufferBuilder tick(4096);
     tick.ForceDefaults(true);
     FinishTickBuffer(tick, Tick::Pack(tick, &draft.tick));
-    flatbuffers::FlatBufferBuilder traffic(1024 + draft.traffic.cars.size() * sizeof(CarState) +
-                                           draft.traffic.walkers.size() * sizeof(WalkerState));
+    flatbuffers::FlatBufferBuilder traffic(
+        1024 + draft.traffic.cars.size() * (sizeof(CarState) + sizeof(Look)) +
+        draft.traffic.walkers.size() * sizeof(WalkerState));
     traffic.ForceDefaults(true);
     FinishTrafficBuffer(traffic, Traffic::Pack(traffic, &draft.traffic));
     return SealedTick(tick.Release(), traffic.Release());
@@ -103,6 +113,16 @@ const Measurement* find(std::span<const Measurement> measurements, std::uint32_t
 
 const Control* find(std::span<const Control> controls, std::uint32_t actor) {
     return find_sorted(controls, actor, [](const Control& item) { return item.actor(); });
+}
+
+const Look* find(std::span<const Look> looks, std::uint32_t actor) {
+    return find_sorted(looks, actor, [](const Look& item) { return item.actor(); });
+}
+
+Look drawn_look(std::uint64_t seed, std::uint32_t actor) {
+    constexpr std::uint64_t looks = 0xffffffffu;
+    return {actor,
+            static_cast<std::uint32_t>(1 + draw_index(looks, seed, 0, Purpose::look, actor))};
 }
 
 }  // namespace reprise::world

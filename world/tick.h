@@ -41,6 +41,8 @@ struct TickView {
     std::span<const SignalColor> signals() const;
     std::span<const CarState> cars() const;
     std::span<const WalkerState> walkers() const;
+    std::span<const Look> vehicle_looks() const;
+    std::span<const Look> car_looks() const;
 };
 
 /// A finished tick's bytes: two FlatBuffers, /sim/tick and /sim/traffic. The bytes are the tick: a
@@ -74,6 +76,11 @@ const CarState* find(std::span<const CarState> cars, std::uint32_t id);
 const WalkerState* find(std::span<const WalkerState> walkers, std::uint32_t id);
 const Measurement* find(std::span<const Measurement> measurements, std::uint32_t actor);
 const Control* find(std::span<const Control> controls, std::uint32_t actor);
+const Look* find(std::span<const Look> looks, std::uint32_t actor);
+
+/// Paint or outfit of an actor: drawn once, from the seed and the id alone. Never 0, which stands
+/// for "not recorded".
+Look drawn_look(std::uint64_t seed, std::uint32_t actor);
 
 /// To the record's grid of `per_unit` steps a unit (see traffic.fbs), ties to the even step.
 inline double rounded(double value, double per_unit) {

@@ -164,6 +164,18 @@ TEST_P(EveryModel, HoldsOnASlopeWithEitherBrake) {
     }
 }
 
+TEST_P(EveryModel, ClimbsAHillOfTenPercent) {
+    ProvingGround ground(test::inclined_ground(0.10));
+    ground.physics().add_vehicle(1,
+                                 world::find_vehicle_model(GetParam()).value(),
+                                 world::pose({0, 0, 0}, 0, std::atan(0.10)),
+                                 0);
+    for (int tick = 0; tick < 200; ++tick)
+        ground.step(drive(1, 0));
+    EXPECT_GT(speed_of(ground.vehicle()), 2);
+    EXPECT_GT(ground.vehicle().position().z(), 1);
+}
+
 TEST_P(EveryModel, StandsOnItsSpringsFromTheFirstTick) {
     ProvingGround ground;
     ground.add_vehicle(GetParam(), 0);

@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 
 #include "render/car_shape.h"
-#include "render/figure.h"
 #include "render/town_mesh.h"
 
 namespace reprise {
@@ -56,6 +55,8 @@ TEST(Mesh, DropsTrianglesWithoutAreaOrNumbers) {
 
 TEST(Mesh, EveryVehicleFillsItsCataloguesBox) {
     for (const world::VehicleModel& model : world::vehicle_models()) {
+        if (world::is_two_wheeler(model.body))
+            continue;  // half of theirs is the rider's: see figure_test.cpp
         const render::CarShape shape(model);
         const Mesh body = car_body_mesh(shape);
         Eigen::AlignedBox3f box;
@@ -65,7 +66,10 @@ TEST(Mesh, EveryVehicleFillsItsCataloguesBox) {
                 box.extend(vertex);
         EXPECT_NEAR(box.min().x(), -model.rear_overhang, 0.02) << model.name;
         EXPECT_NEAR(box.max().x(), model.length - model.rear_overhang, 0.02) << model.name;
-        EXPECT_NEAR(box.max().z(), model.height, 0.03) << model.name;
+        // Signs and light bars stand on the roof.
+        const float on_roof = model.livery == world::Livery::plain ? 0.0F : 0.15F;
+        EXPECT_GT(box.max().z(), model.height - 0.03) << model.name;
+        EXPECT_LT(box.max().z(), model.height + 0.03 + on_roof) << model.name;
         EXPECT_NEAR(box.max().y(), model.width / 2, 0.03) << model.name;
         EXPECT_GT(box.min().z(), 0.1) << model.name;
         EXPECT_GT(volume(body), 0.3 * model.length * model.width * model.height) << model.name;
@@ -81,32 +85,6 @@ TEST(Mesh, TreesStayInTheirUnitBox) {
             EXPECT_LT(vertex.z(), 1.15F);
         }
     }
-}
-
-TEST(Figure, StandsOnTheGroundAtItsModelsHeightAndWalksByItsPhase) {
-    const world::WalkerModel& model = world::walker_models().front();
-    const auto lowest_and_highest = [&](float phase, bool down) {
-        const world::WalkerState walker(
-            world::Vec3(0, 0, 0), 0, 1.3F, phase, 5, 0, down, std::uint8_t{0}, 0U);
-        Eigen::AlignedBox3d box;
-        const Mesh ball = render::ball_mesh();
-        const Mesh bone = render::bone_mesh();
-        for (const render::Limb& limb : render::figure(model, walker))
-            for (const Eigen::Vector3f& vertex :
-                 (limb.shape == render::Limb::Shape::ball ? ball : bone).vertices)
-                box.extend(limb.pose * vertex.cast<double>());
-        return box;
-    };
-    for (const float phase : {0.0F, 0.2F, 0.4F, 0.6F, 0.8F}) {
-        const Eigen::AlignedBox3d box = lowest_and_highest(phase, false);
-        EXPECT_NEAR(box.min().z(), 0, 0.07) << phase;
-        EXPECT_NEAR(box.max().z(), model.height, 0.09) << phase;
-    }
-    EXPECT_LT(lowest_and_highest(0, true).max().z(), 0.6);
-    EXPECT_GT(lowest_and_highest(0, true).sizes().x(), 1.5);
-    // Legs straddle at the start of a step and pass each other a quarter of the cycle later.
-    EXPECT_GT(lowest_and_highest(0, false).sizes().x(),
-              lowest_and_highest(0.25F, false).sizes().x() + 0.1);
 }
 
 }  // namespace reprise

@@ -10,9 +10,9 @@ namespace reprise::traffic {
 namespace {
 
 TEST(Fleet, IsMostlyCars) {
-    std::array<int, 6> counts{};
+    std::array<int, 16> counts{};
     for (int i = 0; i < 1000; ++i)
-        ++counts.at(demand_model((i + 0.5) / 1000));
+        ++counts.at(demand_model((i + 0.5) / 1000, permitted("", "")));
     int cars = 0;
     for (std::uint16_t i = 0; i < counts.size(); ++i) {
         EXPECT_GT(counts.at(i), 0) << world::vehicle_models()[i].name;
@@ -20,6 +20,14 @@ TEST(Fleet, IsMostlyCars) {
             cars += counts.at(i);
     }
     EXPECT_GT(cars, 800);
+}
+
+TEST(Fleet, LeavesOutWhatTheRoadsAreClosedTo) {
+    const ClassSet roads = permitted("", "bicycle bus");
+    for (int i = 0; i < 1000; ++i) {
+        const std::uint16_t model = demand_model((i + 0.5) / 1000, roads);
+        EXPECT_NE(model_class(model) & roads, 0U) << world::vehicle_models()[model].name;
+    }
 }
 
 TEST(Fleet, EveryModelHasAClassThatSumoKnows) {

@@ -1,0 +1,307 @@
+#include "render/body.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector3f;
+using world::Clothing;
+
+/// A slice across the trunk. [m]
+struct Slice {
+    double z;
+    double half_width;
+    double half_depth;
+    double ahead;
+    Material material;  ///< of what lies above it
+};
+
+std::vector<Vector3f> ring_of(const Slice& slice) {
+    constexpr int sides = 20;
+    std::vector<Vector3f> ring;
+    for (int i = 0; i < sides; ++i) {
+        const double angle = 2 * std::numbers::pi * i / sides;
+        // Between an ellipse and a box.
+        const auto fuller = [](double x) { return std::copysign(std::pow(std::abs(x), 0.85), x); };
+        ring.emplace_back(
+            static_cast<float>(slice.ahead + slice.half_depth * fuller(std::cos(angle))),
+            static_cast<float>(slice.half_width * fuller(std::sin(angle))),
+            static_cast<float>(slice.z));
+    }
+    return ring;
+}
+
+/// Neighbours of one material share their vertices, so that they are shaded smoothly.
+void add_slices(Mesh& mesh, const std::vector<Slice>& slices) {
+    std::size_t first = 0;
+    while (first + 1 < slices.size()) {
+        std::size_t last = first + 1;
+        while (last + 1 < slices.size() && slices[last].material == slices[first].material)
+            ++last;
+        std::vector<std::vector<Vector3f>> rings;
+        for (std::size_t i = first; i <= last; ++i)
+            rings.push_back(ring_of(slices[i]));
+        if (last + 1 == slices.size()) {
+            const Slice& top = slices[last];
+            rings.push_back(ring_of({top.z, 0, 0, top.ahead, top.material}));
+        }
+        if (first == 0) {
+            const Slice& low = slices[first];
+            rings.insert(rings.begin(), ring_of({low.z, 0, 0, low.ahead, low.material}));
+        }
+        add_loft(mesh, rings, true, {slices[first].material});
+        first = last;
+    }
+}
+
+bool is_one_piece(Clothing clothing) {
+    return clothing == Clothing::dress || clothing == Clothing::gown || clothing == Clothing::coat;
+}
+
+void add_torso(Mesh& mesh, const world::WalkerModel& model, const Build& build) {
+    const double h = model.height;
+    const double t = build.trunk;
+    const double waist = model.girth / (2 * std::numbers::pi);
+    const double hips = std::max(0.094 * h, 1.12 * waist);
+    const double chest = 0.385 * model.shoulder_width;
+    const double depth = std::max(0.062 * h, 0.80 * waist);
+    const double belly = std::max(0.0, waist - 0.082 * h) * 0.6;
+    const Material low = is_one_piece(model.clothing) ? Material::shirt : Material::trousers;
+    const bool belted = model.clothing == Clothing::uniform || model.clothing == Clothing::workwear;
+    const Material middle = belted ? Material::trim : Material::shirt;
+    const Material upper = model.clothing == Clothing::workwear ? Material::trim : Material::shirt;
+    const double seam = model.clothing == Clothing::suit ? -0.10 * t : 0.20 * t;
+    std::vector<Slice> slices{
+        {-0.115 * h, 0.45 * hips, 0.45 * hips, 0, low},
+        {-0.085 * h, 0.92 * hips, 0.78 * hips, 0, low},
+        {-0.02 * h, hips, 0.82 * hips, -0.004 * h, low},
+        {seam, 1.01 * hips, 0.80 * hips, 0.2 * belly, middle},
+        {std::max(0.27 * t, seam + 0.01),
+         0.98 * std::max(hips * 0.94, waist * 1.13),
+         waist * .92,
+         belly,
+         upper},
+        {0.42 * t, 1.12 * waist, 0.90 * waist, belly, upper},
+        {0.62 * t, 0.5 * (1.12 * waist + chest), 0.5 * (0.9 * waist + depth), 0.4 * belly, upper},
+        {0.80 * t, chest, depth, 0.006 * h, upper},
+        {0.92 * t, 1.06 * chest, 0.92 * depth, 0, Material::shirt},
+        {1.02 * t, 0.92 * chest, 0.66 * depth, -0.006 * h, Material::shirt},
+        {1.07 * t, 0.052 * h, 0.045 * h, -0.004 * h, Material::skin},
+        {1.11 * t, 0.034 * h, 0.034 * h, 0, Material::skin},
+        {1.11 * t + 0.05 * h, 0.032 * h, 0.033 * h, 0.008 * h, Material::skin}};
+    if (seam < 0)
+        std::swap(slices[2], slices[3]);
+    add_slices(mesh, slices);
+    if (model.clothing == Clothing::suit) {
+        // The shirt's front and the tie.
+        const auto front = static_cast<float>(1.00 * depth + 0.004 * h);
+        add_ellipsoid(mesh,
+                      {front * .93F, 0, static_cast<float>(0.90 * t)},
+                      {.012F, .024F, static_cast<float>(0.14 * t)},
+                      10,
+                      {Material::trim});
+    }
+}
+
+void add_hair(Mesh& mesh, const world::WalkerModel& model, const Vector3f& c, float s);
+
+void add_head(Mesh& mesh, const world::WalkerModel& model, const Build& build) {
+    const auto s = static_cast<float>(build.head / 2);
+    const auto crown = static_cast<float>(build.height - build.hip);
+    const Vector3f c(0.10F * s, 0, crown - s);
+    const auto blob = [&](const Vector3f& at, const Vector3f& radii, Material material, int sides) {
+        add_ellipsoid(mesh, c + at * s, radii * s, sides, {material});
+    };
+    blob({-.02F, 0, .14F}, {.86F, .70F, .84F}, Material::skin, 18);  // skull
+    blob({.12F, 0, -.36F}, {.62F, .56F, .62F}, Material::skin, 16);  // jaw
+    blob({.83F, 0, -.12F}, {.17F, .10F, .17F}, Material::skin, 8);   // nose
+    blob({.69F, 0, -.53F}, {.07F, .20F, .045F}, Material::lips, 8);  // mouth
+    for (const float side : {-1.0F, 1.0F}) {
+        blob({.73F, side * .27F, .06F}, {.09F, .11F, .065F}, Material::eye, 8);
+        blob({.76F, side * .29F, .21F}, {.08F, .17F, .035F}, Material::hair, 8);
+        blob({-.05F, side * .70F, -.06F}, {.17F, .06F, .21F}, Material::skin, 8);
+    }
+    add_hair(mesh, model, c, s);
+}
+
+/// `c`: middle of the head, `s`: half of its height.
+void add_hair(Mesh& mesh, const world::WalkerModel& model, const Vector3f& c, float s) {
+    using world::Hair;
+    const auto blob = [&](const Vector3f& at, const Vector3f& radii, Material material) {
+        add_ellipsoid(mesh, c + at * s, radii * s, 18, {material});
+    };
+    const auto tube = [&](float low, float high, float wide, float narrow, float x) {
+        add_tube(
+            mesh,
+            {c + Vector3f(x, 0, low) * s, c + Vector3f(x, 0, high) * s, wide * s, narrow * s, 20},
+            {Material::headgear});
+    };
+    const bool covered = model.hair == Hair::cap || model.hair == Hair::hat ||
+                         model.hair == Hair::helmet || model.hair == Hair::scarf;
+    if (model.hair == Hair::bald) {
+        blob({-.22F, 0, -.08F}, {.72F, .73F, .36F}, Material::hair);
+    } else if (model.hair != Hair::scarf) {
+        blob({-.13F, 0, .24F}, {.84F, .75F, .79F}, Material::hair);
+        blob({-.32F, 0, -.14F}, {.60F, .70F, .52F}, Material::hair);
+    }
+    switch (model.hair) {
+        case Hair::bob:
+            blob({-.22F, 0, -.18F}, {.70F, .84F, .72F}, Material::hair);
+            break;
+        case Hair::loose:
+            blob({-.30F, 0, -.20F}, {.62F, .82F, .78F}, Material::hair);
+            blob({-.50F, 0, -.85F}, {.34F, .68F, .80F}, Material::hair);
+            break;
+        case Hair::bun:
+            blob({-.92F, 0, .34F}, {.34F, .36F, .34F}, Material::hair);
+            break;
+        case Hair::cap:
+            blob({-.06F, 0, .36F}, {.92F, .79F, .74F}, Material::headgear);
+            blob({.72F, 0, .36F}, {.62F, .56F, .06F}, Material::headgear);
+            break;
+        case Hair::hat:
+            tube(.40F, .46F, 1.35F, 1.32F, -.04F);
+            tube(.44F, 1.10F, .86F, .72F, -.04F);
+            break;
+        case Hair::helmet:
+            if (model.clothing == Clothing::uniform) {  // a motorcyclist's, with its visor
+                blob({.02F, 0, .06F}, {1.10F, .95F, 1.12F}, Material::headgear);
+                blob({.48F, 0, .08F}, {.70F, .80F, .36F}, Material::eye);
+            } else {
+                blob({-.05F, 0, .42F}, {1.02F, .86F, .76F}, Material::headgear);
+                if (model.clothing == Clothing::workwear)
+                    blob({.20F, 0, .34F}, {1.02F, .84F, .07F}, Material::headgear);
+            }
+            break;
+        case Hair::scarf:
+            blob({-.14F, 0, .10F}, {.92F, .84F, .98F}, Material::headgear);
+            blob({-.06F, 0, -.78F}, {.66F, .76F, .52F}, Material::headgear);
+            break;
+        default:
+            break;
+    }
+    static_cast<void>(covered);
+}
+
+}  // namespace
+
+Mesh trunk_mesh(const world::WalkerModel& model) {
+    Mesh mesh;
+    const Build build(model);
+    add_torso(mesh, model, build);
+    add_head(mesh, model, build);
+    drop_degenerate(mesh);
+    smooth(mesh, 1.2);
+    return mesh;
+}
+
+double hem_length(const world::WalkerModel& model) {
+    switch (model.clothing) {
+        case Clothing::skirt:
+            return model.age == world::Age::senior ? 0.30 * model.height : 0.22 * model.height;
+        case Clothing::dress:
+            return 0.26 * model.height;
+        case Clothing::coat:
+            return 0.22 * model.height;
+        case Clothing::gown:
+            return 0.47 * model.height;
+        default:
+            return 0;
+    }
+}
+
+Mesh hem_mesh(const world::WalkerModel& model) {
+    Mesh mesh;
+    const double length = hem_length(model);
+    if (length == 0)
+        return mesh;
+    const Build build(model);
+    const double waist = model.girth / (2 * std::numbers::pi);
+    const double hips = std::max(0.094 * model.height, 1.12 * waist);
+    const double flare = model.clothing == Clothing::coat ? 1.22 : 1.45;
+    const Material cloth = model.clothing == Clothing::skirt ? Material::trousers : Material::shirt;
+    add_slices(mesh,
+               {{-length, flare * hips * .9, flare * hips * .8, 0, cloth},
+                {-length + 0.004, flare * hips, flare * hips * .9, 0, cloth},
+                {-0.5 * length, (0.45 + 0.55 * flare) * hips, (0.4 + 0.5 * flare) * hips, 0, cloth},
+                {-0.03 * model.height, 1.06 * hips, 0.90 * hips, -0.004, cloth},
+                {0.22 * build.trunk, 1.03 * hips, 0.83 * hips, 0, cloth}});
+    drop_degenerate(mesh);
+    smooth(mesh, 1.2);
+    return mesh;
+}
+
+Mesh shoe_mesh() {
+    // x behind the tip, half width, height: seen from above a sole, from the side a shoe.
+    struct Station {
+        float x, half, high;
+    };
+
+    Mesh mesh;
+    std::vector<std::vector<Vector3f>> rings;
+    for (const Station& s : {Station{-1.30F, .13F, .30F},
+                             Station{-1.24F, .22F, .42F},
+                             Station{-1.00F, .25F, .52F},
+                             Station{-.78F, .26F, .44F},
+                             Station{-.45F, .33F, .32F},
+                             Station{-.12F, .31F, .26F},
+                             Station{.06F, .20F, .18F},
+                             Station{.10F, .08F, .12F}}) {
+        const float low = s.x > -.12F ? 0.02F + 0.3F * (s.x + .12F) : 0.02F;
+        rings.push_back({{s.x, s.half * .9F, low},
+                         {s.x, s.half, low + .10F},
+                         {s.x, s.half * .75F, s.high * .85F},
+                         {s.x, 0, s.high},
+                         {s.x, -s.half * .75F, s.high * .85F},
+                         {s.x, -s.half, low + .10F},
+                         {s.x, -s.half * .9F, low}});
+    }
+    rings.insert(rings.begin(), std::vector<Vector3f>(7, Vector3f(-1.31F, 0, .15F)));
+    rings.push_back(std::vector<Vector3f>(7, Vector3f(.11F, 0, .10F)));
+    add_loft(mesh, rings, true, {Material::limb});
+    drop_degenerate(mesh);
+    smooth(mesh, 1.2);
+    return mesh;
+}
+
+Mesh ball_mesh() {
+    Mesh mesh;
+    add_ellipsoid(mesh, Eigen::Vector3f::Zero(), Eigen::Vector3f::Ones(), 16, {Material::limb});
+    drop_degenerate(mesh);
+    smooth(mesh, 3);
+    return mesh;
+}
+
+Mesh bone_mesh() {
+    // Rings from pole to pole; the ends bulge by a third of the radius, as seen after stretching.
+    Mesh mesh;
+    std::vector<std::vector<Eigen::Vector3f>> rings;
+    const std::vector<Eigen::Vector2d> outline{{0, -.10},
+                                               {.6, -.075},
+                                               {.9, -.03},
+                                               {1, .05},
+                                               {1.02, .25},
+                                               {.90, .6},
+                                               {.76, .9},
+                                               {.72, 1.0},
+                                               {.5, 1.05},
+                                               {0, 1.08}};
+    for (const Eigen::Vector2d& point : outline) {
+        std::vector<Eigen::Vector3f>& ring = rings.emplace_back();
+        for (int i = 0; i < 12; ++i) {
+            const double angle = 2 * std::numbers::pi * i / 12;
+            ring.emplace_back(static_cast<float>(point.x() * std::cos(angle)),
+                              static_cast<float>(point.x() * std::sin(angle)),
+                              static_cast<float>(point.y()));
+        }
+    }
+    add_loft(mesh, rings, true, {Material::limb});
+    drop_degenerate(mesh);
+    smooth(mesh, 3);
+    return mesh;
+}
+
+}  // namespace reprise::render
