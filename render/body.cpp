@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/head.h"
+
 namespace reprise::render {
 
 namespace {
@@ -73,7 +75,7 @@ void add_torso(Mesh& mesh, const world::WalkerModel& model, const Build& build) 
     const bool belted = model.clothing == Clothing::uniform || model.clothing == Clothing::workwear;
     const Material middle = belted ? Material::trim : Material::shirt;
     const Material upper = model.clothing == Clothing::workwear ? Material::trim : Material::shirt;
-    const double seam = model.clothing == Clothing::suit ? -0.10 * t : 0.20 * t;
+    const double seam = 0.20 * t;
     std::vector<Slice> slices{
         {-0.115 * h, 0.45 * hips, 0.45 * hips, 0, low},
         {-0.085 * h, 0.92 * hips, 0.78 * hips, 0, low},
@@ -88,102 +90,27 @@ void add_torso(Mesh& mesh, const world::WalkerModel& model, const Build& build) 
         {0.62 * t, 0.5 * (1.12 * waist + chest), 0.5 * (0.9 * waist + depth), 0.4 * belly, upper},
         {0.80 * t, chest, depth, 0.006 * h, upper},
         {0.92 * t, 1.06 * chest, 0.92 * depth, 0, Material::shirt},
-        {1.02 * t, 0.92 * chest, 0.66 * depth, -0.006 * h, Material::shirt},
-        {1.07 * t, 0.052 * h, 0.045 * h, -0.004 * h, Material::skin},
-        {1.11 * t, 0.034 * h, 0.034 * h, 0, Material::skin},
-        {1.11 * t + 0.05 * h, 0.032 * h, 0.033 * h, 0.008 * h, Material::skin}};
-    if (seam < 0)
-        std::swap(slices[2], slices[3]);
+        {1.02 * t, 0.98 * chest, 0.66 * depth, -0.006 * h, Material::shirt},
+        {1.07 * t, 0.060 * h, 0.048 * h, -0.004 * h, Material::skin},
+        {1.11 * t, 0.037 * h, 0.037 * h, 0, Material::skin},
+        {1.11 * t + 0.05 * h, 0.036 * h, 0.037 * h, 0.008 * h, Material::skin}};
     add_slices(mesh, slices);
     if (model.clothing == Clothing::suit) {
-        // The shirt's front and the tie.
-        const auto front = static_cast<float>(1.00 * depth + 0.004 * h);
-        add_ellipsoid(mesh,
-                      {front * .93F, 0, static_cast<float>(0.90 * t)},
-                      {.012F, .024F, static_cast<float>(0.14 * t)},
-                      10,
-                      {Material::trim});
+        // The shirt in the jacket's opening, and the tie on it.
+        const auto front = static_cast<float>(0.93 * depth);
+        const auto collar = static_cast<float>(0.97 * t);
+        const auto button = static_cast<float>(0.62 * t);
+        add_tube(mesh,
+                 {{front, 0, button}, {front * 0.72F, 0, collar}, .006F, .062F, 12},
+                 {Material::headgear});
+        add_tube(mesh,
+                 {{front + .012F, 0, button + .03F},
+                  {front * 0.72F + .058F, 0, collar},
+                  .019F,
+                  .012F,
+                  8},
+                 {Material::trim});
     }
-}
-
-void add_hair(Mesh& mesh, const world::WalkerModel& model, const Vector3f& c, float s);
-
-void add_head(Mesh& mesh, const world::WalkerModel& model, const Build& build) {
-    const auto s = static_cast<float>(build.head / 2);
-    const auto crown = static_cast<float>(build.height - build.hip);
-    const Vector3f c(0.10F * s, 0, crown - s);
-    const auto blob = [&](const Vector3f& at, const Vector3f& radii, Material material, int sides) {
-        add_ellipsoid(mesh, c + at * s, radii * s, sides, {material});
-    };
-    blob({-.02F, 0, .14F}, {.86F, .70F, .84F}, Material::skin, 18);  // skull
-    blob({.12F, 0, -.36F}, {.62F, .56F, .62F}, Material::skin, 16);  // jaw
-    blob({.83F, 0, -.12F}, {.17F, .10F, .17F}, Material::skin, 8);   // nose
-    blob({.69F, 0, -.53F}, {.07F, .20F, .045F}, Material::lips, 8);  // mouth
-    for (const float side : {-1.0F, 1.0F}) {
-        blob({.73F, side * .27F, .06F}, {.09F, .11F, .065F}, Material::eye, 8);
-        blob({.76F, side * .29F, .21F}, {.08F, .17F, .035F}, Material::hair, 8);
-        blob({-.05F, side * .70F, -.06F}, {.17F, .06F, .21F}, Material::skin, 8);
-    }
-    add_hair(mesh, model, c, s);
-}
-
-/// `c`: middle of the head, `s`: half of its height.
-void add_hair(Mesh& mesh, const world::WalkerModel& model, const Vector3f& c, float s) {
-    using world::Hair;
-    const auto blob = [&](const Vector3f& at, const Vector3f& radii, Material material) {
-        add_ellipsoid(mesh, c + at * s, radii * s, 18, {material});
-    };
-    const auto tube = [&](float low, float high, float wide, float narrow, float x) {
-        add_tube(
-            mesh,
-            {c + Vector3f(x, 0, low) * s, c + Vector3f(x, 0, high) * s, wide * s, narrow * s, 20},
-            {Material::headgear});
-    };
-    const bool covered = model.hair == Hair::cap || model.hair == Hair::hat ||
-                         model.hair == Hair::helmet || model.hair == Hair::scarf;
-    if (model.hair == Hair::bald) {
-        blob({-.22F, 0, -.08F}, {.72F, .73F, .36F}, Material::hair);
-    } else if (model.hair != Hair::scarf) {
-        blob({-.13F, 0, .24F}, {.84F, .75F, .79F}, Material::hair);
-        blob({-.32F, 0, -.14F}, {.60F, .70F, .52F}, Material::hair);
-    }
-    switch (model.hair) {
-        case Hair::bob:
-            blob({-.22F, 0, -.18F}, {.70F, .84F, .72F}, Material::hair);
-            break;
-        case Hair::loose:
-            blob({-.30F, 0, -.20F}, {.62F, .82F, .78F}, Material::hair);
-            blob({-.50F, 0, -.85F}, {.34F, .68F, .80F}, Material::hair);
-            break;
-        case Hair::bun:
-            blob({-.92F, 0, .34F}, {.34F, .36F, .34F}, Material::hair);
-            break;
-        case Hair::cap:
-            blob({-.06F, 0, .36F}, {.92F, .79F, .74F}, Material::headgear);
-            blob({.72F, 0, .36F}, {.62F, .56F, .06F}, Material::headgear);
-            break;
-        case Hair::hat:
-            tube(.40F, .46F, 1.35F, 1.32F, -.04F);
-            tube(.44F, 1.10F, .86F, .72F, -.04F);
-            break;
-        case Hair::helmet:
-            if (model.clothing == Clothing::uniform) {  // a motorcyclist's, with its visor
-                blob({.02F, 0, .06F}, {1.10F, .95F, 1.12F}, Material::headgear);
-                blob({.48F, 0, .08F}, {.70F, .80F, .36F}, Material::eye);
-            } else {
-                blob({-.05F, 0, .42F}, {1.02F, .86F, .76F}, Material::headgear);
-                if (model.clothing == Clothing::workwear)
-                    blob({.20F, 0, .34F}, {1.02F, .84F, .07F}, Material::headgear);
-            }
-            break;
-        case Hair::scarf:
-            blob({-.14F, 0, .10F}, {.92F, .84F, .98F}, Material::headgear);
-            blob({-.06F, 0, -.78F}, {.66F, .76F, .52F}, Material::headgear);
-            break;
-        default:
-            break;
-    }
-    static_cast<void>(covered);
 }
 
 }  // namespace
@@ -208,6 +135,8 @@ double hem_length(const world::WalkerModel& model) {
             return 0.22 * model.height;
         case Clothing::gown:
             return 0.47 * model.height;
+        case Clothing::suit:
+            return 0.075 * model.height;
         default:
             return 0;
     }
@@ -221,7 +150,9 @@ Mesh hem_mesh(const world::WalkerModel& model) {
     const Build build(model);
     const double waist = model.girth / (2 * std::numbers::pi);
     const double hips = std::max(0.094 * model.height, 1.12 * waist);
-    const double flare = model.clothing == Clothing::coat ? 1.22 : 1.45;
+    const double flare = model.clothing == Clothing::suit   ? 1.10
+                         : model.clothing == Clothing::coat ? 1.22
+                                                            : 1.45;
     const Material cloth = model.clothing == Clothing::skirt ? Material::trousers : Material::shirt;
     add_slices(mesh,
                {{-length, flare * hips * .9, flare * hips * .8, 0, cloth},

@@ -67,9 +67,9 @@ void add_leg(std::vector<Limb>& limbs,
     const Vector3d knee =
         joint_between(hip, ankle, build.thigh, build.thigh, Vector3d(1, 0.08 * out, 0));
     const bool loose = cover.shank == Material::trousers;
-    limbs.push_back({Limb::Shape::bone, cover.thigh, stretched_bone(hip, knee, .053 * h)});
+    limbs.push_back({Limb::Shape::bone, cover.thigh, stretched_bone(hip, knee, .055 * h)});
     limbs.push_back(
-        {Limb::Shape::bone, cover.shank, stretched_bone(knee, ankle, (loose ? .042 : .036) * h)});
+        {Limb::Shape::bone, cover.shank, stretched_bone(knee, ankle, (loose ? .040 : .036) * h)});
     Affine3d shoe = Affine3d::Identity();
     shoe.translation() = posture.toe[side];
     shoe.rotate(Eigen::AngleAxisd(posture.pitch[side], Vector3d::UnitY()));
@@ -91,10 +91,10 @@ void add_arm(std::vector<Limb>& limbs,
     const Vector3d along = (wrist - elbow).normalized();
     limbs.push_back({Limb::Shape::ball,
                      cover.upper_arm,
-                     stretched_ball(shoulder, Vector3d::Constant(.036 * h))});
+                     stretched_ball(shoulder, Vector3d::Constant(.033 * h))});
     limbs.push_back(
-        {Limb::Shape::bone, cover.upper_arm, stretched_bone(shoulder, elbow, .034 * h)});
-    limbs.push_back({Limb::Shape::bone, cover.forearm, stretched_bone(elbow, wrist, .027 * h)});
+        {Limb::Shape::bone, cover.upper_arm, stretched_bone(shoulder, elbow, .0315 * h)});
+    limbs.push_back({Limb::Shape::bone, cover.forearm, stretched_bone(elbow, wrist, .025 * h)});
     limbs.push_back(
         {Limb::Shape::bone,
          Material::skin,

@@ -97,6 +97,8 @@ double hip_height(const Gait& gait, double phase) {
     double low = gait.build.hip;
     for (int i = 0; i <= samples; ++i)
         low = std::min(low, gait.reach(gait.stance * i / samples));
+    for (const double late : {0.92, 0.95, 0.98})  // the foot reaches out before it comes down
+        low = std::min(low, gait.reach(late));
     const double free = std::max(0.0, gait.reach(gait.stance / 2) - low);
     // Walking, the body is highest over the standing foot; running, between the steps.
     const double walk = low + 0.6 * free * (0.5 - 0.5 * std::cos(2 * turn * (phase - 0.06)));
@@ -126,14 +128,14 @@ double stoop(const world::WalkerModel& model) {
 
 Build::Build(const world::WalkerModel& model) : height(model.height) {
     const double child = std::clamp((1.6 - height) / 0.7, 0.0, 1.0);
-    head = 0.17 + 0.032 * height;
+    head = 0.178 + 0.036 * height;
     hip = (0.53 - 0.055 * child) * height;
     half_hip = 0.050 * height;
     ankle = 0.043 * height;
     thigh = (hip - ankle) / 2 / 0.997;
     foot = 0.118 * height;
-    trunk = height - head - 0.052 * height - hip;
-    half_shoulder = 0.43 * model.shoulder_width;
+    trunk = height - head - 0.040 * height - hip;
+    half_shoulder = 0.405 * model.shoulder_width;
     const double shoulder = hip + trunk;
     upper_arm = 0.222 * shoulder;
     forearm = 0.180 * shoulder;

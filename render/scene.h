@@ -89,8 +89,9 @@ class Scene {
 
     /// Places everybody. The actors in `mounts` can be hidden from rays, see mask_hiding.
     /// Nothing is kept from the last tick: the same tick gives the same tree. 0.5 ms for 100 cars.
-    /// Umbrellas are open when it `rains`.
-    void place(const world::TickView& tick, std::span<const std::uint32_t> mounts, bool rains);
+    /// Umbrellas are open when it rains in the tick: what there is to see does not depend on the
+    /// weather that pictures are made under.
+    void place(const world::TickView& tick, std::span<const std::uint32_t> mounts);
 
     /// For rays of a camera that sits inside this actor.
     std::uint32_t mask_hiding(std::uint32_t actor) const;

@@ -131,13 +131,15 @@ void Scene::place_cars(const world::TickView& tick) {
     }
 }
 
-void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mounts, bool rains) {
+void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mounts) {
     mounts_.assign(mounts.begin(), mounts.end());
     signals_.assign(tick.signals().begin(), tick.signals().end());
     instances_ = town_;
     outfits_.clear();
     place_vehicles(tick);
     place_cars(tick);
+    const world::Weather* weather = tick.tick->weather();
+    const bool rains = weather != nullptr && weather->rain() > 0;
     for (const world::WalkerState& walker : tick.walkers())
         place_walker(walker, rains);
     commit();

@@ -127,7 +127,7 @@ std::vector<world::SensorFrame> Sensors::Scene::observe(const world::TickView& t
         if (spec.actor != 0 && std::find(mounts.begin(), mounts.end(), spec.actor) == mounts.end())
             mounts.push_back(spec.actor);
     }
-    placed.place(tick, mounts, weather.rain() > 0);
+    placed.place(tick, mounts);
 
     // Sensors of one place look once, together.
     std::vector<world::SensorFrame> frames(rig.size());

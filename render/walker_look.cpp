@@ -23,12 +23,10 @@ Look walker_look(const Stage& stage, const Surface& at) {
             break;
         case Material::shirt:
         case Material::trousers: {
-            // Folds: soft stripes that no pixel size hides, and a weave that only near eyes see.
+            // Folds: soft, so that no pixel is too large for them.
             const float folds =
-                value_noise(at.local.x() * 9 + at.local.y() * 7, at.local.z() * 5, 3);
-            const float weave =
-                value_noise(at.local.x() * 160, at.local.z() * 160 + at.local.y() * 90);
-            look.albedo *= 0.86F + 0.28F * folds + 0.12F * (weave - 0.5F) * detail(at, 0.02F);
+                value_noise(at.local.x() * 3 + at.local.y() * 2, at.local.z() * 4, 3);
+            look.albedo *= 0.92F + 0.16F * folds;
             break;
         }
         case Material::trim: {

@@ -144,12 +144,14 @@ Carried carried_by(const world::WalkerModel& model, const Choice& choice) {
 void choose_clothes(Outfit& outfit, const world::WalkerModel& model, const Choice& choice) {
     outfit.shirt = choice.of(tops, 2);
     outfit.trousers = choice.of(bottoms, 3);
+    outfit.headgear = choice.of(brights, 6) * 0.6F;
     outfit.trim = Color(.03F, .026F, .024F);
     outfit.short_sleeves = choice.share(7) < 0.35F;
     switch (model.clothing) {
         case Clothing::suit:
             outfit.shirt = outfit.trousers = choice.of(suits, 2);
             outfit.trim = choice.of(brights, 8) * 0.7F;
+            outfit.headgear = Color(.60F, .60F, .61F);
             outfit.short_sleeves = false;
             break;
         case Clothing::sportswear:
@@ -219,7 +221,6 @@ Outfit outfit_of(const world::WalkerModel& model, std::uint32_t look) {
         outfit.hair = Color::Constant(.18F + .25F * choice.share(13));
     choose_clothes(outfit, model, choice);
     outfit.shoe = choice.of(shoes, 5);
-    outfit.headgear = choice.of(brights, 6) * 0.6F;
     outfit.bag =
         choice.share(10) < 0.5F ? choice.of(bottoms, 9) : Color(choice.of(brights, 9) * 0.7F);
     outfit.umbrella = choice.share(15) < 0.5F ? Color(.02F, .02F, .024F) : choice.of(brights, 14);

@@ -15,7 +15,7 @@ struct Carried {
     bool guitar_case = false;
     bool suitcase = false;
     bool rolling_bag = false;
-    bool umbrella = false;  ///< opened when it rains
+    bool umbrella = false;  ///< open when it rains in the tick
     bool backpack = false;
 };
 
@@ -24,7 +24,7 @@ struct Carried {
 struct Outfit {
     Color skin;
     Color hair;
-    Color headgear;
+    Color headgear;  ///< of a suit: the shirt below it
     Color shirt;
     Color trousers;
     Color shoe;

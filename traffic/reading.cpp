@@ -56,9 +56,12 @@ std::uint16_t lamps_of(int signals) {
 
 /// SUMO's cars jump when they change lanes on a curve (position along the lane is kept, though the
 /// lanes are not equally long) and when a change is cut short by a junction. Such a jump becomes a
-/// slip, which the car works off while it drives. Returns the bumper's place to show.
-Eigen::Vector3d smooth(Car& car, const Eigen::Vector3d& sumo_front, bool new_lane, double step) {
-    const Eigen::Vector2d ahead(std::cos(car.yaw), std::sin(car.yaw));
+/// slip, which the car works off while it drives. It is measured along `lane_yaw`, the lane's
+/// direction there: along the car's own, a slip that is longer than the car would turn it ever
+/// further. Returns the bumper's place to show.
+Eigen::Vector3d smooth(
+    Car& car, const Eigen::Vector3d& sumo_front, bool new_lane, double lane_yaw, double step) {
+    const Eigen::Vector2d ahead(std::cos(lane_yaw), std::sin(lane_yaw));
     const Eigen::Vector2d left(-ahead.y(), ahead.x());
     if (new_lane) {
         const double driven = car.speed * step;
@@ -125,7 +128,12 @@ void Background::Sumo::read_car(Car& car) {
         const world::LaneT& path = town.lanes[car.lane];
         front.z() = world::point_at(path, world::project(path, front).s).position.z();
     }
-    car.trail.advance(smooth(car, front, new_lane, step));
+    double lane_yaw = car.yaw;
+    if (car.lane != none && (new_lane || !car.slip.isZero(0))) {
+        const world::LaneT& on = town.lanes[car.lane];
+        lane_yaw = world::point_at(on, position * on.length / on.sumo_length).yaw;
+    }
+    car.trail.advance(smooth(car, front, new_lane, lane_yaw, step));
     car.rear = car.trail.rear();
     const Eigen::Vector3d body = car.trail.front() - car.rear;
     car.yaw = std::atan2(body.y(), body.x());

@@ -27,7 +27,7 @@ constexpr std::array<VehicleModel, 16> models{{
     {"police",     wagon,      Livery::police,    4.85,  1.85, 1.50, 2.85, 1.08, 0.33,  1.59, 1850,  160e3, 7500,  0.61, 0.75, "authority"},
     {"ambulance",  van,        Livery::ambulance, 5.95,  2.02, 2.65, 3.67, 1.22, 0.345, 1.72, 3500,  120e3, 9500,  0.62, 1.9,  "emergency"},
     {"minibus",    minibus,    Livery::plain,     6.95,  2.02, 2.75, 4.32, 1.62, 0.345, 1.74, 3900,  120e3, 9500,  0.62, 1.9,  "bus"},
-    {"motorcycle", motorcycle, Livery::plain,     2.12,  0.82, 1.68, 1.44, 0.34, 0.30,  0.45, 290,   55e3,  1900,  0.45, 0.42, "motorcycle"},
+    {"motorcycle", motorcycle, Livery::plain,     2.12,  0.82, 1.75, 1.44, 0.34, 0.30,  0.45, 290,   55e3,  1900,  0.45, 0.42, "motorcycle"},
     {"bicycle",    bicycle,    Livery::plain,     1.80,  0.62, 1.74, 1.06, 0.35, 0.345, 0.40, 98,    250,   130,   0.50, 0.50, "bicycle"},
 }};
 // clang-format on

@@ -52,7 +52,7 @@ constexpr std::array<WalkerModel, 50> models{{
     {"hiker",          1.74, 0.46, 74, 1.35, 0.88, Age::adult,  Clothing::sportswear, Hair::hat},
     {"musician",       1.79, 0.45, 70, 1.25, 0.80, Age::adult,  Clothing::casual,     Hair::loose},
     {"artist",         1.70, 0.40, 60, 1.20, 0.70, Age::adult,  Clothing::gown,       Hair::bun},
-    {"dancer",         1.68, 0.38, 54, 1.45, 0.62, Age::adult,  Clothing::dress,      Hair::bun},
+    {"dancer",         1.68, 0.39, 54, 1.45, 0.62, Age::adult,  Clothing::dress,      Hair::bun},
     {"shopper",        1.66, 0.42, 68, 1.15, 0.82, Age::adult,  Clothing::dress,      Hair::bob},
     {"mother",         1.68, 0.41, 66, 1.20, 0.78, Age::adult,  Clothing::skirt,      Hair::loose},
     {"father",         1.81, 0.49, 88, 1.25, 0.98, Age::adult,  Clothing::casual,     Hair::bald},

@@ -139,9 +139,10 @@ TEST(Figure, EverythingThatCanBeCarriedIsCarriedBySomebody) {
                 ++carriers.at(static_cast<std::size_t>(limb.shape));
         ++index;
     }
+    carriers.at(static_cast<std::size_t>(Limb::Shape::open_umbrella)) =
+        carriers.at(static_cast<std::size_t>(Limb::Shape::closed_umbrella));
     for (std::size_t shape = 0; shape < limb_shapes; ++shape)
-        if (shape != static_cast<std::size_t>(Limb::Shape::open_umbrella))
-            EXPECT_GT(carriers.at(shape), 5) << shape;
+        EXPECT_GT(carriers.at(shape), 5) << shape;
 }
 
 TEST(Rider, SitsInTheBoxOfHisTwoWheeler) {

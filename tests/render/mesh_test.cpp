@@ -67,9 +67,9 @@ TEST(Mesh, EveryVehicleFillsItsCataloguesBox) {
         EXPECT_NEAR(box.min().x(), -model.rear_overhang, 0.02) << model.name;
         EXPECT_NEAR(box.max().x(), model.length - model.rear_overhang, 0.02) << model.name;
         // Signs and light bars stand on the roof.
-        const float on_roof = model.livery == world::Livery::plain ? 0.0F : 0.15F;
-        EXPECT_GT(box.max().z(), model.height - 0.03) << model.name;
-        EXPECT_LT(box.max().z(), model.height + 0.03 + on_roof) << model.name;
+        const double on_roof = model.livery == world::Livery::plain ? 0 : 0.15;
+        EXPECT_GT(static_cast<double>(box.max().z()), model.height - 0.03) << model.name;
+        EXPECT_LT(static_cast<double>(box.max().z()), model.height + 0.03 + on_roof) << model.name;
         EXPECT_NEAR(box.max().y(), model.width / 2, 0.03) << model.name;
         EXPECT_GT(box.min().z(), 0.1) << model.name;
         EXPECT_GT(volume(body), 0.3 * model.length * model.width * model.height) << model.name;

@@ -98,8 +98,8 @@ TEST(Vehicles, PaintIsThatOfTheLookAndTheKind) {
         colors.emplace(color.x(), color.y(), color.z());
     };
     for (std::uint32_t look = 1; look < 500; ++look) {
-        note(sedans, paint_of(sedan, look).body);
-        note(taxis, paint_of(taxi, look).body);
+        note(sedans, render::paint_of(sedan, look).body);
+        note(taxis, render::paint_of(taxi, look).body);
     }
     EXPECT_EQ(sedans.size(), 15U);
     EXPECT_EQ(taxis.size(), 3U);
