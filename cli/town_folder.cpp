@@ -16,7 +16,7 @@ class Partial {
     explicit Partial(const fs::path& path) : path_(path) {
         std::error_code error;
         // Left by an import that was interrupted: nothing else makes such a folder.
-        if (fs::is_directory(path / "work", error))
+        if (fs::is_directory(path / "import.work", error))
             fs::remove_all(path);
         if (!fs::create_directory(path, error))
             throw world::Error(path.string() + ": cannot be made" +

@@ -272,7 +272,7 @@ std::string check(const fs::path& path, const std::string& map) {
 }  // namespace
 
 std::string import_town(const TownImport& wish, const fs::path& folder) {
-    const fs::path work = folder / "work";
+    const fs::path work = folder / "import.work";
     fs::create_directory(work);
     const Import import(wish, fs::absolute(work));
     const std::string name = wish.name.empty() ? import.map_name() : wish.name;

@@ -67,10 +67,16 @@ TEST(TownImport, ReplacesATownOnlyWhenForced) {
     EXPECT_EQ(read_file(folder / "v/thesis.txt"), "years of work");
 }
 
+TEST(TownImport, HelpSaysWhatThereIs) {
+    EXPECT_THAT(reprise({"town", "--help"}).out, HasSubstr("import"));
+    EXPECT_THAT(reprise({"town", "import", "--help"}).out, HasSubstr("--lefthand"));
+    EXPECT_EQ(reprise({"town"}).code, 2);
+}
+
 TEST(TownImport, ClearsAwayWhatAnInterruptedOneLeft) {
     const Folder folder;
-    std::filesystem::create_directories(folder / "v.partial/work");
-    write_file(folder / "v.partial/work/map.xodr", "half");
+    std::filesystem::create_directories(folder / "v.partial/import.work");
+    write_file(folder / "v.partial/import.work/map.xodr", "half");
     EXPECT_EQ(reprise({"town", "import", village(), "-o", "v"}, folder.path()).code, 0);
     EXPECT_THAT(folder.files(),
                 ElementsAre("v/import.txt", "v/village.net.xml", "v/village.place.xml"));

@@ -119,6 +119,20 @@ TEST_F(NetworkFiles, GzipHoldsTheSameNetwork) {
     EXPECT_EQ(network.notes, "");
 }
 
+TEST_F(NetworkFiles, ThePlaceBesideItGoesAlong) {
+    write("a.net.xml", town2());
+    EXPECT_EQ(load_network(folder_ / "a.net.xml").place, "");
+    write("a.place.xml", "<place/>");
+    EXPECT_EQ(load_network(folder_ / "a.net.xml").place, "<place/>");
+    write("a.place.xml", "<place>\n<sing/></place>");
+    EXPECT_THAT(message(folder_ / "a.net.xml"), HasSubstr("a.place.xml:2: <sing>: is unknown"));
+}
+
+TEST_F(NetworkFiles, TooBigAFileIsRefusedBeforeItIsRead) {
+    std::filesystem::resize_file(write("big.net.xml", "<net>"), std::uintmax_t{3} << 30);
+    EXPECT_THAT(message(folder_ / "big.net.xml"), HasSubstr("has 3072 MB; 512 at most"));
+}
+
 TEST_F(NetworkFiles, TheNameIsTheFileNameWithoutEndings) {
     EXPECT_EQ(load_network(write("Town04_sumo115.net.xml", town2())).name, "Town04_sumo115");
     EXPECT_EQ(load_network(write("plain.xml", town2())).name, "plain");

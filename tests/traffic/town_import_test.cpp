@@ -167,7 +167,7 @@ TEST_F(Imports, BuildingsAreCutBackToTheRoadsOrLeftOut) {
         map.insert(map.rfind("</osm>"), way + "<tag k=\"building\" v=\"yes\"/></way>\n");
     };
     add(9001, 178, 18);  // North Road runs at 180 m: its strip is cut off
-    add(9002, 178, 4);   // nothing is left
+    add(9002, 178, 8);   // too little is left
     const std::string report = import_town({write("cut.osm", map), "", false, false}, empty("t"));
     EXPECT_THAT(report, HasSubstr("8 with their own footprints; 1 cut back"));
     EXPECT_THAT(report, HasSubstr("1 left out"));
@@ -207,9 +207,13 @@ TEST_F(Imports, PackedMapsAreTheSame) {
 
 TEST_F(Imports, ANetworkStaysAsItIs) {
     const fs::path own = fs::path(REPRISE_SOURCE_DIR) / "scenarios/towns/town2/town2.net.xml";
-    import_town({own, "mine", false, false}, empty("t"));
+    const std::string place = "<place><district style='old'/></place>";
+    write("own.net.xml", bytes(own));
+    write("own.place.xml", place);
+    import_town({folder_ / "own.net.xml", "mine", false, false}, empty("t"));
     const Network made = load_network(folder_ / "t/mine.net.xml");
     EXPECT_EQ(made.name, "mine");
+    EXPECT_EQ(made.place, place) << "what lies beside it goes along";
     EXPECT_EQ(read_town(made).lanes, test::own_town("town2").town.lanes);
 }
 
