@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -19,18 +18,6 @@ namespace reprise::traffic {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path find_program(const std::string& name) {
-    const char* variable = std::getenv("PATH");
-    std::string folders = std::string(variable == nullptr ? "" : variable) + ":/usr/bin";
-    for (std::size_t from = 0, to = 0; to != std::string::npos; from = to + 1) {
-        to = folders.find(':', from);
-        const fs::path path = fs::path(folders.substr(from, to - from)) / name;
-        if (path.is_absolute() && access(path.c_str(), X_OK) == 0 && !fs::is_directory(path))
-            return path;
-    }
-    throw world::Error(name + ": there is no such program here; it is in Debian's package sumo");
-}
 
 std::vector<char*> pointers(std::vector<std::string>& words) {
     std::vector<char*> found;
@@ -70,14 +57,8 @@ std::string beginning_of(const fs::path& path) {
     return text;
 }
 
-/// Starts it in `scratch` with no input and both outputs in one file there.
-pid_t start(const fs::path& program,
-            std::vector<std::string> words,
-            const fs::path& scratch,
-            const std::string& outputs) {
-    words.insert(words.begin(), program.string());
-    // Nothing that could change what it does.
-    std::vector<std::string> variables{"LC_ALL=C", "SUMO_HOME=" + sumo_folder().string()};
+/// No input, and both outputs in one file; it works in `scratch`.
+posix_spawn_file_actions_t files_of_child(const fs::path& scratch, const std::string& outputs) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addchdir_np(&actions, scratch.c_str());
@@ -85,6 +66,17 @@ pid_t start(const fs::path& program,
     posix_spawn_file_actions_addopen(
         &actions, STDOUT_FILENO, outputs.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0600);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    return actions;
+}
+
+pid_t start(const std::string& name,
+            std::vector<std::string> words,
+            const fs::path& scratch,
+            const std::string& outputs) {
+    words.insert(words.begin(), name);
+    // Nothing that could change what it does.
+    std::vector<std::string> variables{"LC_ALL=C", "SUMO_HOME=" + sumo_folder().string()};
+    posix_spawn_file_actions_t actions = files_of_child(scratch, outputs);
     // We ignore SIGXFSZ; a child would inherit that.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
@@ -93,27 +85,27 @@ pid_t start(const fs::path& program,
     sigaddset(&usual, SIGXFSZ);
     posix_spawnattr_setsigdefault(&attributes, &usual);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    const std::vector<char*> arguments = pointers(words), environment = pointers(variables);
     pid_t child = 0;
-    const int error = posix_spawn(&child,
-                                  program.c_str(),
-                                  &actions,
-                                  &attributes,
-                                  pointers(words).data(),
-                                  pointers(variables).data());
+    int error = ENOENT;
+    for (const std::string& path : {name, "/usr/bin/" + name})  // of PATH first
+        if (error == ENOENT)
+            error = posix_spawnp(
+                &child, path.c_str(), &actions, &attributes, arguments.data(), environment.data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
+    if (error == ENOENT)
+        throw world::Error(name +
+                           ": there is no such program here; it is in Debian's package sumo");
     if (error != 0)
-        throw world::Error(program.string() + ": cannot be started: " + std::strerror(error));
+        throw world::Error(name + ": cannot be started: " + std::strerror(error));
     return child;
 }
 
 }  // namespace
 
 fs::path sumo_folder() {
-    const fs::path debian = "/usr/share/sumo";
-    const char* home = std::getenv("SUMO_HOME");
-    std::error_code ignored;
-    return fs::is_directory(debian, ignored) || home == nullptr ? debian : fs::path(home);
+    return "/usr/share/sumo";
 }
 
 ProgramResult run_program(const std::string& name,
@@ -121,7 +113,7 @@ ProgramResult run_program(const std::string& name,
                           const fs::path& scratch,
                           const ProgramLimits& limits) {
     const std::string outputs = name + ".said";
-    const pid_t child = start(find_program(name), words, scratch, outputs);
+    const pid_t child = start(name, words, scratch, outputs);
     limit(child, limits);
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {

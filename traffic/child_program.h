@@ -29,7 +29,7 @@ ProgramResult run_program(const std::string& name,
                           const std::filesystem::path& scratch,
                           const ProgramLimits& limits = {});
 
-/// Where SUMO keeps its type maps: /usr/share/sumo, or SUMO_HOME where that is not there.
+/// Where Debian's SUMO keeps its type maps. Not SUMO_HOME: equal maps make equal towns everywhere.
 std::filesystem::path sumo_folder();
 
 }  // namespace reprise::traffic
