@@ -30,6 +30,9 @@ inline constexpr Ink letters{48, 52, 58};
 /// end: smooth edges without seams between triangles that meet.
 class MapCanvas {
   public:
+    /// Of a pixel, in OpenCV's fixed-point coordinates.
+    static constexpr int fraction_bits = 4;
+
     /// A sheet of about `size` pixels on its longer side, with `region` as large as fits between a
     /// heading and a legend of `legend_rows`.
     MapCanvas(const world::Box& region, int size, int legend_rows, Ink land);

@@ -1,31 +1,16 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <vector>
 
+#include "traffic/walk_tile.h"
 #include "world/ground.h"
 #include "world/plan.h"
 
 namespace reprise::traffic {
 
-/// Areas of the navigation mesh; where surfaces meet at one height the highest number wins, so that
-/// sidewalks do.
-enum WalkArea : unsigned char { walk_road = 1, walk_crossing = 2, walk_sidewalk = 3 };
-
-inline constexpr double walker_radius = 0.3;  ///< [m]
-inline constexpr double walker_height = 1.8;  ///< [m]
-inline constexpr double walker_climb = 0.3;   ///< [m] more than a kerb
-
 /// Recast's coordinates: x east, y up, z south, from `origin`; single precision.
 std::array<float, 3> to_recast(const Eigen::Vector3d& p_world, const Eigen::Vector3d& origin);
 Eigen::Vector3d from_recast(const float* p, const Eigen::Vector3d& origin);
-
-/// One square of the map, ready for Detour. Empty `bytes`: nobody can walk there.
-struct WalkTile {
-    std::vector<unsigned char> bytes;
-    std::size_t polygons = 0;
-};
 
 /// The ground of a town, cut into squares that are built on their own: memory does not grow with
 /// the town.
