@@ -21,6 +21,7 @@ constexpr double side_head = 0.7;       ///< [m] of a turn's head, across the la
 constexpr double half_side_head = 0.7;  ///< [m] of the same, along the lane
 constexpr double slant = 0.3;           ///< [m] by which a turn's shaft leans ahead
 constexpr double elbow = 2.9;           ///< [m] from the arrow's foot to a turn's shaft
+constexpr double early_elbow = 1.3;     ///< [m] the same below a straight head
 
 struct Turns {
     bool left = false;
@@ -58,9 +59,8 @@ bool has_a_choice(const TownT& town, std::uint32_t lane) {
     return lanes > 1 && all.count() > 1;
 }
 
-/// A turn to one side: +1 left, -1 right.
-void paint_side(const Line& centre, double foot, double side, Paint& paint) {
-    const double from = foot + elbow;
+/// A turn to one side (+1 left, -1 right) whose shaft leaves the arrow's own at s = `from`.
+void paint_side(const Line& centre, double from, double side, Paint& paint) {
     const double to = from + slant;
     constexpr double half = 1.6 * half_shaft;  // seen slantwise from a car
     paint.shape(centre,
@@ -76,16 +76,17 @@ void paint_side(const Line& centre, double foot, double side, Paint& paint) {
 
 void paint_arrow(const Line& centre, double tip, const Turns& turns, Paint& paint) {
     const double foot = tip - arrow_length;
-    const double shaft = turns.straight ? tip - head_length : foot + elbow;
+    const double turn = foot + (turns.straight ? early_elbow : elbow);
+    const double shaft = turns.straight ? tip - head_length : turn;
     paint.shape(
         centre,
         {{foot, -half_shaft}, {shaft, -half_shaft}, {shaft, half_shaft}, {foot, half_shaft}});
     if (turns.straight)
         paint.shape(centre, {{shaft, -half_head}, {tip, 0}, {shaft, half_head}});
     if (turns.left)
-        paint_side(centre, foot, 1, paint);
+        paint_side(centre, turn, 1, paint);
     if (turns.right)
-        paint_side(centre, foot, -1, paint);
+        paint_side(centre, turn, -1, paint);
 }
 
 }  // namespace
