@@ -26,7 +26,7 @@ Greens greens_of(PlantKind kind) {
         case PlantKind::plane:
             return {{.080F, .120F, .030F}, {.110F, .135F, .034F}};
         case PlantKind::maple:
-            return {{.045F, .090F, .022F}, {.175F, .060F, .022F}};
+            return {{.050F, .098F, .022F}, {.085F, .125F, .028F}};
         case PlantKind::cherry:
             return {{.075F, .105F, .028F}, {.090F, .115F, .030F}};
         case PlantKind::pine:
@@ -81,14 +81,14 @@ Look plant_leaf_look(const Surface& at) {
     const auto kind = static_cast<PlantKind>(at.instance->model);
     const std::uint32_t style = at.instance->style;
     const Greens greens = greens_of(kind);
-    // Few maples are red.
     const float hue = unit(hash(style, 5));
-    const Color green =
-        mix(greens.dark, greens.bright, kind == PlantKind::maple ? hue * hue * hue : hue);
+    Color green = mix(greens.dark, greens.bright, hue);
+    if (kind == PlantKind::maple && hash(style, 9) % 6 == 0)
+        green = Color(.150F, .040F, .026F);
     const float own = unit(hash(at.tag, 6));
     const float patch =
         value_noise(at.position.x() * 0.9F, at.position.y() * 0.9F + at.position.z(), 8);
-    look.albedo = green * (0.65F + 0.5F * own + 0.35F * patch);
+    look.albedo = green * (0.90F + 0.55F * own + 0.40F * patch);
     Color flower;
     const bool blooms = unit(hash(at.tag, 7)) < blossoms(kind, style, flower);
     if (blooms)

@@ -38,7 +38,7 @@ Habit habit_of(PlantKind kind) {
         case PlantKind::plane:
             return {.46F, .060F, .30F, .50F, 2.3F, 20, .34F, 1420, .048F, .70F, 0.9F};
         case PlantKind::maple:
-            return {.42F, .055F, .22F, .45F, 2.8F, 20, .34F, 1600, .045F, .78F, 0.9F};
+            return {.42F, .055F, .22F, .45F, 2.8F, 20, .34F, 1420, .047F, .78F, 0.9F};
         case PlantKind::cherry:
             return {.52F, .060F, .28F, .62F, 1.8F, 18, .30F, 1420, .041F, .62F, 0.8F};
         case PlantKind::pine:
