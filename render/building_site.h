@@ -52,6 +52,12 @@ void add_gabled_roof(BuildingSite& site,
 /// A flat roof inside the walls' upper end, which stands around it as a parapet.
 void add_flat_roof(BuildingSite& site, const Eigen::Vector2f& half, float top);
 
+/// A drum with a dome and a lantern over a flat roof.
+void add_dome(BuildingSite& site);
+
+/// A nave under a steep roof with a tower at its west end.
+void add_church(BuildingSite& site);
+
 /// What is on the roof: chimneys, dormers, machines, turrets.
 void add_roof_parts(BuildingSite& site);
 

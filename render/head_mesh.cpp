@@ -13,7 +13,8 @@ using Eigen::Vector3f;
 
 /// Which way a signal's link turns; straight where the town does not say.
 world::Turn turn_of(const world::TownT& town, std::uint32_t signal) {
-    const std::uint32_t lane = town.signals[signal].lane;
+    const std::uint32_t lane =
+        signal < town.signals.size() ? town.signals[signal].lane : world::none;
     if (lane >= town.lanes.size())
         return world::Turn::straight;
     for (const world::Link& link : town.lanes[lane].links)

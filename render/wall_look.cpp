@@ -157,135 +157,7 @@ Look wall_look(const Stage& stage, const Surface& at, const WallSpot& spot) {
     return look;
 }
 
-Look part_look(const Stage& stage,
-               const Surface& at,
-               const BuildingPaint& paint,
-               BuildingFinish finish) {
-    Look look;
-    look.normal = at.normal;
-    const float across =
-        std::max(1e-3F, std::sqrt(at.flat.x() * at.flat.x() + at.flat.y() * at.flat.y()));
-    const float u = (at.position.y() * at.flat.x() - at.position.x() * at.flat.y()) / across;
-    const float x = at.position.x();
-    const float y = at.position.y();
-    const float z = at.position.z();
-    const float grain = 0.9F + 0.2F * fractal_noise(x * 0.8F + z, y * 0.8F + z, 2, 150);
-    switch (finish) {
-        case BuildingFinish::masonry:
-            look.albedo = wall_texture(paint, u, z, at);
-            break;
-        case BuildingFinish::trim:
-            look.albedo = (paint.half_timbered ? Color(.42F, .36F, .28F) : paint.trim) * grain;
-            break;
-        case BuildingFinish::tiles: {
-            // Rows along the slope: farther apart in height the flatter it is.
-            const float row = z / (0.21F * std::max(0.25F, across));
-            const float shifted = u / 0.24F + (floor_int(row) % 2 == 0 ? 0.0F : 0.5F);
-            const float shade =
-                1 - 0.45F * detail(at, 0.2F) * smooth_step(0.25F, 0.0F, fraction(row));
-            const float tone =
-                (0.82F + 0.36F * fractal_noise(u * 0.7F, z, 2, 151)) *
-                (1 + 0.35F * detail(at, 0.24F) *
-                         (cell_noise(floor_int(shifted), floor_int(row), 152) - 0.5F));
-            look.albedo =
-                paint.roof * (paint.model->facade == FacadeKind::metal ? 1.0F : shade * tone);
-            break;
-        }
-        case BuildingFinish::deck:
-            look.albedo =
-                Color(.20F, .195F, .19F) * grain *
-                (1 + 0.3F * detail(at, 0.05F) * (value_noise(x * 40, y * 40, 153) - 0.5F));
-            break;
-        case BuildingFinish::metal:
-            look.albedo = Color(.035F, .036F, .038F);
-            look.roughness = 0.4F;
-            break;
-        case BuildingFinish::machine:
-            look.albedo = Color(.42F, .43F, .43F) * grain *
-                          (fraction(z / 0.18F) < 0.2F * detail(at, 0.15F) ? 0.6F : 1.0F);
-            look.roughness = 0.4F;
-            break;
-        case BuildingFinish::copper:
-            look.albedo = mix(Color(.19F, .36F, .30F),
-                              Color(.13F, .20F, .16F),
-                              fractal_noise(u * 0.9F, z * 0.5F, 3, 154));
-            break;
-        case BuildingFinish::glass:
-            look.albedo = Color(.07F, .085F, .085F);
-            look.f0 = 0.07F;
-            look.gloss = 1;
-            look.roughness = 0.04F;
-            break;
-        case BuildingFinish::awning:
-            look.albedo = fraction(u / 0.5F) < 0.5F ? Color(.62F, .60F, .54F) : paint.accent;
-            look.translucency = 0.15F;
-            break;
-        case BuildingFinish::timber:
-            look.albedo = mix(paint.frame,
-                              Color(.30F, .22F, .15F),
-                              hash(paint.seed, 67) % 2 == 0 ? 0.0F : 0.8F) *
-                          grain;
-            break;
-    }
-    static_cast<void>(stage);
-    return look;
-}
-
 }  // namespace
-
-Color wall_texture(const BuildingPaint& paint, float u, float z, const Surface& at) {
-    Color color = paint.wall;
-    float tone = 0.90F + 0.2F * fractal_noise(u * 0.5F, z * 0.35F, 3, 130);
-    // Rain has washed dirt up from the pavement, and down in streaks.
-    const float low = z < 0 ? 0 : z;
-    tone *= 1 - 0.18F * smooth_step(1.1F, 0.0F, low) * (0.5F + value_noise(u * 2, 0.5F, 131));
-    tone *= 0.96F + 0.06F * value_noise(u * 3.1F, z * 0.22F, 133);
-    switch (paint.model->facade) {
-        case FacadeKind::brick: {
-            const float bricks = detail(at, 0.14F);
-            const int course = floor_int(z / 0.075F);
-            const float shifted = u / 0.25F + (course % 2 == 0 ? 0.0F : 0.5F);
-            const bool mortar = fraction(shifted) < 0.045F || fraction(z / 0.075F) < 0.15F;
-            tone *= 1 + bricks * 0.45F * (cell_noise(floor_int(shifted), course, 7) - 0.5F);
-            // From far the mean of bricks and mortar.
-            const float near = detail(at, 0.03F);
-            color = mix(color,
-                        Color(.42F, .39F, .35F),
-                        (mortar ? 0.75F : 0.0F) * near + 0.14F * (1 - near));
-            break;
-        }
-        case FacadeKind::stone: {
-            const bool odd = floor_int(z / 0.6F) % 2 == 0;
-            const float block = u / 0.9F + (odd ? 0.0F : 0.5F);
-            const float joint = std::min(fraction(z / 0.6F) * 0.6F, fraction(block) * 0.9F);
-            tone *= 1 - 0.35F * detail(at, 0.06F) * smooth_step(0.02F, 0.008F, joint);
-            tone *= 1 + 0.14F * detail(at, 0.6F) *
-                            (cell_noise(floor_int(block), floor_int(z / 0.6F), 8) - 0.5F);
-            break;
-        }
-        case FacadeKind::timber:
-            if (paint.half_timbered) {
-                color = Color(.64F, .60F, .51F);
-            } else {
-                const float board = fraction(z / 0.17F);
-                tone *= 1 - 0.38F * detail(at, 0.09F) * smooth_step(0.16F, 0.02F, board);
-                tone *= 1 + 0.10F * detail(at, 0.17F) *
-                                (cell_noise(floor_int(u / 3.1F), floor_int(z / 0.17F), 9) - 0.5F);
-            }
-            break;
-        case FacadeKind::metal:
-            tone *= 1 + 0.16F * detail(at, 0.25F) * (std::abs(fraction(u / 0.33F) - 0.5F) * 4 - 1);
-            break;
-        case FacadeKind::office: {
-            const float joint = std::min(fraction(u / 1.6F) * 1.6F, fraction(z / 1.7F) * 1.7F);
-            tone *= 1 - 0.3F * detail(at, 0.06F) * smooth_step(0.02F, 0.008F, joint);
-            break;
-        }
-        default:
-            tone *= 1 + 0.08F * detail(at, 0.08F) * (value_noise(u * 24, z * 24, 132) - 0.5F);
-    }
-    return color * tone;
-}
 
 Look model_building_look(const Stage& stage, const Surface& at) {
     const Facades& facades = stage.scene.facades();
@@ -294,10 +166,9 @@ Look model_building_look(const Stage& stage, const Surface& at) {
         const Wall& wall = facades.walls[at.tag];
         look = wall_look(stage, at, WallSpot(wall, facades.buildings[wall.building], at));
     } else {
-        look = part_look(stage,
-                         at,
-                         facades.buildings[at.tag / building_finishes],
-                         static_cast<BuildingFinish>(at.tag % building_finishes));
+        look = building_part_look(at,
+                                  facades.buildings[at.tag / building_finishes],
+                                  static_cast<BuildingFinish>(at.tag % building_finishes));
     }
     const float wetness = stage.sky.weather().wetness();
     if (wetness > 0 && look.gloss <= 0) {

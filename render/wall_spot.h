@@ -22,6 +22,9 @@ struct WallSpot {
 /// Colour of a wall between its openings, `u` along it and `z` above the ground. [m]
 Color wall_texture(const BuildingPaint& paint, float u, float z, const Surface& at);
 
+/// What a part of a building looks like, such as a roof.
+Look building_part_look(const Surface& at, const BuildingPaint& paint, BuildingFinish finish);
+
 /// What is seen in an opening: panes with a room behind them, frames, leaves of doors.
 Look opening_look(const Stage& stage,
                   const Surface& at,
