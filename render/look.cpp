@@ -226,8 +226,6 @@ world::SemanticClass semantic_class(const Scene& scene, const Hit& hit) {
             return prop_class(tag);
         case Material::plot:
             return plot_class(scene.plots()[tag].kind);
-        case Material::wall:
-        case Material::building:
         case Material::grass:
             return SemanticClass::terrain;
         case Material::pavement:
@@ -237,6 +235,8 @@ world::SemanticClass semantic_class(const Scene& scene, const Hit& hit) {
             return SemanticClass::road_line;
         case Material::facade:
         case Material::roof:
+        case Material::wall:
+        case Material::building:
             return SemanticClass::building;
         case Material::pole:
             return SemanticClass::pole;

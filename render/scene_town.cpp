@@ -117,6 +117,9 @@ void Scene::place_trees(const world::TownT& town) {
     std::array<const Prototype*, tree_kinds> trees{};
     std::map<world::PlantKind, const Prototype*> plants;
     for (const world::Tree& tree : town.trees) {
+        // Flat ones have no inside that rays could be taken into: Embree would end the process.
+        if (!(tree.height() > 0.01) || !(tree.crown_radius() > 0.01))
+            continue;
         Instance instance;
         if (tree.kind() == world::PlantKind::any) {
             const Prototype*& prototype = trees[tree.style() % tree_kinds];

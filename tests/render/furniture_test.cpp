@@ -255,4 +255,24 @@ TEST(Town, WithEverythingLooksTheSameTwiceInBothTracers) {
     }
 }
 
+TEST(Town, ThingsWithoutSizeOrShapeAreLeftOut) {
+    world::TownT town = test::straight_road_with_signal(200);
+    town.buildings = {{world::Vec3(60, 20, 0), 0.3, 0, 0, 0, 1, 3},
+                      {world::Vec3(80, 20, 0), 0.3, 12, 9, 6, 1, 4000}};
+    town.trees = {{world::Vec3(70, 8, 0), 0, 2, 1, world::PlantKind::lime},
+                  {world::Vec3(75, 8, 0), 6, 0, 1, world::PlantKind::any}};
+    town.plots = {world::PlotT(), test::plot(world::PlotKind::park, 50, 10, 90, 40)};
+    std::swap(town.plots[1].outline[0], town.plots[1].outline[1]);
+    town.drawn_buildings.emplace_back();
+    town.heads.emplace_back();
+    town.heads.emplace_back().signals = {999};
+    const world::SealedTick tick = test::street_tick();
+    for (const bool portable : {false, true}) {
+        render::Sensors sensors(town, {.portable = portable});
+        const auto frames = sensors.observe(tick.view(), test::street_rig(), test::noon());
+        EXPECT_THAT(frames[2].data,
+                    testing::Contains(static_cast<std::uint8_t>(SemanticClass::building)));
+    }
+}
+
 }  // namespace reprise
