@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <string>
 
 #include "traffic/town_reader.h"
 #include "world/check.h"
@@ -132,21 +133,27 @@ ordered_json choose_pairs(const TownT& town, const Task& task, double wanted) {
 }
 
 /// A pair a line: that is how differences are read.
-void make_tasks(const char* network, const char* file) {
-    const TownT town = traffic::read_town(traffic::load_network(network));
-    std::ofstream out(file);
-    out << "{\n\"town\": " << ordered_json(town.name) << ",\n\"tasks\": {\n";
+std::string tasks_json(const TownT& town) {
+    std::string all = "{\n\"town\": " + ordered_json(town.name).dump() + ",\n\"tasks\": {\n";
     for (const Task& task : tasks) {
         const double wanted = town.name == "town1" ? task.town1_length : task.town2_length;
+        all += (&task == tasks ? "\"" : ",\n\"") + std::string(task.name) + "\": [\n";
         const char* separator = "";
-        out << (&task == tasks ? "" : ",\n") << ordered_json(task.name) << ": [\n";
         for (const ordered_json& pair : choose_pairs(town, task, wanted)) {
-            out << separator << pair;
+            all += separator + pair.dump();
             separator = ",\n";
         }
-        out << "\n]";
+        all += "\n]";
     }
-    out << "\n}\n}\n";
+    return all + "\n}\n}\n";
+}
+
+void make_tasks(const char* network, const char* file) {
+    const std::string all = tasks_json(traffic::read_town(traffic::load_network(network)));
+    std::ofstream out(file);
+    out << all << std::flush;
+    if (!out)
+        throw world::Error(std::string(file) + ": cannot be written");
 }
 
 }  // namespace

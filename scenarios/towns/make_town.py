@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Writes the plain SUMO sources (nodes, edges, connections, types) of Reprise's own towns.
+"""Writes the plain SUMO sources (nodes, edges, connections, types) and the places of Reprise's own towns.
 
     make_town.py town1|town2 FOLDER
 
-A town is a plan of T-junctions joined by two-way streets: junctions with a place, streets with the
-corners that they round on their way. All lengths are metres. build.sh turns the sources into a
-network. The plans are our own; their lengths follow the two towns of Dosovitskiy et al., "CARLA: An
-Open Urban Driving Simulator", CoRL 2017 (2.9 km and 1.4 km of drivable roads).
+A town is a plan of junctions joined by two-way streets and of roundabouts: junctions with a place and a
+rule, streets with the corners that they round on their way. All lengths are metres. build.sh turns the
+sources into a network. The plans are our own; their lengths follow the two towns of Dosovitskiy et al.,
+"CARLA: An Open Urban Driving Simulator", CoRL 2017 (2.9 km and 1.4 km of drivable roads).
 
 Rules that keep netconvert's junctions whole, each found by a sweep over one T-junction:
   * a curve starts at least 14 m from the junction, else a hole opens under the turning path;
