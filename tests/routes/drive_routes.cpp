@@ -58,6 +58,8 @@ std::vector<Pair> pairs_of(const TownT& town, const std::string& file) {
         return LanePlace{*lane, json.at("s")};
     };
     std::ifstream in(file);
+    if (!in)
+        throw world::Error(file + ": cannot be read");
     const nlohmann::json all = nlohmann::json::parse(in);
     for (const auto& [task, list] : all.at("tasks").items())
         for (const nlohmann::json& pair : list)
