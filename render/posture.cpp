@@ -101,7 +101,7 @@ double hip_height(const Gait& gait, double phase) {
         low = std::min(low, gait.reach(late));
     const double free = std::max(0.0, gait.reach(gait.stance / 2) - low);
     // Walking, the body is highest over the standing foot; running, between the steps.
-    const double walk = low + 0.6 * free * (0.5 - 0.5 * std::cos(2 * turn * (phase - 0.06)));
+    const double walk = low + 0.5 * free * (0.5 - 0.5 * std::cos(2 * turn * (phase - 0.06)));
     const double run = low + 0.04 * gait.build.height *
                                  (0.5 - 0.5 * std::cos(2 * turn * (phase - gait.stance / 2)));
     return walk + gait.run * (run - walk);

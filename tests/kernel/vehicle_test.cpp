@@ -57,7 +57,8 @@ TEST_P(EveryModel, CoastsDownByAirAndRollingResistance) {
     }
 }
 
-/// Gillespie, ch. 3: v^2 / (2 a), a the lesser of what brakes and tyres can do.
+/// Gillespie, ch. 3: a is the lesser of what brakes and tyres can do, and the air brakes along:
+/// m / (2 k) ln(1 + k v^2 / (m a)), k = 0.5 rho cdA. Only a bicycle is light enough to feel it.
 TEST_P(EveryModel, StopsWithinTheTextbooksDistance) {
     const CarModel car = car_model(model(GetParam()));
     const double speed = 50 / 3.6;
@@ -68,7 +69,8 @@ TEST_P(EveryModel, StopsWithinTheTextbooksDistance) {
         const double distance = test::distance_to_stop(ground, drive(0, 1));
         const double by_tyres = car.grip * friction * gravity;
         const double deceleration = std::min(car.brake_deceleration, by_tyres);
-        const double expected = speed * speed / (2 * deceleration);
+        const double air = 0.5 * air_density * car.catalogue->drag_area / car.catalogue->mass;
+        const double expected = std::log1p(air * speed * speed / deceleration) / (2 * air);
         EXPECT_NEAR(distance, expected, 0.05 * expected) << friction;
         const double by_grip = speed * speed / (2 * by_tyres);
         if (friction == 1) {
@@ -236,7 +238,7 @@ Eigen::Vector3d velocity_of_mass(const CarModel& car, const world::VehicleState&
     return world::to_eigen(state.velocity()) + world::to_eigen(state.angular_velocity()).cross(arm);
 }
 
-/// Newton: nothing but the tyres (and a little air) pushes the mass sideways.
+/// Newton: nothing but the tyres and the air pushes the mass.
 TEST_P(EveryModel, TurnsNoTighterThanItsGripAllows) {
     const CarModel car = car_model(model(GetParam()));
     for (const double friction : {0.7, 0.4, 0.2}) {
@@ -251,9 +253,10 @@ TEST_P(EveryModel, TurnsNoTighterThanItsGripAllows) {
             most = std::max(most, (velocity - last).head<2>().norm() / tick_seconds);
             last = velocity;
         }
-        const double limit = car.grip * friction * gravity;
-        EXPECT_LT(most, 1.05 * limit) << friction;
-        EXPECT_GT(most, 0.85 * limit) << friction;
+        const double air = 0.5 * air_density * car.catalogue->drag_area * 15 * 15;
+        const double by_tyres = car.grip * friction * gravity;
+        EXPECT_LT(most, 1.05 * (by_tyres + air / car.catalogue->mass)) << friction;
+        EXPECT_GT(most, 0.85 * by_tyres) << friction;
     }
 }
 
