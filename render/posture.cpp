@@ -97,13 +97,15 @@ double hip_height(const Gait& gait, double phase) {
     double low = gait.build.hip;
     for (int i = 0; i <= samples; ++i)
         low = std::min(low, gait.reach(gait.stance * i / samples));
-    for (const double late : {0.92, 0.95, 0.98})  // the foot reaches out before it comes down
-        low = std::min(low, gait.reach(late));
+    // A foot also reaches far right after it left the ground and before it comes down.
+    for (const double swinging : {gait.stance + 0.03, gait.stance + 0.06, 0.92, 0.95, 0.98})
+        low = std::min(low, gait.reach(swinging));
     const double free = std::max(0.0, gait.reach(gait.stance / 2) - low);
     // Walking, the body is highest over the standing foot; running, between the steps.
     const double walk = low + 0.5 * free * (0.5 - 0.5 * std::cos(2 * turn * (phase - 0.06)));
-    const double run = low + 0.04 * gait.build.height *
-                                 (0.5 - 0.5 * std::cos(2 * turn * (phase - gait.stance / 2)));
+    const double run =
+        low - 0.025 * gait.build.height +
+        0.035 * gait.build.height * (0.5 - 0.5 * std::cos(2 * turn * (phase - gait.stance / 2)));
     return walk + gait.run * (run - walk);
 }
 
