@@ -117,6 +117,16 @@ bool Land::is_steep(const Vector2d& p) const {
     return high - low > level_apart;
 }
 
+bool Land::is_outside(const Vector2d& p) const {
+    constexpr std::int32_t cells = 3;
+    const auto middle = level_cell_of(p);
+    for (std::int32_t x = middle.first - cells; x <= middle.first + cells; ++x)
+        for (std::int32_t y = middle.second - cells; y <= middle.second + cells; ++y)
+            if (levels_.contains({x, y}))
+                return false;
+    return true;
+}
+
 bool Land::is_country(const Roadside& roadside) const {
     if (roadside.driven == world::none)
         return false;

@@ -39,6 +39,9 @@ struct Land {
     /// beside the road is then not as high as the road.
     bool is_steep(const Eigen::Vector2d& p) const;
 
+    /// Is there no road within some 80 m?
+    bool is_outside(const Eigen::Vector2d& p) const;
+
     /// Outside of built-up streets: fast roads, and one-way roads without a sidewalk (ramps,
     /// carriageways of a motorway).
     bool is_country(const Roadside& roadside) const;

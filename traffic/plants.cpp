@@ -123,6 +123,19 @@ void add_groups(Land& land, const Roadside& roadside, double kept, Draws& draws)
     }
 }
 
+/// A wood around the town, so that streets do not end in an empty plain.
+void add_belt(Land& land, const Roadside& roadside, double kept, Draws& draws) {
+    constexpr double nearest = 95;
+    constexpr double deepest = 130;
+    for (double s = draws.between(0, 3); s < roadside.border.length; s += 3) {
+        const PlantKind kind = wild_kinds[draws.index(wild_kinds.size())];
+        const Site at = site(roadside, s, draws.between(nearest, deepest));
+        if (draws.chance(kept) && land.is_outside(at.position) &&
+            land.reserved.is_clear(at.position, 1))
+            place_tree(land, kind, at.position, at.z, draws);
+    }
+}
+
 }  // namespace
 
 bool place_tree(
@@ -169,6 +182,7 @@ void place_street_trees(Land& land) {
         if (land.roadsides[i].kerb_side && draws.chance(kept))
             add_row(land, land.roadsides[i], draws);
         add_groups(land, land.roadsides[i], kept, draws);
+        add_belt(land, land.roadsides[i], 0.7 * kept, draws);
     }
 }
 

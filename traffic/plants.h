@@ -19,8 +19,8 @@ bool place_tree(Land& land,
 bool place_bush(
     Land& land, world::PlantKind kind, const Eigen::Vector2d& foot, double road_z, Draws& draws);
 
-/// Rows of trees along streets and of poplars along country roads, and groups of trees where
-/// nothing else stands.
+/// Rows of trees along streets and of poplars along country roads, groups of trees where nothing
+/// else stands, and a wood around the town.
 void place_street_trees(Land& land);
 
 }  // namespace reprise::traffic
