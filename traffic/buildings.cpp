@@ -28,14 +28,12 @@ using world::Purpose;
 using world::Vec3;
 
 constexpr double most_buildings = 3000;
-constexpr double party_wall = 0.03;      ///< [m] between buildings of a row: they must not overlap
-constexpr double detached_gap = 3;       ///< [m] between all others
-constexpr double behind_gap = 7;         ///< [m] around those of rows behind
-constexpr double country_share = 0.12;   ///< of the sites along country roads
-constexpr double verge = 2.5;            ///< [m] more where there is no sidewalk
-constexpr double quiet_speed = 9;        ///< [m/s]
-constexpr double overlap_allowed = 0.5;  ///< [m] a drawn building may reach into a lane
-constexpr double smallest_drawn = 2;     ///< [m2]
+constexpr double party_wall = 0.03;     ///< [m] between buildings of a row: they must not overlap
+constexpr double detached_gap = 3;      ///< [m] between all others
+constexpr double behind_gap = 7;        ///< [m] around those of rows behind
+constexpr double country_share = 0.12;  ///< of the sites along country roads
+constexpr double verge = 2.5;           ///< [m] more where there is no sidewalk
+constexpr double quiet_speed = 9;       ///< [m/s]
 
 bool is_in_row(const BuildingModel& model) {
     return model.use == BuildingUse::terrace || model.use == BuildingUse::shop ||
@@ -300,50 +298,9 @@ void Builder::add_rows_behind() {
     }
 }
 
-/// Does no wall of it reach into a lane by more than is allowed?
-bool leaves_lanes_free(const world::Loop& loop, const Clearance& lanes) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vector2d along = loop[(i + 1) % loop.size()] - loop[i];
-        const double yaw = std::atan2(along.y(), along.x());
-        if (!lanes.is_clear({loop[i] + along / 2, yaw, along.norm(), 0}, 0))
-            return false;
-    }
-    return true;
-}
-
-/// Those of the place, but for those that stand on a lane: then the map is wrong, or the lane.
-void keep_drawn(Land& land) {
-    Clearance lanes(1);
-    for (const world::LaneT& lane : land.town.lanes)
-        if (world::is_for_cars(lane))
-            lanes.add_line(lane.centre, std::max(0.1, lane.width / 2 - overlap_allowed));
-    const Districts districts(land);
-    for (std::size_t i = 0; i < land.place.buildings.size(); ++i) {
-        world::DrawnBuildingT drawn = land.place.buildings[i];
-        const double area = world::signed_area(world::in_plan(drawn.outline));
-        if (std::abs(area) < smallest_drawn)
-            continue;
-        if (area < 0)
-            std::reverse(drawn.outline.begin(), drawn.outline.end());
-        const world::Loop loop = world::in_plan(drawn.outline);
-        if (!leaves_lanes_free(loop, lanes))
-            continue;
-        Draws draws(land.seed, Purpose::building_model, 1U << 24 | i);
-        if (drawn.style == 0)
-            drawn.style = draws.style();
-        if (drawn.model == 0)
-            drawn.model =
-                1 + choose_model(districts.at(loop[0]), Situation::street, draws.between(0, 1));
-        land.town.drawn_buildings.push_back(std::move(drawn));
-        land.solid.add_polygon(loop);
-        land.buildings.add_polygon(loop);
-    }
-}
-
 }  // namespace
 
 std::vector<Lot> place_buildings(Land& land) {
-    keep_drawn(land);
     if (!land.place.buildings.empty() || land.roadsides.empty())
         return {};
     Builder builder(land);

@@ -13,12 +13,12 @@ struct Lot {
     double setback = 0;          ///< [m] from the border to its front
 };
 
-/// Fills town.buildings, and town.drawn_buildings with those that the place knows and that leave
-/// the lanes free; where it knows any, none are invented. Invented ones stand in rows along the
-/// roads, their fronts to the street, terraces and shops without gaps behind the sidewalk, houses
-/// 4 to 7 m back, chosen by district and street; taller ones behind them; one church, town hall,
-/// school, fire station and market hall near the middle of a town. They stand clear of all that is
-/// driven and walked on, of plots and of the sight triangles of unlit junctions.
+/// Fills town.buildings; leaves it empty where the place knows the real ones. They stand in rows
+/// along the roads, their fronts to the street, terraces and shops without gaps behind the
+/// sidewalk, houses 4 to 7 m back, chosen by district and street; taller ones behind them; one
+/// church, town hall, school, fire station and market hall near the middle of a town. They stand
+/// clear of all that is driven and walked on, of plots and of the sight triangles of unlit
+/// junctions.
 std::vector<Lot> place_buildings(Land& land);
 
 }  // namespace reprise::traffic

@@ -1,6 +1,7 @@
 #include "traffic/scenery.h"
 
 #include "traffic/buildings.h"
+#include "traffic/drawn_buildings.h"
 #include "traffic/gardens.h"
 #include "traffic/heads.h"
 #include "traffic/land.h"
@@ -21,6 +22,7 @@ void place_scenery(world::TownT& town,
     place_heads(land);
     place_signs(land);
     lay_out_plots(land);
+    keep_drawn_buildings(land);
     const std::vector<Lot> lots = place_buildings(land);
     place_bus_stops(land);
     place_street_lights(land);

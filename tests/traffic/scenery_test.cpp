@@ -2,164 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <set>
-#include <string>
 #include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/traffic/sampled_town.h"
 #include "tests/traffic/stage.h"
 #include "traffic/clearance.h"
 #include "world/building_models.h"
-#include "world/plan.h"
 
 namespace reprise::traffic {
 namespace {
 
-namespace fs = std::filesystem;
-
 using Eigen::Vector2d;
+using test::AnyTown;
+using test::foot_of;
+using test::for_cars;
+using test::is_post;
+using test::Lanes;
 using world::LaneKind;
 using world::LaneT;
 using world::Loop;
 using world::PropKind;
 using world::TownT;
 
-/// The other route for all of these: no grid of distances, but sampled points and centre lines.
-Loop box_points(const world::Vec3& middle, double yaw, double length, double width, double step) {
-    Loop points;
-    const Vector2d x(std::cos(yaw), std::sin(yaw));
-    const Vector2d y(-x.y(), x.x());
-    const int columns = std::max(1, static_cast<int>(std::ceil(length / step)));
-    const int rows = std::max(1, static_cast<int>(std::ceil(width / step)));
-    for (int i = 0; i <= columns; ++i)
-        for (int k = 0; k <= rows; ++k)
-            points.push_back(world::in_plan(middle) + x * (length * (1.0 * i / columns - 0.5)) +
-                             y * (width * (1.0 * k / rows - 0.5)));
-    return points;
-}
+class AnyScenery : public AnyTown {};
 
-Loop points_of(const world::Building& b, double step = 0.7) {
-    return box_points(b.centre(), b.yaw(), b.length(), b.width(), step);
-}
-
-bool is_post(PropKind kind) {
-    return kind <= PropKind::crossing_sign || kind == PropKind::street_light ||
-           kind == PropKind::pole;
-}
-
-/// Where it stands on the ground: signs and lights reach farther above.
-Loop foot_of(const world::Prop& prop) {
-    const double length = is_post(prop.kind()) ? 0.1 : prop.length();
-    const double width = is_post(prop.kind()) ? 0.1 : prop.width();
-    return box_points(prop.position(), prop.yaw(), length, width, 0.4);
-}
-
-/// Distance of points from the centre lines of lanes, looked up by cells of 20 m.
-class Lanes {
-  public:
-    template <typename Wanted>
-    Lanes(const TownT& town, Wanted&& wanted) : town_(town) {
-        for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
-            const LaneT& lane = town.lanes[i];
-            if (!wanted(lane))
-                continue;
-            for (double s = 0; s <= lane.length + 5; s += 5) {
-                const Eigen::Vector3d p = world::point_at(lane, s).position;
-                for (const double x : {-20.0, 0.0, 20.0})
-                    for (const double y : {-20.0, 0.0, 20.0})
-                        cells_[cell(p.head<2>() + Vector2d(x, y))].insert(i);
-            }
-        }
-    }
-
-    /// `margin` [m] for each lane near p: of its border, at most about 15.
-    template <typename Visit>
-    void for_each(const Vector2d& p, Visit&& visit) const {
-        const auto found = cells_.find(cell(p));
-        if (found == cells_.end())
-            return;
-        for (const std::uint32_t i : found->second) {
-            const LaneT& lane = town_.lanes[i];
-            double nearest = 1e9;
-            for (std::size_t k = 1; k < lane.centre.size(); ++k) {
-                const Vector2d from = world::in_plan(lane.centre[k - 1]);
-                const Vector2d along = world::in_plan(lane.centre[k]) - from;
-                const double t = std::clamp((p - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-                nearest = std::min(nearest, (from + along * t - p).norm());
-            }
-            visit(lane, nearest);
-        }
-    }
-
-    double border_distance(const Vector2d& p, double least_half = 0) const {
-        double nearest = 15;
-        for_each(p, [&](const LaneT& lane, double distance) {
-            nearest = std::min(nearest, distance - std::max(lane.width / 2, least_half));
-        });
-        return nearest;
-    }
-
-  private:
-    static std::pair<int, int> cell(const Vector2d& p) {
-        return {static_cast<int>(std::floor(p.x() / 20)), static_cast<int>(std::floor(p.y() / 20))};
-    }
-
-    const TownT& town_;
-    std::map<std::pair<int, int>, std::set<std::uint32_t>> cells_;
-};
-
-bool for_cars(const LaneT& lane) {
-    return world::is_for_cars(lane);
-}
-
-bool any_road(const LaneT& lane) {
-    return lane.kind != LaneKind::crossing && lane.kind != LaneKind::walking_area;
-}
-
-/// Own towns, and networks of others when they are there.
-const TownT* find_town(const std::string& name) {
-    if (name.find('.') == std::string::npos)
-        return &test::own_town(name).town;
-    static std::map<std::string, test::Loaded> loaded;
-    fs::path path = fs::path(REPRISE_SOURCE_DIR) / "../shared/maps" / name;
-    if (!fs::exists(path))
-        path = fs::path("/usr/share/sumo/tools/game") / name;
-    if (!fs::exists(path))
-        return nullptr;
-    auto found = loaded.find(name);
-    if (found == loaded.end())
-        found = loaded.emplace(name, test::load(path)).first;
-    return &found->second.town;
-}
-
-class AnyScenery : public ::testing::TestWithParam<const char*> {
-  protected:
-    void SetUp() override {
-        town_ = find_town(GetParam());
-        if (town_ == nullptr)
-            GTEST_SKIP() << "skipped: no map " << GetParam();
-    }
-
-    const TownT& town() const { return *town_; }
-
-  private:
-    const TownT* town_ = nullptr;
-};
-
-std::string short_name(const ::testing::TestParamInfo<const char*>& net) {
-    const std::string name = net.param;
-    return name.substr(0, name.find_first_of("/_"));
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Towns,
-    AnyScenery,
-    ::testing::Values("town1", "town2", "Town04_sumo115.net.xml", "DRT/osm.net.xml"),
-    short_name);
+INSTANTIATE_TEST_SUITE_P(Towns, AnyScenery, test::any_town(), test::short_name);
 
 TEST_P(AnyScenery, EverySignalHasItsHeads) {
     std::vector<int> heads(town().signals.size(), 0);
@@ -274,81 +146,6 @@ TEST_P(AnyScenery, SidewalksStayWideEnough) {
             }
             EXPECT_GE(widest, 1.1) << lane.name << " at " << s;
         }
-    }
-}
-
-TEST_P(AnyScenery, BuildingsStandClearOfRoadsAndOfEachOther) {
-    const Lanes roads(town(), any_road);
-    std::map<std::pair<int, int>, std::vector<std::size_t>> cells;
-    const auto cell = [](const world::Building& b, int x, int y) {
-        return std::pair{static_cast<int>(std::floor(b.centre().x() / 50)) + x,
-                         static_cast<int>(std::floor(b.centre().y() / 50)) + y};
-    };
-    for (std::size_t i = 0; i < town().buildings.size(); ++i)
-        cells[cell(town().buildings[i], 0, 0)].push_back(i);
-    for (std::size_t i = 0; i < town().buildings.size(); ++i) {
-        const world::Building& one = town().buildings[i];
-        for (const Vector2d& p : points_of(one, 1.5)) {
-            ASSERT_GE(roads.border_distance(p), 0.39) << i;
-            for (int x = -1; x <= 1; ++x)
-                for (int y = -1; y <= 1; ++y)
-                    for (const std::size_t k : cells[cell(one, x, y)]) {
-                        const world::Building& b = town().buildings[k];
-                        const Loop loop =
-                            corners({world::in_plan(b.centre()), b.yaw(), b.length(), b.width()});
-                        ASSERT_TRUE(k == i || !world::contains(loop, p)) << i << " and " << k;
-                    }
-        }
-    }
-}
-
-TEST_P(AnyScenery, FrontsFaceTheStreet) {
-    const Lanes roads(town(), any_road);
-    int along_streets = 0;
-    int facing = 0;
-    for (const world::Building& b : town().buildings) {
-        const Vector2d to_back = Vector2d(-std::sin(b.yaw()), std::cos(b.yaw())) * (b.width() / 2);
-        const double front = roads.border_distance(world::in_plan(b.centre()) - to_back);
-        const double back = roads.border_distance(world::in_plan(b.centre()) + to_back);
-        if (std::min(front, back) > 9)
-            continue;
-        ++along_streets;
-        facing += front < back + 0.5 ? 1 : 0;
-    }
-    // A few stand between two streets and are nearer to the one behind.
-    EXPECT_GE(facing, 0.93 * along_streets);
-    EXPECT_GT(along_streets, 0);
-}
-
-TEST_P(AnyScenery, SightTrianglesOfUnlitJunctionsAreFree) {
-    for (const LaneT& lane : town().lanes) {
-        const bool yields = std::any_of(lane.links.begin(),
-                                        lane.links.end(),
-                                        [](const world::Link& link) { return link.yields(); });
-        if (lane.kind != LaneKind::driving || lane.junction == world::none || !yields ||
-            town().junctions[lane.junction].lit)
-            continue;
-        const world::LanePoint end = world::point_at(lane, lane.length);
-        const Vector2d kerb =
-            end.position.head<2>() + Vector2d(-std::sin(end.yaw), std::cos(end.yaw)) *
-                                         ((town().left_hand ? 0.5 : -0.5) * lane.width);
-        const auto stands_off = [&](const Loop& points) {
-            return std::all_of(points.begin(), points.end(), [&](const Vector2d& p) {
-                return (p - kerb).norm() >= 8 - 1e-6;
-            });
-        };
-        for (const world::Building& b : town().buildings)
-            if ((world::in_plan(b.centre()) - kerb).norm() < 40) {
-                ASSERT_TRUE(stands_off(points_of(b))) << lane.name;
-            }
-        for (const world::Prop& prop : town().props)
-            if (!is_post(prop.kind()) && prop.height() > 1) {
-                ASSERT_TRUE(stands_off(foot_of(prop))) << lane.name;
-            }
-        for (const world::Tree& tree : town().trees)
-            if (tree.height() > 1) {
-                ASSERT_TRUE(stands_off({world::in_plan(tree.position())})) << lane.name;
-            }
     }
 }
 
