@@ -7,7 +7,7 @@
 namespace reprise::traffic {
 
 /// Draws for one item of one kind of thing, one after the other. Another item's draws never shift
-/// these.
+/// these. One draw in an argument list at most: compilers choose the order there.
 class Draws {
   public:
     Draws(std::uint64_t seed, world::Purpose purpose, std::uint64_t item)

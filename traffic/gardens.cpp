@@ -178,14 +178,13 @@ void Gardener::add_plants(const LotFrame& lot, double driveway_side, Draws& draw
     }
     constexpr std::array<PlantKind, 4> trees{
         PlantKind::cherry, PlantKind::birch, PlantKind::maple, PlantKind::spruce};
-    for (std::uint32_t i = 0; i < 2; ++i)
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        const PlantKind kind = trees[draws.index(trees.size())];
+        const double x = draws.between(-lot.half(), lot.half());
+        const double y = lot.back() + draws.between(3, back_garden);
         if (draws.chance(0.6))
-            place_tree(land_,
-                       trees[draws.index(trees.size())],
-                       lot.world(draws.between(-lot.half(), lot.half()),
-                                 lot.back() + draws.between(3, back_garden)),
-                       z,
-                       draws);
+            place_tree(land_, kind, lot.world(x, y), z, draws);
+    }
 }
 
 void Gardener::lay_out_house(const LotFrame& lot, Draws& draws) {

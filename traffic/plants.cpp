@@ -116,7 +116,9 @@ void add_groups(Land& land, const Roadside& roadside, double kept, Draws& draws)
         const PlantKind kind = wild_kinds[draws.index(wild_kinds.size())];
         const auto count = 1 + draws.index(6);
         for (std::uint32_t i = 0; i < count; ++i) {
-            const Site at = site(roadside, s + draws.between(-6, 6), away + draws.between(-6, 6));
+            const double off_s = draws.between(-6, 6);
+            const double off_away = draws.between(-6, 6);
+            const Site at = site(roadside, s + off_s, away + off_away);
             if (land.roads.is_clear(at.position, 5) && land.reserved.is_clear(at.position, 1))
                 place_tree(land, kind, at.position, at.z, draws);
         }

@@ -106,8 +106,9 @@ bool Layout::add(
 void Layout::scatter_trees(double spacing, double share, const std::array<PlantKind, 4>& kinds) {
     for (double x = box_.low.x() + 2; x < box_.high.x(); x += spacing)
         for (double y = box_.low.y() + 2; y < box_.high.y(); y += spacing) {
-            const Vector2d p(x + draws_.between(-0.4, 0.4) * spacing,
-                             y + draws_.between(-0.4, 0.4) * spacing);
+            const double off_x = draws_.between(-0.4, 0.4) * spacing;
+            const double off_y = draws_.between(-0.4, 0.4) * spacing;
+            const Vector2d p(x + off_x, y + off_y);
             const PlantKind kind = kinds[draws_.index(kinds.size())];
             if (draws_.chance(share) && is_inside(p, 1.5))
                 place_tree(land_, kind, p, z_, draws_);
@@ -118,8 +119,9 @@ void Layout::scatter_bushes(int count) {
     constexpr std::array<PlantKind, 3> kinds{
         PlantKind::round_bush, PlantKind::flowering_bush, PlantKind::tall_bush};
     for (int i = 0; i < count; ++i) {
-        const Vector2d p(draws_.between(box_.low.x(), box_.high.x()),
-                         draws_.between(box_.low.y(), box_.high.y()));
+        const double x = draws_.between(box_.low.x(), box_.high.x());
+        const double y = draws_.between(box_.low.y(), box_.high.y());
+        const Vector2d p(x, y);
         const PlantKind kind = kinds[draws_.index(kinds.size())];
         if (is_inside(p, 1.5))
             place_bush(land_, kind, p, z_, draws_);
