@@ -26,9 +26,13 @@ void read_model(const Fields& fields, Actor& actor) {
     const auto model = fields.text("model");
     if (!model) {
         std::string known;
-        for (const std::string& each : world::model_names())
-            known += (known.empty() ? "" : ", ") + each;
-        refuse("spawn", "'model' is missing: one of " + known);
+        for (const world::VehicleModel& each : world::vehicle_models())
+            known += std::string(each.name) + ", ";
+        refuse("spawn",
+               fmt::format("'model' is missing: one of {}or one of {} walkers such as {}",
+                           known,
+                           world::walker_models().size(),
+                           world::walker_models().front().name));
     }
     const auto vehicle = world::find_vehicle_model(*model);
     const auto walker = world::find_walker_model(*model);

@@ -34,8 +34,9 @@ TEST(Mistakes, OfSpawn) {
             {"spawn{ modle = 'sedan' }", "spawn: unknown key 'modle' (did you mean 'model'?)"},
             {"spawn 'sedan'", "spawn: the argument must be a table { key = value }, got 'sedan'"},
             {"spawn{}",
-             "spawn: 'model' is missing: one of sedan, hatchback, suv, van, lorry, bus, adult, "
-             "child, senior"},
+             "spawn: 'model' is missing: one of sedan, hatchback, suv, van, lorry, bus, city_car, "
+             "wagon, coupe, pickup, taxi, police, ambulance, minibus, motorcycle, bicycle, or one "
+             "of 50 walkers such as adult"},
             {"spawn{ model = 'sedna' }", "spawn: no model 'sedna' (did you mean 'sedan'?)"},
             {"spawn{ model = 'sedan', driver = 'autopilt' }",
              "spawn: no driver 'autopilt' (did you mean 'autopilot'?)"},
