@@ -2,14 +2,65 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_face_base_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <cmath>
+#include <cstdint>
 
 namespace reprise::world {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+__extension__ using Wide = __int128;
+using Point = CGAL::Simple_cartesian<double>::Point_2;
+
+/// A whole-numbered vector. Exact below 2^29, which is 500 km in millimetres.
+struct Step {
+    Step(const Point& from, const Point& to)
+        : x(std::llround(to.x() - from.x())),
+          y(std::llround(to.y() - from.y())) {}
+
+    Wide squared() const { return Wide(x) * x + Wide(y) * y; }
+
+    std::int64_t x;
+    std::int64_t y;
+};
+
+Wide cross(const Step& one, const Step& other) {
+    return Wide(one.x) * other.y - Wide(one.y) * other.x;
+}
+
+CGAL::Sign sign(const Wide& number) {
+    return number > 0 ? CGAL::POSITIVE : number < 0 ? CGAL::NEGATIVE : CGAL::ZERO;
+}
+
+/// CGAL's own exact kernels change the processor's rounding mode, which nothing in a step may do.
+/// Corners are whole numbers, so that its two questions can be answered in whole numbers.
+struct Kernel : CGAL::Simple_cartesian<double> {
+    struct Orientation_2 {
+        CGAL::Orientation operator()(const Point& p, const Point& q, const Point& r) const {
+            return sign(cross(Step(p, q), Step(p, r)));
+        }
+    };
+
+    /// Of s and the circle through p, q, r: the determinant of their lifted vectors from s.
+    struct Side_of_oriented_circle_2 {
+        CGAL::Oriented_side operator()(const Point& p,
+                                       const Point& q,
+                                       const Point& r,
+                                       const Point& s) const {
+            const Step one(s, p);
+            const Step two(s, q);
+            const Step three(s, r);
+            return sign(one.squared() * cross(two, three) - two.squared() * cross(one, three) +
+                        three.squared() * cross(one, two));
+        }
+    };
+
+    Orientation_2 orientation_2_object() const { return {}; }
+
+    Side_of_oriented_circle_2 side_of_oriented_circle_2_object() const { return {}; }
+};
 
 /// Whether a face lies inside; not known at first.
 enum class Side { unknown, outside, inside };

@@ -141,7 +141,9 @@ TEST(Background, CarsMoveAlongTheirLanesWithoutJumps) {
                     0);
                 const auto on = world::project(town.lanes[car.lane()], front);
                 EXPECT_NEAR(on.s, static_cast<double>(car.lane_s()), 3.0) << car.id();
-                EXPECT_LT(std::abs(on.t), 2.0) << car.id();
+                // A lane wide at most: who must stop in the middle of a change of lanes stands
+                // there.
+                EXPECT_LT(std::abs(on.t), car.speed() > 1 ? 2.0 : 3.3) << car.id();
                 ++checked;
             }
         }

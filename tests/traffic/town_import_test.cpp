@@ -260,7 +260,12 @@ TEST_F(Imports, OurOwnTownComesBackThroughOpenDrive) {
     EXPECT_EQ(limits(town), limits(same));
     // Its lights hang over the lanes' ends: there is one for each lane, its pole at the kerb.
     const Place place = read_place(bytes(folder_ / "t/own.place.xml"), "own.place.xml");
-    EXPECT_EQ(place.heads.size(), 18U);
+    std::set<std::uint32_t> lit;
+    for (const world::SignalT& signal : same.signals)
+        if (!signal.for_walkers)
+            lit.insert(signal.lane);
+    EXPECT_GT(lit.size(), 10U);
+    EXPECT_EQ(place.heads.size(), lit.size());
     for (const Place::Head& head : place.heads) {
         EXPECT_GT(head.arm, 1);
         EXPECT_GT(head.height, 5);
