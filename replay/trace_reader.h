@@ -37,6 +37,8 @@ struct PackedTicks {
     std::span<const std::uint8_t> bytes;  ///< borrowed from the reader
 };
 
+struct OpenedTrace;
+
 /// Reads traces: the index first, ticks on demand, one chunk in memory. Every CRC is checked, every
 /// length is distrusted. A trace that is not one, or is cut off, or damaged throws world::Error
 /// with path and byte offset.
@@ -112,9 +114,8 @@ class TraceReader {
     PackedTicks packed(std::uint64_t index);
 
   private:
-    struct File;
-    explicit TraceReader(std::unique_ptr<File> file);
-    std::unique_ptr<File> file_;
+    explicit TraceReader(std::unique_ptr<OpenedTrace> file);
+    std::unique_ptr<OpenedTrace> file_;
 };
 
 }  // namespace reprise::replay
