@@ -12,7 +12,7 @@
 #include "cli/child_processes.h"
 #include "cli/guard.h"
 #include "cli/other_build.h"
-#include "cli/outputs.h"
+#include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/reproduce.h"
 #include "cli/self_test.h"
@@ -85,7 +85,7 @@ std::vector<WhatIf> plan(const BranchOptions& options,
     for (WhatIf& one : all) {
         one.branch.parent_chain = trace.chain(tick);
         one.output = output_of(options, one.script);
-        refuse_same_file(options.trace, one.output);
+        refuse_overwriting(options.trace, one.output);
         for (const WhatIf& other : all)
             if (&other != &one && other.output == one.output)
                 throw world::Error(fmt::format("{} and {} would both be written to {}",

@@ -4,7 +4,7 @@
 
 #include "cli/guard.h"
 #include "cli/other_build.h"
-#include "cli/outputs.h"
+#include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/reproduce.h"
 #include "cli/self_test.h"
@@ -22,7 +22,7 @@ int expand(const ExpandOptions& options) {
     replay::TraceReader trace(options.trace);
     replay::require_simulated(trace);
     replay::require_start_of_run(trace);
-    refuse_same_file(options.trace, options.output);
+    refuse_overwriting(options.trace, options.output);
     print_other_build("another build recorded this",
                       "recorded",
                       trace.episode().fingerprint,

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/guard.h"
-#include "cli/outputs.h"
+#include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/this_build.h"
 #include "cli/towns.h"
@@ -112,8 +112,8 @@ void print_report(const ImportOptions& options, const exchange::CarlaReport& rep
 int import_log(const ImportOptions& options) {
     const std::uint64_t step = step_ns(options);
     replay::check_output(options.output);
-    refuse_same_file(options.log, options.output);
-    const replay::InputFile file(options.log);
+    refuse_overwriting(options.log, options.output);
+    const replay::InputFile file(options.log, "CARLA recorder log");
     Progress progress("importing", "bytes", 2 * file.size());
     exchange::CarlaImportOptions wanted;
     wanted.name = fs::path(options.log).filename().string();

@@ -5,86 +5,15 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "cli/render_options.h"
+#include "cli/run_options.h"
 #include "cli/tool_options.h"
 #include "cli/town_options.h"
+#include "cli/trace_options.h"
 
 namespace reprise::cli {
-
-struct RunOptions {
-    std::string scenario;
-    std::string output;  ///< empty: the scenario's name in the working directory
-    std::optional<std::string> town;
-    std::optional<std::uint64_t> seed;
-    std::optional<double> seconds;
-    std::vector<std::pair<std::string, std::string>> parameters;
-    std::string level = "full";  ///< how much of each tick is kept
-    std::string nudge;           ///< TICK[:ACTOR.FIELD[:UNITS]]; empty: none
-};
-
-struct TraceOptions {
-    std::string trace;
-};
-
-struct InfoOptions {
-    std::string trace;
-    bool long_form = false;
-    bool json = false;
-};
-
-struct StripOptions {
-    std::string trace;
-    std::string output;
-    std::string level;
-};
-
-struct ExpandOptions {
-    std::string trace;
-    std::string output;
-};
-
-struct RecoverOptions {
-    std::string damaged;
-    std::string output;
-};
-
-struct BranchOptions {
-    std::string trace;
-    std::string at;  ///< tick, or seconds with an s behind
-    std::vector<std::string> scripts;
-    std::string output;  ///< a trace, or with several scripts a folder
-    std::optional<double> seconds;
-    std::vector<std::pair<std::string, std::string>> parameters;
-};
-
-struct DiffOptions {
-    std::string expected;
-    std::string found;
-    std::optional<double> tolerance;
-    bool json = false;
-    bool all = false;  ///< every differing field of the first differing tick
-};
-
-struct RenderOptions {
-    std::string trace;
-    std::string directory;
-    std::string weather;               ///< empty: as recorded
-    std::vector<std::string> cameras;  ///< rgb, depth, semantic
-    int width = 800;
-    int height = 600;
-    double fov_deg = 90;
-    std::string from;  ///< tick, or seconds with an s behind; empty: the first
-    std::string to;    ///< likewise; empty: the last
-    std::string every = "1s";
-    std::uint32_t actor = 0;  ///< 0: the first physics vehicle
-    std::vector<double> mount{1.0, 0.0, 1.4};
-    double pitch_deg = 0;
-    double yaw_deg = 0;
-    int threads = 0;  ///< 0: one a core
-    bool portable = false;
-};
 
 struct TestOptions {
     std::vector<std::string> paths;

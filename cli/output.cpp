@@ -51,7 +51,8 @@ void end_quietly_when_nobody_reads() {
 void refuse_overwriting(const std::filesystem::path& input, const std::filesystem::path& output) {
     std::error_code ignored;
     if (std::filesystem::equivalent(input, output, ignored))
-        throw world::Error(output.string() + ": the output is the input; give it another name");
+        throw world::Error(output.string() +
+                           ": the output is the input; give it another name with -o");
 }
 
 }  // namespace reprise::cli

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/guard.h"
-#include "cli/outputs.h"
+#include "cli/output.h"
 #include "cli/progress.h"
 #include "replay/imported.h"
 #include "replay/level.h"
@@ -24,7 +24,7 @@ double megabytes(const std::string& path) {
 
 int strip(const StripOptions& options) {
     replay::TraceReader trace(options.trace);
-    refuse_same_file(options.trace, options.output);
+    refuse_overwriting(options.trace, options.output);
     const replay::Level level = *replay::level_named(options.level);
     if (trace.level() < level)
         throw world::Error(replay::lacks_text(options.trace, trace.level()));

@@ -35,12 +35,14 @@ void check_output(const std::filesystem::path& path) {
             "{}: cannot write the trace: there is no folder {}", path.string(), folder.string()));
 }
 
-InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
+InputFile::InputFile(std::filesystem::path path, std::string kind)
+    : path_(std::move(path)),
+      kind_(std::move(kind)) {
     // O_NONBLOCK: a pipe must be refused, not waited for.
     descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor_ < 0)
         throw world::Error(
-            fmt::format("{}: cannot open the trace: {}", path_.string(), reason(errno)));
+            fmt::format("{}: cannot open the {}: {}", path_.string(), kind_, reason(errno)));
 
     struct stat status {};
 
@@ -48,8 +50,9 @@ InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
     if (!known || !S_ISREG(status.st_mode)) {
         ::close(descriptor_);
         throw world::Error(
-            fmt::format("{}: not a trace: this is {}",
+            fmt::format("{}: not a {}: this is {}",
                         path_.string(),
+                        kind_,
                         known && S_ISDIR(status.st_mode) ? "a folder" : "not a plain file"));
     }
     size_ = static_cast<std::uint64_t>(status.st_size);
@@ -66,7 +69,7 @@ void InputFile::read(std::uint64_t offset, std::span<std::uint8_t> out) const {
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)
-            fail(offset, "cannot read the trace: " + reason(errno));
+            fail(offset, "cannot read the " + kind_ + ": " + reason(errno));
         if (got == 0)
             fail(offset, "the file became shorter while it was read");
         offset += static_cast<std::uint64_t>(got);

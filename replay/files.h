@@ -11,7 +11,8 @@ namespace reprise::replay {
 /// A file to read. pread rather than a mapping: a mapped file that shrinks ends the process.
 class InputFile {
   public:
-    explicit InputFile(std::filesystem::path path);
+    /// `kind` is what it should be, for messages.
+    explicit InputFile(std::filesystem::path path, std::string kind = "trace");
     ~InputFile();
     InputFile(const InputFile&) = delete;
     InputFile& operator=(const InputFile&) = delete;
@@ -29,6 +30,7 @@ class InputFile {
 
   private:
     std::filesystem::path path_;
+    std::string kind_;
     int descriptor_ = -1;
     std::uint64_t size_ = 0;
 };

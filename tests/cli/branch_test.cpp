@@ -174,7 +174,7 @@ TEST_F(Branch, SaysWhatIsWrongAndLeavesNothing) {
     EXPECT_THAT(branch("typo.lua", "x.mcap", 2),
                 HasSubstr("typo.lua:2: actor: nobody is called 'egg' (did you mean 'ego'?)"));
     EXPECT_THAT(branch("rain.lua", "x.mcap", 2), HasSubstr("set_weather changes the weather"));
-    EXPECT_THAT(branch("brake.lua", "parent.mcap", 2), HasSubstr("that is the trace to be read"));
+    EXPECT_THAT(branch("brake.lua", "parent.mcap", 2), HasSubstr("the output is the input"));
     EXPECT_THAT(branch("non.lua", "x.mcap", 2), HasSubstr("no scenario file 'non.lua'"));
     EXPECT_THAT(
         run({"branch", "parent.mcap", "--at", "9s", "--script", "brake.lua", "-o", "x.mcap"}, 2),

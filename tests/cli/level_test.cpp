@@ -116,7 +116,7 @@ TEST_F(Expand, IsWhatOneIsToldToDoWhenThereIsNothingToSee) {
     EXPECT_THAT(run({"render", "s.mcap", "-o", "pictures", "--size", "8x6"}, 2), HasSubstr(hint));
     EXPECT_THAT(run({"strip", "s.mcap", "-o", "c.mcap", "--level", "core"}, 2), HasSubstr(hint));
     EXPECT_THAT(run({"strip", "full.mcap", "-o", "full.mcap", "--level", "core"}, 2),
-                HasSubstr("full.mcap: that is the trace to be read"));
+                HasSubstr("full.mcap: the output is the input"));
     EXPECT_THAT(run({"strip", "full.mcap", "-o", "c.mcap", "--level", "cora"}, 2),
                 HasSubstr("did you mean 'core'?"));
     // What is left in every 20th tick is what `render --every 1s` looks at.

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class Validator;
+}
+
+namespace reprise::cli {
+
+/// "a, b, c"
+std::string joined(const std::vector<std::string>& words);
+
+/// Accepts only words of the list, and suggests the nearest.
+CLI::Validator one_of(std::vector<std::string> words, const std::string& what);
+
+/// Decimal digits only: what CLI11 reads as a number may also be octal, negative or too large.
+CLI::Validator whole_number();
+
+}  // namespace reprise::cli

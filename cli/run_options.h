@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace reprise::cli {
+
+struct RunOptions {
+    std::string scenario;
+    std::string output;  ///< empty: the scenario's name in the working directory
+    std::optional<std::string> town;
+    std::optional<std::uint64_t> seed;
+    std::optional<double> seconds;
+    std::vector<std::pair<std::string, std::string>> parameters;
+    std::string level = "full";  ///< how much of each tick is kept
+    std::string nudge;           ///< TICK[:ACTOR.FIELD[:UNITS]]; empty: none
+};
+
+struct BranchOptions {
+    std::string trace;
+    std::string at;  ///< tick, or seconds with an s behind
+    std::vector<std::string> scripts;
+    std::string output;  ///< a trace, or with several scripts a folder
+    std::optional<double> seconds;
+    std::vector<std::pair<std::string, std::string>> parameters;
+};
+
+/// Adds `run`. What --set is given goes into `assignments`, as typed.
+void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignments);
+
+/// Adds `branch`, likewise.
+void add_branch(CLI::App& app, BranchOptions& branch, std::vector<std::string>& assignments);
+
+/// What a run may be given besides its scenario: --town, --seed, --set, --for.
+void add_start(CLI::App& command, RunOptions& run, std::vector<std::string>& assignments);
+
+/// KEY=VALUE in its two parts. Throws CLI::ValidationError.
+std::pair<std::string, std::string> split_assignment(const std::string& text);
+
+}  // namespace reprise::cli
