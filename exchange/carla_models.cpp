@@ -1,79 +1,81 @@
 #include "exchange/carla_models.h"
 
 #include <cmath>
+#include <limits>
 #include <string_view>
+#include <vector>
 
 #include "world/catalogue.h"
 #include "world/check.h"
+#include "world/digest.h"
 
 namespace reprise::exchange {
 
 namespace {
 
-/// The nearest of our models by kind and size, and what stands in where the catalogue lacks it.
+/// The nearest of our models by kind and size.
 struct Row {
     std::string_view carla;
     std::string_view model;
-    std::string_view otherwise;
 };
 
 /// Blueprints of CARLA 0.9.8 to 0.10; one stands for all that begin like it.
 constexpr Row vehicles[] = {
-    {"vehicle.ambulance", "ambulance", "van"},
-    {"vehicle.audi.a2", "hatchback", "hatchback"},
-    {"vehicle.audi.etron", "suv", "suv"},
-    {"vehicle.audi.tt", "coupe", "hatchback"},
-    {"vehicle.bh.crossbike", "bicycle", "hatchback"},
-    {"vehicle.bmw.grandtourer", "wagon", "suv"},
-    {"vehicle.bmw.isetta", "city_car", "hatchback"},
-    {"vehicle.carlacola", "lorry", "lorry"},
-    {"vehicle.carlamotors.carlacola", "lorry", "lorry"},
-    {"vehicle.carlamotors.european_hgv", "lorry", "lorry"},
-    {"vehicle.carlamotors.firetruck", "lorry", "lorry"},
-    {"vehicle.chevrolet.impala", "sedan", "sedan"},
-    {"vehicle.citroen.c3", "hatchback", "hatchback"},
-    {"vehicle.diamondback.century", "bicycle", "hatchback"},
-    {"vehicle.dodge.charger_police", "police", "sedan"},
-    {"vehicle.dodge.charger", "sedan", "sedan"},
-    {"vehicle.dodge_charger.police", "police", "sedan"},
-    {"vehicle.dodgecop.charger", "police", "sedan"},
-    {"vehicle.firetruck", "lorry", "lorry"},
-    {"vehicle.ford.ambulance", "ambulance", "van"},
-    {"vehicle.ford.crown", "taxi", "sedan"},
-    {"vehicle.ford.mustang", "coupe", "sedan"},
-    {"vehicle.fuso.mitsubishi", "minibus", "bus"},
-    {"vehicle.gazelle.omafiets", "bicycle", "hatchback"},
-    {"vehicle.harley-davidson.low", "motorcycle", "hatchback"},
-    {"vehicle.jeep.wrangler", "suv", "suv"},
-    {"vehicle.kawasaki.ninja", "motorcycle", "hatchback"},
-    {"vehicle.lincoln", "sedan", "sedan"},
-    {"vehicle.mercedes.coupe", "coupe", "sedan"},
-    {"vehicle.mercedes.sprinter", "van", "van"},
-    {"vehicle.mercedes-benz.coupe", "coupe", "sedan"},
-    {"vehicle.micro.microlino", "city_car", "hatchback"},
-    {"vehicle.mini.cooper", "hatchback", "hatchback"},
-    {"vehicle.mitsubishi.fusorosa", "minibus", "bus"},
-    {"vehicle.nissan.micra", "hatchback", "hatchback"},
-    {"vehicle.nissan.patrol", "suv", "suv"},
-    {"vehicle.seat.leon", "hatchback", "hatchback"},
-    {"vehicle.sprinter", "van", "van"},
-    {"vehicle.taxi", "taxi", "sedan"},
-    {"vehicle.tesla.cybertruck", "pickup", "suv"},
-    {"vehicle.tesla.model3", "sedan", "sedan"},
-    {"vehicle.toyota.prius", "sedan", "sedan"},
-    {"vehicle.vespa.zx125", "motorcycle", "hatchback"},
-    {"vehicle.volkswagen.t2", "van", "van"},
-    {"vehicle.yamaha.yzf", "motorcycle", "hatchback"},
+    {"vehicle.ambulance", "ambulance"},
+    {"vehicle.audi.a2", "hatchback"},
+    {"vehicle.audi.etron", "suv"},
+    {"vehicle.audi.tt", "coupe"},
+    {"vehicle.bh.crossbike", "bicycle"},
+    {"vehicle.bmw.grandtourer", "wagon"},
+    {"vehicle.bmw.isetta", "city_car"},
+    {"vehicle.carlacola", "lorry"},
+    {"vehicle.carlamotors.carlacola", "lorry"},
+    {"vehicle.carlamotors.european_hgv", "lorry"},
+    {"vehicle.carlamotors.firetruck", "lorry"},
+    {"vehicle.chevrolet.impala", "sedan"},
+    {"vehicle.citroen.c3", "hatchback"},
+    {"vehicle.diamondback.century", "bicycle"},
+    {"vehicle.dodge.charger_police", "police"},
+    {"vehicle.dodge.charger", "sedan"},
+    {"vehicle.dodge_charger.police", "police"},
+    {"vehicle.dodgecop.charger", "police"},
+    {"vehicle.firetruck", "lorry"},
+    {"vehicle.ford.ambulance", "ambulance"},
+    {"vehicle.ford.crown", "taxi"},
+    {"vehicle.ford.mustang", "coupe"},
+    {"vehicle.fuso.mitsubishi", "minibus"},
+    {"vehicle.gazelle.omafiets", "bicycle"},
+    {"vehicle.harley-davidson.low", "motorcycle"},
+    {"vehicle.jeep.wrangler", "suv"},
+    {"vehicle.kawasaki.ninja", "motorcycle"},
+    {"vehicle.lincoln", "sedan"},
+    {"vehicle.mercedes.coupe", "coupe"},
+    {"vehicle.mercedes.sprinter", "van"},
+    {"vehicle.mercedes-benz.coupe", "coupe"},
+    {"vehicle.micro.microlino", "city_car"},
+    {"vehicle.mini.cooper", "hatchback"},
+    {"vehicle.mitsubishi.fusorosa", "minibus"},
+    {"vehicle.nissan.micra", "hatchback"},
+    {"vehicle.nissan.patrol", "suv"},
+    {"vehicle.seat.leon", "hatchback"},
+    {"vehicle.sprinter", "van"},
+    {"vehicle.taxi", "taxi"},
+    {"vehicle.tesla.cybertruck", "pickup"},
+    {"vehicle.tesla.model3", "sedan"},
+    {"vehicle.toyota.prius", "sedan"},
+    {"vehicle.vespa.zx125", "motorcycle"},
+    {"vehicle.volkswagen.t2", "van"},
+    {"vehicle.yamaha.yzf", "motorcycle"},
 };
 
 /// What newer blueprints say in their attribute base_type.
 constexpr Row base_types[] = {
-    {"car", "sedan", "sedan"},
-    {"truck", "lorry", "lorry"},
-    {"van", "van", "van"},
-    {"bus", "bus", "bus"},
-    {"motorcycle", "motorcycle", "hatchback"},
-    {"bicycle", "bicycle", "hatchback"},
+    {"car", "sedan"},
+    {"truck", "lorry"},
+    {"van", "van"},
+    {"bus", "bus"},
+    {"motorcycle", "motorcycle"},
+    {"bicycle", "bicycle"},
 };
 
 std::uint16_t known(std::string_view name) {
@@ -82,18 +84,13 @@ std::uint16_t known(std::string_view name) {
     return *model;
 }
 
-CarlaModel of_row(const Row& row, const std::string& guessed_by) {
-    if (const auto model = world::find_vehicle_model(row.model))
-        return {*model, guessed_by};
-    return {known(row.otherwise), guessed_by.empty() ? "as a stand-in" : guessed_by};
-}
-
 const std::string* attribute(const CarlaActor& actor, const std::string& key) {
     const auto found = actor.attributes.find(key);
     return found == actor.attributes.end() ? nullptr : &found->second;
 }
 
-/// The model whose box differs least, in metres of all three sides together.
+/// The model without a service's livery whose box differs least, in metres of all three sides
+/// together.
 std::uint16_t nearest_in_size(const CarlaBox& box) {
     const Eigen::Vector3d size = box.extent * 2 / 100;
     const auto models = world::vehicle_models();
@@ -102,12 +99,39 @@ std::uint16_t nearest_in_size(const CarlaBox& box) {
     for (std::uint16_t i = 0; i < models.size(); ++i) {
         const Eigen::Vector3d ours(models[i].length, models[i].width, models[i].height);
         const double difference = (ours - size).cwiseAbs().sum();
-        if (difference < least) {
+        if (models[i].livery == world::Livery::plain && difference < least) {
             least = difference;
             best = i;
         }
     }
     return best;
+}
+
+world::Age age_of(const CarlaActor& walker) {
+    if (const std::string* age = attribute(walker, "age"); age != nullptr && *age != "")
+        return *age == "child"      ? world::Age::child
+               : *age == "teenager" ? world::Age::teen
+               : *age == "elderly"  ? world::Age::senior
+                                    : world::Age::adult;
+    // As CARLA's catalogue of pedestrians shows them.
+    for (const char* child : {"0009", "0010", "0011", "0012", "0013", "0014", "0048", "0049"})
+        if (walker.blueprint == std::string("walker.pedestrian.") + child)
+            return world::Age::child;
+    return world::Age::adult;
+}
+
+/// Nobody becomes a fireman by his number.
+bool wears_own_clothes(const world::WalkerModel& model) {
+    return model.clothing != world::Clothing::uniform &&
+           model.clothing != world::Clothing::workwear;
+}
+
+/// The catalogue does not say; clothes and hair do.
+bool is_womanly(const world::WalkerModel& model) {
+    using enum world::Clothing;
+    using enum world::Hair;
+    return model.clothing == skirt || model.clothing == dress || model.clothing == gown ||
+           model.hair == bob || model.hair == loose || model.hair == bun || model.hair == scarf;
 }
 
 bool is_sound(const CarlaBox& box) {
@@ -119,32 +143,32 @@ bool is_sound(const CarlaBox& box) {
 CarlaModel vehicle_model_for(const CarlaActor& vehicle, const std::optional<CarlaBox>& box) {
     for (const Row& row : vehicles)
         if (vehicle.blueprint.starts_with(row.carla))
-            return of_row(row, "");
+            return {known(row.model), ""};
     if (box && is_sound(*box))
         return {nearest_in_size(*box), "by its size"};
     if (const std::string* type = attribute(vehicle, "base_type"))
         for (const Row& row : base_types)
             if (*type == row.carla)
-                return of_row(row, "by its type");
+                return {known(row.model), "by its type"};
     const std::string* wheels = attribute(vehicle, "number_of_wheels");
     if (wheels != nullptr && *wheels == "2")
-        return of_row({"", "motorcycle", "hatchback"}, "by its wheels");
+        return {known("motorcycle"), "by its wheels"};
     return {known("sedan"), "as any vehicle"};
 }
 
 CarlaModel walker_model_for(const CarlaActor& walker) {
-    const auto named = [](const char* name) { return world::find_walker_model(name).value_or(0); };
-    const std::string* age = attribute(walker, "age");
-    if (age != nullptr && *age != "")
-        return {named(*age == "child" || *age == "teenager" ? "child"
-                      : *age == "elderly"                   ? "senior"
-                                                            : "adult"),
-                ""};
-    // As CARLA's catalogue of pedestrians shows them.
-    for (const char* child : {"0009", "0010", "0011", "0012", "0013", "0014", "0048", "0049"})
-        if (walker.blueprint == std::string("walker.pedestrian.") + child)
-            return {named("child"), ""};
-    return {named("adult"), ""};
+    const world::Age age = age_of(walker);
+    const std::string* gender = attribute(walker, "gender");
+    const auto models = world::walker_models();
+    std::vector<std::uint16_t> fitting;
+    for (std::uint16_t i = 0; i < models.size(); ++i)
+        if (models[i].age == age && wears_own_clothes(models[i]) &&
+            (gender == nullptr || *gender == "" || is_womanly(models[i]) == (*gender == "female")))
+            fitting.push_back(i);
+    REPRISE_CHECK(!fitting.empty(), "no pedestrian of age " + std::to_string(int(age)));
+    world::Hasher hasher;
+    hasher.add_text(walker.blueprint);
+    return {fitting[hasher.digest64() % fitting.size()], ""};
 }
 
 }  // namespace reprise::exchange

@@ -17,7 +17,8 @@ struct CarlaModel {
 /// By the blueprint's name, or by the recorded box, or by what its attributes say.
 CarlaModel vehicle_model_for(const CarlaActor& vehicle, const std::optional<CarlaBox>& box);
 
-/// By age, as an attribute says, or by the blueprint's number.
+/// One of those that fit in age and gender, as attributes or the blueprint's number say: the same
+/// for all of a blueprint, another for most others.
 CarlaModel walker_model_for(const CarlaActor& walker);
 
 }  // namespace reprise::exchange

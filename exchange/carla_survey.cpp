@@ -13,8 +13,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double half_a_walker = 0.9;  // [m]
-constexpr double per_metre = 32;       // of heights that count as one
+// [m] A walker's origin is so high above the ground, whatever its figure: CARLA's own stand in
+// capsules of one height for all grown ups.
+constexpr double half_a_walker = 0.9;
+constexpr double half_a_child = 0.6;
+constexpr double per_metre = 32;  // of heights that count as one
 
 class Surveyor {
   public:
@@ -100,7 +103,9 @@ class Surveyor {
             role.model = model.model;
             role.guessed_by = model.guessed_by;
             role.above = box ? box->extent.z() / 100 - box->middle.z() / 100
-                             : world::walker_models()[model.model].height / 2;
+                             : (world::walker_models()[model.model].age == world::Age::child
+                                    ? half_a_child
+                                    : half_a_walker);
             return;
         }
         const CarlaModel model = vehicle_model_for(role.actor, box);

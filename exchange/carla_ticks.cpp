@@ -57,6 +57,11 @@ float on_grid(double value, double per_unit) {
     return static_cast<float>(rounded(value, per_unit));
 }
 
+/// Of the id alone: colours that CARLA recorded are not paints of ours.
+world::Look look_of(std::uint32_t actor) {
+    return world::drawn_look(0, actor);
+}
+
 /// Rounding must not leave (-pi, pi].
 float yaw_on_grid(double yaw) {
     const double largest = std::floor(std::numbers::pi * per_radian) / per_radian;
@@ -169,6 +174,7 @@ void CarlaTicks::State::add_car(const Body& body, world::TickDraft& draft) {
                                     survey.roles.at(body.id).model,
                                     body.lamps,
                                     on_grid(acceleration, per_acceleration));
+    draft.traffic.looks.push_back(look_of(body.id));
 }
 
 void CarlaTicks::State::add_walker(const Body& body, world::TickDraft& draft) {
@@ -190,7 +196,7 @@ void CarlaTicks::State::add_walker(const Body& body, world::TickDraft& draft) {
         model,
         false,
         std::uint8_t{0},
-        0U);
+        look_of(body.id).look());
 }
 
 void CarlaTicks::State::add_bodies(double time, world::TickDraft& draft) {
@@ -219,6 +225,7 @@ void CarlaTicks::State::seal_digests(world::TickDraft& draft) const {
     }
     world::Hasher cars;
     cars.add(std::span<const world::CarState>(draft.traffic.cars));
+    cars.add(std::span<const world::Look>(draft.traffic.looks));
     cars.add(std::span<const world::SignalColor>(draft.tick.signals));
     world::Hasher walkers;
     walkers.add(std::span<const world::WalkerState>(draft.traffic.walkers));

@@ -94,6 +94,8 @@ TEST_F(Importing, RefusesWhatIsNoLogAndLeavesNothingBehind) {
         EXPECT_FALSE(std::filesystem::exists(folder_ / "x.mcap"));
         EXPECT_FALSE(std::filesystem::exists(folder_ / "x.mcap.partial"));
     }
+    EXPECT_THAT(reprise({"import", folder_.path().string(), "-o", "x.mcap"}, folder_.path()).out,
+                HasSubstr("not a CARLA recorder log: this is a folder"));
 }
 
 }  // namespace

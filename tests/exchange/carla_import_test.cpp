@@ -130,6 +130,27 @@ TEST_F(CarlaImport, PutsWalkersOnTheGroundAndMovesTheirLegsWithTheWay) {
     EXPECT_NEAR(std::remainder(phase - cycles, 1), 0, 0.01);
 }
 
+TEST_F(CarlaImport, GivesEveryActorALookForGood) {
+    replay::TraceReader trace = imported("");
+    std::map<std::uint32_t, std::uint32_t> seen;
+    for (std::uint64_t index = 1; index <= trace.ticks(); ++index) {
+        const replay::RecordedTick tick = trace.tick(index);
+        std::map<std::uint32_t, std::uint32_t> looks;
+        for (const world::CarState& state : tick.view.cars()) {
+            const world::Look* look = world::find(tick.view.car_looks(), state.id());
+            ASSERT_NE(look, nullptr) << state.id();
+            looks[state.id()] = look->look();
+        }
+        for (const world::WalkerState& state : tick.view.walkers())
+            looks[state.id()] = state.look();
+        for (const auto& [id, look] : looks) {
+            EXPECT_NE(look, 0U);
+            EXPECT_EQ(seen.emplace(id, look).first->second, look) << id << " at tick " << index;
+        }
+    }
+    EXPECT_EQ(seen.size(), 5U);
+}
+
 TEST_F(CarlaImport, RollsWheelsAsFarAsTheCarGoes) {
     replay::TraceReader trace = imported("");
     const float before = car(trace.tick(20), 24).lane_s();
