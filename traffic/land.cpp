@@ -68,7 +68,9 @@ void Land::add_lanes() {
             walks.add_polygon(lane.outline);
         else if (lane.kind == LaneKind::sidewalk)
             walks.add_line(lane.centre, lane.width / 2);
-        else
+        if (lane.kind == LaneKind::crossing || lane.kind == LaneKind::sidewalk)
+            ways.add_line(lane.centre, middle_half);
+        else if (lane.kind != LaneKind::walking_area)
             roads.add_line(lane.centre,
                            std::max(lane.width / 2,
                                     lane.kind == LaneKind::internal ? turning_half : narrowest));
@@ -157,7 +159,11 @@ bool Land::may_stand(const Vector2d& p, double margin) const {
 bool Land::leaves_way(const Vector2d& p) const {
     constexpr double at_kerb = 0.75;
     constexpr double at_edge = 0.35;
-    if (walks.is_clear(p, 0) || !roads.is_clear(p, at_kerb))
+    if (walks.is_clear(p, 0))
+        return true;
+    if (!ways.is_clear(p, world::pole_radius))
+        return false;
+    if (!roads.is_clear(p, at_kerb))
         return true;
     // At the outer edge the land begins within a step.
     for (int k = 0; k < directions; ++k) {

@@ -10,6 +10,7 @@
 #include "traffic/give_way.h"
 #include "traffic/place.h"
 #include "traffic/roadside.h"
+#include "world/furniture_check.h"
 #include "world/town_generated.h"
 
 namespace reprise::traffic {
@@ -29,6 +30,7 @@ struct Land {
     Clearance roads{20};     ///< lanes for vehicles, and the paths of cars across junctions
     Clearance junctions{4};  ///< their outlines, walking areas included
     Clearance walks{8};      ///< sidewalks and walking areas
+    Clearance ways{1};       ///< what nothing may narrow: the middle of sidewalks and crossings
     Clearance crossings{4};
     Clearance reserved{8};    ///< plots, and what must be kept clear of buildings and plants
     Clearance solid{8};       ///< what stands: buildings, furniture, trunks, parked cars
@@ -73,11 +75,14 @@ struct Land {
     std::map<std::pair<std::int32_t, std::int32_t>, Levels> levels_;
 };
 
-/// Nothing but signs and poles is nearer to a kerb's face. [m]
+/// Nothing but signs, poles and bollards is nearer to a kerb's face. [m]
 inline constexpr double kerb_margin = 0.5;
 
-/// Signs, lamps and other poles stand this far from the kerb. [m]
+/// Signs, lamps, bollards and other poles stand this far from the kerb. [m]
 inline constexpr double pole_margin = 0.3;
+
+/// Beside the middle of a sidewalk nothing stands: a little more than what is checked. [m]
+inline constexpr double middle_half = world::clear_for_walkers + 0.02;
 
 /// What walkers need to pass by. [m]
 inline constexpr double walking_width = 1.2;

@@ -7,7 +7,8 @@ namespace {
 constexpr double sight_height = 1.0;  ///< [m] drivers look over what is lower
 
 bool is_pole(world::PropKind kind) {
-    return kind == world::PropKind::street_light || kind == world::PropKind::pole;
+    return kind == world::PropKind::street_light || kind == world::PropKind::pole ||
+           kind == world::PropKind::bollard;
 }
 
 /// The foot of a street light is its pole: the rest is above.
@@ -24,8 +25,8 @@ bool place_prop(Land& land, const Item& item) {
     const Footprint foot = on_the_ground(item);
     const bool pole = is_pole(item.kind);
     if (!land.roads.is_clear(foot, pole ? pole_margin : kerb_margin) ||
-        !land.crossings.is_clear(foot, 0.3) || !land.solid.is_clear(foot, item.from_solid) ||
-        land.is_steep(foot.centre))
+        !land.crossings.is_clear(foot, 0.3) || !land.ways.is_clear(foot, 0) ||
+        !land.solid.is_clear(foot, item.from_solid) || land.is_steep(foot.centre))
         return false;
     if (item.from_walk >= 0 && !land.walks.is_clear(foot, item.from_walk))
         return false;

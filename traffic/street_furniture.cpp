@@ -7,6 +7,7 @@
 
 #include "traffic/draws.h"
 #include "traffic/props.h"
+#include "world/furniture_check.h"
 
 namespace reprise::traffic {
 
@@ -21,7 +22,7 @@ constexpr double light_height = 7.5;
 constexpr double pole_width = 0.16;
 constexpr double stop_spacing = 400;
 constexpr double shortest_for_stop = 90;
-constexpr double at_kerb = 0.65;     ///< [m] of a bollard's middle from the kerb
+constexpr double at_kerb = 0.45;     ///< [m] of a bollard's middle from the kerb
 constexpr double off_border = 0.05;  ///< [m] inside of a sidewalk's outer edge
 
 double yaw_of(const Vector2d& way) {
@@ -53,7 +54,9 @@ std::optional<Item> on_walk(const Land& land,
 
 /// Poles stand closer to other things than what walkers must walk around: in line with them.
 Item light(const Roadside& roadside, double s) {
-    const double inside = roadside.walk > 0 ? roadside.walk / 6 : -0.9;
+    // On narrow sidewalks at their very edge, or behind it.
+    const double off_way = roadside.walk / 2 - middle_half - world::pole_radius - off_border;
+    const double inside = roadside.walk > 0 ? std::min(roadside.walk / 6, off_way) : -0.9;
     const Site at = site(roadside, s, -inside);
     const double to_road = roadside.walk - inside;
     Item item;
@@ -172,8 +175,10 @@ void place_bus_stops(Land& land) {
         });
         if (too_near || beside)
             continue;
-        const double width = std::min(1.3, roadside.walk - walking_width - off_border);
-        auto item = on_walk(land, roadside, s, PropKind::bus_stop, 4, std::max(width, 0.7), 2.5);
+        const double width = std::min({1.3,
+                                       roadside.walk - walking_width - off_border,
+                                       roadside.walk / 2 - middle_half - off_border});
+        auto item = on_walk(land, roadside, s, PropKind::bus_stop, 4, width, 2.5);
         if (!item)
             continue;
         item->style = draws.style();

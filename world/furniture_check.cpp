@@ -17,10 +17,8 @@ namespace reprise::world {
 namespace {
 
 constexpr double for_cars = 0.9;      ///< [m] kept clear on both sides of a centre line
-constexpr double for_walkers = 0.3;   ///< [m] and of a sidewalk's
 constexpr double headroom = 4.0;      ///< [m] over a lane; what begins higher up is no obstacle
 constexpr double spawn_reach = 0.05;  ///< [m] of a spawn point from its place on the lane
-constexpr double pole_radius = 0.15;  ///< [m]
 constexpr double trunk_radius = 0.3;  ///< [m]
 
 using Place = Criterion::Place;
@@ -151,7 +149,7 @@ Criterion check_ways(const TownT& town, const Standing& standing) {
         for (std::size_t i = 0; i + 1 < lane.centre.size(); ++i)
             standing.for_each_on(lane.centre[i],
                                  lane.centre[i + 1],
-                                 is_sidewalk ? for_walkers : for_cars,
+                                 is_sidewalk ? clear_for_walkers : for_cars,
                                  [&](const Footprint& thing) {
                                      const std::string name = thing.name + " on " + lane.name;
                                      faults.try_emplace(name, Place{name, thing.loop[0], 1});
@@ -214,7 +212,7 @@ Criterion check_spawn_points(const TownT& town, const Standing& standing) {
         std::string fault = fault_of(town, point);
         standing.for_each_on(point.position(),
                              point.position(),
-                             point.for_walkers() ? for_walkers : for_cars,
+                             point.for_walkers() ? clear_for_walkers : for_cars,
                              [&](const Footprint& thing) { fault = thing.name + " stands there"; });
         if (!fault.empty())
             faults.push_back(
