@@ -84,6 +84,29 @@ struct TerrainGrid {
     world::BoxGrid grid;
 };
 
+/// The outline of each plot, less what later ones cover: two cloths at one height would flicker.
+std::vector<world::Area> visible_parts(const world::TownT& town) {
+    std::vector<Loop> outlines;
+    std::vector<world::BoxGrid::Entry> entries;
+    for (std::uint32_t i = 0; i < town.plots.size(); ++i) {
+        outlines.push_back(world::in_plan(town.plots[i].outline));
+        if (outlines[i].size() >= 3)
+            entries.push_back({world::box_around(outlines[i]), i});
+    }
+    const world::BoxGrid by_place(entries);
+    std::vector<world::Area> parts(outlines.size());
+    for (const auto& [box, i] : entries) {
+        world::Area covers(outlines[i].front());
+        for (const std::uint32_t later : by_place.near(box))
+            if (later > i)
+                covers.add(outlines[later]);
+        parts[i] = world::Area(outlines[i].front());
+        parts[i].add(outlines[i]);
+        parts[i].subtract(covers);
+    }
+    return parts;
+}
+
 }  // namespace
 
 PlotFrame::PlotFrame(const world::PlotT& plot, const Vector3d& origin)
@@ -119,18 +142,14 @@ Mesh plot_mesh(const world::TownT& town, const world::GroundMesh& ground, const 
     if (town.plots.empty())
         return mesh;
     const TerrainGrid terrain(ground);
-    for (std::size_t i = 0; i < town.plots.size(); ++i) {
-        const Loop outline = world::in_plan(town.plots[i].outline);
-        if (outline.size() < 3)
-            continue;
-        world::Area area(outline.front());
-        area.add(outline);
-        const double lift = 0.03 + 0.002 * static_cast<double>(std::min<std::size_t>(i, 60));
-        const Finish finish{Material::plot, static_cast<std::uint32_t>(i)};
-        for (const Loop& piece : area.pieces())
+    // Low enough that its edge throws no shadow to be seen.
+    constexpr double lift = 0.01;  // [m]
+    const std::vector<world::Area> parts = visible_parts(town);
+    for (std::uint32_t i = 0; i < parts.size(); ++i)
+        for (const Loop& piece : parts[i].pieces())
             for (const std::uint32_t item : terrain.grid.near(world::box_around(piece)))
-                drape(mesh, terrain.triangles[item], piece, lift, origin, finish);
-    }
+                drape(
+                    mesh, terrain.triangles[item], piece, lift, origin, Finish{Material::plot, i});
     drop_degenerate(mesh);
     return mesh;
 }

@@ -21,8 +21,8 @@ struct PlotFrame {
     float longest;          ///< [m]
 };
 
-/// The plots as a cloth over the terrain, 3 cm above it, later ones above earlier ones. In world
-/// coordinates less `origin`; Material::plot, tagged with the plot's index.
+/// The plots as a cloth over the terrain, 1 cm above it; where two overlap there is the later one
+/// only. In world coordinates less `origin`; Material::plot, tagged with the plot's index.
 Mesh plot_mesh(const world::TownT& town,
                const world::GroundMesh& ground,
                const Eigen::Vector3d& origin);
