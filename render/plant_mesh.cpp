@@ -30,27 +30,27 @@ struct Habit {
 Habit habit_of(PlantKind kind) {
     switch (kind) {
         case PlantKind::lime:
-            return {.34F, .075F, .20F, .42F, 2.0F, 20, .32F, 1440, .047F, .76F, 1.0F};
+            return {.34F, .075F, .20F, .42F, 2.0F, 20, .32F, 4610, .027F, .76F, 1.0F};
         case PlantKind::birch:
-            return {.24F, .060F, .24F, .40F, 1.5F, 22, .24F, 1420, .042F, .42F, 1.5F};
+            return {.24F, .060F, .24F, .40F, 1.5F, 22, .24F, 4540, .024F, .42F, 1.5F};
         case PlantKind::poplar:
-            return {.14F, .150F, .06F, .35F, 2.6F, 20, .52F, 1440, .076F, .78F, 1.2F};
+            return {.14F, .150F, .06F, .35F, 2.6F, 20, .52F, 4610, .043F, .78F, 1.2F};
         case PlantKind::plane:
-            return {.46F, .060F, .30F, .50F, 2.3F, 20, .34F, 1420, .048F, .70F, 0.9F};
+            return {.46F, .060F, .30F, .50F, 2.3F, 20, .34F, 4540, .027F, .70F, 0.9F};
         case PlantKind::maple:
-            return {.42F, .055F, .22F, .45F, 2.8F, 20, .34F, 1420, .047F, .78F, 0.9F};
+            return {.42F, .055F, .22F, .45F, 2.8F, 20, .34F, 4540, .027F, .78F, 0.9F};
         case PlantKind::cherry:
-            return {.52F, .060F, .28F, .62F, 1.8F, 18, .30F, 1420, .041F, .62F, 0.8F};
+            return {.52F, .060F, .28F, .62F, 1.8F, 18, .30F, 4540, .023F, .62F, 0.8F};
         case PlantKind::pine:
-            return {.34F, .050F, .46F, .45F, 2.4F, 18, .32F, 1400, .047F, .55F, 0.5F};
+            return {.34F, .050F, .46F, .45F, 2.4F, 18, .32F, 4480, .027F, .55F, 0.5F};
         case PlantKind::round_bush:
-            return {.62F, 0, .0F, .45F, 2.6F, 12, .46F, 1400, .065F, .86F, 1.0F};
+            return {.62F, 0, .0F, .45F, 2.6F, 12, .46F, 4480, .037F, .86F, 1.0F};
         case PlantKind::tall_bush:
-            return {.36F, 0, .0F, .50F, 2.4F, 14, .46F, 1400, .065F, .80F, 1.2F};
+            return {.36F, 0, .0F, .50F, 2.4F, 14, .46F, 4480, .037F, .80F, 1.2F};
         case PlantKind::flowering_bush:
-            return {.60F, 0, .0F, .50F, 2.2F, 12, .44F, 1400, .060F, .82F, 1.0F};
+            return {.60F, 0, .0F, .50F, 2.2F, 12, .44F, 4480, .034F, .82F, 1.0F};
         default:
-            return {.30F, .085F, .30F, .45F, 2.0F, 17, .30F, 1300, .036F, .78F, 1.0F};
+            return {.30F, .085F, .30F, .45F, 2.0F, 17, .30F, 4160, .021F, .78F, 1.0F};
     }
 }
 
