@@ -25,7 +25,8 @@ bool place_prop(Land& land, const Item& item) {
     const Footprint foot = on_the_ground(item);
     const bool pole = is_pole(item.kind);
     if (!land.roads.is_clear(foot, pole ? pole_margin : kerb_margin) ||
-        !land.crossings.is_clear(foot, 0.3) || !land.ways.is_clear(foot, 0) ||
+        !land.crossings.is_clear(foot, 0.3) ||
+        !land.ways.is_clear(foot, pole ? world::pole_radius : 0) ||
         !land.solid.is_clear(foot, item.from_solid) || land.is_steep(foot.centre))
         return false;
     if (item.from_walk >= 0 && !land.walks.is_clear(foot, item.from_walk))

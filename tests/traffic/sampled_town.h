@@ -46,7 +46,7 @@ inline world::Loop points_of(const world::Building& b, double step = 0.7) {
 
 inline bool is_post(PropKind kind) {
     return kind <= PropKind::crossing_sign || kind == PropKind::street_light ||
-           kind == PropKind::pole;
+           kind == PropKind::pole || kind == PropKind::bollard;
 }
 
 /// Where it stands on the ground: signs and lights reach farther above.
