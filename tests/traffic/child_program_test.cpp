@@ -1,8 +1,10 @@
 #include "traffic/child_program.h"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -40,6 +42,21 @@ TEST_F(ChildProgram, GetsItsWordsAsTheyAre) {
     EXPECT_EQ(result.code, 0);
     EXPECT_EQ(result.said, "a b|$HOME|`x`|'|*|");
     EXPECT_TRUE(fs::is_empty(folder_)) << "nothing is left behind";
+}
+
+TEST_F(ChildProgram, IsEndedWhenWeAreStopped) {
+    try {
+        // It stops us, and would go on.
+        shell("kill -TERM $PPID; exec sleep 30");
+        FAIL() << "not stopped";
+    } catch (const world::Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("stopped (Terminated)"));
+    }
+    // From then on signals do what they did before.
+    sigset_t blocked;
+    sigprocmask(SIG_BLOCK, nullptr, &blocked);
+    EXPECT_EQ(sigismember(&blocked, SIGTERM), 0);
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "there is a child left";
 }
 
 TEST_F(ChildProgram, WorksInTheFolderWithAnEnvironmentOfItsOwn) {
