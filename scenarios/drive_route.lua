@@ -10,12 +10,13 @@ return scenario 'drive_route' {
     params = {
         start = '', s = 10,      -- lane, and [m] on it
         goal = '', goal_s = 30,
+        model = 'sedan',
     },
 
     run = function(p)
         local start = p.start ~= '' and p.start or pick_lane{ length = 50 }
         local goal = p.goal ~= '' and p.goal or pick_lane{ length = 50 }
-        local ego = spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = start, s = p.s }
+        local ego = spawn{ name = 'ego', model = p.model, driver = 'autopilot', lane = start, s = p.s }
         local length = ego:route_to{ lane = goal, s = p.goal_s }
         print(string.format('%.0f m to go', length))
 
