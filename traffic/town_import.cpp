@@ -230,6 +230,21 @@ auto count(const world::TownT& town, LaneKind kind) {
     });
 }
 
+/// Seen where scripted vehicles drive over such a lane: SUMO keeps their tail there after it has
+/// left, and an assertion of it (getBackPositionOnLane) ends the run when another car looks.
+std::string tiny_lanes(const world::TownT& town) {
+    constexpr double tiny = 1;  // [m]
+    const auto number =
+        std::count_if(town.lanes.begin(), town.lanes.end(), [](const world::LaneT& lane) {
+            return lane.kind == LaneKind::driving && lane.sumo_length < tiny;
+        });
+    return number == 0 ? ""
+                       : fmt::format(
+                             "lanes for cars shorter than 1 m: {}; SUMO may stop a run "
+                             "there with an assertion\n",
+                             number);
+}
+
 std::string summary(const world::TownT& town) {
     const auto lit = std::count_if(town.junctions.begin(),
                                    town.junctions.end(),
@@ -259,7 +274,7 @@ std::string check(const fs::path& path, const std::string& map) {
         const double width = std::max(town.high.x() - town.low.x(), town.high.y() - town.low.y());
         if (!(width < widest))
             throw world::Error(fmt::format("{}: is {:.0f} km wide", map, width / 1000));
-        return summary(town);
+        return summary(town) + tiny_lanes(town);
     } catch (const world::Error& error) {
         std::string what = error.what();
         if (what.starts_with(path.string()))
