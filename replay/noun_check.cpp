@@ -4,33 +4,14 @@
 #include <span>
 #include <tuple>
 
+#include "replay/usable.h"
 #include "world/catalogue.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"
-#include "world/town_generated.h"
 
 namespace reprise::replay {
 
 namespace {
-
-flatbuffers::Verifier verifier(mcap::View bytes) {
-    // Nothing of ours nests deeper than four tables; a large town has some 10,000 of them.
-    return {bytes.data(), bytes.size(), 8, 1'000'000};
-}
-
-/// Present, and aligned: the verifier checks only a struct vector's length field for alignment.
-/// (Empty ones lie anywhere: the builder aligns only what it writes.)
-template <typename T>
-bool usable(const flatbuffers::Vector<const T*>* vector) {
-    return vector != nullptr &&
-           (vector->size() == 0 ||
-            reinterpret_cast<std::uintptr_t>(vector->Data()) % alignof(T) == 0);
-}
-
-template <typename T>
-bool usable_or_absent(const flatbuffers::Vector<const T*>* vector) {
-    return vector == nullptr || usable(vector);
-}
 
 /// Strictly ascending keys.
 template <typename T, typename Key>
@@ -84,28 +65,6 @@ bool structs_present(const world::Tick& tick) {
     for (const auto* command : *tick.commands()) {
         if (command->target() == nullptr || command->control() == nullptr ||
             command->weather() == nullptr)
-            return false;
-    }
-    return true;
-}
-
-bool in_range(std::uint32_t index, std::size_t size) {
-    return index == world::none || index < size;
-}
-
-bool lane_is_sound(const world::Lane& lane, const world::Town& town) {
-    const std::size_t lanes = town.lanes()->size();
-    if (!usable(lane.centre()) || lane.centre()->size() < 2 || !usable_or_absent(lane.outline()) ||
-        !usable_or_absent(lane.links()) || lane.kind() > world::LaneKind::MAX)
-        return false;
-    if (!in_range(lane.left(), lanes) || !in_range(lane.right(), lanes) ||
-        !in_range(lane.opposite(), lanes) || !in_range(lane.junction(), town.junctions()->size()))
-        return false;
-    if (lane.links() == nullptr)
-        return true;
-    for (const world::Link* link : *lane.links()) {
-        if (!in_range(link->to(), lanes) || !in_range(link->via(), lanes) ||
-            !in_range(link->signal(), town.signals()->size()) || link->turn() > world::Turn::MAX)
             return false;
     }
     return true;
@@ -191,28 +150,6 @@ std::optional<std::string> fault_of_episode(mcap::View bytes) {
             return "an episode whose branches are out of order";
         last = branches->Get(i)->tick();
     }
-    return std::nullopt;
-}
-
-std::optional<std::string> fault_of_town(mcap::View bytes) {
-    auto check = verifier(bytes);
-    if (!world::VerifyTownBuffer(check))
-        return "not a Town";
-    const world::Town& town = *world::GetTown(bytes.data());
-    for (const world::Lane* lane : *town.lanes()) {
-        if (!lane_is_sound(*lane, town))
-            return fmt::format("lane {} is not sound", lane->name()->str());
-    }
-    for (const world::Junction* junction : *town.junctions()) {
-        if (!usable_or_absent(junction->outline()))
-            return fmt::format("junction {} is not sound", junction->name()->str());
-    }
-    for (const world::Signal* signal : *town.signals()) {
-        if (!in_range(signal->lane(), town.lanes()->size()))
-            return fmt::format("signal {} is not sound", signal->program()->str());
-    }
-    if (!usable_or_absent(town.buildings()) || !usable_or_absent(town.trees()))
-        return "its buildings or trees are not aligned";
     return std::nullopt;
 }
 

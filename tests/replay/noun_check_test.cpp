@@ -97,6 +97,43 @@ TEST(NounCheck, RefusesATownWhoseLanesLeadNowhere) {
     EXPECT_THAT(town_fault([](auto& town) { town.signals[0].lane = 77; }), HasSubstr("signal"));
 }
 
+world::TownT furnished_town() {
+    world::TownT town = straight_road_with_signal();
+    const std::vector<world::Vec3> square{{0, 20, 0}, {9, 20, 0}, {9, 29, 0}, {0, 29, 0}};
+    town.buildings.emplace_back(world::Vec3(50, 20, 0), 0, 10, 10, 6, 1U, 2U);
+    town.trees.emplace_back(world::Vec3(30, 20, 0), 8, 2, 1U, world::PlantKind::lime);
+    town.props.emplace_back(
+        world::Vec3(9, 9, 0), 0, 4, 2, 1, 1U, 0, world::PropKind::parked_vehicle, 0);
+    town.spawn_points.emplace_back(world::Vec3(5, 0, 0), 0, 5, 0U, false, 0, 0);
+    town.plots.emplace_back().outline = square;
+    town.drawn_buildings.emplace_back().outline = square;
+    town.heads.emplace_back().signals = {0};
+    return town;
+}
+
+TEST(NounCheck, RefusesATownWhoseSceneryCannotBe) {
+    const auto fault = [](const std::function<void(world::TownT&)>& change) {
+        world::TownT town = furnished_town();
+        change(town);
+        const Forgery packed(replay::format::pack(town));
+        return replay::fault_of_town(packed.bytes()).value_or("");
+    };
+    EXPECT_EQ(fault([](world::TownT&) {}), "");
+    EXPECT_THAT(fault([](auto& t) { t.buildings[0].mutate_model(41); }), HasSubstr("building"));
+    EXPECT_THAT(fault([](auto& t) { t.drawn_buildings[0].model = 41; }), HasSubstr("building"));
+    EXPECT_THAT(fault([](auto& t) { t.drawn_buildings[0].outline.resize(2); }),
+                HasSubstr("outline"));
+    EXPECT_THAT(fault([](auto& t) { t.plots[0].outline.clear(); }), HasSubstr("outline"));
+    EXPECT_THAT(fault([](auto& t) { t.trees[0].mutate_kind(static_cast<world::PlantKind>(99)); }),
+                HasSubstr("plant"));
+    EXPECT_THAT(fault([](auto& t) { t.props[0].mutate_value(99); }), HasSubstr("furniture"));
+    EXPECT_THAT(fault([](auto& t) { t.props[0].mutate_kind(static_cast<world::PropKind>(99)); }),
+                HasSubstr("furniture"));
+    EXPECT_THAT(fault([](auto& t) { t.spawn_points[0].mutate_lane(77); }), HasSubstr("spawn"));
+    EXPECT_THAT(fault([](auto& t) { t.heads[0].signals = {77}; }), HasSubstr("head"));
+    EXPECT_THAT(fault([](auto& t) { t.heads[0].signals.clear(); }), HasSubstr("head"));
+}
+
 TEST(NounCheck, RefusesStructsThatDoNotLieAligned) {
     const world::SealedTick sound = rich_tick();
     Forgery forged(sound.traffic_bytes());
@@ -137,7 +174,7 @@ TEST(NounCheck, LetsNoForgedTickThroughThatCannotBeRead) {
 }
 
 TEST(NounCheck, LetsNoForgedTownOrEpisodeThroughThatCannotBeRead) {
-    const replay::mcap::Bytes town = replay::format::pack(straight_road_with_signal());
+    const replay::mcap::Bytes town = replay::format::pack(furnished_town());
     const replay::mcap::Bytes episode = replay::format::pack(recording().episode);
     std::mt19937_64 random(2);
     int accepted = 0;
