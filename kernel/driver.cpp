@@ -59,7 +59,8 @@ struct Autopilot::State {
     bool is_lost(const Ego& ego) const;
     void take_route(Ego& ego);
     std::vector<std::uint32_t> committed_lanes(const Ego& ego) const;
-    void start_over(Ego& ego, std::vector<std::uint32_t> lanes, double change_after);
+    void take_change(Ego& ego);
+    void start_over(Ego& ego, const std::vector<std::uint32_t>& lanes, double change_room);
     double change_lanes(const world::TickView& last, Ego& ego);
     double cruise(const Ego& ego) const;
     std::uint16_t lamps(const world::TickView& last, const Ego& ego) const;
@@ -74,7 +75,15 @@ struct Autopilot::State {
     Gatekeeper gatekeeper;
     Pedals pedals;
     DrivingStyle style;
-    std::optional<std::vector<std::uint32_t>> new_route;  ///< given, not planned yet
+
+    /// Given, not planned yet.
+    struct NewRoute {
+        std::vector<std::uint32_t> stops;
+        double last_s = 0;
+    };
+
+    std::optional<NewRoute> new_route;
+    std::optional<std::uint32_t> new_lane;
     std::optional<double> speed_cap;
     double rear_axle_s = 0;           ///< only grows while the way stays
     std::uint32_t waiting_ticks = 0;  ///< beside cars on the lane that we want
@@ -92,8 +101,12 @@ Autopilot::~Autopilot() = default;
 Autopilot::Autopilot(Autopilot&&) noexcept = default;
 Autopilot& Autopilot::operator=(Autopilot&&) noexcept = default;
 
-void Autopilot::set_route(std::vector<std::uint32_t> lanes) {
-    state_->new_route = std::move(lanes);
+void Autopilot::set_route(std::vector<std::uint32_t> lanes, double last_s) {
+    state_->new_route = {std::move(lanes), last_s};
+}
+
+void Autopilot::change_lane(std::uint32_t lane) {
+    state_->new_lane = lane;
 }
 
 void Autopilot::set_speed(double speed) {
@@ -161,6 +174,8 @@ bool Autopilot::State::find_way(Ego& ego) {
     }
     if (new_route)
         take_route(ego);
+    if (new_lane)
+        take_change(ego);
     const double braking = ego.speed * ego.speed / (2 * style.comfortable_braking);
     way.extend(ego.front_s(), std::max(shortest_way, braking + braking_reserve));
     way.drop_before(rear_axle_s, way_behind);
@@ -199,14 +214,13 @@ bool Autopilot::State::is_lost(const Ego& ego) const {
     return !beyond && (distance > lost_distance || here.direction.dot(ego.direction) < -0.2);
 }
 
-/// A new path under the car: along `lanes`, of which the first is the one that we are on.
+/// A new path under the car: along `lanes`, of which the first is the one that we are on. Changes
+/// of lanes start `change_room` ahead of the rear axle at the earliest.
 void Autopilot::State::start_over(Ego& ego,
-                                  std::vector<std::uint32_t> lanes_ahead,
-                                  double change_after) {
-    const std::uint32_t lane = lanes_ahead.front();
-    const double s = world::project(graph.town().lanes[lane], ego.position).s;
-    const double from = std::max(s - way_behind, 0.0);
-    way.restart(lane, from, std::move(lanes_ahead), s - from + change_after);
+                                  const std::vector<std::uint32_t>& lanes_ahead,
+                                  double change_room) {
+    const double s = world::project(graph.town().lanes[lanes_ahead.front()], ego.position).s;
+    way.restart(lanes_ahead, {std::max(s - way_behind, 0.0), s, ego.speed, change_room});
     way.extend(0, shortest_way);
     rear_axle_s = way.path().project(ego.position, 0, 3 * way_behind);
     ego.rear_axle_s = rear_axle_s;
@@ -236,11 +250,37 @@ std::vector<std::uint32_t> Autopilot::State::committed_lanes(const Ego& ego) con
 }
 
 void Autopilot::State::take_route(Ego& ego) {
-    std::vector<std::uint32_t> lanes_ahead = committed_lanes(ego);
-    const std::vector<std::uint32_t> planned = graph.plan(lanes_ahead.back(), *new_route);
+    const std::vector<std::uint32_t> lanes_ahead = committed_lanes(ego);
+    std::span<const std::uint32_t> stops = new_route->stops;
+    for (const std::uint32_t lane : lanes_ahead)
+        if (!stops.empty() && stops.front() == lane)
+            stops = stops.subspan(1);
+    const Plan plan = graph.plan({lanes_ahead.back(), 0}, stops, new_route->last_s);
+    if (plan.unreachable != world::none)
+        throw world::Error("route: no way leads from lane '" +
+                           graph.town().lanes[lanes_ahead.back()].name + "' to lane '" +
+                           graph.town().lanes[plan.unreachable].name + "'");
+    way.set_stops(std::move(new_route->stops), new_route->last_s);
     new_route.reset();
-    lanes_ahead.insert(lanes_ahead.end(), planned.begin() + 1, planned.end());
-    start_over(ego, std::move(lanes_ahead), ego.model->length + 0.5 * ego.speed);
+    start_over(ego, lanes_ahead, ego.model->length + 0.5 * ego.speed);
+}
+
+/// To the neighbour of the lane that we are on. Too late where we are about to leave it: then we go
+/// on. Another lane is a place to go to.
+void Autopilot::State::take_change(Ego& ego) {
+    const std::uint32_t wanted = *new_lane;
+    new_lane.reset();
+    std::vector<std::uint32_t> lanes_ahead = committed_lanes(ego);
+    const auto is_beside = [&](std::uint32_t lane) {
+        return wanted == graph.town().lanes[lane].left || wanted == graph.town().lanes[lane].right;
+    };
+    if (is_beside(lanes_ahead.back())) {
+        lanes_ahead.push_back(wanted);
+        start_over(ego, lanes_ahead, ego.model->length + 0.5 * ego.speed);
+    } else if (std::none_of(lanes_ahead.begin(), lanes_ahead.end(), is_beside)) {
+        new_route = {{wanted}, graph.town().lanes[wanted].length};
+        take_route(ego);
+    }
 }
 
 /// Before the path leaves our lane: is there room on the other one? If not, leave it later, and at
@@ -256,7 +296,7 @@ double Autopilot::State::change_lanes(const world::TickView& last, Ego& ego) {
             return infinity;
         }
         if (change.spare > 5) {
-            const double later = before + 5 + ego.speed;
+            const double later = before + std::min(5 + ego.speed, change.spare);
             const double front = ego.front_s() - ego.rear_axle_s;
             start_over(ego, way.lanes_to_come(ego.rear_axle_s), front + later);
             return infinity;
@@ -330,8 +370,11 @@ std::uint64_t Autopilot::digest() const {
     state.gatekeeper.add_to(hasher);
     state.pedals.add_to(hasher);
     hasher.add(state.new_route.has_value());
-    if (state.new_route)
-        hasher.add(std::span<const std::uint32_t>(*state.new_route));
+    if (state.new_route) {
+        hasher.add(std::span<const std::uint32_t>(state.new_route->stops));
+        hasher.add(state.new_route->last_s);
+    }
+    hasher.add(state.new_lane.value_or(world::none));
     hasher.add(state.speed_cap.value_or(-1));  // a cap is never negative
     hasher.add(state.rear_axle_s);
     hasher.add(state.waiting_ticks);

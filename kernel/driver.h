@@ -26,9 +26,14 @@ class Autopilot {
     Autopilot(Autopilot&&) noexcept;
     Autopilot& operator=(Autopilot&&) noexcept;
 
-    /// Lanes to pass in this order. Planned at the next decide, which throws world::Error when one
-    /// cannot be reached.
-    void set_route(std::vector<std::uint32_t> lanes);
+    /// Lanes to pass in this order, the last one at `last_s` [m]. Planned at the next decide, which
+    /// throws world::Error when one cannot be reached. Who misses a change of lanes goes another
+    /// way.
+    void set_route(std::vector<std::uint32_t> lanes, double last_s);
+
+    /// To a lane beside the one that it is on, and then on through what is left of its route. Where
+    /// it is too late for that, nothing happens.
+    void change_lane(std::uint32_t lane);
 
     /// [m/s]; a cap below the limits of the lanes.
     void set_speed(double speed);

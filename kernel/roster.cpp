@@ -63,9 +63,13 @@ void Roster::apply_commands(const world::TickView& last, world::TickDraft& next,
                     entry.autopilot->free_speed();
                 break;
             case world::CommandKind::set_route:
-            case world::CommandKind::change_lane:  // a route of one lane: the neighbour
                 if (entry.autopilot)
-                    entry.autopilot->set_route(command.lanes);
+                    entry.autopilot->set_route(command.lanes, command.s);
+                entry.route_line = command.line;
+                break;
+            case world::CommandKind::change_lane:
+                if (entry.autopilot)
+                    entry.autopilot->change_lane(command.lanes.front());
                 entry.route_line = command.line;
                 break;
             case world::CommandKind::control:
@@ -103,7 +107,7 @@ void Roster::spawn(const world::TickView& last,
         entry.autopilot.emplace(command.actor, command.model, *episode_, *town_, *lanes_);
         entry.route_line = command.line;
         if (!command.lanes.empty())
-            entry.autopilot->set_route(command.lanes);
+            entry.autopilot->set_route(command.lanes, town_->lanes.at(command.lanes.back()).length);
     }
     entries_.insert_or_assign(command.actor, std::move(entry));
     world::EventT spawned = event(world::EventKind::spawned, command.actor, command);

@@ -147,31 +147,46 @@ std::span<const std::uint32_t> LaneGraph::incoming(std::uint32_t junction) const
     return incoming_[junction];
 }
 
-std::vector<std::uint32_t> LaneGraph::shortest(std::uint32_t source, std::uint32_t target) const {
-    const LaneT& goal = town_->lanes[target];
-    if (goal.kind != LaneKind::driving)
-        return {};
-    const auto route = world::Planner(*town_).plan({source, 0}, {target, goal.length});
-    if (!route)
-        return {};
-    std::vector<std::uint32_t> way = world::driving_lanes(*town_, *route);
-    if (way.front() != source)  // an internal lane
-        way.insert(way.begin(), source);
-    return way;
+Plan LaneGraph::plan(world::LanePlace from,
+                     std::span<const std::uint32_t> stops,
+                     double last_s) const {
+    Plan plan;
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+        const std::uint32_t stop = stops[i];
+        REPRISE_CHECK(stop < town_->lanes.size(), "lane " + std::to_string(stop));
+        const LaneT& goal = town_->lanes[stop];
+        const bool last = i + 1 == stops.size();
+        const auto route =
+            goal.kind == LaneKind::driving
+                ? world::Planner(*town_).plan(from, {stop, last ? last_s : goal.length})
+                : std::nullopt;
+        if (!route) {
+            plan.unreachable = stop;
+            return plan;
+        }
+        const std::vector<std::uint32_t> leg = world::driving_lanes(*town_, *route);
+        // An internal lane, where it begins on one, is not among them.
+        const bool begins_here = !leg.empty() && leg.front() == from.lane;
+        plan.lanes.insert(plan.lanes.end(), leg.begin() + (begins_here ? 1 : 0), leg.end());
+        plan.length += route->length;
+        from = {stop, 0};
+    }
+    return plan;
 }
 
-std::vector<std::uint32_t> LaneGraph::plan(std::uint32_t source,
-                                           std::span<const std::uint32_t> stops) const {
-    std::vector<std::uint32_t> way{source};
-    for (const std::uint32_t stop : stops) {
-        REPRISE_CHECK(stop < town_->lanes.size(), "lane " + std::to_string(stop));
-        const std::vector<std::uint32_t> leg = shortest(way.back(), stop);
-        if (leg.empty())
-            throw world::Error("route: no way leads from lane '" + town_->lanes[way.back()].name +
-                               "' to lane '" + town_->lanes[stop].name + "'");
-        way.insert(way.end(), leg.begin() + 1, leg.end());
+std::optional<Detour> LaneGraph::detour(std::uint32_t lane,
+                                        std::span<const std::uint32_t> stops,
+                                        double last_s) const {
+    std::optional<Detour> best;
+    const std::vector<Link>& links = town_->lanes[lane].links;
+    for (std::uint32_t i = 0; i < links.size(); ++i) {
+        if (links[i].to() >= town_->lanes.size())
+            continue;
+        Plan way = plan({links[i].to(), 0}, stops, last_s);
+        if (way.unreachable == world::none && (!best || way.length < best->plan.length))
+            best = Detour{i, std::move(way)};
     }
-    return way;
+    return best;
 }
 
 }  // namespace reprise::kernel

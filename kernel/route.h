@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "world/route.h"
 #include "world/tick.h"
 #include "world/town.h"
 
@@ -14,6 +16,19 @@ enum class Outlook : std::uint8_t {
     nowhere,  ///< into a dead end
     turning,  ///< on, but not without turning around
     free
+};
+
+/// A way over driving lanes, each a link or a neighbour ahead of the one before.
+struct Plan {
+    std::vector<std::uint32_t> lanes;         ///< without the one where it begins
+    double length = 0;                        ///< [m]
+    std::uint32_t unreachable = world::none;  ///< the first stop that no way leads to
+};
+
+/// Where to go on for one who cannot go as planned.
+struct Detour {
+    std::uint32_t link = 0;  ///< index in lane.links
+    Plan plan;               ///< from the start of the lane behind it
 };
 
 /// The lanes as a graph for drivers: ahead through the links, sideways to the neighbours.
@@ -41,14 +56,15 @@ class LaneGraph {
     /// Driving lanes that end at a junction, ascending.
     std::span<const std::uint32_t> incoming(std::uint32_t junction) const;
 
-    /// The driving lanes of world::Planner's way from the start of one lane to the end of another,
-    /// both included; empty: none.
-    std::vector<std::uint32_t> shortest(std::uint32_t source, std::uint32_t target) const;
+    /// world::Planner's way from a place through all of `stops` in their order, the last one at
+    /// `last_s` of its lane, the others anywhere on theirs.
+    Plan plan(world::LanePlace from, std::span<const std::uint32_t> stops, double last_s) const;
 
-    /// The way that passes all of `stops` in their order. Throws world::Error naming the lane that
-    /// cannot be reached.
-    std::vector<std::uint32_t> plan(std::uint32_t source,
-                                    std::span<const std::uint32_t> stops) const;
+    /// Of the links of a lane the one behind which the shortest way through the stops begins, and
+    /// that way; none: no link leads there. Ties go to the first.
+    std::optional<Detour> detour(std::uint32_t lane,
+                                 std::span<const std::uint32_t> stops,
+                                 double last_s) const;
 
   private:
     Outlook outlook(const world::Link& link) const;

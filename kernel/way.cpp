@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "kernel/lane_lines.h"
+#include "world/check.h"
 #include "world/frames.h"
 #include "world/random.h"
 
@@ -16,21 +18,12 @@ using world::Link;
 
 constexpr double speed_share = 0.95;  // of the limit that we aim for
 constexpr double change_time = 3.5;   // [s] that a change of lanes takes
-
-/// The centre line between two places.
-std::vector<Eigen::Vector3d> part_of(const LaneT& lane, double from, double to) {
-    std::vector<Eigen::Vector3d> line{world::point_at(lane, from).position};
-    double s = 0;
-    for (std::size_t i = 0; i < lane.centre.size(); ++i) {
-        const Eigen::Vector3d point = world::to_eigen(lane.centre[i]);
-        if (i > 0)
-            s += (point - world::to_eigen(lane.centre[i - 1])).norm();
-        if (s > from + 1e-6 && s < to - 1e-6)
-            line.push_back(point);
-    }
-    line.push_back(world::point_at(lane, to).position);
-    return line;
-}
+// A quintic step of w metres aside in L metres is bent by 5.8 w / L^2 at most. 12 m ask a car for
+// nearly all its steering angle; at 2.3 s of its speed it feels 4 m/s^2.
+constexpr double between_changes = 5;   // [m]
+constexpr double shortest_change = 12;  // [m]
+constexpr double shortest_time = 2.3;   // [s]
+constexpr double firm_braking = 2;      // [m/s^2] that the path's envelope of speeds counts on
 
 bool to_the_left(const LaneT& from, std::uint32_t to) {
     return from.left == to;
@@ -40,26 +33,29 @@ bool to_the_left(const LaneT& from, std::uint32_t to) {
 
 Way::Way(const LaneGraph& graph, std::uint64_t seed, std::uint32_t actor)
     : graph_(&graph),
+      itinerary_(graph),
       seed_(seed),
       actor_(actor) {}
 
-void Way::restart(std::uint32_t lane,
-                  double s,
-                  std::vector<std::uint32_t> route,
-                  double change_after) {
+void Way::restart(const std::vector<std::uint32_t>& lanes, const WayStart& start) {
+    REPRISE_CHECK(!lanes.empty() && start.s <= start.car_s, "no lanes, or the car behind its path");
     path_.clear();
     pieces_.clear();
     lanes_.clear();
     gates_.clear();
     changes_.clear();
-    route_.assign(route.begin(), route.end());
-    if (!route_.empty() && route_.front() == lane)
-        route_.pop_front();
-    next_lane_ = lane;
-    next_s_ = s;
-    change_after_ = change_after;
+    itinerary_.restart(lanes.front(), std::span(lanes).subspan(1));
+    next_lane_ = lanes.front();
+    next_s_ = start.s;
+    car_ahead_ = car_path_s_ = start.car_s - start.s;
+    car_speed_ = start.speed;
+    changes_from_ = car_ahead_ + start.change_room;
     ended_ = false;
     note_plan();
+}
+
+void Way::set_stops(std::vector<std::uint32_t> stops, double last_s) {
+    itinerary_.set_stops(std::move(stops), last_s);
 }
 
 void Way::extend(double s, double ahead) {
@@ -78,6 +74,8 @@ void Way::extend(double s, double ahead) {
 void Way::drop_before(double s, double kept) {
     if (!pieces_.empty() && pieces_.front().end < s) {
         std::erase_if(pieces_, [s](const PathPiece& piece) { return piece.end < s; });
+        if (!pieces_.empty())
+            itinerary_.pass(pieces_.front().lane);
         name_lanes();
     }
     constexpr double step = 20;
@@ -97,54 +95,107 @@ void Way::name_lanes() {
 }
 
 void Way::append_next_lane() {
-    const std::uint32_t index = next_lane_;
-    const LaneT& lane = graph_->town().lanes[index];
-    if (lane.kind == world::LaneKind::internal) {
-        // Only at the very start: the driver begins inside a junction.
-        append_straight(index, next_s_);
-        const Link link(graph_->exit(index), index, world::none, world::Turn::straight, false, 0);
-        const std::vector<std::uint32_t> rest = graph_->inside(link);
-        for (std::size_t i = 1; i < rest.size(); ++i)
-            append_straight(rest[i], 0);
-        next_lane_ = graph_->exit(index);
-        next_s_ = 0;
-        if (!route_.empty() && route_.front() == next_lane_)
-            route_.pop_front();
-        ended_ = next_lane_ == world::none;
-        return;
-    }
+    if (graph_->town().lanes[next_lane_].kind == world::LaneKind::internal)
+        append_inside();
+    else if (!follow_itinerary())
+        wander();
+}
 
-    // The route says where to go; without one, or off it, we wander.
-    if (!route_.empty()) {
-        const std::uint32_t wanted = route_.front();
-        if (wanted == lane.left || wanted == lane.right) {
-            route_.pop_front();
-            append_change(index, next_s_, wanted);
-            return;
+/// Only at the very start: the driver begins inside a junction.
+void Way::append_inside() {
+    const std::uint32_t index = next_lane_;
+    append_straight(index, next_s_);
+    const Link link(graph_->exit(index), index, world::none, world::Turn::straight, false, 0);
+    const std::vector<std::uint32_t> rest = graph_->inside(link);
+    for (std::size_t i = 1; i < rest.size(); ++i)
+        append_straight(rest[i], 0);
+    next_lane_ = graph_->exit(index);
+    next_s_ = car_ahead_ = 0;
+    ended_ = next_lane_ == world::none;
+    if (!ended_)
+        itinerary_.enter(next_lane_);
+}
+
+/// One step towards the next lane of the itinerary. False: there is none.
+bool Way::follow_itinerary() {
+    const LaneT& lane = graph_->town().lanes[next_lane_];
+    const std::optional<std::uint32_t> wanted = itinerary_.next({next_lane_, next_s_ + car_ahead_});
+    if (!wanted)
+        return false;
+    std::optional<std::uint32_t> link;
+    if (wanted == lane.left || wanted == lane.right) {
+        const std::optional<ChangeRoom> room = room_for_change(itinerary_.changes_on(next_lane_));
+        if (room) {
+            append_change(*wanted, *room);
+            return true;
         }
-        for (std::uint32_t i = 0; i < lane.links.size(); ++i) {
-            if (lane.links[i].to() != wanted)
-                continue;
-            route_.pop_front();
-            append_straight(index, next_s_);
-            append_junction(index, i);
-            return;
-        }
-        route_.clear();
-    }
-    const std::vector<std::uint32_t> choices = graph_->choices(index);
-    const std::uint32_t neighbour = graph_->better_neighbour(index);
-    if (neighbour != world::none) {
-        append_change(index, next_s_, neighbour);
-    } else if (choices.empty()) {
-        append_straight(index, next_s_);
-        ended_ = true;
+        link = itinerary_.go_another_way(next_lane_);
     } else {
-        const std::uint64_t chosen = world::draw_index(
-            choices.size(), seed_, junctions_, world::Purpose::driver_route, actor_);
-        append_straight(index, next_s_);
-        append_junction(index, choices[chosen]);
+        const auto found = std::find_if(lane.links.begin(), lane.links.end(), [&](const Link& to) {
+            return to.to() == *wanted;
+        });
+        if (found != lane.links.end())
+            link = static_cast<std::uint32_t>(found - lane.links.begin());
+        else
+            itinerary_.drop_plan();
     }
+    if (link)
+        append_junction(next_lane_, *link);
+    return link.has_value();
+}
+
+/// The next choice of one who goes nowhere in particular.
+void Way::wander() {
+    const std::uint32_t neighbour = graph_->better_neighbour(next_lane_);
+    if (neighbour != world::none)
+        if (const std::optional<ChangeRoom> room = room_for_change({1, std::nullopt})) {
+            append_change(neighbour, *room);
+            return;
+        }
+    const std::vector<std::uint32_t> choices = graph_->choices(next_lane_);
+    ended_ = choices.empty();
+    if (ended_)
+        append_straight(next_lane_, next_s_);
+    else
+        append_junction(
+            next_lane_,
+            choices[world::draw_index(
+                choices.size(), seed_, junctions_, world::Purpose::driver_route, actor_)]);
+}
+
+/// [m] from a place on next_lane_ to where all these changes must be done, for each of them.
+double Way::share_of_room(double from, const Itinerary::Changes& changes) const {
+    const LaneT& here = graph_->town().lanes[next_lane_];
+    double share = (here.length - from) / changes.count;
+    if (changes.goal) {
+        const LaneT& there = graph_->town().lanes[changes.goal->lane];
+        const double goal = world::beside(there, changes.goal->s, here);
+        // Where it is too near, it is passed on its lane.
+        const double before_goal = (goal - from) / changes.count;
+        share = before_goal < shortest_change ? share : before_goal;
+    }
+    return share;
+}
+
+/// For the first of them; none: the car could not do it.
+std::optional<Way::ChangeRoom> Way::room_for_change(const Itinerary::Changes& changes) const {
+    const LaneT& here = graph_->town().lanes[next_lane_];
+    const double wait = std::max(changes_from_ - path_.end(), 0.0);
+    const double room = share_of_room(next_s_ + wait, changes);
+    // As fast as it must still be there when it brakes from now on.
+    const double ahead = path_.end() + wait - car_path_s_;
+    const double speed =
+        std::sqrt(std::max(car_speed_ * car_speed_ - 2 * firm_braking * ahead, 0.0));
+    const double usual = std::clamp(change_time * here.speed_limit, 20.0, 60.0);
+    if (room >= std::max(shortest_change, shortest_time * speed)) {
+        const double length = std::min(usual, room);
+        return ChangeRoom{wait, length, room - length};
+    }
+    // A lane that ends here leaves no choice.
+    const double left = here.length - next_s_;
+    if (!here.links.empty() || left < shortest_change / 2)
+        return std::nullopt;
+    return ChangeRoom{0, std::min(left, usual), 0};
 }
 
 void Way::append_straight(std::uint32_t lane, double from) {
@@ -161,42 +212,33 @@ void Way::append_piece(std::uint32_t lane, const std::vector<Eigen::Vector3d>& l
         pieces_.push_back({lane, start, path_.end()});
 }
 
-void Way::append_change(std::uint32_t lane, double from, std::uint32_t to) {
+void Way::append_change(std::uint32_t to, const ChangeRoom& room) {
+    const std::uint32_t lane = next_lane_;
     const LaneT& here = graph_->town().lanes[lane];
     const LaneT& there = graph_->town().lanes[to];
-    const double room = std::max(here.length - from, 0.0);
-    const double length = std::min(std::clamp(change_time * here.speed_limit, 20.0, 60.0), room);
-    const double wait = std::clamp(change_after_, 0.0, room - length);
-    change_after_ = 5;
-    if (wait > 0)
-        append_piece(lane, part_of(here, from, from + wait), here.speed_limit);
+    const double begin = next_s_ + room.wait;
+    const double length = room.length;
+    if (room.wait > 0)
+        append_piece(lane, part_of(here, next_s_, begin), here.speed_limit);
     const double start = path_.end();
-    const double begin = from + wait;
 
-    // A quintic step from one centre line to the other: no jump in heading or curvature.
-    std::vector<Eigen::Vector3d> line;
-    double s_there = 0;
-    const int steps = std::max(2, static_cast<int>(length));
-    for (int i = 0; i <= steps; ++i) {
-        const double u = static_cast<double>(i) / steps;
-        const double share = u * u * u * (10 + u * (6 * u - 15));
-        const Eigen::Vector3d source = world::point_at(here, begin + u * length).position;
-        s_there = world::project(there, source).s;
-        const Eigen::Vector3d target = world::point_at(there, s_there).position;
-        line.push_back(source + share * (target - source));
-    }
+    const std::vector<Eigen::Vector3d> line = change_line(here, there, begin, length);
     const std::size_t half = line.size() / 2;
     append_piece(lane,
                  {line.begin(), line.begin() + static_cast<std::ptrdiff_t>(half) + 1},
                  here.speed_limit);
     append_piece(
         to, {line.begin() + static_cast<std::ptrdiff_t>(half), line.end()}, there.speed_limit);
-    changes_.push_back({start, path_.end(), lane, to, room - length - wait, to_the_left(here, to)});
+    changes_.push_back({start, path_.end(), lane, to, room.spare, to_the_left(here, to)});
     next_lane_ = to;
-    next_s_ = s_there;
+    next_s_ = world::project(there, world::point_at(here, begin + length).position).s;
+    car_ahead_ = 0;
+    changes_from_ = path_.end() + between_changes;
+    itinerary_.enter(to);
 }
 
 void Way::append_junction(std::uint32_t lane, std::uint32_t link_index) {
+    append_straight(lane, next_s_);
     const Link& link = graph_->town().lanes[lane].links[link_index];
     Gate gate;
     gate.s = path_.end();
@@ -212,7 +254,9 @@ void Way::append_junction(std::uint32_t lane, std::uint32_t link_index) {
         gate.foes = find_foes(*graph_, lane, link, gate.s);
     gates_.push_back(std::move(gate));
     next_lane_ = link.to();
-    next_s_ = 0;
+    next_s_ = car_ahead_ = 0;
+    changes_from_ = std::max(changes_from_, path_.end() + between_changes);
+    itinerary_.enter(next_lane_);
 }
 
 std::vector<std::uint32_t> Way::lanes_to_come(double s) const {
@@ -223,7 +267,7 @@ std::vector<std::uint32_t> Way::lanes_to_come(double s) const {
             lanes.push_back(piece.lane);
     if (!ended_ && (lanes.empty() || lanes.back() != next_lane_))
         lanes.push_back(next_lane_);
-    lanes.insert(lanes.end(), route_.begin(), route_.end());
+    lanes.insert(lanes.end(), itinerary_.lanes().begin(), itinerary_.lanes().end());
     return lanes;
 }
 
@@ -235,12 +279,10 @@ void Way::add_to(world::Hasher& hasher) const {
         hasher.add(piece.start);
         hasher.add(piece.end);
     }
-    hasher.add(std::uint64_t{route_.size()});
-    for (const std::uint32_t lane : route_)
-        hasher.add(lane);
+    itinerary_.add_to(hasher);
     hasher.add(next_lane_);
-    hasher.add(next_s_);
-    hasher.add(change_after_);
+    for (const double number : {next_s_, car_ahead_, car_path_s_, car_speed_, changes_from_})
+        hasher.add(number);
     hasher.add(junctions_);
     hasher.add(ended_);
 }

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <optional>
 #include <vector>
 
 #include "kernel/conflicts.h"
+#include "kernel/itinerary.h"
 #include "kernel/path.h"
 #include "kernel/route.h"
 #include "world/digest.h"
@@ -40,18 +41,29 @@ struct LaneChange {
     bool to_left = false;
 };
 
+/// Where a way starts anew, and what the car can do there.
+struct WayStart {
+    double s = 0;            ///< [m] on the first lane: where the path starts
+    double car_s = 0;        ///< [m] on the first lane: where the car is, at or ahead of s
+    double speed = 0;        ///< [m/s] of the car
+    double change_room = 0;  ///< [m] ahead of the car where no change of lanes can start
+};
+
 /// The driver's way ahead: lanes, one after another, with their geometry as one Path and the places
-/// where something must be decided. Grows at the far end, drops what lies behind.
+/// where something must be decided. Grows at the far end, drops what lies behind. Leads through the
+/// stops that it was given; where a change of lanes on the way there has no room it goes on as its
+/// lane does and plans anew.
 class Way {
   public:
     Way(const LaneGraph& graph, std::uint64_t seed, std::uint32_t actor);
 
-    /// Starts anew at `s` of a lane. `route`: the lanes to come, beginning with this one; may be
-    /// empty. The first change of lanes starts `change_after` metres on at the earliest.
-    void restart(std::uint32_t lane,
-                 double s,
-                 std::vector<std::uint32_t> route,
-                 double change_after);
+    /// Starts anew on the first of `lanes`; the others are the next ones to come. Stops that the
+    /// car has not passed yet stay.
+    void restart(const std::vector<std::uint32_t>& lanes, const WayStart& start);
+
+    /// Lanes to pass in this order, the last one at `last_s` [m]: where to go when the lanes of the
+    /// next restart end.
+    void set_stops(std::vector<std::uint32_t> stops, double last_s);
 
     /// Makes at least `ahead` metres of path beyond s, unless the way ends.
     void extend(double s, double ahead);
@@ -81,15 +93,28 @@ class Way {
     void add_to(world::Hasher& hasher) const;
 
   private:
+    /// For one of the changes of lanes that are due on next_lane_.
+    struct ChangeRoom {
+        double wait = 0;    ///< [m] ahead of it
+        double length = 0;  ///< [m]
+        double spare = 0;   ///< [m] that it could begin later
+    };
+
     void name_lanes();
     void note_plan();
     void append_next_lane();
+    void append_inside();
+    bool follow_itinerary();
+    void wander();
+    std::optional<ChangeRoom> room_for_change(const Itinerary::Changes& changes) const;
+    double share_of_room(double from, const Itinerary::Changes& changes) const;
     void append_straight(std::uint32_t lane, double from);
-    void append_change(std::uint32_t lane, double from, std::uint32_t to);
+    void append_change(std::uint32_t to, const ChangeRoom& room);
     void append_junction(std::uint32_t lane, std::uint32_t link);
     void append_piece(std::uint32_t lane, const std::vector<Eigen::Vector3d>& line, double limit);
 
     const LaneGraph* graph_;
+    Itinerary itinerary_;
     std::uint64_t seed_;
     std::uint32_t actor_;
     Path path_;
@@ -97,10 +122,12 @@ class Way {
     std::vector<std::uint32_t> lanes_;
     std::vector<Gate> gates_;
     std::vector<LaneChange> changes_;
-    std::deque<std::uint32_t> route_;
     std::uint32_t next_lane_ = world::none;  ///< to be appended from next_s_ on
     double next_s_ = 0;
-    double change_after_ = 0;
+    double car_ahead_ = 0;     ///< [m] from next_s_ to the car, on the lane where the way starts
+    double car_path_s_ = 0;    ///< where the car was at the restart, along the path
+    double car_speed_ = 0;     ///< [m/s] then
+    double changes_from_ = 0;  ///< along the path; none starts before
     std::uint32_t junctions_ = 0;  ///< gates made so far: the draws' tick
     bool ended_ = false;
     std::uint64_t plan_digest_ = 0;  ///< of path, gates and changes, as of their last change

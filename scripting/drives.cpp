@@ -111,16 +111,10 @@ int set_route(Run& run, lua_State* L) {
             lane_or_edge_named(run.town, text_at(L, -1, "set_route", fmt::format("entry {}", i))));
         lua_pop(L, 1);
     }
-    run.say(L, CommandKind::set_route, actor.id).lanes = std::move(lanes);
+    world::CommandT& command = run.say(L, CommandKind::set_route, actor.id);
+    command.s = run.town.lanes[lanes.back()].length;
+    command.lanes = std::move(lanes);
     return 0;
-}
-
-/// The lane is left out that the actor is on: by the time it obeys, it may have left it.
-std::vector<std::uint32_t> lanes_to_pass(const world::TownT& town, const world::Route& route) {
-    std::vector<std::uint32_t> lanes = world::driving_lanes(town, route);
-    if (lanes.size() > 1 && lanes.front() == route.pieces.front().lane)
-        lanes.erase(lanes.begin());
-    return lanes;
 }
 
 std::string wanted_lane(const Fields& fields) {
@@ -149,7 +143,9 @@ int route_to(Run& run, lua_State* L) {
         {body.lane, world::project(here, body.position).s}, {lane, s});
     if (!route)
         refuse("route_to", fmt::format("no way leads from '{}' to '{}'", here.name, goal.name));
-    run.say(L, CommandKind::set_route, actor.id).lanes = lanes_to_pass(run.town, *route);
+    world::CommandT& command = run.say(L, CommandKind::set_route, actor.id);
+    command.lanes = {lane};
+    command.s = s;
     lua_pushnumber(L, route->length);
     return 1;
 }

@@ -19,9 +19,9 @@ constexpr std::uint32_t most_changes = 8;  // on one street
 /// [m] of detour that a change of lanes is worth; `room`: [m] that it has for itself.
 double change_cost(double room) {
     constexpr double calm = 40;
-    constexpr double possible = 15;
+    constexpr double possible = 20;
     if (room < possible)
-        return 1000;
+        return 10'000;
     return room < calm ? 200 : 40;
 }
 
@@ -55,7 +55,7 @@ class Search {
             if (cost > cost_[node])
                 continue;
             if (lane_of(node) == goal_.lane && goal_.s >= entry(node)) {
-                const double there = cost_[node] + goal_.s - entry(node);
+                const double there = cost_[node] + goal_.s - entry(node) + haste(node);
                 if (there < best) {
                     best = there;
                     arrival = node;
@@ -99,6 +99,16 @@ class Search {
         for (const auto side : {&LaneT::left, &LaneT::right})
             for (std::uint32_t lane = start.*side; lane < count_; lane = town_.lanes[lane].*side)
                 entry_[lane] = beside(start, from.s, town_.lanes[lane]);
+    }
+
+    /// What changes of lanes cost more because they must be done before the goal.
+    double haste(Node node) const {
+        const std::uint32_t count = changes(node);
+        if (count == 0)
+            return 0;
+        const double left = town_.lanes[goal_.lane].length - entry(node);
+        const double to_goal = goal_.s - entry(node);
+        return count * (change_cost(to_goal / count) - change_cost(left / count));
     }
 
     void reach(Node node, Node from, double cost) {

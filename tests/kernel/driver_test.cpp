@@ -66,6 +66,23 @@ world::TownT ring() {
     return town;
 }
 
+/// The ring, with a second lane to the left of the bottom (13): only from there one gets onto the
+/// short cut, and nowhere else.
+world::TownT ring_with_turning_lane() {
+    world::TownT town = ring();
+    town.lanes.push_back(make_lane("bottom_left", Turtle(0, 3.5, 0).ahead(150)));
+    town.lanes[7] = make_lane(
+        ":a1", Turtle(150, 3.5, 0).ahead(3.5).turn(quarter, 8.5), 5.5, LaneKind::internal);
+    town.lanes[7].links = {make_link(5, world::none, Turn::left)};
+    town.lanes[0].links = {make_link(1, 6, Turn::straight)};
+    town.lanes[13].links = {make_link(5, 7, Turn::left)};
+    town.lanes[13].junction = 0;
+    town.lanes[13].edge = town.lanes[0].edge;
+    town.lanes[0].left = 13;
+    town.lanes[13].right = 0;
+    return town;
+}
+
 /// Two straight lanes with a signal and a junction of 10 m between them.
 world::TownT signalled_junction() {
     world::TownT town;
@@ -351,17 +368,25 @@ TEST(LaneGraph, TurnsAroundOnlyWhereNothingElseIsLeft) {
 TEST(LaneGraph, PlansTheShorterWayThroughAllStops) {
     const world::TownT town = ring();
     const kernel::LaneGraph graph(town);
-    EXPECT_EQ(graph.shortest(0, 2), (std::vector<std::uint32_t>{0, 5, 2}));
-    EXPECT_EQ(graph.plan(0, std::vector<std::uint32_t>{1, 5}),
-              (std::vector<std::uint32_t>{0, 1, 2, 3, 0, 5}));
-    EXPECT_TRUE(graph.shortest(4, 0).empty());
+    using Lanes = std::vector<std::uint32_t>;
+    EXPECT_EQ(graph.plan({0, 0}, Lanes{2}, 150).lanes, (Lanes{5, 2}));
+    EXPECT_EQ(graph.plan({0, 0}, Lanes{1, 5}, 36).lanes, (Lanes{1, 2, 3, 0, 5}));
+    EXPECT_EQ(graph.plan({4, 0}, Lanes{0}, 150).unreachable, 0u);
+    const world::TownT two_lanes = ring_with_turning_lane();
+    const kernel::LaneGraph wide(two_lanes);
+    EXPECT_EQ(wide.plan({0, 100}, Lanes{5}, 20).lanes, (Lanes{13, 5}));
+    EXPECT_EQ(wide.plan({0, 140}, Lanes{5}, 20).lanes, (Lanes{1, 2, 3, 0, 13, 5}));
+    const auto around = wide.detour(0, Lanes{5}, 20);
+    ASSERT_TRUE(around);
+    EXPECT_EQ(around->link, 0u);
+    EXPECT_EQ(around->plan.lanes, (Lanes{2, 3, 0, 13, 5}));
 }
 
 TEST(Autopilot, TakesTheRouteItIsGiven) {
     for (const std::uint32_t wanted : {1u, 5u, 4u}) {
         Drive drive(ring());
         drive.place(0, 5, 0);
-        drive.autopilot->set_route({wanted});
+        drive.autopilot->set_route({wanted}, drive.town.lanes[wanted].length);
         bool there = false;
         while (drive.seconds() < 100 && !there) {
             drive.step();
@@ -377,7 +402,7 @@ TEST(Autopilot, TakesTheRouteItIsGiven) {
 TEST(Autopilot, SaysWhichLaneItsRouteCannotReach) {
     Drive drive(straight_road(300));
     drive.place(1, 5, 0);
-    drive.autopilot->set_route({3});
+    drive.autopilot->set_route({3}, drive.town.lanes[3].length);
     try {
         drive.step();
         FAIL() << "west_1 cannot be reached from east_1";
@@ -390,7 +415,7 @@ TEST(Autopilot, ChangesLanesForItsRouteWhenThereIsRoom) {
     for (const bool occupied : {false, true}) {
         Drive drive(straight_road(600, 2));
         drive.place(1, 5, 10);
-        drive.autopilot->set_route({2});
+        drive.autopilot->set_route({2}, drive.town.lanes[2].length);
         const double target = drive.town.lanes[2].centre.front().y();
         double closest = 100;
         while (drive.seconds() < 25) {
@@ -406,6 +431,66 @@ TEST(Autopilot, ChangesLanesForItsRouteWhenThereIsRoom) {
         if (occupied) {
             EXPECT_GT(closest, 2.8);
         }
+    }
+}
+
+TEST(Autopilot, SharesTheRoomAmongAllChangesOfLanes) {
+    Drive drive(straight_road(400, 4), 7, 0);
+    drive.place(1, 5, 13);
+    const std::uint32_t fourth = 4;
+    drive.autopilot->set_route({fourth}, 140);
+    const double target = drive.town.lanes[fourth].centre.front().y();
+    double hardest = 0;
+    while (drive.car.x < 135) {
+        const double yaw = drive.car.yaw;
+        drive.step();
+        hardest = std::max(hardest, std::abs(drive.car.yaw - yaw) / 0.05 * drive.car.speed);
+        ASSERT_LT(drive.seconds(), 60);
+    }
+    EXPECT_NEAR(drive.car.y, target, 0.3);
+    EXPECT_LT(hardest, 4) << "[m/s^2] to the side";
+}
+
+/// Drives until the car is on `lane`; the lanes on its way there.
+std::set<std::uint32_t> lanes_until(Drive& drive, std::uint32_t lane) {
+    std::set<std::uint32_t> seen;
+    while (drive.seconds() < 150 && seen.count(lane) == 0) {
+        drive.step();
+        seen.insert(drive.autopilot->path().front());
+    }
+    return seen;
+}
+
+TEST(Autopilot, GoesAroundTheBlockWhenItIsTooLateToChangeLanes) {
+    for (const double s : {30.0, 138.0}) {
+        Drive drive(ring_with_turning_lane());
+        drive.place(0, s, 13);
+        drive.autopilot->set_route({5}, 20);
+        const std::set<std::uint32_t> seen = lanes_until(drive, 5);
+        EXPECT_EQ(seen.count(5), 1u) << "from " << s << " m";
+        EXPECT_EQ(seen.count(1), s < 100 ? 0u : 1u) << "the long way, from " << s << " m";
+    }
+}
+
+TEST(Autopilot, FindsItsRouteAgainWhenItIsPushedOffIt) {
+    Drive drive(ring_with_turning_lane());
+    drive.place(0, 5, 8);
+    drive.autopilot->set_route({5}, 20);
+    while (drive.car.x < 75)
+        drive.step();
+    ASSERT_NEAR(drive.car.y, 3.5, 0.5) << "on its lane to turn";
+    drive.car.y -= 4.2;
+    EXPECT_EQ(lanes_until(drive, 5).count(5), 1u);
+}
+
+TEST(Autopilot, LetsAChangeOfLanesBeThatComesTooLate) {
+    for (const double s : {30.0, 140.0}) {
+        Drive drive(ring_with_turning_lane());
+        drive.place(0, s, 13);
+        drive.step();
+        drive.autopilot->change_lane(13);
+        const std::uint32_t next = s < 100 ? 5 : 1;
+        EXPECT_EQ(lanes_until(drive, next).count(next), 1u) << "from " << s << " m";
     }
 }
 
@@ -453,7 +538,7 @@ TEST(Autopilot, DoesNotBlockAJunctionWithoutAWayOut) {
 TEST(Autopilot, IndicatesBeforeItTurnsAndLightsUpInRain) {
     Drive drive(ring());
     drive.place(0, 60, 5);
-    drive.autopilot->set_route({5});
+    drive.autopilot->set_route({5}, drive.town.lanes[5].length);
     drive.step();
     EXPECT_EQ(drive.control.lamps(), 0);
     while (drive.car.x + drive.car.front() < 140)

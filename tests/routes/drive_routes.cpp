@@ -20,7 +20,7 @@
 
 // Drives routes through an empty town with the built-in driver, and watches it:
 //     drive_routes NAME.net.xml TASKS.json       every pair of every task
-//     drive_routes NAME.net.xml COUNT            as many random ways
+//     drive_routes NAME.net.xml COUNT [SEED]     as many random ways
 // One line for each route that goes wrong, a table, exit status 1 when any did.
 namespace reprise {
 namespace {
@@ -67,18 +67,8 @@ std::vector<Pair> pairs_of(const TownT& town, const std::string& file) {
     return pairs;
 }
 
-/// Has every change of lanes 40 m and more? Then they cost 40 m each. Nobody can be asked to cross
-/// three lanes just before a junction.
-bool is_calm(const world::Planner& planner, const Pair& pair, const world::Route& route) {
-    double changes = 0;
-    for (std::size_t i = 1; i < route.pieces.size(); ++i)
-        changes += route.pieces[i].from > 0;
-    return *planner.cost(pair.from, pair.to) < route.length + 40 * changes + 1;
-}
-
 /// Places 8 m and more from the ends of lanes that hold a car.
-std::vector<Pair> random_pairs(const TownT& town, int count) {
-    constexpr std::uint64_t seed = 7;
+std::vector<Pair> random_pairs(const TownT& town, int count, std::uint64_t seed) {
     constexpr double margin = 8;     // [m]
     constexpr double shortest = 80;  // [m]
     const world::Planner planner(town);
@@ -99,9 +89,8 @@ std::vector<Pair> random_pairs(const TownT& town, int count) {
         if (from.lane == world::none || to.lane == world::none)
             continue;
         const auto route = planner.plan(from, to);
-        const Pair pair{"random", from, to};
-        if (route && route->length > shortest && is_calm(planner, pair, *route))
-            pairs.push_back(pair);
+        if (route && route->length > shortest)
+            pairs.push_back({"random", from, to});
     }
     return pairs;
 }
@@ -231,8 +220,8 @@ bool drive_all(const traffic::Network& network, const TownT& town, const std::ve
 }  // namespace reprise
 
 int main(int count, char** words) {
-    if (count != 3) {
-        std::cerr << "drive_routes NAME.net.xml TASKS.json|COUNT\n";
+    if (count != 3 && count != 4) {
+        std::cerr << "drive_routes NAME.net.xml TASKS.json|COUNT [SEED]\n";
         return 2;
     }
     try {
@@ -240,8 +229,11 @@ int main(int count, char** words) {
         const auto town = reprise::traffic::read_town(network);
         const std::string_view what = words[2];
         const bool random = what.find_first_not_of("0123456789") == std::string_view::npos;
-        const auto pairs = random ? reprise::random_pairs(town, std::atoi(words[2]))
-                                  : reprise::pairs_of(town, words[2]);
+        const auto pairs =
+            random ? reprise::random_pairs(town,
+                                           std::atoi(words[2]),
+                                           count == 4 ? std::strtoull(words[3], nullptr, 10) : 7)
+                   : reprise::pairs_of(town, words[2]);
         return reprise::drive_all(network, town, pairs) ? 0 : 1;
     } catch (const std::exception& error) {
         std::cerr << error.what() << "\n";

@@ -101,7 +101,7 @@ TEST(Handle, PlansAWayToAPlace) {
             routes.push_back(command.lanes);
     ASSERT_EQ(routes.size(), 2U);
     EXPECT_THAT(routes[0], ElementsAre(1));
-    EXPECT_THAT(routes[1], ElementsAre(2)) << "the lane that it is on may be behind it by then";
+    EXPECT_THAT(routes[1], ElementsAre(2)) << "by the time it obeys, it may be on another lane";
 }
 
 TEST(Handle, SaysWhatAnActorIsTold) {

@@ -67,6 +67,8 @@ class CutLanes {
             source, target, std::max(weight, (start(source) - start(target)).norm()));
     }
 
+    static double change_cost(double room) { return room < 20 ? 10'000 : room < 40 ? 200 : 40; }
+
     void add_lane(std::uint32_t i, double at, std::size_t layer) {
         const LaneT& lane = town_.lanes[i];
         const std::size_t vertex = layer * count() + i;
@@ -78,9 +80,15 @@ class CutLanes {
         const double room = (lane.length - at) / static_cast<double>(layer / 2 + 1);
         for (const std::uint32_t side : {lane.left, lane.right})
             if (side != none && town_.lanes[side].kind == LaneKind::driving && layer + 2 < layers)
-                add(vertex, (layer + 2) * count() + side, room < 15 ? 1000 : room < 40 ? 200 : 40);
-        if (i == to_.lane && to_.s >= at)
-            ways_.emplace_back(vertex, layers * count(), to_.s - at);
+                add(vertex, (layer + 2) * count() + side, change_cost(room));
+        if (i != to_.lane || to_.s < at)
+            return;
+        // Who changes lanes on the last street must be done before the goal.
+        const auto changes = static_cast<double>(layer / 2);
+        const double more = layer < 2 ? 0
+                                      : change_cost((to_.s - at) / changes) -
+                                            change_cost((lane.length - at) / changes);
+        ways_.emplace_back(vertex, layers * count(), to_.s - at + changes * more);
     }
 
     const TownT& town_;

@@ -104,6 +104,18 @@ TEST(Planner, ChangesLanesBesideTheStart) {
         line.begin(), line.end(), [](const auto& p, const auto& q) { return p.x() < q.x(); }));
 }
 
+TEST(Planner, AChangeOfLanesCostsByItsRoomBeforeTheGoal) {
+    const TownT town = test::straight_road(400, 3);
+    const auto cost = [&](const char* lane, double s) {
+        return Planner(town).cost({lane_of(town, "east_1"), 50}, {lane_of(town, lane), s}).value();
+    };
+    EXPECT_NEAR(cost("east_2", 150), 100 + 40, 1e-9);
+    EXPECT_NEAR(cost("east_2", 80), 30 + 200, 1e-9);
+    EXPECT_NEAR(cost("east_2", 60), 10 + 10'000, 1e-9);
+    EXPECT_NEAR(cost("east_3", 150), 100 + 2 * 40, 1e-9);
+    EXPECT_NEAR(cost("east_3", 110), 60 + 2 * 200, 1e-9);
+}
+
 TEST(Planner, KnowsHowFarTheGoalIs) {
     const TownT town = linked_t();
     const std::uint32_t from = lane_of(town, "west_in_1");
