@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::uint32_t most_changes = 8;  // on one street
 
+constexpr double turn_around_cost = 1000;  // [m] of detour
+
 /// [m] of detour that a change of lanes is worth; `room`: [m] that it has for itself.
 double change_cost(double room) {
     constexpr double calm = 40;
@@ -128,8 +130,10 @@ class Search {
         for (const Link& link : lane.links) {
             const std::uint32_t next = link.via() < count_ ? link.via() : link.to();
             // No less than the straight line, where a network has gaps between its lanes.
-            if (next < count_ && is_for_cars(town_.lanes[next]))
-                reach(next, node, cost_[node] + std::max(left, (place(next) - here).norm()));
+            if (next >= count_ || !is_for_cars(town_.lanes[next]))
+                continue;
+            const double extra = link.turn() == Turn::around ? turn_around_cost : 0;
+            reach(next, node, cost_[node] + std::max(left, (place(next) - here).norm()) + extra);
         }
         if (changes(node) == most_changes)
             return;

@@ -14,7 +14,8 @@ namespace reprise::world {
 ///
 /// MUST    the least cost: metres driven, and 40 m for each change of lanes; 200 m where it and
 ///         those before it on the street, or before the goal, share less than 40 m each; 10 km
-///         below 20 m, where a car may miss it. Ties go to the lower lane index.
+///         below 20 m, where a car may miss it. To turn around costs 1 km. Ties go to the lower
+///         lane index.
 /// ASSUMES that who is on a lane can change to a neighbour in the same direction anywhere on it.
 /// GOES    over all lanes for cars, internal ones included, from the start of one to the start of
 ///         the next; the lanes beside the start are entered at its height. What is left is

@@ -62,9 +62,9 @@ class CutLanes {
         return point_at(town_.lanes[lane], vertex / count() % 2 == 1 ? entry(lane) : 0).position;
     }
 
-    void add(std::size_t source, std::size_t target, double weight) {
+    void add(std::size_t source, std::size_t target, double weight, double extra = 0) {
         ways_.emplace_back(
-            source, target, std::max(weight, (start(source) - start(target)).norm()));
+            source, target, std::max(weight, (start(source) - start(target)).norm()) + extra);
     }
 
     static double change_cost(double room) { return room < 20 ? 10'000 : room < 40 ? 200 : 40; }
@@ -75,7 +75,7 @@ class CutLanes {
         for (const Link& link : lane.links) {
             const std::uint32_t next = link.via() != none ? link.via() : link.to();
             if (next != none && is_for_cars(town_.lanes[next]))
-                add(vertex, next, lane.length - at);
+                add(vertex, next, lane.length - at, link.turn() == Turn::around ? 1000 : 0);
         }
         const double room = (lane.length - at) / static_cast<double>(layer / 2 + 1);
         for (const std::uint32_t side : {lane.left, lane.right})
