@@ -14,6 +14,7 @@
 #include "kernel/lane_change.h"
 #include "kernel/pedals.h"
 #include "kernel/steering.h"
+#include "kernel/turn_around.h"
 #include "kernel/way.h"
 #include "world/check.h"
 #include "world/digest.h"
@@ -63,6 +64,8 @@ struct Autopilot::State {
     void start_over(Ego& ego, const std::vector<std::uint32_t>& lanes, double change_room);
     double change_lanes(const world::TickView& last, Ego& ego);
     double cruise(const Ego& ego) const;
+    double approach_turn(const Ego& ego);
+    void turn(const world::TickView& last, Ego& ego, world::Control& control);
     std::uint16_t lamps(const world::TickView& last, const Ego& ego) const;
 
     std::uint32_t actor;
@@ -74,6 +77,8 @@ struct Autopilot::State {
     Hazards hazards;
     Gatekeeper gatekeeper;
     Pedals pedals;
+    TurnAround turn_around;
+    std::uint32_t turns_into = 0;  ///< the lane behind the turn
     DrivingStyle style;
 
     /// Given, not planned yet.
@@ -130,6 +135,10 @@ world::Control Autopilot::decide(const world::TickView& last) {
         "actor " + std::to_string(state.actor) + ", tick " + std::to_string(last.index()));
     Ego ego = ego_of(*own);
     world::Control control(0, 0, 0, state.actor, 0, false, false);
+    if (!state.turn_around.done())
+        state.turn(last, ego, control);
+    if (!state.turn_around.done())
+        return control;
 
     // Where am I? Off every road there is nothing to follow: stop.
     if (!state.find_way(ego)) {
@@ -140,6 +149,7 @@ world::Control Autopilot::decide(const world::TickView& last) {
     // Who is in the way, and may I go on? The most careful answer counts.
     double acceleration = state.cruise(ego);
     acceleration = std::min(acceleration, state.change_lanes(last, ego));
+    acceleration = std::min(acceleration, state.approach_turn(ego));
     state.hazards.look(last, ego, state.way.path(), state.style);
     acceleration = std::min(acceleration, state.hazards.acceleration());
     acceleration =
@@ -330,6 +340,48 @@ double Autopilot::State::cruise(const Ego& ego) const {
     return acceleration;
 }
 
+/// Stops where a turn begins that takes going back and forth, and begins it. [m/s^2]
+double Autopilot::State::approach_turn(const Ego& ego) {
+    constexpr double sight = 80;  // [m]
+    const auto ahead = std::find_if(way.gates().begin(), way.gates().end(), [&](const Gate& gate) {
+        return gate.s > ego.front_s() - 1;
+    });
+    if (ahead == way.gates().end() || ahead->turn != world::Turn::around ||
+        ahead->s > ego.front_s() + sight)
+        return infinity;
+    const world::Link& link = graph.town().lanes[ahead->from].links[ahead->link];
+    const auto street = TurnAround::street_of(graph.town(), ahead->from, link, *ego.model);
+    if (!street)
+        return infinity;
+    const double distance = ahead->s - TurnAround::before_end - ego.front_s();
+    if (distance < 0.7 && ego.speed < 0.2) {
+        turn_around.begin(*street, ego);
+        turns_into = ahead->to;
+    }
+    return stop_acceleration(distance, ego.speed, style.comfortable_braking, style);
+}
+
+/// Hands and feet while we turn around; when that is done, a new path on the lane behind it.
+void Autopilot::State::turn(const world::TickView& last, Ego& ego, world::Control& control) {
+    const TurnAround::Move move = turn_around.next(last, ego);
+    if (turn_around.done()) {
+        gatekeeper.reset();
+        start_over(ego, {lane_under(ego).value_or(turns_into)}, ego.model->length);
+        on_way = true;
+        return;
+    }
+    const bool back = move.speed < 0;
+    const double along = back ? -ego.speed : ego.speed;
+    const double wanted = std::clamp(2 * (std::abs(move.speed) - along), -2.5, 1.0);
+    const Pedals::Position position =
+        move.speed == 0 ? Pedals::Position{0, 0.5} : pedals.press(wanted, along, car, step);
+    control.mutate_throttle(position.throttle);
+    control.mutate_brake(position.brake);
+    control.mutate_steer(move.steer);
+    control.mutate_reverse(back);
+    control.mutate_lamps(graph.town().left_hand ? world::lamp_right : world::lamp_left);
+}
+
 std::uint16_t Autopilot::State::lamps(const world::TickView& last, const Ego& ego) const {
     int lit = 0;
     const int around = graph.town().left_hand ? world::lamp_right : world::lamp_left;
@@ -369,6 +421,8 @@ std::uint64_t Autopilot::digest() const {
     state.way.add_to(hasher);
     state.gatekeeper.add_to(hasher);
     state.pedals.add_to(hasher);
+    state.turn_around.add_to(hasher);
+    hasher.add(state.turns_into);
     hasher.add(state.new_route.has_value());
     if (state.new_route) {
         hasher.add(std::span<const std::uint32_t>(state.new_route->stops));

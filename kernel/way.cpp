@@ -244,6 +244,8 @@ void Way::append_junction(std::uint32_t lane, std::uint32_t link_index) {
     gate.s = path_.end();
     gate.serial = junctions_++;
     gate.signal = link.signal();
+    gate.from = lane;
+    gate.link = link_index;
     gate.to = link.to();
     gate.turn = link.turn();
     gate.yields = link.yields();
@@ -296,7 +298,7 @@ void Way::note_plan() {
     for (const Gate& gate : gates_) {
         hasher.add(gate.s);
         hasher.add(gate.exit_s);
-        for (const std::uint32_t number : {gate.serial, gate.signal, gate.to})
+        for (const std::uint32_t number : {gate.serial, gate.signal, gate.from, gate.link, gate.to})
             hasher.add(number);
         hasher.add(gate.turn);
         hasher.add(gate.yields);

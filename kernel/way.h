@@ -25,6 +25,8 @@ struct Gate {
     double exit_s = 0;  ///< where the path leaves the junction
     std::uint32_t serial = 0;
     std::uint32_t signal = 0;
+    std::uint32_t from = 0;
+    std::uint32_t link = 0;  ///< index in the links of `from`
     std::uint32_t to = 0;
     world::Turn turn = world::Turn::straight;
     bool yields = false;

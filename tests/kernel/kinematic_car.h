@@ -30,8 +30,10 @@ struct KinematicCar {
             const double wanted = control.steer() * car.max_steering_angle;
             const double turn = 0.7 * step;  // wheels turn at 0.7 rad/s
             steering_angle += std::clamp(wanted - steering_angle, -turn, turn);
-            speed += (control.throttle() * 3 - control.brake() * 9) * step;
-            speed = std::max(speed, 0.0);
+            const double drive = control.throttle() * (control.reverse() ? -3 : 3) * step;
+            const double brake = control.brake() * 9 * step;
+            speed += drive;
+            speed = std::copysign(std::max(std::abs(speed) - brake, 0.0), speed);
             x += speed * std::cos(yaw) * step;
             y += speed * std::sin(yaw) * step;
             yaw += speed * std::tan(steering_angle) / car.wheelbase * step;

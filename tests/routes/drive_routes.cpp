@@ -115,6 +115,19 @@ replay::Recording recording_of(const traffic::Network& network,
     return recording;
 }
 
+/// Where a car turns around, both lanes are its own for a moment.
+bool may_turn_around(const TownT& town, std::uint32_t lane, double s) {
+    constexpr double around = 15;  // [m]
+    const auto turns = [](const world::Link& link) { return link.turn() == world::Turn::around; };
+    const auto has_turn = [&](std::uint32_t from) {
+        return std::any_of(town.lanes[from].links.begin(), town.lanes[from].links.end(), turns);
+    };
+    const world::LaneT& here = town.lanes[lane];
+    if (here.kind == world::LaneKind::internal || s > here.length - around)
+        return has_turn(lane);
+    return s < around && here.opposite < town.lanes.size() && has_turn(here.opposite);
+}
+
 void look(const TownT& town, const world::Tick& tick, Watch& watch) {
     if (tick.vehicles()->size() == 0)
         return;
@@ -131,7 +144,9 @@ void look(const TownT& town, const world::Tick& tick, Watch& watch) {
     const bool fine = watch.sidewalk <= most_off && watch.opposite <= most_off &&
                       watch.height <= most_height && watch.impulse <= 0;
     watch.sidewalk = std::max(watch.sidewalk, measured.on_sidewalk());
-    watch.opposite = std::max(watch.opposite, measured.on_opposite_lane());
+    if (measured.lane() == world::none ||
+        !may_turn_around(town, measured.lane(), measured.lane_s()))
+        watch.opposite = std::max(watch.opposite, measured.on_opposite_lane());
     watch.height = std::max(watch.height, height);
     watch.impulse = measured.impulse_static();
     if (fine)
