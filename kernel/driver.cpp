@@ -14,6 +14,7 @@
 #include "kernel/lane_change.h"
 #include "kernel/pedals.h"
 #include "kernel/steering.h"
+#include "kernel/swing.h"
 #include "kernel/turn_around.h"
 #include "kernel/way.h"
 #include "world/check.h"
@@ -57,7 +58,9 @@ struct Autopilot::State {
 
     bool find_way(Ego& ego);
     std::optional<std::uint32_t> lane_under(const Ego& ego) const;
+    bool has_tight_bends() const;
     bool is_lost(const Ego& ego) const;
+    void plan_swing(const Ego& ego);
     void take_route(Ego& ego);
     std::vector<std::uint32_t> committed_lanes(const Ego& ego) const;
     void take_change(Ego& ego);
@@ -74,6 +77,9 @@ struct Autopilot::State {
     const world::LaneMap* lanes;
     LaneGraph graph;
     Way way;
+    std::optional<Swing> swing;      ///< once there was a bend that needs it
+    std::uint64_t swing_of_way = 0;  ///< the way's plan() that it was planned for
+    bool swings = false;             ///< on the way ahead
     Hazards hazards;
     Gatekeeper gatekeeper;
     Pedals pedals;
@@ -147,10 +153,16 @@ world::Control Autopilot::decide(const world::TickView& last) {
     }
 
     // Who is in the way, and may I go on? The most careful answer counts.
+    state.plan_swing(ego);
     double acceleration = state.cruise(ego);
     acceleration = std::min(acceleration, state.change_lanes(last, ego));
     acceleration = std::min(acceleration, state.approach_turn(ego));
-    state.hazards.look(last, ego, state.way.path(), state.style);
+    state.plan_swing(ego);
+    state.hazards.look(last,
+                       ego,
+                       state.way.path(),
+                       state.style,
+                       state.swings ? state.swing->swept() : std::span<const SweptWidth>());
     acceleration = std::min(acceleration, state.hazards.acceleration());
     acceleration =
         std::min(acceleration,
@@ -162,7 +174,7 @@ world::Control Autopilot::decide(const world::TickView& last) {
         state.pedals.press(acceleration, ego.speed, state.car, state.step);
     control.mutate_throttle(pedals.throttle);
     control.mutate_brake(pedals.brake);
-    control.mutate_steer(steer(ego, state.way.path()));
+    control.mutate_steer(state.swings ? steer(ego, *state.swing) : steer(ego, state.way.path()));
     control.mutate_lamps(state.lamps(last, ego));
     return control;
 }
@@ -190,6 +202,37 @@ bool Autopilot::State::find_way(Ego& ego) {
     way.extend(ego.front_s(), std::max(shortest_way, braking + braking_reserve));
     way.drop_before(rear_axle_s, way_behind);
     return true;
+}
+
+/// Bends that no steering can follow; those where we turn around are not driven along the path.
+bool Autopilot::State::has_tight_bends() const {
+    const double sharpest =
+        0.9 * std::tan(car.catalogue->max_steering_angle) / car.catalogue->wheelbase;
+    const Path& path = way.path();
+    for (std::size_t i = 0; i < path.points().size(); ++i) {
+        if (std::abs(path.points()[i].curvature) < sharpest)
+            continue;
+        const double s = path.s_of(i);
+        if (std::none_of(way.gates().begin(), way.gates().end(), [&](const Gate& gate) {
+                return gate.turn == world::Turn::around && gate.s - 5 < s && s < gate.exit_s + 5;
+            }))
+            return true;
+    }
+    return false;
+}
+
+/// Bends that need it are planned when the way has changed.
+void Autopilot::State::plan_swing(const Ego& ego) {
+    if (swing_of_way == way.plan() && !(swings && swing->empty()))
+        return;
+    swing_of_way = way.plan();
+    swings = Swing::is_needed(*car.catalogue) || has_tight_bends();
+    if (!swings)
+        return;
+    if (!swing)
+        swing.emplace(*car.catalogue, graph.town(), *lanes);
+    swing->plan(way.path(), ego);
+    swings = !swing->empty();
 }
 
 /// The lane that fits best; not one inside a junction that leads nowhere, where there is another.
@@ -322,14 +365,18 @@ double Autopilot::State::cruise(const Ego& ego) const {
     const Path& path = way.path();
     const double cap = speed_cap.value_or(infinity);
     // A glance ahead makes up for the tick's delay.
-    const double s = ego.rear_axle_s + ego.model->wheelbase / 2 + ego.speed * step;
-    const PathPoint here = path.at(s);
-    const double allowed = std::sqrt(here.squared_speed);
+    const double middle = ego.model->wheelbase / 2;
+    const double s = ego.rear_axle_s + middle + ego.speed * step;
+    const auto squared_speed = [&](double at) {
+        const double most = path.at(at).squared_speed;
+        return swings ? std::min(most, swing->at(at - middle).squared_speed) : most;
+    };
+    const double here = squared_speed(s);
+    const double allowed = std::sqrt(here);
     double acceleration = speed_gain * (std::min(allowed, cap) - ego.speed);
     if (allowed < cap && ego.speed > allowed - 1) {
-        const PathPoint next = path.at(s + 1);
-        acceleration += std::clamp(
-            (next.squared_speed - here.squared_speed) / 2, -style.comfortable_braking, 0.0);
+        acceleration +=
+            std::clamp((squared_speed(s + 1) - here) / 2, -style.comfortable_braking, 0.0);
     }
     acceleration = std::clamp(acceleration, -4.0, style.acceleration);
     if (way.ended())
@@ -432,6 +479,9 @@ std::uint64_t Autopilot::digest() const {
     hasher.add(state.speed_cap.value_or(-1));  // a cap is never negative
     hasher.add(state.rear_axle_s);
     hasher.add(state.waiting_ticks);
+    hasher.add(state.swings);
+    if (state.swings)
+        state.swing->add_to(hasher);
     hasher.add(state.on_way);
     return hasher.digest64();
 }

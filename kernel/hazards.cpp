@@ -98,12 +98,26 @@ void Hazards::make_corridor(const Ego& ego, const Path& path) {
         if (i >= last)
             break;
     }
+    if (!swept_.empty())
+        for (std::size_t i = coarse_index_.front(); i <= last; ++i) {
+            const SweptWidth width = corridor_at(i);
+            half_width_ = std::max({half_width_, width.left, width.right});
+        }
+}
+
+/// With the margin beside it.
+SweptWidth Hazards::corridor_at(std::size_t sample) const {
+    if (swept_.empty())
+        return {half_width_, half_width_};
+    return {swept_[sample].left + side_margin, swept_[sample].right + side_margin};
 }
 
 void Hazards::look(const world::TickView& last,
                    const Ego& ego,
                    const Path& path,
-                   const DrivingStyle& style) {
+                   const DrivingStyle& style,
+                   std::span<const SweptWidth> swept) {
+    swept_ = swept;
     overlaps_.clear();
     acceleration_ = infinity;
     if (path.points().size() < 2)
@@ -275,10 +289,14 @@ double Hazards::coarse_distance(const Eigen::Vector2d& p_world) const {
 /// Where along the path the corridor first touches the body, to 2 cm; infinity: nowhere.
 double Hazards::first_contact(const Body& body, const Path& path) const {
     const double reach = body.radius() + half_width_ + 2.1;
-    const auto touches = [&](const Eigen::Vector3d& p, const Eigen::Vector2d& direction) {
-        const Eigen::Vector2d half = half_width_ * Eigen::Vector2d(-direction.y(), direction.x());
-        return std::abs(p.z() - body.z) < storey && body.meets(p.head<2>(), half);
-    };
+    const auto touches =
+        [&](std::size_t sample, const Eigen::Vector3d& p, const Eigen::Vector2d& direction) {
+            const SweptWidth width = corridor_at(sample);
+            const Eigen::Vector2d left(-direction.y(), direction.x());
+            const Eigen::Vector2d middle = p.head<2>() + (width.left - width.right) / 2 * left;
+            const Eigen::Vector2d half = (width.left + width.right) / 2 * left;
+            return std::abs(p.z() - body.z) < storey && body.meets(middle, half);
+        };
     for (std::size_t k = 0; k < coarse_.size(); ++k) {
         if ((coarse_[k] - body.centre).squaredNorm() > reach * reach)
             continue;
@@ -286,7 +304,7 @@ double Hazards::first_contact(const Body& body, const Path& path) const {
         const std::size_t to = coarse_index_[std::min(k + 1, coarse_.size() - 1)];
         for (std::size_t i = from; i <= to; ++i) {
             const PathPoint& point = path.points()[i];
-            if (!touches(point.position, point.direction))
+            if (!touches(i, point.position, point.direction))
                 continue;
             if (i == coarse_index_.front())
                 return path.s_of(i);
@@ -300,7 +318,7 @@ double Hazards::first_contact(const Body& body, const Path& path) const {
                     before.position + middle * (point.position - before.position);
                 const Eigen::Vector2d direction =
                     before.direction + middle * (point.direction - before.direction);
-                (touches(p, direction) ? met : free) = middle;
+                (touches(i, p, direction) ? met : free) = middle;
             }
             return path.s_of(i - 1) + met * Path::spacing;
         }

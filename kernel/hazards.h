@@ -34,11 +34,13 @@ class Hazards {
   public:
     explicit Hazards(const world::TownT& town);
 
-    /// About 5 us with 100 cars. The path must reach as far as the sight.
+    /// About 5 us with 100 cars. The path must reach as far as the sight. `swept`: what a long
+    /// vehicle sweeps, for each sample of the path; empty: the car's width everywhere.
     void look(const world::TickView& last,
               const Ego& ego,
               const Path& path,
-              const DrivingStyle& style);
+              const DrivingStyle& style,
+              std::span<const SweptWidth> swept = {});
 
     /// [m/s^2] the least of what all of them allow; infinity on an empty road.
     double acceleration() const { return acceleration_; }
@@ -51,6 +53,7 @@ class Hazards {
     struct Scene;
 
     void make_corridor(const Ego& ego, const Path& path);
+    SweptWidth corridor_at(std::size_t sample) const;
     void consider(const Body& body, const Scene& scene);
     void foresee(const Body& body, const Scene& scene, double distance);
     bool place_after(const Body& body, double time, Body& moved) const;
@@ -62,7 +65,8 @@ class Hazards {
     std::vector<std::size_t> coarse_index_;
     Eigen::Vector2d low_, high_;
     double sight_start_ = 0;
-    double half_width_ = 0;  ///< of the corridor
+    double half_width_ = 0;              ///< of the corridor, where it is widest
+    std::span<const SweptWidth> swept_;  ///< while looking
     std::vector<Overlap> overlaps_;
     double acceleration_ = std::numeric_limits<double>::infinity();
 };

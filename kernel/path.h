@@ -20,6 +20,12 @@ struct PathPoint {
     double squared_speed = 0;   ///< [m^2/s^2] envelope: limits, curves, and braking towards them
 };
 
+/// How far a vehicle reaches to both sides of a path while it passes there. [m]
+struct SweptWidth {
+    double left = 0;
+    double right = 0;
+};
+
 /// What the envelope of speeds is made of.
 struct PathComfort {
     double lateral_acceleration = 2.5;

@@ -2,6 +2,7 @@
 
 #include "kernel/ego.h"
 #include "kernel/path.h"
+#include "kernel/swing.h"
 
 namespace reprise::kernel {
 
@@ -13,5 +14,8 @@ namespace reprise::kernel {
 /// corner of 6 m the rear axle of a sedan runs 0.7 m inside the front axle's track, and a lane has
 /// no room for all of that on one side.
 double steer(const Ego& ego, const Path& path);
+
+/// As above, for a long vehicle: it tracks the plan of its rear axle.
+double steer(const Ego& ego, const Swing& swing);
 
 }  // namespace reprise::kernel

@@ -92,6 +92,9 @@ class Way {
     /// Does the way end where the path ends (a dead end), or will it go on?
     bool ended() const { return ended_; }
 
+    /// Changes whenever path, gates or changes do.
+    std::uint64_t plan() const { return plan_digest_; }
+
     void add_to(world::Hasher& hasher) const;
 
   private:

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -9,18 +10,21 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/towns.h"
 #include "kernel/kernel.h"
+#include "kernel/swing.h"
 #include "replay/recording.h"
 #include "scripting/scenario.h"
 #include "traffic/town_reader.h"
+#include "world/catalogue.h"
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/planner.h"
 #include "world/random.h"
 
 // Drives routes through an empty town with the built-in driver, and watches it:
-//     drive_routes NAME.net.xml TASKS.json       every pair of every task
-//     drive_routes NAME.net.xml COUNT [SEED]     as many random ways
+//     drive_routes TOWN TASKS.json [--every N]     every pair of every task, or every N-th
+//     drive_routes TOWN COUNT [--seed N]           as many random ways
 // One line for each route that goes wrong, a table, exit status 1 when any did.
 namespace reprise {
 namespace {
@@ -29,6 +33,7 @@ using world::LanePlace;
 using world::TownT;
 
 constexpr double most_off = 0.3;     // share of the footprint on the sidewalk, or on the other side
+constexpr double most_across = 0.6;  // on the other side, of a long vehicle in a tight bend
 constexpr double most_height = 0.5;  // [m] between the car and its lane
 
 struct Pair {
@@ -44,12 +49,15 @@ struct Watch {
     double opposite = 0;  ///< greatest share
     double height = 0;    ///< [m] greatest distance
     double impulse = 0;   ///< [N s] on what stands
+    double most_opposite = most_off;
     bool arrived = false;
     std::string where;  ///< where the first limit was passed, or where it stood in the end
 };
 
-std::vector<Pair> pairs_of(const TownT& town, const std::string& file) {
+/// Every step-th pair of the tasks.
+std::vector<Pair> pairs_of(const TownT& town, const std::string& file, std::size_t step) {
     std::vector<Pair> pairs;
+    std::size_t next = 0;
     const auto place = [&](const nlohmann::json& json) {
         const std::string name = json.at("lane");
         const auto lane = world::find_lane(town, name);
@@ -63,7 +71,8 @@ std::vector<Pair> pairs_of(const TownT& town, const std::string& file) {
     const nlohmann::json all = nlohmann::json::parse(in);
     for (const auto& [task, list] : all.at("tasks").items())
         for (const nlohmann::json& pair : list)
-            pairs.push_back({task, place(pair.at("start")), place(pair.at("goal"))});
+            if (next++ % step == 0)
+                pairs.push_back({task, place(pair.at("start")), place(pair.at("goal"))});
     return pairs;
 }
 
@@ -97,7 +106,8 @@ std::vector<Pair> random_pairs(const TownT& town, int count, std::uint64_t seed)
 
 replay::Recording recording_of(const traffic::Network& network,
                                const TownT& town,
-                               const Pair& pair) {
+                               const Pair& pair,
+                               const std::string& model) {
     const auto number = [](double value) { return fmt::format("{}", value); };
     replay::Recording recording;
     recording.episode =
@@ -105,7 +115,8 @@ replay::Recording recording_of(const traffic::Network& network,
                                 {{},
                                  {},
                                  {},
-                                 {{"start", town.lanes[pair.from.lane].name},
+                                 {{"model", model},
+                                  {"start", town.lanes[pair.from.lane].name},
                                   {"s", number(pair.from.s)},
                                   {"goal", town.lanes[pair.to.lane].name},
                                   {"goal_s", number(pair.to.s)}}});
@@ -128,6 +139,11 @@ bool may_turn_around(const TownT& town, std::uint32_t lane, double s) {
     return s < around && here.opposite < town.lanes.size() && has_turn(here.opposite);
 }
 
+bool keeps_to_the_road(const Watch& watch) {
+    return watch.sidewalk <= most_off && watch.opposite <= watch.most_opposite &&
+           watch.height <= most_height && watch.impulse <= 0;
+}
+
 void look(const TownT& town, const world::Tick& tick, Watch& watch) {
     if (tick.vehicles()->size() == 0)
         return;
@@ -141,8 +157,7 @@ void look(const TownT& town, const world::Tick& tick, Watch& watch) {
         height =
             std::abs(ego.position().z() - world::point_at(under, measured.lane_s()).position.z());
     }
-    const bool fine = watch.sidewalk <= most_off && watch.opposite <= most_off &&
-                      watch.height <= most_height && watch.impulse <= 0;
+    const bool fine = keeps_to_the_road(watch);
     watch.sidewalk = std::max(watch.sidewalk, measured.on_sidewalk());
     if (measured.lane() == world::none ||
         !may_turn_around(town, measured.lane(), measured.lane_s()))
@@ -153,10 +168,16 @@ void look(const TownT& town, const world::Tick& tick, Watch& watch) {
         watch.where = lane;
 }
 
-Watch drive(const traffic::Network& network, const TownT& town, const Pair& pair) {
+Watch drive(const traffic::Network& network,
+            const TownT& town,
+            const Pair& pair,
+            const std::string& model) {
     Watch watch;
     watch.length = world::Planner(town).plan(pair.from, pair.to)->length;
-    const replay::Recording recording = recording_of(network, town, pair);
+    const auto index = world::find_vehicle_model(model);
+    if (index && kernel::Swing::is_needed(world::vehicle_models()[*index]))
+        watch.most_opposite = most_across;
+    const replay::Recording recording = recording_of(network, town, pair, model);
     kernel::Kernel kernel(recording);
     std::uint64_t ticks = 0;
     while (!kernel.finished()) {
@@ -170,8 +191,7 @@ Watch drive(const traffic::Network& network, const TownT& town, const Pair& pair
 }
 
 bool is_fine(const Watch& watch) {
-    return watch.arrived && watch.sidewalk <= most_off && watch.opposite <= most_off &&
-           watch.height <= most_height && watch.impulse <= 0;
+    return watch.arrived && keeps_to_the_road(watch);
 }
 
 /// Worst of all ways of a task.
@@ -199,13 +219,16 @@ void print_row(const std::string& task, const std::vector<Watch>& ways) {
                most(&Watch::height));
 }
 
-bool drive_all(const traffic::Network& network, const TownT& town, const std::vector<Pair>& pairs) {
+bool drive_all(const traffic::Network& network,
+               const TownT& town,
+               const std::vector<Pair>& pairs,
+               const std::string& model) {
     bool fine = true;
     std::vector<Watch> ways;
     fmt::print("{:<12} ways  fine   mean m     km/h  sidewalk  opposite height m\n", town.name);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const Pair& pair = pairs[i];
-        ways.push_back(drive(network, town, pair));
+        ways.push_back(drive(network, town, pair, model));
         const Watch& watch = ways.back();
         if (!is_fine(watch)) {
             fine = false;
@@ -235,21 +258,26 @@ bool drive_all(const traffic::Network& network, const TownT& town, const std::ve
 }  // namespace reprise
 
 int main(int count, char** words) {
-    if (count != 3 && count != 4) {
-        std::cerr << "drive_routes NAME.net.xml TASKS.json|COUNT [SEED]\n";
-        return 2;
-    }
+    std::string town_name;
+    std::string what;
+    std::string model = "sedan";
+    std::uint64_t seed = 7;
+    std::size_t every = 1;
+    CLI::App app("Drives routes through an empty town with the built-in driver, and watches it");
+    app.add_option("town", town_name, "A town as reprise run --town takes it")->required();
+    app.add_option("what", what, "TASKS.json, or how many random ways")->required();
+    app.add_option("--model", model, "Of the vehicle")->capture_default_str();
+    app.add_option("--seed", seed, "Of random ways")->capture_default_str();
+    app.add_option("--every", every, "Only every N-th pair of the tasks")
+        ->check(CLI::PositiveNumber);
+    CLI11_PARSE(app, count, words);
     try {
-        const auto network = reprise::traffic::load_network(words[1]);
+        const auto network = reprise::cli::load_town(town_name);
         const auto town = reprise::traffic::read_town(network);
-        const std::string_view what = words[2];
-        const bool random = what.find_first_not_of("0123456789") == std::string_view::npos;
-        const auto pairs =
-            random ? reprise::random_pairs(town,
-                                           std::atoi(words[2]),
-                                           count == 4 ? std::strtoull(words[3], nullptr, 10) : 7)
-                   : reprise::pairs_of(town, words[2]);
-        return reprise::drive_all(network, town, pairs) ? 0 : 1;
+        const bool random = what.find_first_not_of("0123456789") == std::string::npos;
+        const auto pairs = random ? reprise::random_pairs(town, std::stoi(what), seed)
+                                  : reprise::pairs_of(town, what, every);
+        return reprise::drive_all(network, town, pairs, model) ? 0 : 1;
     } catch (const std::exception& error) {
         std::cerr << error.what() << "\n";
         return 2;
