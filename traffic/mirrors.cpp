@@ -10,6 +10,7 @@
 #include "traffic/sumo.h"
 #include "world/catalogue.h"
 #include "world/frames.h"
+#include "world/plan.h"
 
 namespace reprise::traffic {
 
@@ -47,10 +48,26 @@ Mirrors::Mirrors(const world::TownT& town,
     : town_(&town),
       lanes_(&lanes),
       graph_(&graph),
-      step_(step) {}
+      step_(step),
+      after_short_(lanes_after_short_ones(town, graph)) {
+    for (const world::LaneT& lane : town.lanes)
+        if (is_dead_end(lane))
+            dead_ends_.push_back(world::in_plan(lane.centre.back()));
+}
 
 void Mirrors::forget(std::uint32_t id) {
     std::erase_if(mirrors_, [id](const Mirror& mirror) { return mirror.id == id; });
+}
+
+/// How far from a lane's centre line a front still belongs to it. [m] A vehicle that turns around
+/// at a dead end swings out widely, and is in everybody's way all the while.
+double Mirrors::reach_at(const Eigen::Vector3d& front) const {
+    constexpr double turning_head = 12;
+    constexpr double reach_of_swings = 8;
+    const bool swings = std::any_of(dead_ends_.begin(), dead_ends_.end(), [&](const auto& end) {
+        return (end - front.head<2>()).squaredNorm() < turning_head * turning_head;
+    });
+    return swings ? reach_of_swings : reach;
 }
 
 Mirrors::Target Mirrors::target_of(const world::VehicleState& vehicle) const {
@@ -61,9 +78,15 @@ Mirrors::Target Mirrors::target_of(const world::VehicleState& vehicle) const {
     const double ahead = origin_to_front(vehicle.model());
     const Eigen::Vector3d front = origin + ahead * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0);
     Target target{front.x(), front.y(), sumo_angle_deg(yaw)};
-    if (const auto found = lanes_->best(front, yaw, reach)) {
+    if (const auto found = lanes_->best(front, yaw, reach_at(front))) {
         const world::LaneT& lane = town_->lanes[found->lane];
         target.lane = found->lane;
+        if (found->at.distance > reach) {  // SUMO would not take it for on the road
+            const world::LanePoint on_lane = world::point_at(lane, found->at.s);
+            target.x = on_lane.position.x();
+            target.y = on_lane.position.y();
+            target.angle_deg = sumo_angle_deg(on_lane.yaw);
+        }
         target.lane_position = found->at.s / lane.length * lane.sumo_length;
     }
     return target;
@@ -179,8 +202,39 @@ void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Tar
         mirror.lamps = 0xffff;
 }
 
-/// SUMO sorts a lane's vehicles when they enter it, and a moved one keeps its place in that order:
-/// one that passes others on their own lane must enter it again, or its followers would not see it.
+/// Inside a junction SUMO 1.15 puts a moved vehicle at its new position, but leaves the list of
+/// lanes behind that its tail lies on as it was, until the next step has moved everybody. When the
+/// tail has passed a whole lane of that list at once, those who look there for the tail make SUMO
+/// abort (an assertion of MSVehicle::getBackPositionOnLane). So then the vehicle enters its lane
+/// anew before the step, which makes the list again. Moved to the lane that it is on it would only
+/// get the position: it goes by way of the edge before, which leaves its route as it is. Not
+/// oftener than needed: for a tick its speed, to SUMO, is that of a jump to its place beside the
+/// centre line.
+void Mirrors::enter_again(const Mirror& mirror, const world::VehicleState& vehicle) const {
+    using libsumo::Vehicle;
+    if (after_short_.empty())
+        return;
+    const auto here = after_short_.find(Vehicle::getLaneID(mirror.sumo));
+    if (here == after_short_.end())
+        return;
+    const AfterShort& after = here->second;
+    const double position = Vehicle::getLanePosition(mirror.sumo);
+    const double tail = position - world::vehicle_models()[vehicle.model()].length;
+    // The measures of the lanes differ from what is driven, by less than as much again.
+    const double just = 0.1 + 2 * step_ * world::to_eigen(vehicle.velocity()).norm();
+    if (std::none_of(after.ends.begin(), after.ends.end(), [tail, just](double end) {
+            return tail > -end && tail < -end + just;
+        }))
+        return;
+    const std::uint32_t before = graph_->edge(graph_->edge_of(after.lane)).lanes.front();
+    Vehicle::moveTo(mirror.sumo, town_->lanes[before].name, 0);
+    Vehicle::moveTo(mirror.sumo, here->first, position);
+}
+
+/// SUMO sorts a lane's vehicles when they enter it, and a moved one keeps its place in that order.
+/// One that comes abreast of others on their own lane gets its new place before the step, so that
+/// they look at that one. It does not enter anew: on the lane that it is on, it only gets the
+/// place.
 void Mirrors::keep_order(const Mirror& mirror,
                          const Target& target,
                          std::span<const Car> cars) const {
@@ -206,6 +260,7 @@ void Mirrors::advance(const world::TickView& last, std::span<const Car> cars) {
         const Target target = target_of(vehicle);
         Mirror& mirror = find_or_add(vehicle, target);
         try {
+            enter_again(mirror, vehicle);
             move(mirror, vehicle, target);
             if (mirror.edge != world::none)
                 keep_order(mirror, target, cars);

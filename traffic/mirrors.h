@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "traffic/after_short.h"
 #include "traffic/car.h"
 #include "traffic/road_graph.h"
 #include "world/digest.h"
@@ -55,7 +57,9 @@ class Mirrors {
 
     Mirror& find_or_add(const world::VehicleState& vehicle, const Target& target);
     Target target_of(const world::VehicleState& vehicle) const;
+    double reach_at(const Eigen::Vector3d& front) const;
     void move(Mirror& mirror, const world::VehicleState& vehicle, const Target& target);
+    void enter_again(const Mirror& mirror, const world::VehicleState& vehicle) const;
     void keep_order(const Mirror& mirror, const Target& target, std::span<const Car> cars) const;
     std::vector<std::uint32_t> likely_way(std::uint32_t lane, std::uint16_t lamps) const;
 
@@ -63,6 +67,8 @@ class Mirrors {
     const world::LaneMap* lanes_;
     const RoadGraph* graph_;
     double step_;
+    std::map<std::string, AfterShort> after_short_;  ///< by SUMO's name of the lane
+    std::vector<Eigen::Vector2d> dead_ends_;
     std::vector<Mirror> mirrors_;  ///< sorted by id
     std::uint32_t added_ = 0;      ///< names of routes are never used again
 };

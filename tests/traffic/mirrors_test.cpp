@@ -1,12 +1,15 @@
 #include "traffic/mirrors.h"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "tests/support/worlds.h"
 #include "tests/traffic/stage.h"
+#include "traffic/child_program.h"
 #include "world/catalogue.h"
 
 namespace reprise::traffic {
@@ -120,6 +123,78 @@ TEST(Mirrors, AVehicleMayGoAndComeBack) {
     stage.step({spawn(follower, road, 20, 10)});
     stage.steps(120);
     EXPECT_GT(stage.car(follower)->lane_s(), 60.0F + static_cast<float>(sedan_front()));
+}
+
+/// The network that netconvert makes of these nodes and edges.
+test::Loaded converted(const std::string& name, const char* nodes, const char* edges) {
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / name;
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "nodes.xml") << nodes;
+    std::ofstream(folder / "edges.xml") << edges;
+    const std::string output = name + ".net.xml";
+    const ProgramResult made = run_program(
+        "netconvert", {"-X", "never", "-n", "nodes.xml", "-e", "edges.xml", "-o", output}, folder);
+    EXPECT_EQ(made.code, 0) << made.said;
+    return test::load(folder / output);
+}
+
+/// A road along x with two junctions, and an edge of 10 cm between them.
+test::Loaded road_with_a_tiny_edge() {
+    return converted("tiny",
+                     R"(<nodes> <node id="a" x="0" y="0"/> <node id="b" x="150" y="0"/>
+        <node id="c" x="162" y="0"/> <node id="d" x="320" y="0"/> <node id="n" x="150" y="100"/>
+        <node id="s" x="162" y="-100"/> </nodes>)",
+                     R"(<edges> <edge id="ab" from="a" to="b"/> <edge id="bc" from="b" to="c"/>
+        <edge id="cd" from="c" to="d"/> <edge id="nb" from="n" to="b"/>
+        <edge id="bn" from="b" to="n"/> <edge id="sc" from="s" to="c"/>
+        <edge id="cs" from="c" to="s"/> </edges>)");
+}
+
+TEST(Mirrors, ATailOverATinyEdgeIsSeenAllTheWay) {
+    const test::Loaded loaded = road_with_a_tiny_edge();
+    const std::uint32_t road = lane(loaded.town, "ab_0");
+    const double y = loaded.town.lanes[road].centre.front().y();
+    const double length = world::vehicle_models()[0].length;
+    // The tail leaves the tiny edge in a tick. The follower stands up right behind, so that it
+    // always looks for the ego's tail.
+    const double speed = 8;
+    ASSERT_LT(loaded.town.lanes[lane(loaded.town, "bc_0")].sumo_length, speed * 0.05);
+    double x = 100;
+    auto ego_now = [&] { return test::vehicle_at(ego, x, y, 0, speed); };
+    Stage stage(loaded, 0);
+    stage.step({}, {ego_now()});
+    stage.step({spawn(follower, road, 85, speed)}, {ego_now()});
+    for (int i = 0; i < 300; ++i) {
+        x += speed * 0.05;
+        stage.step({}, {ego_now()});
+        const world::CarState* car = stage.car(follower);
+        ASSERT_NE(car, nullptr);
+        const double gap = x - (length - sedan_front()) - (car->position().x() + sedan_front());
+        ASSERT_GT(gap, 1) << "with the ego at " << x;
+        ASSERT_LT(gap, 20) << "with the ego at " << x;
+    }
+    EXPECT_GT(x, 200) << "behind both junctions";
+}
+
+TEST(Mirrors, WhoSwingsAroundAtADeadEndIsSeen) {
+    const test::Loaded loaded = converted(
+        "street",
+        R"(<nodes> <node id="a" x="0" y="0"/> <node id="b" x="200" y="0"/> </nodes>)",
+        R"(<edges> <edge id="ab" from="a" to="b"/> <edge id="ba" from="b" to="a"/> </edges>)");
+    const std::uint32_t road = lane(loaded.town, "ab_0");
+    ASSERT_TRUE(is_dead_end(loaded.town.lanes[road]));
+    // Halfway around at full lock: beyond the road's end, its front 5 m from the nearest lane.
+    const world::Vec3& end = loaded.town.lanes[road].centre.back();
+    const world::VehicleState across = test::vehicle_at(ego, end.x() + 4.1, end.y() + 4.1, 1.7, 0);
+    Stage stage(loaded, 0);
+    stage.step({}, {across});
+    stage.step({spawn(follower, road, 100, 10)}, {across});
+    for (int i = 0; i < 600; ++i)
+        stage.step({}, {across});
+    const world::CarState* car = stage.car(follower);
+    ASSERT_NE(car, nullptr);
+    EXPECT_EQ(car->lane(), road) << "it waits for its turn";
+    EXPECT_LT(car->speed(), 0.01F);
 }
 
 TEST(Mirrors, RunsWithMirrorsAreRepeatable) {
