@@ -22,6 +22,7 @@ Material ground_material(world::Surface surface) {
         case world::Surface::sidewalk:
             return Material::pavement;
         case world::Surface::kerb:
+        case world::Surface::deck:
             return Material::kerb;
         case world::Surface::marking:
             return Material::marking;

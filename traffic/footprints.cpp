@@ -18,16 +18,10 @@
 #include <boost/geometry/geometries/polygon.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <cmath>
-#include <fmt/format.h>
-#include <fstream>
 #include <optional>
-#include <pugixml.hpp>
 #include <vector>
 
 #include "traffic/map_area.h"
-#include "traffic/netconvert.h"
-#include "traffic/network_xml.h"
-#include "world/check.h"
 #include "world/digest.h"
 
 namespace reprise::traffic {
@@ -51,57 +45,11 @@ struct Area {
     Polygon outline;
 };
 
-constexpr const char* wanted_keys = R"(<polygonTypes>
-<polygonType id="building" name="building"/>
-<polygonType id="leisure" name="leisure"/>
-<polygonType id="landuse" name="landuse"/>
-<polygonType id="natural" name="natural"/>
-<polygonType id="waterway" name="waterway"/>
-<polygonType id="amenity" name="amenity"/>
-<polygonType id="place" name="place"/>
-<polygonType id="highway.pedestrian" name="highway"/>
-</polygonTypes>
-)";
-
-/// Asks polyconvert for the areas; sorted by id, closed ones only.
-std::vector<Area> read_areas(const std::string& map,
-                             const std::string& network,
-                             const std::filesystem::path& scratch) {
-    std::ofstream(scratch / "areas.typ.xml") << wanted_keys;
-    const double box = neighbourhood + 50;
-    run_sumo_tool("polyconvert",
-                  {"--net-file",
-                   network,
-                   "--osm-files",
-                   map,
-                   "--type-file",
-                   "areas.typ.xml",
-                   "--discard",
-                   "--all-attributes",
-                   "--osm.keep-full-type",
-                   "--prune.in-net",
-                   "--prune.in-net.offsets",
-                   fmt::format("{0},{0},{0},{0}", box),
-                   "--precision",
-                   "3",
-                   "--output-file",
-                   "areas.xml"},
-                  scratch,
-                  map);
-    pugi::xml_document document;
-    if (!document.load_file((scratch / "areas.xml").c_str()))
-        throw world::Error(map + ": polyconvert wrote no areas");
+std::vector<Area> to_areas(const std::vector<MapShape>& shapes) {
     std::vector<Area> areas;
-    for (const pugi::xml_node poly : document.document_element().children("poly")) {
-        Area area;
-        area.id = poly.attribute("id").value();
-        for (const pugi::xml_node param : poly.children("param"))
-            area.tags[param.attribute("key").value()] = param.attribute("value").value();
-        const std::vector<world::Vec3> shape = parse_shape(poly.attribute("shape").value());
-        const bool closed = shape.size() >= 4 && shape.front() == shape.back();
-        if (!closed || (!is_building(area.tags) && !plot_kind(area.tags)))
-            continue;
-        for (const world::Vec3& point : shape)
+    for (const MapShape& shape : shapes) {
+        Area area{shape.id, shape.tags, {}};
+        for (const world::Vec3& point : shape.line)
             area.outline.outer().emplace_back(point.x(), point.y());
         bg::correct(area.outline);
         areas.push_back(std::move(area));
@@ -109,8 +57,9 @@ std::vector<Area> read_areas(const std::string& map,
     return areas;
 }
 
-/// polyconvert gives the inner rings of a multipolygon as areas with the same tags.
-void drop_courtyards(std::vector<Area>& areas) {
+/// polyconvert gives the inner rings of a multipolygon as areas with the same tags. Returns how
+/// many of them are courtyards of buildings.
+int drop_courtyards(std::vector<Area>& areas) {
     const auto is_ring = [](const Area& area) {
         const auto type = area.tags.find("type");
         return type != area.tags.end() && type->second == "multipolygon";
@@ -123,10 +72,14 @@ void drop_courtyards(std::vector<Area>& areas) {
                 bg::covered_by(areas[i].outline.outer().front(), areas[j].outline))
                 inner[i] = true;
     std::vector<Area> kept;
+    int courtyards = 0;
     for (std::size_t i = 0; i < areas.size(); ++i)
         if (!inner[i])
             kept.push_back(std::move(areas[i]));
+        else
+            courtyards += is_building(areas[i].tags) ? 1 : 0;
     areas = std::move(kept);
+    return courtyards;
 }
 
 Line centre_of(const world::LaneT& lane) {
@@ -249,14 +202,12 @@ void place_plot(const Area& area, const Box& box, Place& place, FootprintReport&
 
 }  // namespace
 
-FootprintReport place_footprints(const std::string& map,
-                                 const std::string& network,
+FootprintReport place_footprints(const std::vector<MapShape>& shapes,
                                  const world::TownT& roads,
-                                 const std::filesystem::path& scratch,
                                  Place& place) {
     FootprintReport report;
-    std::vector<Area> areas = read_areas(map, network, scratch);
-    drop_courtyards(areas);
+    std::vector<Area> areas = to_areas(shapes);
+    report.filled = drop_courtyards(areas);
     // Large areas first: smaller ones lie over them.
     std::stable_sort(areas.begin(), areas.end(), [](const Area& left, const Area& right) {
         return bg::area(left.outline) > bg::area(right.outline);

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <filesystem>
+#include <vector>
 
+#include "traffic/map_shapes.h"
 #include "traffic/place.h"
 
 namespace reprise::traffic {
@@ -12,18 +13,15 @@ struct FootprintReport {
     int plots = 0;      ///< placed
     int cut = 0;        ///< buildings that were cut back to the edge of a road
     int on_roads = 0;   ///< buildings left out: they stand on a road
+    int filled = 0;     ///< courtyards (inner rings) that were built over: outlines have no holes
     int broken = 0;     ///< areas left out: their outline crosses itself, or has no area
 };
 
-/// Adds the buildings and the parks, waters, woods and car parks of a map to the place, as far as
-/// they lie within 300 m of a road. SUMO's polyconvert reads and projects them: the same way as
-/// netconvert did with the roads. Heights are those of the map (height, building:levels), or usual
-/// ones for the kind. `map` and `network` are files in the folder `scratch`; `roads` is what was
-/// read out of the network. Throws world::Error when polyconvert fails.
-FootprintReport place_footprints(const std::string& map,
-                                 const std::string& network,
+/// Adds the buildings and the parks, waters, woods and car parks among `areas` to the place, as far
+/// as they lie within 300 m of a road. Heights are those of the map (height, building:levels), or
+/// usual ones for the kind. `roads` is what was read out of the network.
+FootprintReport place_footprints(const std::vector<MapShape>& areas,
                                  const world::TownT& roads,
-                                 const std::filesystem::path& scratch,
                                  Place& place);
 
 }  // namespace reprise::traffic

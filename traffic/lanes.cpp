@@ -113,11 +113,6 @@ void read_geometry(const pugi::xml_node& lane_xml, LaneT& lane) {
         lane.sumo_length = lane.length;
 }
 
-/// ":b1_c0" lies in junction "b1".
-std::string junction_around(const std::string& edge) {
-    return edge.substr(1, edge.rfind('_') - 1);
-}
-
 std::uint32_t find_junction(const TownT& town, const std::string& name) {
     const auto found = std::lower_bound(town.junctions.begin(),
                                         town.junctions.end(),

@@ -114,7 +114,6 @@ std::vector<std::string> openstreetmap_words(const std::string& file, bool left_
         "--tls.discard-simple",
         "--keep-edges.by-vclass",
         "passenger,pedestrian",
-        "--remove-edges.isolated",
         "--geometry.remove",
         "--osm.sidewalks",
         "--crossings.guess",

@@ -76,6 +76,10 @@ std::vector<world::Vec3> parse_shape(std::string_view text) {
     return points;
 }
 
+std::string junction_around(const std::string& edge) {
+    return edge.substr(1, edge.rfind('_') - 1);
+}
+
 std::size_t line_of(std::string_view text, std::size_t offset) {
     const std::string_view before = text.substr(0, std::min(offset, text.size()));
     return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));

@@ -32,6 +32,9 @@ double number(std::string_view text, double fallback);
 /// by point). Points nearer than 1 mm to the one before are dropped.
 std::vector<world::Vec3> parse_shape(std::string_view text);
 
+/// The junction around an internal edge: ":b1_c0" lies in junction "b1".
+std::string junction_around(const std::string& edge);
+
 /// Line of a byte, counted from 1.
 std::size_t line_of(std::string_view text, std::size_t offset);
 

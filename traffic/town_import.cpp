@@ -16,6 +16,7 @@
 #include "traffic/map_source.h"
 #include "traffic/netconvert.h"
 #include "traffic/opendrive.h"
+#include "traffic/raise_roads.h"
 #include "traffic/right_of_way.h"
 #include "traffic/signal_sites.h"
 #include "traffic/town_reader.h"
@@ -178,12 +179,16 @@ class Import {
         std::vector<std::string> words = openstreetmap_words("map.osm", wish.left_hand);
         if (wish.guess_sidewalks)
             words.emplace_back("--sidewalks.guess");
+        // Each road says which ways it was made of: bridges and signs are looked up by that.
+        words.emplace_back("--output.original-names");
         convert(words);
         const ImportedRoads roads = read_roads(network, map_);
         if (roads.town.lanes.empty())
             return;  // a clearer word is said when the network is read
+        const MapShapes shapes = read_shapes("map.osm", made, work_);
+        raise(shapes);
         Place found;
-        const FootprintReport areas = place_footprints("map.osm", made, roads.town, work_, found);
+        const FootprintReport areas = place_footprints(shapes.areas, roads.town, found);
         say("buildings: {} with their own footprints; {} cut back to the edge of a road, {} left "
             "out "
             "that stand on one",
@@ -191,9 +196,31 @@ class Import {
             areas.cut,
             areas.on_roads);
         say("parks, waters, woods and the like: {}", areas.plots);
+        if (areas.filled > 0)
+            say("courtyards: {} were built over; outlines of buildings have no holes here",
+                areas.filled);
         if (areas.broken > 0)
             say("lost: {} areas whose outline crosses itself", areas.broken);
         place = place_xml(found);
+    }
+
+    /// netconvert's own heights (--osm.layer-elevation) reach as far as the next junction at most,
+    /// and leave everything beyond a bridge up.
+    void raise(const MapShapes& shapes) {
+        const RaisedRoads raised = raise_roads(network, shapes.ways);
+        if (shapes.ways.empty())
+            return;
+        say("bridges and tunnels: {} ways in the map; {} places where a road passes over another; "
+            "{:.2f} km of road raised or lowered for it, the steepest {:.0f} %",
+            shapes.ways.size(),
+            raised.crossings,
+            raised.length / 1000,
+            100 * raised.steepest);
+        if (raised.steep > 0)
+            say("steep: {} roads for cars have ramps of more than 12 %: there is no room for "
+                "longer "
+                "ones",
+                raised.steep);
     }
 
     void from_network(const TownImport& wish) {

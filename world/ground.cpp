@@ -1,14 +1,16 @@
 // Must: give every lane and every path through a junction a road surface at its own height.
 // Assumes: centre lines of at least two points; nothing of junction outlines.
 // Goes: lanes are ribbons; a junction is the union of its outline and of the swaths of its internal
-//   lanes (real outlines leave holes under turning cars), less its crossings; then slabs.cpp, and
-//   terrain.cpp under it all. Everything is local, never one map in plan: bridges keep their level.
+//   lanes (real outlines leave holes under turning cars), less its crossings; then slabs.cpp,
+//   terrain.cpp under it all, and decks.cpp where something hangs over it. Everything is local,
+//   never one map in plan: bridges keep their level.
 // Keeps: surfaces of the same level meet or overlap at the same height; there are no cracks.
 #include "world/ground.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "world/decks.h"
 #include "world/ground_builder.h"
 #include "world/junction_surface.h"
 #include "world/polygons.h"
@@ -105,6 +107,7 @@ GroundMesh build_ground(const TownT& town) {
     add_junctions(town, ground);
     add_slabs(town, ground);
     add_terrain(town, ground);
+    add_decks(town, ground);
     return ground.take();
 }
 

@@ -17,7 +17,8 @@ enum class Surface : std::uint8_t {
     crossing,  ///< zebra crossings: road surface with stripes, no height of its own
     sidewalk,  ///< 15 cm above the road
     kerb,      ///< the vertical faces between road and sidewalk
-    marking    ///< painted lines, 5 mm above the road: for eyes only, not for wheels
+    marking,   ///< painted lines, 5 mm above the road: for eyes only, not for wheels
+    deck       ///< sides and undersides of bridges
 };
 
 /// Triangles, counter-clockwise seen from above. World frame, metres.

@@ -112,4 +112,13 @@ void GroundBuilder::add_wall(const Eigen::Vector3d& from,
     add_triangle(from + down, to + up, from + up, surface);
 }
 
+void GroundBuilder::add_ceiling(std::vector<Eigen::Vector3d> corners,
+                                double depth,
+                                Surface surface) {
+    for (Eigen::Vector3d& corner : corners)
+        corner.z() -= depth;
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+        add_triangle(corners[0], corners[i + 1], corners[i], surface);
+}
+
 }  // namespace reprise::world

@@ -30,6 +30,9 @@ class GroundBuilder {
                   double top,
                   Surface surface);
 
+    /// A polygon that is counter-clockwise seen from above, `depth` metres lower, facing down.
+    void add_ceiling(std::vector<Eigen::Vector3d> corners, double depth, Surface surface);
+
     const GroundMesh& mesh() const { return mesh_; }
 
     GroundMesh take() { return std::move(mesh_); }

@@ -56,7 +56,7 @@ std::optional<GroundProbe::Hit> GroundProbe::below(const Eigen::Vector3d& from_w
     std::optional<Hit> highest;
     for (const std::uint32_t triangle : by_place_.near(place)) {
         const Surface surface = mesh_->surfaces[triangle];
-        if (surface == Surface::kerb || surface == Surface::marking)
+        if (surface == Surface::kerb || surface == Surface::marking || surface == Surface::deck)
             continue;
         const std::optional<double> z = height_at(*mesh_, triangle, p);
         if (z && *z <= from_world.z() && (!highest || *z > highest->z))

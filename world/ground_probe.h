@@ -21,7 +21,8 @@ class GroundProbe {
     };
 
     /// The highest ground at `from_world` or straight below it. Kerb faces, which have no area
-    /// from above, and painted lines do not count. None: a hole, or beyond the town's terrain.
+    /// from above, painted lines and what holds bridges up do not count. None: a hole, or beyond
+    /// the town's terrain.
     std::optional<Hit> below(const Eigen::Vector3d& from_world) const;
 
     /// Triangles whose box in plan may touch `box`; some beside it, too. Ascending.

@@ -104,8 +104,24 @@ TEST_F(Imports, AStreetMapBecomesATown) {
     EXPECT_LE(fastest, 13.9);
 }
 
+TEST_F(Imports, AStreetByItselfIsATown) {
+    const fs::path map = write("lone.osm",
+                               "<osm version=\"0.6\">"
+                               "<node id=\"1\" lat=\"52.0\" lon=\"1.0\"/>"
+                               "<node id=\"2\" lat=\"52.0\" lon=\"1.00146\"/>"
+                               "<way id=\"3\"><nd ref=\"1\"/><nd ref=\"2\"/>"
+                               "<tag k=\"highway\" v=\"residential\"/></way></osm>");
+    import_town({map, "", false, false}, empty("t"));
+    const world::TownT town = read_town(load_network(folder_ / "t/lone.net.xml"));
+    const auto driving = std::count_if(town.lanes.begin(), town.lanes.end(), [](const auto& lane) {
+        return lane.kind == LaneKind::driving;
+    });
+    EXPECT_EQ(driving, 2) << "one each way";
+}
+
 TEST_F(Imports, FootprintsKeepTheirPlaceAndHeight) {
-    import_town({village(), "", false, false}, empty("t"));
+    const std::string report = import_town({village(), "", false, false}, empty("t"));
+    EXPECT_THAT(report, HasSubstr("courtyards: 1 were built over"));
     const Place place = read_place(bytes(folder_ / "t/village.place.xml"), "village.place.xml");
     // One lies 2 km away, one is the courtyard of another.
     ASSERT_EQ(place.buildings.size(), 7U);

@@ -1,5 +1,6 @@
 #include "world/ground.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -69,16 +70,47 @@ void expect_well_formed(const GroundMesh& mesh) {
             ASSERT_LT(vertex, mesh.vertices.size());
         const Eigen::Vector3d normal = normal_of(mesh, i);
         EXPECT_GT(normal.norm() / 2, 1e-8) << "triangle " << i;
-        if (mesh.surfaces[i] == Surface::kerb)
+        if (mesh.surfaces[i] == Surface::kerb) {
             EXPECT_NEAR(normal.normalized().z(), 0, 1e-9) << "triangle " << i;
-        else
+        } else if (mesh.surfaces[i] == Surface::deck) {
+            EXPECT_LT(normal.normalized().z(), 0.01) << "triangle " << i;
+        } else {
             EXPECT_GT(normal.z(), 0) << "triangle " << i;
+        }
     }
 }
 
 Surface surface_at(const GroundMesh& mesh, double x, double y, double z = 0) {
     const auto hit = plumb(mesh, {x, y, z + 1});
     return hit ? hit->surface : Surface::marking;
+}
+
+TEST(Ground, BridgesHaveSidesAndUndersidesClearOfTheRoadBelow) {
+    const GroundMesh mesh = world::build_ground(test::bridge());
+    double lowest = 100;
+    double underside = 0;  // [m2] that faces down
+    double sides = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (mesh.surfaces[i] != Surface::deck)
+            continue;
+        const auto& [first, second, third] = mesh.triangles[i];
+        const Eigen::Vector3d& p = mesh.vertices[first];
+        const Eigen::Vector3d twice = (mesh.vertices[second] - p).cross(mesh.vertices[third] - p);
+        lowest = std::min(lowest, p.z());
+        underside += std::max(0.0, -twice.z()) / 2;
+        sides += twice.head<2>().norm() / 2;
+    }
+    EXPECT_NEAR(lowest, 6 - 0.8, 1e-9);
+    // Over the lower road at least; a lane of 3.5 m, so that the sides tell the same length.
+    EXPECT_GT(underside, 3.5 * 3.5);
+    EXPECT_NEAR(sides / (2 * 0.8), underside / 3.5, 0.1);
+}
+
+TEST(Ground, RoadsOnTheGroundHaveNoDeck) {
+    for (const TownT& town : {test::t_junction(0), test::t_junction(0.05)}) {
+        const GroundMesh mesh = world::build_ground(town);
+        EXPECT_EQ(std::count(mesh.surfaces.begin(), mesh.surfaces.end(), Surface::deck), 0);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,218 @@
+#include "traffic/raise_roads.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "traffic/height_profile.h"
+#include "traffic/town_import.h"
+#include "traffic/town_reader.h"
+#include "world/frames.h"
+#include "world/ground_check.h"
+#include "world/ground_probe.h"
+#include "world/town.h"
+
+namespace reprise::traffic {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+
+/// A street map, written down in metres.
+class StreetMap {
+  public:
+    int node(double east, double north) {
+        constexpr double metres_per_degree = 111'320;
+        const double latitude = 51.45 + north / metres_per_degree;
+        const double longitude =
+            -2.59 + east / (metres_per_degree * std::cos(51.45 * std::numbers::pi / 180));
+        nodes_ += fmt::format(
+            "<node id=\"{}\" lat=\"{:.7f}\" lon=\"{:.7f}\"/>\n", ++last_, latitude, longitude);
+        return last_;
+    }
+
+    void way(const std::vector<int>& nodes,
+             const std::vector<std::pair<std::string, std::string>>& tags) {
+        ways_ += fmt::format("<way id=\"{}\">", ++last_way_);
+        for (const int node : nodes)
+            ways_ += fmt::format("<nd ref=\"{}\"/>", node);
+        for (const auto& [key, value] : tags)
+            ways_ += fmt::format("<tag k=\"{}\" v=\"{}\"/>", key, value);
+        ways_ += "</way>\n";
+    }
+
+    std::string text() const { return "<osm version=\"0.6\">\n" + nodes_ + ways_ + "</osm>\n"; }
+
+  private:
+    int last_ = 0;
+    int last_way_ = 0;
+    std::string nodes_, ways_;
+};
+
+using Tagged = std::vector<std::pair<std::string, std::string>>;
+
+/// A motorway from west to east; Hill Road from south to north over (or under) it, whose middle
+/// part has `tags`; a slip road from one to the other; Side Street, which leaves Hill Road 30 m
+/// behind the bridge.
+std::string interchange(Tagged tags) {
+    StreetMap map;
+    const int west = map.node(-400, 0), slip = map.node(-150, 0), east = map.node(400, 0);
+    const int south = map.node(0, -300), fork = map.node(0, -160), foot = map.node(0, -30);
+    const int end = map.node(0, 30), side = map.node(0, 60), north = map.node(0, 300);
+    map.way({west, slip, east}, {{"highway", "motorway"}, {"oneway", "yes"}, {"lanes", "2"}});
+    map.way({slip, map.node(-60, -110), fork}, {{"highway", "motorway_link"}, {"oneway", "yes"}});
+    const Tagged hill{{"highway", "secondary"}, {"name", "Hill Road"}};
+    map.way({south, fork, foot}, hill);
+    tags.insert(tags.end(), hill.begin(), hill.end());
+    map.way({foot, end}, tags);
+    map.way({end, side, north}, hill);
+    map.way({side, map.node(120, 60)}, {{"highway", "residential"}, {"name", "Side Street"}});
+    return map.text();
+}
+
+class RaiseRoads : public ::testing::Test {
+  protected:
+    RaiseRoads()
+        : folder_(fs::path(::testing::TempDir()) / ("raise roads " + std::to_string(getpid()))) {
+        fs::create_directories(folder_ / "t");
+    }
+
+    ~RaiseRoads() override { fs::remove_all(folder_); }
+
+    world::TownT import(const std::string& map) {
+        std::ofstream(folder_ / "hill.osm") << map;
+        report_ = import_town({folder_ / "hill.osm", "", false, false}, folder_ / "t");
+        Network network = load_network(folder_ / "t/hill.net.xml");
+        network_ = network.xml;
+        return read_town(network);
+    }
+
+    fs::path folder_;
+    std::string report_, network_;
+};
+
+bool is_motorway(const world::LaneT& lane) {
+    return lane.kind == world::LaneKind::driving && lane.speed_limit > 20;
+}
+
+/// Where Hill Road and the motorway cross, on a lane of both.
+Vector2d crossing(const world::TownT& town) {
+    for (const world::LaneT& over : town.lanes)
+        for (const world::LaneT& under : town.lanes)
+            if (over.kind == world::LaneKind::driving && !is_motorway(over) && is_motorway(under))
+                for (double s = 0; s < over.length; s += 0.1) {
+                    const Vector2d place = world::point_at(over, s).position.head<2>();
+                    const auto on = world::project(under, {place.x(), place.y(), 0});
+                    if (on.distance < 0.2 && on.s > 20 && on.s < under.length - 20)
+                        return place;
+                }
+    ADD_FAILURE() << "the roads do not cross";
+    return Vector2d::Zero();
+}
+
+double steepest_lane(const world::TownT& town) {
+    double most = 0;
+    for (const world::LaneT& lane : town.lanes) {
+        std::vector<Vector3d> line;
+        for (const world::Vec3& p : lane.centre)
+            line.push_back(world::to_eigen(p));
+        most = std::max(most, steepest(line));
+    }
+    return most;
+}
+
+double height_of_street(const world::TownT& town, const Vector2d& near) {
+    double nearest = 1e9;
+    double height = 0;
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind == world::LaneKind::driving) {
+            const auto on = world::project(lane, {near.x(), near.y(), 0});
+            const Vector3d p = world::point_at(lane, on.s).position;
+            if (const double distance = (p.head<2>() - near).norm(); distance < nearest) {
+                nearest = distance;
+                height = p.z();
+            }
+        }
+    EXPECT_LT(nearest, 10);
+    return height;
+}
+
+TEST_F(RaiseRoads, CarsPassOverAndUnderAtOnePlace) {
+    const world::TownT town = import(interchange({{"bridge", "yes"}, {"layer", "1"}}));
+    const world::GroundMesh ground = world::build_ground(town);
+    const world::GroundProbe probe(ground);
+    const Vector2d place = crossing(town);
+    const auto deck = probe.below({place.x(), place.y(), 100});
+    const auto road = probe.below({place.x(), place.y(), 4.5});
+    ASSERT_TRUE(deck && road);
+    EXPECT_NEAR(deck->z, 6, 0.01);
+    EXPECT_EQ(deck->surface, world::Surface::road);
+    EXPECT_NEAR(road->z, 0, 0.01) << "and nothing hangs lower than a lorry is high";
+    EXPECT_EQ(road->surface, world::Surface::road);
+    for (const world::Criterion& criterion : world::check_ground(town, ground))
+        EXPECT_TRUE(criterion.passed()) << criterion.name << ": " << criterion.figure;
+    EXPECT_THAT(report_, HasSubstr("1 places where a road passes over another"));
+}
+
+TEST_F(RaiseRoads, RampsCanBeDriven) {
+    const world::TownT town = import(interchange({{"bridge", "yes"}, {"layer", "1"}}));
+    EXPECT_LT(steepest_lane(town), 0.1);
+    EXPECT_GT(steepest_lane(town), 0.04);
+    const Vector2d place = crossing(town);
+    // Side Street leaves the ramp on its way down, and comes down to the ground by itself.
+    const double corner = height_of_street(town, place + Vector2d(20, 60));
+    EXPECT_GT(corner, 3);
+    EXPECT_LT(corner, 6);
+    EXPECT_LT(height_of_street(town, place + Vector2d(118, 60)), corner - 2);
+    // Hill Road ends on the ground at both sides, and the motorway never leaves it.
+    EXPECT_NEAR(height_of_street(town, place + Vector2d(0, 290)), 0, 0.01);
+    EXPECT_NEAR(height_of_street(town, place - Vector2d(0, 290)), 0, 0.01);
+    for (const world::LaneT& lane : town.lanes)
+        for (const world::Vec3& p : lane.centre) {
+            EXPECT_TRUE(!is_motorway(lane) || std::abs(p.z()) < 0.1) << lane.name;
+        }
+}
+
+TEST_F(RaiseRoads, ALayerSaysOnlyWhoIsAbove) {
+    const Vector2d north(0, 10);
+    const world::TownT third = import(interchange({{"bridge", "viaduct"}, {"layer", "3"}}));
+    EXPECT_NEAR(height_of_street(third, crossing(third) + north), 6, 0.01);
+    const world::TownT silent = import(interchange({{"bridge", "yes"}}));
+    EXPECT_NEAR(height_of_street(silent, crossing(silent) + north), 6, 0.01);
+}
+
+TEST_F(RaiseRoads, TunnelsGoDown) {
+    const world::TownT town = import(interchange({{"tunnel", "yes"}, {"layer", "-1"}}));
+    const Vector2d place = crossing(town);
+    EXPECT_NEAR(height_of_street(town, place + Vector2d(0, 15)), -6, 0.01);
+    const world::GroundMesh ground = world::build_ground(town);
+    const world::GroundProbe probe(ground);
+    EXPECT_NEAR(probe.below({place.x(), place.y(), 100})->z, 0, 0.01);
+    EXPECT_NEAR(probe.below({place.x(), place.y(), -1.5})->z, -6, 0.01);
+    for (const world::Criterion& criterion : world::check_ground(town, ground))
+        EXPECT_TRUE(criterion.passed()) << criterion.name << ": " << criterion.figure;
+}
+
+TEST_F(RaiseRoads, WhatCrossesNothingStaysFlat) {
+    StreetMap map;
+    const int south = map.node(0, -100), foot = map.node(0, -20), end = map.node(0, 20);
+    map.way({south, foot}, {{"highway", "secondary"}});
+    map.way({foot, end}, {{"highway", "secondary"}, {"bridge", "yes"}, {"layer", "1"}});
+    map.way({end, map.node(0, 100)}, {{"highway", "secondary"}});
+    map.way({south, map.node(100, -100), map.node(100, 0)}, {{"highway", "residential"}});
+    const world::TownT town = import(map.text());
+    EXPECT_EQ(town.high.z(), 0);
+    EXPECT_THAT(report_, HasSubstr("1 ways in the map; 0 places"));
+}
+
+}  // namespace
+}  // namespace reprise::traffic

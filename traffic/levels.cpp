@@ -1,0 +1,352 @@
+// What it must do: find out from layers, which only order those who cross, how many storeys each
+//   bridge is up and each tunnel down.
+// What it assumes: ways lie on the tracks made of them, within a lane or so, in their direction.
+// How it goes: ways of one layer that meet end to end are one span. Every place where two tracks
+//   cross at different layers says which span is above which; levels follow, from the ground up
+//   and down. Then the points of the spans, and those near a crossing, are marked.
+// What it keeps: the order of tracks and of ways.
+#include "traffic/levels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <set>
+#include <string_view>
+
+#include "world/town.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+using Eigen::Vector2d;
+using world::Box;
+using world::BoxGrid;
+using world::none;
+
+constexpr double beside = 3;         ///< [m] a way may lie this far outside of its track
+constexpr double longest_piece = 5;  ///< [m] of lines that are looked at
+constexpr double overlap = 0.2;      ///< [m] roads that touch by less do not meet
+constexpr double aligned = 0.9;      ///< cosine between a way and its track
+constexpr double apron = 6;     ///< [m] beyond a crossing, level as well: kerbs, railings, room
+constexpr double forking = 30;  ///< [m] from a common junction tracks cross without being above
+
+/// A straight piece of a track or of a way.
+struct Piece {
+    std::uint32_t owner = 0;
+    Vector2d from, to;
+    std::string_view way;  ///< its id, of a way
+};
+
+void add_pieces(const world::Loop& line,
+                std::uint32_t owner,
+                std::string_view way,
+                std::vector<Piece>& pieces) {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const Vector2d along = line[i + 1] - line[i];
+        const int count = std::max(1, static_cast<int>(std::ceil(along.norm() / longest_piece)));
+        for (int k = 0; k < count; ++k)
+            pieces.push_back({owner,
+                              line[i] + along * (static_cast<double>(k) / count),
+                              line[i] + along * (static_cast<double>(k + 1) / count),
+                              way});
+    }
+}
+
+Box box_of(const Piece& piece, double margin) {
+    Box box;
+    box.take(piece.from, margin);
+    box.take(piece.to, margin);
+    return box;
+}
+
+BoxGrid grid_of(const std::vector<Piece>& pieces) {
+    std::vector<BoxGrid::Entry> entries;
+    for (std::uint32_t i = 0; i < pieces.size(); ++i)
+        entries.push_back({box_of(pieces[i], 0), i});
+    return BoxGrid(entries);
+}
+
+bool cross_each_other(const Piece& one, const Piece& other) {
+    return world::distance_to({one.from, one.to}, other.from, other.to) == 0;
+}
+
+/// The bridges and tunnels of a map: what was drawn as several ways is one span.
+class Spans {
+  public:
+    explicit Spans(const std::vector<MapShape>& ways);
+
+    /// The span that a track is on at one of its places; none: the ground.
+    std::uint32_t at(const Vector2d& place, const Vector2d& direction, const Track& track) const;
+
+    int layer(std::uint32_t span) const { return span == none ? 0 : layers_[span]; }
+
+    std::size_t size() const { return layers_.size(); }
+
+  private:
+    void join(const std::vector<MapShape>& ways);
+
+    std::vector<int> layers_;
+    std::vector<std::uint32_t> span_of_way_;
+    std::vector<Piece> pieces_;  ///< owned by spans
+    BoxGrid by_place_;
+};
+
+Spans::Spans(const std::vector<MapShape>& ways) : span_of_way_(ways.size()) {
+    join(ways);
+    for (std::uint32_t i = 0; i < ways.size(); ++i)
+        add_pieces(world::in_plan(ways[i].line),
+                   span_of_way_[i],
+                   std::string_view(ways[i].id).substr(0, ways[i].id.find('#')),
+                   pieces_);
+    by_place_ = grid_of(pieces_);
+}
+
+/// Numbers the spans; a way takes the number of the first one that it is joined to.
+void Spans::join(const std::vector<MapShape>& ways) {
+    std::vector<std::uint32_t> first(ways.size());
+    std::iota(first.begin(), first.end(), 0U);
+    const auto root = [&](std::uint32_t way) {
+        while (first[way] != way)
+            way = first[way];
+        return way;
+    };
+    std::map<std::array<double, 3>, std::uint32_t> ends;
+    for (std::uint32_t i = 0; i < ways.size(); ++i)
+        for (const world::Vec3& end : {ways[i].line.front(), ways[i].line.back()}) {
+            const double layer = layer_of(ways[i].tags);
+            const auto [known, is_new] = ends.try_emplace({layer, end.x(), end.y()}, i);
+            if (!is_new)
+                first[std::max(root(i), root(known->second))] =
+                    std::min(root(i), root(known->second));
+        }
+    for (std::uint32_t i = 0; i < ways.size(); ++i) {
+        if (first[i] == i) {
+            span_of_way_[i] = static_cast<std::uint32_t>(layers_.size());
+            layers_.push_back(layer_of(ways[i].tags));
+        } else {
+            span_of_way_[i] = span_of_way_[root(i)];
+        }
+    }
+}
+
+std::uint32_t Spans::at(const Vector2d& place,
+                        const Vector2d& direction,
+                        const Track& track) const {
+    const double reach = track.half_width + beside;
+    Box box;
+    box.take(place, reach);
+    std::uint32_t found = none;
+    double nearest = reach;
+    for (const std::uint32_t i : by_place_.near(box)) {
+        const Piece& piece = pieces_[i];
+        const double distance = world::distance_to({place}, piece.from, piece.to);
+        const Vector2d along = (piece.to - piece.from).normalized();
+        if (distance >= nearest || std::abs(along.dot(direction)) < aligned ||
+            std::find(track.ways.begin(), track.ways.end(), piece.way) == track.ways.end())
+            continue;
+        nearest = distance;
+        found = piece.owner;
+    }
+    return found;
+}
+
+/// One track passes over another. Spans are none where a track is on the ground.
+struct Overpass {
+    Vector2d place;
+    std::uint32_t upper_track = 0, lower_track = 0;
+    std::uint32_t upper = none, lower = none;
+};
+
+class LevelFinder {
+  public:
+    LevelFinder(const RoadChains& roads, const std::vector<MapShape>& ways)
+        : roads_(roads),
+          spans_(ways) {}
+
+    Levels find();
+
+  private:
+    void find_overpasses();
+    void take_crossing(const Piece& one, const Piece& other);
+    void keep_together(const Piece& one, const Piece& other);
+    std::vector<std::uint32_t> points_near(const Track& track,
+                                           const Vector2d& place,
+                                           double reach) const;
+    bool fork(const Track& one, const Track& other, const Vector2d& place) const;
+    void number_spans();
+    void mark_spans();
+    void mark_near(std::uint32_t track, const Vector2d& place, double reach, int level);
+    void mark(std::uint32_t point, int level);
+    int places() const;
+
+    int level(std::uint32_t span) const { return span == none ? 0 : levels_of_spans_[span]; }
+
+    const RoadChains& roads_;
+    Spans spans_;
+    std::vector<Overpass> overpasses_;
+    std::vector<int> levels_of_spans_;
+    Levels found_;
+};
+
+/// Lanes of one road, and tracks near a junction that they share, are no crossing: there, one
+/// leaves the other.
+bool LevelFinder::fork(const Track& one, const Track& other, const Vector2d& place) const {
+    if (one.chain != none && one.chain == other.chain)
+        return true;
+    for (const std::uint32_t end : {one.points.front(), one.points.back()})
+        for (const std::uint32_t other_end : {other.points.front(), other.points.back()})
+            if (end == other_end && (roads_.places[end] - place).norm() < forking)
+                return true;
+    return false;
+}
+
+/// Where roads cross, both are level; where they touch, they have the same height.
+void LevelFinder::keep_together(const Piece& one, const Piece& other) {
+    const Track& track = roads_.tracks[one.owner];
+    const Track& other_track = roads_.tracks[other.owner];
+    const bool crossing = cross_each_other(one, other);
+    const auto reach = [&](double half_width) { return crossing ? half_width + apron : 0; };
+    std::vector<std::uint32_t> points = points_near(track, one.from, reach(other_track.half_width));
+    for (const std::uint32_t point : points_near(other_track, one.from, reach(track.half_width)))
+        points.push_back(point);
+    found_.together.push_back(std::move(points));
+}
+
+/// Those of a track that are within reach of a place; one at least.
+std::vector<std::uint32_t> LevelFinder::points_near(const Track& track,
+                                                    const Vector2d& place,
+                                                    double reach) const {
+    std::vector<std::uint32_t> near;
+    std::uint32_t nearest = track.points.front();
+    for (const std::uint32_t point : track.points) {
+        const double distance = (roads_.places[point] - place).norm();
+        if (distance < reach)
+            near.push_back(point);
+        if (distance < (roads_.places[nearest] - place).norm())
+            nearest = point;
+    }
+    return near.empty() ? std::vector<std::uint32_t>{nearest} : near;
+}
+
+void LevelFinder::take_crossing(const Piece& one, const Piece& other) {
+    const Track& track = roads_.tracks[one.owner];
+    const Track& other_track = roads_.tracks[other.owner];
+    const Vector2d place = (one.from + one.to) / 2;
+    if (fork(track, other_track, place))
+        return;
+    const std::uint32_t span = spans_.at(place, (one.to - one.from).normalized(), track);
+    const std::uint32_t other_span =
+        spans_.at((other.from + other.to) / 2, (other.to - other.from).normalized(), other_track);
+    if (spans_.layer(span) > spans_.layer(other_span))
+        overpasses_.push_back({place, one.owner, other.owner, span, other_span});
+    else if (spans_.layer(span) < spans_.layer(other_span))
+        overpasses_.push_back({place, other.owner, one.owner, other_span, span});
+    else
+        keep_together(one, other);
+}
+
+/// Looks at every two pieces of which one may lie over the other.
+void LevelFinder::find_overpasses() {
+    std::vector<Piece> pieces;
+    double widest = 0;
+    for (std::uint32_t i = 0; i < roads_.tracks.size(); ++i) {
+        add_pieces(roads_.tracks[i].line, i, "", pieces);
+        widest = std::max(widest, roads_.tracks[i].half_width);
+    }
+    const BoxGrid by_place = grid_of(pieces);
+    for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+        const Piece& one = pieces[i];
+        const double half_width = roads_.tracks[one.owner].half_width;
+        for (const std::uint32_t k : by_place.near(box_of(one, half_width + widest))) {
+            const Piece& other = pieces[k];
+            const double apart = half_width + roads_.tracks[other.owner].half_width - overlap;
+            if (k > i && other.owner != one.owner &&
+                world::distance_to({one.from, one.to}, other.from, other.to) < apart)
+                take_crossing(one, other);
+        }
+    }
+}
+
+/// Bridges from the lowest layer upwards: one storey over the highest that they cross. Tunnels
+/// likewise, downwards. Where a bridge crosses a tunnel, that alone needs neither ramp.
+void LevelFinder::number_spans() {
+    levels_of_spans_.assign(spans_.size(), 0);
+    std::vector<std::uint32_t> order(spans_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t one, std::uint32_t other) {
+        return std::abs(spans_.layer(one)) < std::abs(spans_.layer(other));
+    });
+    for (const std::uint32_t span : order)
+        for (const Overpass& overpass : overpasses_) {
+            int& level = levels_of_spans_[span];
+            if (overpass.upper == span && spans_.layer(span) > 0 &&
+                spans_.layer(overpass.lower) >= 0)
+                level = std::max(level, this->level(overpass.lower) + 1);
+            if (overpass.lower == span && spans_.layer(span) < 0 &&
+                spans_.layer(overpass.upper) <= 0)
+                level = std::min(level, this->level(overpass.upper) - 1);
+        }
+}
+
+/// What belongs to a bridge is not the ground below it.
+void LevelFinder::mark(std::uint32_t point, int level) {
+    const auto [known, is_new] = found_.levels.try_emplace(point, level);
+    if (!is_new && std::abs(level) > std::abs(known->second))
+        known->second = level;
+}
+
+void LevelFinder::mark_near(std::uint32_t track, const Vector2d& place, double reach, int level) {
+    for (const std::uint32_t point : points_near(roads_.tracks[track], place, reach))
+        mark(point, level);
+}
+
+void LevelFinder::mark_spans() {
+    for (const Track& track : roads_.tracks) {
+        const std::size_t last = track.points.size() - 1;
+        for (std::size_t i = 0; i <= last && last > 0; ++i) {
+            const LineSpot spot =
+                spot_along(track.line, static_cast<double>(i) / static_cast<double>(last));
+            const int level = this->level(spans_.at(spot.place, spot.direction, track));
+            if (level != 0)
+                mark(track.points[i], level);
+        }
+    }
+}
+
+/// Roads with two directions and many lanes are counted once.
+int LevelFinder::places() const {
+    std::set<std::array<std::uint32_t, 4>> crossing;
+    for (const Overpass& overpass : overpasses_) {
+        const auto& upper = roads_.tracks[overpass.upper_track].points;
+        const auto& lower = roads_.tracks[overpass.lower_track].points;
+        const auto [over, over_end] = std::minmax(upper.front(), upper.back());
+        const auto [under, under_end] = std::minmax(lower.front(), lower.back());
+        crossing.insert({over, over_end, under, under_end});
+    }
+    return static_cast<int>(crossing.size());
+}
+
+Levels LevelFinder::find() {
+    find_overpasses();
+    number_spans();
+    for (const Overpass& overpass : overpasses_) {
+        const double upper_width = roads_.tracks[overpass.upper_track].half_width;
+        const double lower_width = roads_.tracks[overpass.lower_track].half_width;
+        mark_near(overpass.upper_track, overpass.place, lower_width + apron, level(overpass.upper));
+        mark_near(overpass.lower_track, overpass.place, upper_width + apron, level(overpass.lower));
+    }
+    mark_spans();
+    found_.crossings = places();
+    return std::move(found_);
+}
+
+}  // namespace
+
+Levels find_levels(const RoadChains& roads, const std::vector<MapShape>& ways) {
+    return LevelFinder(roads, ways).find();
+}
+
+}  // namespace reprise::traffic

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "traffic/map_shapes.h"
+#include "traffic/road_chains.h"
+
+namespace reprise::traffic {
+
+/// Which points of a road network lie over or under others, as the ways of its map say.
+struct Levels {
+    std::map<std::uint32_t, int> levels;  ///< point: 0 is the ground; those beneath a bridge and on
+                                          ///< it; others may have any height
+    /// Points around each place where roads cross on one level without a junction, as maps have it
+    /// by mistake: all at one height, so that one can drive there.
+    std::vector<std::vector<std::uint32_t>> together;
+    int crossings = 0;  ///< places where one road passes over another
+};
+
+/// `ways` have a layer. It says only who is above: where layer 3 crosses nothing but the ground it
+/// becomes level 1, and a bridge over nothing that is in the network has no level at all. A bridge
+/// or tunnel that crosses something has its level on all of its length.
+Levels find_levels(const RoadChains& roads, const std::vector<MapShape>& ways);
+
+}  // namespace reprise::traffic

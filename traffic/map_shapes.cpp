@@ -1,0 +1,125 @@
+#include "traffic/map_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <pugixml.hpp>
+#include <set>
+
+#include "traffic/netconvert.h"
+#include "traffic/network_xml.h"
+#include "world/check.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+constexpr double neighbourhood = 350;  ///< [m] from the network: farther things are left out
+
+constexpr const char* wanted_keys = R"(<polygonTypes>
+<polygonType id="building" name="building"/>
+<polygonType id="leisure" name="leisure"/>
+<polygonType id="landuse" name="landuse"/>
+<polygonType id="natural" name="natural"/>
+<polygonType id="waterway" name="waterway"/>
+<polygonType id="amenity" name="amenity"/>
+<polygonType id="place" name="place"/>
+<polygonType id="highway.pedestrian" name="highway"/>
+<polygonType id="highway.stop" name="highway"/>
+<polygonType id="highway.give_way" name="highway"/>
+<polygonType id="layer" name="layer"/>
+<polygonType id="bridge" name="bridge"/>
+<polygonType id="tunnel" name="tunnel"/>
+</polygonTypes>
+)";
+
+std::string tag(const Tags& tags, const char* key) {
+    const auto found = tags.find(key);
+    return found == tags.end() ? "" : found->second;
+}
+
+Tags tags_of(const pugi::xml_node& shape) {
+    Tags tags;
+    for (const pugi::xml_node param : shape.children("param"))
+        tags[param.attribute("key").value()] = param.attribute("value").value();
+    return tags;
+}
+
+void take(const pugi::xml_node& poly, std::set<std::string>& seen, MapShapes& shapes) {
+    MapShape shape{
+        poly.attribute("id").value(), tags_of(poly), parse_shape(poly.attribute("shape").value())};
+    // What has two of the wanted keys comes twice, as ID and ID#1.
+    const bool again = !seen.insert(shape.id.substr(0, shape.id.find('#'))).second;
+    if (again || shape.line.size() < 2)
+        return;
+    const bool closed = shape.line.size() >= 4 && shape.line.front() == shape.line.back();
+    if (closed && (is_building(shape.tags) || plot_kind(shape.tags)))
+        shapes.areas.push_back(std::move(shape));
+    else if (!tag(shape.tags, "highway").empty() && layer_of(shape.tags) != 0)
+        shapes.ways.push_back(std::move(shape));
+}
+
+}  // namespace
+
+int layer_of(const Tags& tags) {
+    constexpr double farthest = 5;
+    const double unsaid = farthest + 1;
+    const double layer = number(tag(tags, "layer"), unsaid);
+    if (std::abs(layer) <= farthest)
+        return static_cast<int>(layer);
+    const auto is = [&](const char* key) {
+        const std::string value = tag(tags, key);
+        return !value.empty() && value != "no";
+    };
+    if (is("bridge"))
+        return 1;
+    // A passage through a building lies at the height of the street.
+    return is("tunnel") && tag(tags, "tunnel") != "building_passage" ? -1 : 0;
+}
+
+MapShapes read_shapes(const std::string& map,
+                      const std::string& network,
+                      const std::filesystem::path& scratch) {
+    std::ofstream(scratch / "shapes.typ.xml") << wanted_keys;
+    run_sumo_tool("polyconvert",
+                  {"--net-file",
+                   network,
+                   "--osm-files",
+                   map,
+                   "--type-file",
+                   "shapes.typ.xml",
+                   "--discard",
+                   "--all-attributes",
+                   "--osm.keep-full-type",
+                   "--prune.in-net",
+                   "--prune.in-net.offsets",
+                   fmt::format("{0},{0},{0},{0}", neighbourhood),
+                   "--precision",
+                   "3",
+                   "--output-file",
+                   "shapes.xml"},
+                  scratch,
+                  map);
+    pugi::xml_document document;
+    if (!document.load_file((scratch / "shapes.xml").c_str()))
+        throw world::Error(map + ": polyconvert wrote no shapes");
+    MapShapes shapes;
+    std::set<std::string> seen;
+    for (const pugi::xml_node poly : document.document_element().children("poly"))
+        take(poly, seen, shapes);
+    for (const pugi::xml_node poi : document.document_element().children("poi"))
+        shapes.signs.push_back({poi.attribute("id").value(),
+                                tags_of(poi),
+                                {{number(poi.attribute("x").value(), 0),
+                                  number(poi.attribute("y").value(), 0),
+                                  0.0}}});
+    // Points with another of the wanted keys are no signs.
+    std::erase_if(shapes.signs, [](const MapShape& sign) {
+        const std::string kind = tag(sign.tags, "highway");
+        return kind != "stop" && kind != "give_way";
+    });
+    return shapes;
+}
+
+}  // namespace reprise::traffic

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "traffic/map_area.h"
+#include "world/town_generated.h"
+
+namespace reprise::traffic {
+
+/// Something that an OpenStreetMap map shows, in the coordinates of the network made of it.
+struct MapShape {
+    std::string id;
+    Tags tags;
+    std::vector<world::Vec3> line;  ///< [m] z is 0; areas end where they begin
+};
+
+/// What netconvert leaves of a map. Each list is in polyconvert's order, which is that of ids.
+struct MapShapes {
+    std::vector<MapShape> areas;  ///< buildings and plots, near the roads
+    std::vector<MapShape> ways;   ///< roads that lie over or under others: layer_of() is not 0
+    std::vector<MapShape> signs;  ///< one point: highway=stop or highway=give_way
+};
+
+/// SUMO's polyconvert reads and projects the map: the same way as netconvert did with the roads.
+/// `map` and `network` are files in the folder `scratch`. Throws world::Error when it fails.
+MapShapes read_shapes(const std::string& map,
+                      const std::string& network,
+                      const std::filesystem::path& scratch);
+
+/// How a way lies in relation to those that it crosses, from -5 to 5: what the map says, else 1 for
+/// a bridge and -1 for a tunnel.
+int layer_of(const Tags& tags);
+
+}  // namespace reprise::traffic
