@@ -6,8 +6,14 @@ namespace reprise::render {
 
 using Eigen::Vector3f;
 
+namespace {
+
+constexpr float foundation = 8;  // [m] below the door: on a slope the back of a house shows it
+
+}  // namespace
+
 void BuildingSite::wall(const Vector3f& left, const Vector3f& right, float top, WallUse use) {
-    const float skirt = left.z() < 0.01F ? 0.4F : 0.0F;
+    const float skirt = left.z() < 0.01F ? foundation : 0.0F;
     const Vector3f down(0, 0, -skirt);
     const Vector3f up(0, 0, top - left.z());
     build.quad({left + down, right + down, right + up, left + up},

@@ -19,7 +19,7 @@ struct BuildingSite {
     }
 
     /// An upright face; `left` and `right` are its lower corners for who looks at it, at one
-    /// height, in the building's frame. At the ground it reaches 0.4 m below it.
+    /// height, in the building's frame. At the ground it reaches below it, where a slope may lie.
     void wall(const Eigen::Vector3f& left, const Eigen::Vector3f& right, float top, WallUse use);
 
     /// Finish for more triangles of the wall added last, such as a gable.
