@@ -6,6 +6,7 @@
 #include "traffic/heads.h"
 #include "traffic/land.h"
 #include "traffic/parked_cars.h"
+#include "traffic/parapets.h"
 #include "traffic/plants.h"
 #include "traffic/plots.h"
 #include "traffic/signs.h"
@@ -24,6 +25,7 @@ void place_scenery(world::TownT& town,
     lay_out_plots(land);
     keep_drawn_buildings(land);
     const std::vector<Lot> lots = place_buildings(land);
+    place_parapets(land);
     place_bus_stops(land);
     place_street_lights(land);
     lay_out_gardens(land, lots);
