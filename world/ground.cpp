@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "world/decks.h"
 #include "world/ground_builder.h"
@@ -67,13 +68,47 @@ void add_pieces(const Area& area,
         ground.add_face(piece, height, cell, material);
 }
 
+/// Does it climb within its first or last metre?
+bool slopes_at(const LaneT& lane, double s) {
+    constexpr double least = 0.02;  // of slope; less makes no step that a wheel would feel
+    const double length = std::min(1.0, lane.length);
+    const double from = std::clamp(s - length, 0.0, lane.length - length);
+    return std::abs(point_at(lane, from + length).position.z() -
+                    point_at(lane, from).position.z()) > least * length;
+}
+
+/// Roads that are not level where they meet a junction: its outline, which is, may reach over them
+/// by some decimetres, and would stick out. [junction] of lanes, ascending.
+std::vector<std::set<std::uint32_t>> slopes_at_junctions(const TownT& town) {
+    std::vector<std::set<std::uint32_t>> found(town.junctions.size());
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
+        const LaneT& lane = town.lanes[i];
+        if (lane.kind != LaneKind::driving || lane.junction >= found.size())
+            continue;
+        if (slopes_at(lane, lane.length))
+            found[lane.junction].insert(i);
+        for (const Link& link : lane.links)
+            if (link.to() < town.lanes.size() && town.lanes[link.to()].kind == LaneKind::driving &&
+                slopes_at(town.lanes[link.to()], 0))
+                found[lane.junction].insert(link.to());
+    }
+    return found;
+}
+
 void add_junction(const TownT& town,
                   std::uint32_t junction,
                   const JunctionParts& parts,
+                  const std::set<std::uint32_t>& slopes,
                   GroundBuilder& ground) {
     const Eigen::Vector2d origin(std::floor(town.low.x()), std::floor(town.low.y()));
     Area road(origin);
     road.add(in_plan(town.junctions[junction].outline));
+    Area roads(origin);
+    for (const std::uint32_t lane : slopes)
+        for (const Loop& loop : road_ribbon(town.lanes[lane]).loops())
+            roads.add(loop);
+    roads.shrink(overlap);
+    road.subtract(roads);
     for (const std::uint32_t path : parts.paths)
         for (const Loop& loop : road_ribbon(town.lanes[path]).loops())
             road.add(loop);
@@ -94,8 +129,9 @@ void add_junction(const TownT& town,
 
 void add_junctions(const TownT& town, GroundBuilder& ground) {
     const std::vector<JunctionParts> parts = parts_of_junctions(town);
+    const std::vector<std::set<std::uint32_t>> slopes = slopes_at_junctions(town);
     for (std::uint32_t i = 0; i < parts.size(); ++i)
-        add_junction(town, i, parts[i], ground);
+        add_junction(town, i, parts[i], slopes[i], ground);
 }
 
 }  // namespace

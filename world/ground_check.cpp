@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "world/frames.h"
 #include "world/ground_probe.h"
@@ -48,7 +49,42 @@ double off_level(const GroundProbe& probe, const Eigen::Vector3d& p) {
     return hit && hit->surface != Surface::terrain ? hit->z - p.z() : -no_road;
 }
 
-void measure_lane(const LaneT& lane, const GroundProbe& probe, LaneLevels& levels) {
+/// Lanes for cars that join it, at either end. [lane]
+std::vector<std::vector<std::uint32_t>> joined_lanes(const TownT& town) {
+    std::vector<std::vector<std::uint32_t>> joined(town.lanes.size());
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
+        for (const Link& link : town.lanes[i].links) {
+            const std::uint32_t next = link.via() != none ? link.via() : link.to();
+            if (!is_for_cars(town.lanes[i]) || !is_for_cars(town.lanes[next]))
+                continue;
+            joined[i].push_back(next);
+            joined[next].push_back(i);
+        }
+    return joined;
+}
+
+/// As off_level, beside the centre line. Where lanes meet at an angle the inner wheel is on the
+/// other lane already, which may be a slope: the nearer height counts there.
+double off_wheel(const TownT& town,
+                 const GroundProbe& probe,
+                 const Eigen::Vector3d& wheel,
+                 std::span<const std::uint32_t> joined) {
+    double best = off_level(probe, wheel);
+    for (const std::uint32_t other : joined) {
+        const LaneProjection on = project(town.lanes[other], wheel);
+        const double z = point_at(town.lanes[other], on.s).position.z();
+        const double off = off_level(probe, {wheel.x(), wheel.y(), z});
+        if (std::abs(z - wheel.z()) < above && std::abs(off) < std::abs(best))
+            best = off;
+    }
+    return best;
+}
+
+void measure_lane(const TownT& town,
+                  const LaneT& lane,
+                  std::span<const std::uint32_t> joined,
+                  const GroundProbe& probe,
+                  LaneLevels& levels) {
     ++levels.lanes;
     const int count = 1 + static_cast<int>(lane.length / step);
     for (int i = 0; i <= count; ++i) {
@@ -58,8 +94,10 @@ void measure_lane(const LaneT& lane, const GroundProbe& probe, LaneLevels& level
         const LanePoint at = point_at(lane, s);
         const Eigen::Vector3d left(-std::sin(at.yaw), std::cos(at.yaw), 0);
         const double middle = off_level(probe, at.position);
-        const double left_wheel = off_level(probe, at.position + track * left);
-        const double right_wheel = off_level(probe, at.position - track * left);
+        const bool at_end = s < track || s > lane.length - track;
+        const auto beside = at_end ? joined : std::span<const std::uint32_t>();
+        const double left_wheel = off_wheel(town, probe, at.position + track * left, beside);
+        const double right_wheel = off_wheel(town, probe, at.position - track * left, beside);
         const Eigen::Vector2d place = at.position.head<2>();
         levels.centre.take(lane.name, place, std::abs(middle));
         levels.wheels.take(lane.name, place, std::max(std::abs(left_wheel), std::abs(right_wheel)));
@@ -69,9 +107,10 @@ void measure_lane(const LaneT& lane, const GroundProbe& probe, LaneLevels& level
 
 void check_levels(const TownT& town, const GroundProbe& probe, std::vector<Criterion>& criteria) {
     LaneLevels levels;
-    for (const LaneT& lane : town.lanes)
-        if (is_for_cars(lane))
-            measure_lane(lane, probe, levels);
+    const auto joined = joined_lanes(town);
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
+        if (is_for_cars(town.lanes[i]))
+            measure_lane(town, town.lanes[i], joined[i], probe, levels);
     const std::string looked_at = places_on_lanes(levels.centre.count(), levels.lanes);
     criteria.push_back(std::move(levels.centre).verdict(looked_at));
     criteria.push_back(std::move(levels.wheels).verdict(looked_at));

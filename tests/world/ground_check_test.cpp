@@ -43,6 +43,31 @@ TEST(GroundCheck, PassesTheGroundOfItsTown) {
                 << town.name << ": " << criterion.name << ' ' << criterion.figure;
 }
 
+/// A road climbs by 15 % to a level junction, whose outline reaches over it, and turns off there at
+/// once, at 45 degrees.
+TownT climb_to_a_junction() {
+    TownT town;
+    town.name = "climb";
+    town.lanes = {test::lane(":j_0", LaneKind::internal, {{50, 0, 0}, {60, 10, 0}}),
+                  test::lane("up_1", LaneKind::driving, {{0, 0, -7.5}, {50, 0, 0}}),
+                  test::lane("zz_1", LaneKind::driving, {{60, 10, 0}, {90, 40, 0}})};
+    town.junctions.resize(1);
+    town.junctions[0].outline = {{49.2, -2, 0}, {62, -2, 0}, {62, 12, 0}, {49.2, 12, 0}};
+    town.lanes[0].junction = town.lanes[1].junction = 0;
+    const auto ahead = world::Turn::straight;
+    town.lanes[1].links = {{2, 0, world::none, ahead, false, 0}};
+    town.lanes[0].links = {{2, world::none, world::none, ahead, false, 0}};
+    return town;
+}
+
+TEST(GroundCheck, ALevelJunctionDoesNotStickOutOfASlopingRoad) {
+    const TownT town = climb_to_a_junction();
+    for (const Criterion& criterion : world::check_ground(town, world::build_ground(town)))
+        if (criterion.name.starts_with("ground")) {
+            EXPECT_LT(criterion.figure, 0.02) << criterion.name;
+        }
+}
+
 TEST(GroundCheck, MeasuresHowFarTheGroundIsOffItsLane) {
     const TownT town = test::t_junction();
     const GroundMesh ground = moved(world::build_ground(town), Surface::road, {0, 0, 0.08});
