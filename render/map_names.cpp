@@ -54,10 +54,11 @@ std::optional<std::string> writable(const std::string& name) {
     return plain;
 }
 
-/// A street, or a road without a name, with the place for its letters.
+/// A road, with the place for its letters.
 struct Written {
-    std::string text;
-    double length = 0;  ///< [m]
+    std::optional<std::string> street;  ///< its name
+    std::optional<std::string> edge;    ///< what scripts call it
+    double length = 0;                  ///< [m]
     Eigen::Vector2d place;
     double angle = 0;  ///< [rad]
 };
@@ -83,9 +84,6 @@ std::vector<Written> names_of_edges(const world::TownT& town) {
         if (!seen.insert(edge).second)
             continue;
         const world::LaneT& lane = *middle;
-        const auto text = writable(lane.street.empty() ? lane.edge : lane.street);
-        if (!text)
-            continue;
         world::LanePoint at = world::point_at(lane, lane.length / 2);
         if (lane.opposite < town.lanes.size()) {
             const world::LaneT& opposite = town.lanes[lane.opposite];
@@ -96,7 +94,8 @@ std::vector<Written> names_of_edges(const world::TownT& town) {
         // Letters stand upright.
         const double angle = world::wrap_angle(at.yaw);
         const bool upside_down = std::abs(angle) > std::numbers::pi / 2 + 1e-6;
-        names.push_back({*text,
+        names.push_back({writable(lane.street),
+                         writable(lane.edge),
                          lane.length,
                          at.position.head<2>(),
                          upside_down ? world::wrap_angle(angle + std::numbers::pi) : angle});
@@ -127,19 +126,29 @@ void draw_names(const world::TownT& town, MapCanvas& canvas) {
         if (canvas.text_width(*text, 0.95 * height) < 1.4 * room)
             canvas.label(*text, world::in_plan(junction.centre), 0, 0.95 * height);
     }
-    // The longest of a street carries its name; others repeat it far from there only.
+    // The longest of a street carries its name as well; others repeat it far from there only.
     constexpr double again = 450;  // [pixels] of a sheet of 1600
     std::map<std::string, std::vector<Eigen::Vector2d>> written;
     for (const Written& name : names_of_edges(town)) {
-        const double room = name.length * canvas.pixels_per_metre();
-        if (canvas.text_width(name.text, height) > 0.9 * room)
-            continue;
-        std::vector<Eigen::Vector2d>& places = written[name.text];
-        const bool is_near = std::any_of(places.begin(), places.end(), [&](const auto& other) {
-            return (other - name.place).norm() * canvas.pixels_per_metre() < again * canvas.unit();
-        });
-        if (!is_near && canvas.label(name.text, name.place, name.angle, 0.85 * height))
-            places.push_back(name.place);
+        const double room = 0.9 * name.length * canvas.pixels_per_metre();
+        const auto write = [&](const std::string& text) {
+            return canvas.text_width(text, height) <= room &&
+                   canvas.label(text, name.place, name.angle, 0.85 * height);
+        };
+        if (name.street) {
+            std::vector<Eigen::Vector2d>& places = written[*name.street];
+            const bool is_near = std::any_of(places.begin(), places.end(), [&](const auto& other) {
+                return (other - name.place).norm() * canvas.pixels_per_metre() <
+                       again * canvas.unit();
+            });
+            if (!is_near &&
+                ((name.edge && write(*name.street + "  " + *name.edge)) || write(*name.street))) {
+                places.push_back(name.place);
+                continue;
+            }
+        }
+        if (name.edge)
+            write(*name.edge);
     }
 }
 

@@ -136,6 +136,8 @@ LaneT read_lane(const pugi::xml_node& edge, const pugi::xml_node& lane_xml, cons
     lane.speed_limit = number(lane_xml.attribute("speed").value(), 13.89);
     lane.left = lane.right = lane.opposite = none;
     const bool inside = !lane.edge.empty() && lane.edge.front() == ':';
+    if (!inside)
+        lane.street = edge.attribute("name").value();
     lane.junction =
         find_junction(town, inside ? junction_around(lane.edge) : edge.attribute("to").value());
     return lane;

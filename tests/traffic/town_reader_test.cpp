@@ -141,6 +141,13 @@ TEST(TownReader, Town1IsAsPlanned) {
     EXPECT_NEAR(town.high.x(), 421 + 9.5, 0.1);
 }
 
+TEST(TownReader, LanesKnowTheirStreet) {
+    const TownT& town = own_town("town1").town;
+    EXPECT_EQ(town.lanes[world::find_lane(town, "a1_m1_1").value()].street, "Bridge Street");
+    for (const LaneT& lane : town.lanes)
+        EXPECT_EQ(lane.street.empty(), lane.edge.front() == ':') << lane.name;
+}
+
 TEST(TownReader, NeighboursLieOnTheSideTheyAreNamedAfter) {
     const TownT& town = own_town("town1").town;
     const LaneT& right = town.lanes[lane(town, "b1_b2_1")];  // eastwards: left is north
