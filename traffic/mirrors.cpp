@@ -10,7 +10,6 @@
 #include "traffic/sumo.h"
 #include "world/catalogue.h"
 #include "world/frames.h"
-#include "world/plan.h"
 
 namespace reprise::traffic {
 
@@ -49,25 +48,10 @@ Mirrors::Mirrors(const world::TownT& town,
       lanes_(&lanes),
       graph_(&graph),
       step_(step),
-      after_short_(lanes_after_short_ones(town, graph)) {
-    for (const world::LaneT& lane : town.lanes)
-        if (is_dead_end(lane))
-            dead_ends_.push_back(world::in_plan(lane.centre.back()));
-}
+      after_short_(lanes_after_short_ones(town, graph)) {}
 
 void Mirrors::forget(std::uint32_t id) {
     std::erase_if(mirrors_, [id](const Mirror& mirror) { return mirror.id == id; });
-}
-
-/// How far from a lane's centre line a front still belongs to it. [m] A vehicle that turns around
-/// at a dead end swings out widely, and is in everybody's way all the while.
-double Mirrors::reach_at(const Eigen::Vector3d& front) const {
-    constexpr double turning_head = 12;
-    constexpr double reach_of_swings = 8;
-    const bool swings = std::any_of(dead_ends_.begin(), dead_ends_.end(), [&](const auto& end) {
-        return (end - front.head<2>()).squaredNorm() < turning_head * turning_head;
-    });
-    return swings ? reach_of_swings : reach;
 }
 
 Mirrors::Target Mirrors::target_of(const world::VehicleState& vehicle) const {
@@ -78,15 +62,9 @@ Mirrors::Target Mirrors::target_of(const world::VehicleState& vehicle) const {
     const double ahead = origin_to_front(vehicle.model());
     const Eigen::Vector3d front = origin + ahead * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0);
     Target target{front.x(), front.y(), sumo_angle_deg(yaw)};
-    if (const auto found = lanes_->best(front, yaw, reach_at(front))) {
+    if (const auto found = lanes_->best(front, yaw, reach)) {
         const world::LaneT& lane = town_->lanes[found->lane];
         target.lane = found->lane;
-        if (found->at.distance > reach) {  // SUMO would not take it for on the road
-            const world::LanePoint on_lane = world::point_at(lane, found->at.s);
-            target.x = on_lane.position.x();
-            target.y = on_lane.position.y();
-            target.angle_deg = sumo_angle_deg(on_lane.yaw);
-        }
         target.lane_position = found->at.s / lane.length * lane.sumo_length;
     }
     return target;

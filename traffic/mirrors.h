@@ -57,7 +57,6 @@ class Mirrors {
 
     Mirror& find_or_add(const world::VehicleState& vehicle, const Target& target);
     Target target_of(const world::VehicleState& vehicle) const;
-    double reach_at(const Eigen::Vector3d& front) const;
     void move(Mirror& mirror, const world::VehicleState& vehicle, const Target& target);
     void enter_again(const Mirror& mirror, const world::VehicleState& vehicle) const;
     void keep_order(const Mirror& mirror, const Target& target, std::span<const Car> cars) const;
@@ -68,9 +67,8 @@ class Mirrors {
     const RoadGraph* graph_;
     double step_;
     std::map<std::string, AfterShort> after_short_;  ///< by SUMO's name of the lane
-    std::vector<Eigen::Vector2d> dead_ends_;
-    std::vector<Mirror> mirrors_;  ///< sorted by id
-    std::uint32_t added_ = 0;      ///< names of routes are never used again
+    std::vector<Mirror> mirrors_;                    ///< sorted by id
+    std::uint32_t added_ = 0;                        ///< names of routes are never used again
 };
 
 }  // namespace reprise::traffic

@@ -15,13 +15,6 @@ using world::LaneKind;
 using world::LaneT;
 using world::none;
 
-bool is_dead_end(const world::LaneT& lane) {
-    return lane.kind == world::LaneKind::driving && !lane.links.empty() &&
-           std::all_of(lane.links.begin(), lane.links.end(), [](const world::Link& link) {
-               return link.turn() == world::Turn::around;
-           });
-}
-
 RoadGraph::RoadGraph(const world::TownT& town, std::vector<ClassSet> classes)
     : town_(&town),
       classes_(std::move(classes)),

@@ -9,9 +9,6 @@
 
 namespace reprise::traffic {
 
-/// From its end one can only turn around.
-bool is_dead_end(const world::LaneT& lane);
-
 /// Where one can drive from where: SUMO's edges (roads) and their lanes, with who may use them.
 class RoadGraph {
   public:

@@ -176,27 +176,6 @@ TEST(Mirrors, ATailOverATinyEdgeIsSeenAllTheWay) {
     EXPECT_GT(x, 200) << "behind both junctions";
 }
 
-TEST(Mirrors, WhoSwingsAroundAtADeadEndIsSeen) {
-    const test::Loaded loaded = converted(
-        "street",
-        R"(<nodes> <node id="a" x="0" y="0"/> <node id="b" x="200" y="0"/> </nodes>)",
-        R"(<edges> <edge id="ab" from="a" to="b"/> <edge id="ba" from="b" to="a"/> </edges>)");
-    const std::uint32_t road = lane(loaded.town, "ab_0");
-    ASSERT_TRUE(is_dead_end(loaded.town.lanes[road]));
-    // Halfway around at full lock: beyond the road's end, its front 5 m from the nearest lane.
-    const world::Vec3& end = loaded.town.lanes[road].centre.back();
-    const world::VehicleState across = test::vehicle_at(ego, end.x() + 4.1, end.y() + 4.1, 1.7, 0);
-    Stage stage(loaded, 0);
-    stage.step({}, {across});
-    stage.step({spawn(follower, road, 100, 10)}, {across});
-    for (int i = 0; i < 600; ++i)
-        stage.step({}, {across});
-    const world::CarState* car = stage.car(follower);
-    ASSERT_NE(car, nullptr);
-    EXPECT_EQ(car->lane(), road) << "it waits for its turn";
-    EXPECT_LT(car->speed(), 0.01F);
-}
-
 TEST(Mirrors, RunsWithMirrorsAreRepeatable) {
     const auto& loaded = own_town("town1");
     const std::uint32_t road = lane(loaded.town, "b2_b3_1");
