@@ -80,7 +80,8 @@ int layer_of(const Tags& tags) {
 
 MapShapes read_shapes(const std::string& map,
                       const std::string& network,
-                      const std::filesystem::path& scratch) {
+                      const std::filesystem::path& scratch,
+                      const std::string& called) {
     std::ofstream(scratch / "shapes.typ.xml") << wanted_keys;
     run_sumo_tool("polyconvert",
                   {"--net-file",
@@ -90,6 +91,8 @@ MapShapes read_shapes(const std::string& map,
                    "--type-file",
                    "shapes.typ.xml",
                    "--discard",
+                   // Extracts have ways of which no node is left: netconvert has said so.
+                   "--ignore-errors",
                    "--all-attributes",
                    "--osm.keep-full-type",
                    "--prune.in-net",
@@ -100,10 +103,10 @@ MapShapes read_shapes(const std::string& map,
                    "--output-file",
                    "shapes.xml"},
                   scratch,
-                  map);
+                  called);
     pugi::xml_document document;
     if (!document.load_file((scratch / "shapes.xml").c_str()))
-        throw world::Error(map + ": polyconvert wrote no shapes");
+        throw world::Error(called + ": polyconvert wrote no shapes");
     MapShapes shapes;
     std::set<std::string> seen;
     for (const pugi::xml_node poly : document.document_element().children("poly"))

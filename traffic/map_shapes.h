@@ -24,10 +24,12 @@ struct MapShapes {
 };
 
 /// SUMO's polyconvert reads and projects the map: the same way as netconvert did with the roads.
-/// `map` and `network` are files in the folder `scratch`. Throws world::Error when it fails.
+/// `map` and `network` are files in the folder `scratch`; `called` is how the user calls the map.
+/// What the map cuts off, as extracts do, is left out. Throws world::Error when it fails.
 MapShapes read_shapes(const std::string& map,
                       const std::string& network,
-                      const std::filesystem::path& scratch);
+                      const std::filesystem::path& scratch,
+                      const std::string& called);
 
 /// How a way lies in relation to those that it crosses, from -5 to 5: what the map says, else 1 for
 /// a bridge and -1 for a tunnel.

@@ -185,7 +185,7 @@ class Import {
         const ImportedRoads roads = read_roads(network, map_);
         if (roads.town.lanes.empty())
             return;  // a clearer word is said when the network is read
-        const MapShapes shapes = read_shapes("map.osm", made, work_);
+        const MapShapes shapes = read_shapes("map.osm", made, work_, map_);
         raise(shapes);
         Place found;
         const FootprintReport areas = place_footprints(shapes.areas, roads.town, found);
