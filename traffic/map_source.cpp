@@ -70,7 +70,10 @@ std::string_view first_element(std::string_view text) {
         text.remove_prefix(start + 1);
         if (text.empty() || (text.front() != '?' && text.front() != '!'))
             return text.substr(0, text.find_first_of(" \t\r\n/>"));
-        const std::string_view ending = text.substr(0, 3) == "!--" ? "-->" : ">";
+        const std::size_t brackets = text.substr(0, text.find('>')).find('[');
+        const std::string_view ending = text.starts_with("!--")              ? "-->"
+                                        : brackets != std::string_view::npos ? "]>"
+                                                                             : ">";
         const std::size_t end = text.find(ending);
         if (end == std::string_view::npos)
             return "";
@@ -86,6 +89,8 @@ MapKind kind_of(const fs::path& path, std::string_view beginning) {
                          std::all_of(element.begin(), element.end(), [](unsigned char c) {
                              return c > 0x20 && c < 0x7f;
                          });
+    if (beginning.starts_with("\xff\xfe") || beginning.starts_with("\xfe\xff"))
+        fail(path, "is written in UTF-16; UTF-8 was expected");
     if (!is_name)
         fail(path, fmt::format("is not XML; {}", expected));
     if (element == "OpenDRIVE")

@@ -253,8 +253,6 @@ Network load_network(const std::filesystem::path& path) {
 
     if (!has_car_lane(root))
         fail_at(path, root_line, "has no edge that a passenger car may use");
-    if (!root.child("connection"))
-        fail_at(path, root_line, "has no <connection>: its roads lead nowhere");
     check_lanes(path, network.xml, root);
 
     // Words of newer SUMO versions.
