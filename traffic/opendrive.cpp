@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
 #include <pugixml.hpp>
 #include <sstream>
@@ -40,39 +41,53 @@ std::optional<double> speed_of(const char* written, std::string_view unit) {
 
 // ---- limits -----------------------------------------------------------------------------------
 
-/// The limit of the whole road at s.
-std::optional<double> limit_at(const pugi::xml_node& road, double s) {
-    std::optional<double> limit;
-    for (const pugi::xml_node type : road.children("type"))
-        if (real(type, "s") <= s + 1e-6) {
-            const pugi::xml_node speed = type.child("speed");
-            limit = speed_of(speed.attribute("max").value(), text(speed, "unit"));
-        }
-    return limit;
+/// The limits of the whole road between two s, each from how far behind the first on [m]: [m/s].
+std::map<double, double> limits_between(const pugi::xml_node& road, double from, double to) {
+    constexpr double same = 1e-6;  // [m]
+    std::map<double, double> limits;
+    for (const pugi::xml_node type : road.children("type")) {
+        const double s = real(type, "s");
+        if (s > to - same)
+            continue;
+        if (s <= from + same)
+            limits.clear();
+        const pugi::xml_node speed = type.child("speed");
+        if (const auto limit = speed_of(speed.attribute("max").value(), text(speed, "unit")))
+            limits[std::max(s - from, 0.0)] = *limit;
+    }
+    return limits;
+}
+
+void write_limits(pugi::xml_node lane, const std::map<double, double>& limits) {
+    // The standard's order: link, width, border, roadMark, material, visibility, speed.
+    pugi::xml_node after;
+    for (const pugi::xml_node child : lane.children())
+        for (const char* name : {"link", "width", "border", "roadMark", "material"})
+            if (std::string_view(child.name()) == name)
+                after = child;
+    for (const auto& [offset, limit] : limits) {
+        pugi::xml_node speed =
+            after ? lane.insert_child_after("speed", after) : lane.prepend_child("speed");
+        speed.append_attribute("sOffset").set_value(fmt::format("{:g}", offset).c_str());
+        speed.append_attribute("max").set_value(fmt::format("{:.4f}", limit).c_str());
+        speed.append_attribute("unit").set_value("m/s");
+        after = speed;
+    }
 }
 
 /// Lanes with a limit of their own keep it. Returns how many got one.
 int set_limits(const pugi::xml_node& road) {
     int set = 0;
     for (const pugi::xml_node section : road.child("lanes").children("laneSection")) {
-        const std::optional<double> limit = limit_at(road, real(section, "s"));
+        const pugi::xml_node next = section.next_sibling("laneSection");
+        const std::map<double, double> limits =
+            limits_between(road, real(section, "s"), next ? real(next, "s") : real(road, "length"));
         for (const char* side : {"left", "right"})
-            for (pugi::xml_node lane : section.child(side).children("lane")) {
-                if (!limit || lane.child("speed") || text(lane, "type") == "sidewalk")
-                    continue;
-                // The standard's order: link, width, border, roadMark, material, visibility, speed.
-                pugi::xml_node after;
-                for (const pugi::xml_node child : lane.children())
-                    for (const char* name : {"link", "width", "border", "roadMark", "material"})
-                        if (std::string_view(child.name()) == name)
-                            after = child;
-                pugi::xml_node speed =
-                    after ? lane.insert_child_after("speed", after) : lane.prepend_child("speed");
-                speed.append_attribute("sOffset").set_value("0");
-                speed.append_attribute("max").set_value(fmt::format("{:.4f}", *limit).c_str());
-                speed.append_attribute("unit").set_value("m/s");
-                ++set;
-            }
+            for (const pugi::xml_node lane : section.child(side).children("lane"))
+                if (!limits.empty() && !lane.child("speed") && text(lane, "type") != "sidewalk") {
+                    write_limits(lane, limits);
+                    ++set;
+                }
     }
     return set;
 }
@@ -156,19 +171,28 @@ RoadSignal read_signal(const pugi::xml_node& signal,
                        const ReferenceLine& line) {
     const double s = real(signal, "s"), t = real(signal, "t");
     const RoadPose pose = line.at(s);
-    const double tilt = cubic_at(road.child("lateralProfile"), "superelevation", s);
     RoadSignal found;
     found.id = text(signal, "id");
     found.kind = kind;
     found.foot = {pose.position.x() - t * std::sin(pose.heading),
                   pose.position.y() + t * std::cos(pose.heading),
-                  cubic_at(road.child("elevationProfile"), "elevation", s) + t * std::tan(tilt)};
+                  // Not where superelevation puts it: the town's road is flat from side to side.
+                  cubic_at(road.child("elevationProfile"), "elevation", s)};
     found.heading = pose.heading + real(signal, "hOffset");
     found.against = text(signal, "orientation") == "-";
     found.bottom = real(signal, "zOffset");
     found.height = real(signal, "height");
     found.limit_kmh = kind == Kind::speed_limit ? limit_of(signal) : 0;
     return found;
+}
+
+/// Is any part of it higher on one side?
+bool is_banked(const pugi::xml_node& road) {
+    for (const pugi::xml_node piece : road.child("lateralProfile").children("superelevation"))
+        for (const char* name : {"a", "b", "c", "d"})
+            if (real(piece, name) != 0)
+                return true;
+    return false;
 }
 
 void read_signals(const pugi::xml_node& road, OpenDrive& map) {
@@ -204,10 +228,12 @@ OpenDrive read_opendrive(const std::string& xml, const std::string& file) {
     OpenDrive map;
     const pugi::xml_node header = root.child("header");
     map.version = fmt::format("{}.{}", text(header, "revMajor"), text(header, "revMinor"));
+    map.origin = {real(header.child("offset"), "x"), real(header.child("offset"), "y")};
     map.left_hand = true;
     for (const pugi::xml_node road : root.children("road")) {
         map.left_hand = map.left_hand && text(road, "rule") == "LHT";
         map.limits_set += set_limits(road);
+        map.banked += is_banked(road) ? 1 : 0;
         drop_made_up_name(road);
         read_signals(road, map);
     }

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "world/town_generated.h"
 
 namespace reprise::traffic {
@@ -28,8 +30,12 @@ struct OpenDrive {
     std::vector<RoadSignal> signals;  ///< in the order of the file
     int other_signs = 0;              ///< of kinds that have no place in a town
     int limits_set = 0;               ///< lanes that got their road's limit
-    bool left_hand = false;           ///< all roads say so
-    std::string prepared;             ///< the map with these limits, for netconvert
+    int banked = 0;                   ///< roads with superelevation: netconvert lays them flat
+    /// [m] The header's <offset>: netconvert takes it off every place, if it knows the map's
+    /// projection.
+    Eigen::Vector2d origin{0, 0};
+    bool left_hand = false;  ///< all roads say so
+    std::string prepared;    ///< the map with these limits, for netconvert
 };
 
 /// Reads it out of the map's text. netconvert 1.15 ignores speed limits of a whole road

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <pugixml.hpp>
 #include <set>
+#include <tuple>
 
 #include "traffic/lanes.h"
 #include "traffic/links.h"
@@ -62,13 +63,14 @@ double read_yaw(const RoadSignal& signal, bool relative_to_orientation) {
 }
 
 std::vector<SignalSite> site_as(const OpenDrive& map, const ImportedRoads& roads, bool relative) {
+    Vector2d offset = roads.offset;
+    if (roads.projected)
+        offset -= map.origin;
     std::vector<SignalSite> sites;
     for (const RoadSignal& signal : map.signals) {
         SignalSite site;
         site.signal = &signal;
-        site.foot = {signal.foot.x() + roads.offset.x(),
-                     signal.foot.y() + roads.offset.y(),
-                     signal.foot.z()};
+        site.foot = {signal.foot.x() + offset.x(), signal.foot.y() + offset.y(), signal.foot.z()};
         site.yaw = read_yaw(signal, relative);
         site.lane = lane_beside(roads.town, site.foot, site.yaw);
         sites.push_back(site);
@@ -143,25 +145,52 @@ LaneSignals signals_by_lane(const world::TownT& town) {
     return lanes;
 }
 
-/// The nearest of those lights that can be seen from a lane's end.
+/// Does it hang over the end of the lane itself, which is `width` wide?
+bool hangs_over(const SignalSite& site, const world::SignalT& signal, double width) {
+    constexpr double farthest = 12;  // [m] netconvert makes junctions of another size
+    const Vector2d off = flat(site.foot) - flat(signal.position);
+    const double across = std::cos(signal.yaw) * off.y() - std::sin(signal.yaw) * off.x();
+    return std::abs(across) < width / 2 && off.norm() < farthest;
+}
+
+/// The nearest of those lights that can be seen from a lane's end. One that hangs over the lane is
+/// its own, whatever netconvert ties to it.
 std::optional<std::size_t> nearest_light(const std::vector<SignalSite>& sites,
                                          const world::SignalT& signal,
+                                         double lane_width,
                                          const std::set<std::string>& ids) {
     constexpr double nearby = 15;  // [m] for a light that netconvert has not tied to the lane
-    std::optional<std::pair<double, std::size_t>> best;
+    std::optional<std::tuple<bool, double, std::size_t>> best;
     for (std::size_t i = 0; i < sites.size(); ++i) {
-        if (sites[i].signal->kind != Kind::light ||
-            (!ids.empty() && ids.count(sites[i].signal->id) == 0))
+        if (sites[i].signal->kind != Kind::light)
             continue;
         const std::optional<double> far = distance_to(sites[i], signal);
-        if (far && (!ids.empty() || *far < nearby) && (!best || std::pair(*far, i) < *best))
-            best = {*far, i};
+        if (!far)
+            continue;
+        const bool over = hangs_over(sites[i], signal, lane_width);
+        const bool tied = ids.empty() ? *far < nearby : ids.count(sites[i].signal->id) > 0;
+        if ((over || tied) && (!best || std::tuple(!over, *far, i) < *best))
+            best = {!over, *far, i};
     }
-    return best ? std::optional(best->second) : std::nullopt;
+    return best ? std::optional(std::get<2>(*best)) : std::nullopt;
 }
 
 /// Links that a light stands for. Key: index of the site, and the program.
 using LightLinks = std::map<std::pair<std::size_t, std::string>, std::vector<std::uint32_t>>;
+
+/// Does a light that shows something stand there already, for the same drivers? netconvert, for
+/// one, writes a light for each link of a lane.
+bool stands_at_another(const std::vector<SignalSite>& sites,
+                       std::size_t index,
+                       const LightLinks& links) {
+    constexpr double same_place = 1;  // [m]
+    const SignalSite& site = sites[index];
+    return std::any_of(links.begin(), links.end(), [&](const auto& entry) {
+        const SignalSite& other = sites[entry.first.first];
+        return (flat(other.foot) - flat(site.foot)).norm() < same_place &&
+               std::abs(world::wrap_angle(other.yaw - site.yaw)) < sixty_degrees;
+    });
+}
 
 /// netconvert ties lights to links, at times those of the other side of the road as well, at times
 /// none: of those, or else of all, the nearest that can be seen counts.
@@ -171,7 +200,8 @@ LightLinks lights_of_links(const std::vector<SignalSite>& sites, const ImportedR
         std::set<std::string> ids;
         for (const std::uint32_t signal : signals)
             ids.insert(roads.lights[signal].begin(), roads.lights[signal].end());
-        const auto light = nearest_light(sites, roads.town.signals[signals.front()], ids);
+        const auto light = nearest_light(
+            sites, roads.town.signals[signals.front()], roads.town.lanes[key.second].width, ids);
         for (const std::uint32_t signal : signals)
             if (light)
                 found[{*light, key.first}].push_back(roads.town.signals[signal].index);
@@ -222,10 +252,11 @@ ImportedRoads read_roads(const std::string& network, const std::string& file) {
     read_junctions(net, roads.town);
     read_lanes(net, roads.town);
     read_links(net, roads.town);
-    const std::vector<Vec3> offset =
-        parse_shape(net.child("location").attribute("netOffset").value());
+    const pugi::xml_node location = net.child("location");
+    const std::vector<Vec3> offset = parse_shape(location.attribute("netOffset").value());
     if (!offset.empty())
         roads.offset = flat(offset.front());
+    roads.projected = std::string_view(location.attribute("projParameter").value()) != "!";
     const Lights lights = read_lights(net);
     for (const world::SignalT& signal : roads.town.signals) {
         const auto found = lights.find({signal.program, signal.index});
@@ -257,7 +288,7 @@ SignalReport place_signals(const OpenDrive& map, const ImportedRoads& roads, Pla
         const auto first = links.lower_bound({i, ""});
         const bool useful = !is_light || (first != links.end() && first->first.first == i);
         if (!way || !useful) {
-            ++report.lost;
+            ++(is_light && stands_at_another(sites, i, links) ? report.shared : report.lost);
             continue;
         }
         report.moved += *way > 0 ? 1 : 0;

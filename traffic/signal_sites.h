@@ -16,6 +16,7 @@ namespace reprise::traffic {
 struct ImportedRoads {
     world::TownT town;             ///< lanes, links, junctions and signals only
     Eigen::Vector2d offset{0, 0};  ///< [m] from the map's coordinates to the network's
+    bool projected = false;        ///< netconvert knows where on earth it lies
     /// The map's ids of the lights that netconvert gave to each of town.signals.
     std::vector<std::vector<std::string>> lights;
 };
@@ -42,6 +43,7 @@ struct SignalReport {
     int lights = 0;  ///< in the map
     int heads = 0;   ///< that stand where the map says
     int signs = 0;   ///< likewise
+    int shared = 0;  ///< lights beside another one, which shows what they would
     int moved = 0;   ///< poles that stood on the road
     int lost = 0;    ///< that control nothing, or found no place beside the road
 };

@@ -141,10 +141,16 @@ class Import {
             say("poles: {} would stand on a road and were moved to its edge, where heads get an "
                 "arm",
                 signals.moved);
+        if (signals.shared > 0)
+            say("signals: {} stand beside another one, whose head shows what they would",
+                signals.shared);
         if (signals.lost > 0)
             say("lost: {} signals and signs that control nothing or have no place", signals.lost);
         if (map.other_signs > 0)
             say("lost: {} signals and signs of other kinds", map.other_signs);
+        if (map.banked > 0)
+            say("lost: the superelevation of {} roads; they are flat from side to side",
+                map.banked);
         say("lost: road markings and objects (they are made anew)");
         place = place_xml(found);
     }

@@ -47,6 +47,31 @@ TEST(OpenDrive, RoadLimitsAreWrittenIntoLanesWithoutOne) {
     EXPECT_EQ(read_opendrive(map.prepared, "m.xodr").limits_set, 0);
 }
 
+TEST(OpenDrive, ALimitThatChangesWithinALaneSectionIsKept) {
+    std::string xml = map_with("");
+    const std::string second = "<type s=\"30\"", moved = "<type s=\"12.5\"";
+    xml.replace(xml.find(second), second.size(), moved);
+    EXPECT_THAT(read_opendrive(xml, "m.xodr").prepared,
+                HasSubstr("<roadMark/><speed sOffset=\"0\" max=\"11.1760\" unit=\"m/s\"/>"
+                          "<speed sOffset=\"12.5\" max=\"16.6667\" unit=\"m/s\"/></lane>"));
+}
+
+TEST(OpenDrive, SuperelevationIsCountedAndMovesNoSign) {
+    const std::string sign = "<signal id='a' s='40' t='-4' type='206'/>";
+    std::string xml = map_with(sign);
+    const std::string after = "</elevationProfile>";
+    xml.insert(
+        xml.find(after) + after.size(),
+        "<lateralProfile><superelevation s='0' a='0.2' b='0' c='0' d='0'/></lateralProfile>");
+    const OpenDrive banked = read_opendrive(xml, "m.xodr");
+    const OpenDrive level = read_opendrive(map_with(sign), "m.xodr");
+    EXPECT_EQ(banked.banked, 1);
+    EXPECT_EQ(level.banked, 0);
+    ASSERT_EQ(banked.signals.size(), 1U);
+    EXPECT_EQ(banked.signals[0].foot.z(), level.signals.at(0).foot.z())
+        << "the town's road is level there";
+}
+
 TEST(OpenDrive, SignalsStandBesideTheReferenceLine) {
     const OpenDrive map = read_opendrive(
         map_with("<signal id='a' name='Signal_3Light' s='40' t='-4' zOffset='5' hOffset='0.1' "

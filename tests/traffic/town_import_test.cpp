@@ -74,6 +74,14 @@ fs::path village() {
     return fs::path(REPRISE_SOURCE_DIR) / "tests/traffic/village.osm";
 }
 
+/// [m] of driving lanes.
+double driven(const world::TownT& town) {
+    double length = 0;
+    for (const world::LaneT& lane : town.lanes)
+        length += lane.kind == LaneKind::driving ? lane.length : 0;
+    return length;
+}
+
 fs::path shared_map(const std::string& name) {
     return fs::path(REPRISE_SOURCE_DIR) / "../shared/maps" / name;
 }
@@ -117,6 +125,35 @@ TEST_F(Imports, AStreetByItselfIsATown) {
         return lane.kind == LaneKind::driving;
     });
     EXPECT_EQ(driving, 2) << "one each way";
+}
+
+TEST_F(Imports, ExtractsMayCutWaysOff) {
+    std::string map = bytes(village());
+    map.insert(map.rfind("</osm>"),
+               "<way id=\"9001\"><nd ref=\"77001\"/><nd ref=\"77002\"/>"
+               "<tag k=\"highway\" v=\"residential\"/></way>"
+               "<way id=\"9002\"><nd ref=\"77003\"/><tag k=\"building\" v=\"yes\"/></way>");
+    import_town({write("extract.osm", map), "", false, false}, empty("t"));
+    import_town({village(), "", false, false}, empty("whole"));
+    EXPECT_EQ(bytes(folder_ / "t/extract.place.xml"), bytes(folder_ / "whole/village.place.xml"));
+}
+
+TEST_F(Imports, AOneWayRoadByItselfIsATown) {
+    const fs::path map = write(
+        "lone.xodr",
+        "<?xml version='1.0'?><!DOCTYPE OpenDRIVE [<!ENTITY a 'b'>]>\n"
+        "<OpenDRIVE><header revMajor='1' revMinor='4'/><road id='1' length='80' junction='-1'>"
+        "<planView><geometry s='0' x='0' y='0' hdg='0' length='80'><line/></geometry></planView>"
+        "<lanes><laneSection s='0'><center><lane id='0' type='none'/></center><right>"
+        "<lane id='-1' type='driving'><width sOffset='0' a='3.5' b='0' c='0' d='0'/></lane>"
+        "</right></laneSection></lanes></road></OpenDRIVE>");
+    import_town({map, "", false, false}, empty("t"));
+    const test::Loaded loaded = test::load(folder_ / "t/lone.net.xml");
+    EXPECT_NEAR(driven(loaded.town), 80, 0.01);
+    // Nobody can go anywhere, and nothing breaks.
+    test::Stage stage(loaded, 5);
+    for (int i = 0; i < 40; ++i)
+        EXPECT_LE(stage.step().traffic.cars.size(), 5U);
 }
 
 TEST_F(Imports, FootprintsKeepTheirPlaceAndHeight) {
@@ -246,14 +283,6 @@ TEST_F(Imports, SidewalksAreGuessedOnRequest) {
               sidewalks(folder_ / "without/village.net.xml"));
 }
 
-/// [m] of driving lanes.
-double driven(const world::TownT& town) {
-    double length = 0;
-    for (const world::LaneT& lane : town.lanes)
-        length += lane.kind == LaneKind::driving ? lane.length : 0;
-    return length;
-}
-
 TEST_F(Imports, OurOwnTownComesBackThroughOpenDrive) {
     const fs::path own = fs::path(REPRISE_SOURCE_DIR) / "scenarios/towns/town2/town2.net.xml";
     fs::copy_file(own, folder_ / "in.xml");
@@ -286,6 +315,62 @@ TEST_F(Imports, OurOwnTownComesBackThroughOpenDrive) {
         EXPECT_GT(head.arm, 1);
         EXPECT_GT(head.height, 5);
     }
+}
+
+TEST_F(Imports, LightsStayWhereTheHeaderMovesTheMap) {
+    // As netconvert writes maps that know where on earth they lie.
+    std::string net = bytes(fs::path(REPRISE_SOURCE_DIR) / "scenarios/towns/town2/town2.net.xml");
+    const std::size_t location = net.find("<location");
+    net.replace(location,
+                net.find("/>", location) + 2 - location,
+                "<location netOffset='-604000.00,-5792000.00' convBoundary='0,0,300,300' "
+                "origBoundary='10,52,11,53' projParameter='+proj=utm +zone=32 +ellps=WGS84 "
+                "+datum=WGS84 +units=m +no_defs'/>");
+    write("in.xml", net);
+    ASSERT_EQ(run_program("netconvert",
+                          {"-X", "never", "-s", "in.xml", "--opendrive-output", "moved.xodr"},
+                          folder_)
+                  .code,
+              0);
+    ASSERT_NE(bytes(folder_ / "moved.xodr").find("<offset x=\"-604000"), std::string::npos);
+    const std::string report = import_town({folder_ / "moved.xodr", "", false, false}, empty("t"));
+    const ImportedRoads roads = read_roads(bytes(folder_ / "t/moved.net.xml"), "moved");
+    const Place place = read_place(bytes(folder_ / "t/moved.place.xml"), "moved.place.xml");
+    std::set<std::uint32_t> lit;
+    for (const world::SignalT& signal : roads.town.signals)
+        if (signal.lane != world::none && roads.town.lanes[signal.lane].kind == LaneKind::driving)
+            lit.insert(signal.lane);
+    EXPECT_GT(lit.size(), 10U);
+    EXPECT_EQ(place.heads.size(), lit.size()) << report;
+}
+
+TEST_F(Imports, EachLaneKeepsTheLightThatHangsOverIt) {
+    ASSERT_EQ(run_program("netgenerate",
+                          {"-X",
+                           "never",
+                           "--grid",
+                           "--grid.number",
+                           "2",
+                           "-L",
+                           "3",
+                           "--grid.attach-length",
+                           "80",
+                           "-j",
+                           "traffic_light",
+                           "--opendrive-output",
+                           "wide.xodr"},
+                          folder_)
+                  .code,
+              0);
+    import_town({folder_ / "wide.xodr", "", false, false}, empty("t"));
+    const Place place = read_place(bytes(folder_ / "t/wide.place.xml"), "wide.place.xml");
+    const world::TownT town = read_town(load_network(folder_ / "t/wide.net.xml"));
+    std::set<std::uint32_t> lit;
+    for (const world::SignalT& signal : town.signals)
+        if (signal.lane != world::none && town.lanes[signal.lane].kind == LaneKind::driving)
+            lit.insert(signal.lane);
+    EXPECT_EQ(lit.size(), 4U * 4 * 3) << "three lanes on each of four arms";
+    EXPECT_EQ(place.heads.size(), lit.size());
 }
 
 TEST_F(Imports, StreetNamesStayAndMadeUpOnesGo) {
@@ -405,6 +490,7 @@ TEST_F(Imports, WhatIsNoMapIsRefusedInOneLine) {
                      "ELF\0\0\0",
                      7),
          "binary.osm: is not XML"},
+        {"wide.osm", std::string("\xff\xfe<\0", 4), "wide.osm: is written in UTF-16"},
         {"page.osm", "<html></html>", "page.osm: begins with <html>"},
         {"none.xodr", "<OpenDRIVE/>", "none.xodr:1: has no <road>"},
         {"bare.xodr",
