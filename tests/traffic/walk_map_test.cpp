@@ -127,6 +127,25 @@ TEST(WalkCheck, FindsTheSidewalksOfTown1Connected) {
     EXPECT_EQ(check_walking(town, map).figure, 100);
 }
 
+TEST(WalkCheck, LeavesOutSidewalksThatTheNetworkDoesNotJoin) {
+    world::TownT town = test::own_town("town2").town;
+    const WalkMap map(world::build_ground(town));
+    // A strip far away, without links: a sixth of all sidewalks.
+    world::LaneT strip;
+    strip.name = "strip";
+    strip.kind = world::LaneKind::sidewalk;
+    strip.length = 500;
+    strip.centre = {{5000, 0, 0}, {5500, 0, 0}};
+    town.lanes.push_back(strip);
+    const world::Criterion joined = check_walking(town, map);
+    EXPECT_EQ(joined.figure, 100);
+    EXPECT_NE(joined.looked_at.find("that the network joins"), std::string::npos);
+    // Where no two are joined, it counts as well.
+    for (world::LaneT& lane : town.lanes)
+        lane.links.clear();
+    EXPECT_FALSE(check_walking(town, map).passed());
+}
+
 TEST(WalkCheck, CountsPairsWithoutAWay) {
     // Only the ground of a half of the town.
     const world::TownT& town = test::own_town("town2").town;
