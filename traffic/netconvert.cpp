@@ -124,8 +124,4 @@ std::vector<std::string> openstreetmap_words(const std::string& file, bool left_
     return words;
 }
 
-std::vector<std::string> sidewalk_words() {
-    return {"--sidewalks.guess", "--crossings.guess", "--walkingareas"};
-}
-
 }  // namespace reprise::traffic

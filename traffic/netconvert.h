@@ -23,7 +23,4 @@ std::vector<std::string> opendrive_words(const std::string& file, bool left_hand
 /// What suits an OpenStreetMap map in `file`.
 std::vector<std::string> openstreetmap_words(const std::string& file, bool left_hand);
 
-/// Adds sidewalks where roads have none, and crossings at junctions.
-std::vector<std::string> sidewalk_words();
-
 }  // namespace reprise::traffic

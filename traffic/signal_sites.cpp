@@ -14,6 +14,7 @@
 #include "traffic/network_xml.h"
 #include "world/check.h"
 #include "world/frames.h"
+#include "world/furniture_check.h"
 #include "world/town.h"
 
 namespace reprise::traffic {
@@ -106,6 +107,15 @@ bool on_the_road(const world::TownT& town, const Vec3& point) {
     });
 }
 
+/// Is it in the middle of a sidewalk or crossing?
+bool in_the_way_of_walkers(const world::TownT& town, const Vec3& point) {
+    constexpr double pole_radius = 0.2, way = world::clear_for_walkers + pole_radius;  // [m]
+    return std::any_of(town.lanes.begin(), town.lanes.end(), [&](const LaneT& lane) {
+        return (lane.kind == LaneKind::sidewalk || lane.kind == LaneKind::crossing) &&
+               world::project(lane, vector(point)).distance < way;
+    });
+}
+
 /// The foot, moved to the right of those who read the signal; in left-hand traffic to the left.
 Vec3 moved(const SignalSite& site, double way, bool left_hand) {
     const double side = site.yaw + (left_hand ? pi / 2 : -pi / 2);
@@ -113,12 +123,15 @@ Vec3 moved(const SignalSite& site, double way, bool left_hand) {
         site.foot.x() + way * std::cos(side), site.foot.y() + way * std::sin(side), site.foot.z()};
 }
 
-/// How far that must be so that no road is there; nothing when there is road everywhere.
+/// How far that must be so that no road is there; nothing when there is road everywhere. Where the
+/// map's own place is no road it stays, whoever walks there.
 std::optional<double> way_to_kerb(const world::TownT& town, const SignalSite& site) {
     constexpr double farthest = 15, step = 0.25;  // [m]
-    for (int i = 0; i * step <= farthest; ++i)
-        if (!on_the_road(town, moved(site, i * step, town.left_hand)))
+    for (int i = 0; i * step <= farthest; ++i) {
+        const Vec3 foot = moved(site, i * step, town.left_hand);
+        if (!on_the_road(town, foot) && (i == 0 || !in_the_way_of_walkers(town, foot)))
             return i * step;
+    }
     return std::nullopt;
 }
 

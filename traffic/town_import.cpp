@@ -116,6 +116,12 @@ class Import {
             say("netconvert gave {} warnings", warnings);
     }
 
+    void guess_sidewalks(std::vector<std::string>& words) {
+        words.emplace_back("--sidewalks.guess");
+        // netconvert's own bounds: 5.8 and 13.89 m/s.
+        say("sidewalks: added along roads with limits of 21 to 50 km/h that had none");
+    }
+
     void from_opendrive(const TownImport& wish) {
         const OpenDrive map = read_opendrive(read_text(source_.file), map_);
         write_text(work_ / "map.xodr", map.prepared);
@@ -125,7 +131,7 @@ class Import {
                 "wrong");
         std::vector<std::string> words = opendrive_words("map.xodr", map.left_hand);
         if (wish.guess_sidewalks)
-            words.emplace_back("--sidewalks.guess");
+            guess_sidewalks(words);
         convert(words);
         if (map.limits_set > 0)
             say("speed limits: {} lanes got that of their road, which netconvert ignores",
@@ -184,7 +190,7 @@ class Import {
         say("OpenStreetMap, traffic drives on the {}", wish.left_hand ? "left" : "right");
         std::vector<std::string> words = openstreetmap_words("map.osm", wish.left_hand);
         if (wish.guess_sidewalks)
-            words.emplace_back("--sidewalks.guess");
+            guess_sidewalks(words);
         // Each road says which ways it was made of: bridges and signs are looked up by that.
         words.emplace_back("--output.original-names");
         convert(words);
@@ -240,8 +246,8 @@ class Import {
         write_text(work_ / "map.net.xml", network);
         std::vector<std::string> words{
             "--sumo-net-file", "map.net.xml", "--offset.disable-normalization"};
-        for (const std::string& word : sidewalk_words())
-            words.push_back(word);
+        words.insert(words.end(), {"--crossings.guess", "--walkingareas"});
+        guess_sidewalks(words);
         convert(words);
     }
 
