@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
 
 #include "world/frames.h"
 
@@ -12,6 +15,9 @@ namespace {
 using Line = std::vector<Eigen::Vector3d>;
 
 constexpr double shortest_segment = 0.01;  ///< [m]
+/// 1 + cosine of the sharpest turn with a full mitre, 120 degrees; sharper ones would reach far
+/// out.
+constexpr double shortest_mitre = 0.5;
 
 Eigen::Vector2d flat(const Eigen::Vector3d& p) {
     return p.head<2>();
@@ -37,6 +43,25 @@ bool is_proper(const std::vector<Eigen::Vector3d>& quad) {
            corner_area(quad[0], quad[2], quad[3]) > least;
 }
 
+/// The outside of a bend, from one normal counter-clockwise to another, `offset` metres along them:
+/// one wedge, in hairpins several, whose chords keep their distance.
+void add_wedges(const Eigen::Vector3d& corner,
+                const Eigen::Vector2d& first,
+                const Eigen::Vector2d& last,
+                double offset,
+                std::vector<std::vector<Eigen::Vector3d>>& pieces) {
+    constexpr double sharp = 75 * std::numbers::pi / 180;  // [rad]
+    const double turn = std::atan2(cross(first, last), first.dot(last));
+    const int count = turn > sharp ? 4 : 1;
+    Eigen::Vector2d from = first;
+    for (int i = 1; i <= count; ++i) {
+        const Eigen::Vector2d to =
+            i == count ? last : Eigen::Vector2d(Eigen::Rotation2Dd(turn * i / count) * first);
+        pieces.push_back({corner, beside(corner, from, offset), beside(corner, to, offset)});
+        from = to;
+    }
+}
+
 /// Straight pieces with square ends, and a wedge on the outside of every bend: no folds, whatever
 /// the line does.
 std::vector<std::vector<Eigen::Vector3d>> square_pieces(const Line& line,
@@ -54,14 +79,19 @@ std::vector<std::vector<Eigen::Vector3d>> square_pieces(const Line& line,
         const Eigen::Vector2d next = left_normal(line, i + 1);
         const bool turns_left = cross(normal, next) > 0;
         if (turns_left && right < 0)
-            pieces.push_back({line[i + 1],
-                              beside(line[i + 1], normal, right),
-                              beside(line[i + 1], next, right)});
+            add_wedges(line[i + 1], normal, next, right, pieces);
         if (!turns_left && left > 0)
-            pieces.push_back(
-                {line[i + 1], beside(line[i + 1], next, left), beside(line[i + 1], normal, left)});
+            add_wedges(line[i + 1], next, normal, left, pieces);
     }
     return pieces;
+}
+
+/// Does it turn by more than 120 degrees? There cut-off mitres make the ribbon too narrow.
+bool has_hairpin(const Line& line) {
+    for (std::size_t i = 1; i + 1 < line.size(); ++i)
+        if (1 + left_normal(line, i - 1).dot(left_normal(line, i)) < shortest_mitre)
+            return true;
+    return false;
 }
 
 }  // namespace
@@ -120,7 +150,8 @@ Line moved_left(const Line& line, double offset) {
         const Eigen::Vector2d before = left_normal(line, i > 0 ? i - 1 : 0);
         const Eigen::Vector2d after = left_normal(line, i + 1 < line.size() ? i : i - 1);
         // (before + after) / (1 + before . after) reaches the corner where both sides meet.
-        const Eigen::Vector2d mitre = (before + after) / std::max(0.5, 1 + before.dot(after));
+        const Eigen::Vector2d mitre =
+            (before + after) / std::max(shortest_mitre, 1 + before.dot(after));
         moved.push_back(beside(line[i], mitre, offset));
     }
     return moved;
@@ -133,7 +164,8 @@ Ribbon make_ribbon(const Line& line, double right, double left) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
         ribbon.pieces.push_back(
             {ribbon.right[i], ribbon.right[i + 1], ribbon.left[i + 1], ribbon.left[i]});
-    ribbon.simple = std::all_of(ribbon.pieces.begin(), ribbon.pieces.end(), is_proper);
+    ribbon.simple =
+        !has_hairpin(line) && std::all_of(ribbon.pieces.begin(), ribbon.pieces.end(), is_proper);
     if (!ribbon.simple)
         ribbon.pieces = square_pieces(line, right, left);
     return ribbon;

@@ -103,6 +103,26 @@ TEST(GroundCheck, MeasuresTheDistanceOfKerbs) {
     EXPECT_NEAR(kerbs.figure, clear - 1.2, 0.01);
 }
 
+TEST(GroundCheck, HairpinsOverAWalkingAreaAreKeptClear) {
+    TownT town = test::t_junction();
+    world::LaneT area =
+        test::lane(":far_w0", LaneKind::walking_area, {{200, 200, 0}, {240, 216, 0}});
+    area.outline = {{190, 194, 0}, {245, 194, 0}, {245, 222, 0}, {190, 222, 0}};
+    town.lanes.push_back(area);
+    // A turn between two arms of a junction that leave it side by side, as netconvert draws it.
+    town.lanes.push_back(test::lane(":far_0_0",
+                                    LaneKind::internal,
+                                    {{231.5, 213.5, 0},
+                                     {210.8, 205, 0},
+                                     {204.1, 200.8, 0},
+                                     {211.2, 201, 0},
+                                     {227.7, 204.6, 0}}));
+    town.high = {260, 240, 1};
+    const auto criteria = world::check_ground(town, world::build_ground(town));
+    for (const char* name : {"kerbs clear of lanes", "ground under wheels"})
+        EXPECT_TRUE(find(criteria, name).passed()) << name << ' ' << find(criteria, name).figure;
+}
+
 TEST(GroundCheck, CountsHolesAndGaps) {
     TownT town = test::t_junction();
     GroundMesh ground = world::build_ground(town);
