@@ -49,6 +49,8 @@ std::string reason_in(const std::string& said) {
                 error += " (" + lines[more].substr(3, lines[more].find_last_not_of('.') - 2) + ")";
         if (error == "No nodes loaded.")
             error = "No nodes loaded: it has no roads";
+        if (error == "std::bad_alloc")
+            error = "out of memory (std::bad_alloc): is it that large?";
         if (std::find(errors.begin(), errors.end(), error) == errors.end())
             errors.push_back(error);
     }

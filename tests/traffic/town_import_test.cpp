@@ -344,6 +344,26 @@ TEST_F(Imports, LightsStayWhereTheHeaderMovesTheMap) {
     EXPECT_EQ(place.heads.size(), lit.size()) << report;
 }
 
+TEST_F(Imports, ASignOnTheRoadIsMovedBeyondTheMiddleOfTheSidewalk) {
+    const fs::path map = write(
+        "narrow.xodr",
+        "<OpenDRIVE><header revMajor='1' revMinor='4'/><road id='1' length='80' junction='-1'>"
+        "<planView><geometry s='0' x='0' y='0' hdg='0' length='80'><line/></geometry></planView>"
+        "<lanes><laneSection s='0'><center><lane id='0' type='none'/></center><right>"
+        "<lane id='-1' type='driving'><width sOffset='0' a='3.5' b='0' c='0' d='0'/></lane>"
+        "<lane id='-2' type='sidewalk'><width sOffset='0' a='1.2' b='0' c='0' d='0'/></lane>"
+        "</right></laneSection></lanes><signals>"
+        "<signal id='a' s='40' t='-1.75' type='274' value='30' orientation='+'/>"
+        "<signal id='b' s='50' t='-4.1' type='274' value='50' orientation='+'/>"
+        "</signals></road></OpenDRIVE>");
+    import_town({map, "", false, false}, empty("t"));
+    const Place place = read_place(bytes(folder_ / "t/narrow.place.xml"), "narrow.place.xml");
+    ASSERT_EQ(place.signs.size(), 2U);
+    // The sidewalk's middle is at y = -4.1; from the lane's middle it goes in steps of 0.25 m.
+    EXPECT_LT(place.signs[0].position().y(), -4.1 - 0.3);
+    EXPECT_NEAR(place.signs[1].position().y(), -4.1, 1e-6) << "stays where the map has it";
+}
+
 TEST_F(Imports, EachLaneKeepsTheLightThatHangsOverIt) {
     ASSERT_EQ(run_program("netgenerate",
                           {"-X",
