@@ -353,8 +353,10 @@ TEST_F(Imports, ASignOnTheRoadIsMovedBeyondTheMiddleOfTheSidewalk) {
         "<lane id='-1' type='driving'><width sOffset='0' a='3.5' b='0' c='0' d='0'/></lane>"
         "<lane id='-2' type='sidewalk'><width sOffset='0' a='1.2' b='0' c='0' d='0'/></lane>"
         "</right></laneSection></lanes><signals>"
-        "<signal id='a' s='40' t='-1.75' type='274' value='30' orientation='+'/>"
-        "<signal id='b' s='50' t='-4.1' type='274' value='50' orientation='+'/>"
+        "<signal id='a' s='40' t='-1.75' type='274' value='30' "
+        "orientation='+' dynamic='no' country='DEU' subtype='-1' zOffset='2'/>"
+        "<signal id='b' s='50' t='-4.1' type='274' value='50' "
+        "orientation='+' dynamic='no' country='DEU' subtype='-1' zOffset='2'/>"
         "</signals></road></OpenDRIVE>");
     import_town({map, "", false, false}, empty("t"));
     const Place place = read_place(bytes(folder_ / "t/narrow.place.xml"), "narrow.place.xml");
