@@ -23,9 +23,10 @@ std::optional<std::uint32_t> Itinerary::next(world::LanePlace here) {
     if (lanes_.empty() && !to_come().empty()) {
         const Plan plan = graph_->plan(here, to_come(), last_s_);
         lanes_.assign(plan.lanes.begin(), plan.lanes.end());
-        // All of them lie on this lane, or cannot be reached any more.
-        if (plan.unreachable != world::none || lanes_.empty())
+        if (plan.unreachable != world::none)
             give_up();
+        else if (lanes_.empty())
+            entered_ = stops_.size();  // all of them lie ahead on this lane
     }
     if (lanes_.empty())
         return std::nullopt;
@@ -72,6 +73,12 @@ Itinerary::Changes Itinerary::changes_on(std::uint32_t lane) const {
     if (to_come().size() == 1 && to_come().front() == lane)
         changes.goal = world::LanePlace{lane, last_s_};
     return changes;
+}
+
+std::optional<double> Itinerary::goal_on(std::uint32_t lane) const {
+    if (stops_.empty() || !to_come().empty() || stops_.back() != lane)
+        return std::nullopt;
+    return last_s_;
 }
 
 void Itinerary::give_up() {

@@ -50,6 +50,9 @@ class Itinerary {
     /// What is planned from this lane on.
     Changes changes_on(std::uint32_t lane) const;
 
+    /// [m] the last stop on this lane; none: it lies elsewhere, or there is a lane to go to before.
+    std::optional<double> goal_on(std::uint32_t lane) const;
+
     const std::deque<std::uint32_t>& lanes() const { return lanes_; }
 
     void add_to(world::Hasher& hasher) const;

@@ -180,7 +180,9 @@ double Way::share_of_room(double from, const Itinerary::Changes& changes) const 
 /// For the first of them; none: the car could not do it.
 std::optional<Way::ChangeRoom> Way::room_for_change(const Itinerary::Changes& changes) const {
     const LaneT& here = graph_->town().lanes[next_lane_];
-    const double wait = std::max(changes_from_ - path_.end(), 0.0);
+    // Nor before the last stop, where that lies on this lane.
+    const double goal = itinerary_.goal_on(next_lane_).value_or(next_s_);
+    const double wait = std::max({changes_from_ - path_.end(), goal - next_s_, 0.0});
     const double room = share_of_room(next_s_ + wait, changes);
     // As fast as it must still be there when it brakes from now on.
     const double ahead = path_.end() + wait - car_path_s_;
@@ -193,7 +195,7 @@ std::optional<Way::ChangeRoom> Way::room_for_change(const Itinerary::Changes& ch
     }
     // A lane that ends here leaves no choice.
     const double left = here.length - next_s_;
-    if (!here.links.empty() || left < shortest_change / 2)
+    if (!here.links.empty() || left < shortest_change / 2 || goal > next_s_)
         return std::nullopt;
     return ChangeRoom{0, std::min(left, usual), 0};
 }

@@ -472,6 +472,23 @@ TEST(Autopilot, GoesAroundTheBlockWhenItIsTooLateToChangeLanes) {
     }
 }
 
+TEST(Autopilot, StaysOnTheLaneOfItsGoalUntilItIsThere) {
+    for (const std::uint32_t start : {0u, 13u}) {
+        // Who goes nowhere in particular leaves a lane that ends as soon as possible.
+        world::TownT town = ring_with_turning_lane();
+        town.lanes[13].links.clear();
+        Drive drive(town);
+        drive.place(start, 5, 8);
+        drive.autopilot->set_route({13}, 110);
+        while (drive.car.x < 109) {
+            drive.step();
+            ASSERT_LT(drive.seconds(), 60);
+        }
+        EXPECT_NEAR(drive.car.y, 3.5, 0.3) << "at the goal, from lane " << start;
+        EXPECT_EQ(lanes_until(drive, 1).count(1), 1u) << "then it goes on";
+    }
+}
+
 TEST(Autopilot, FindsItsRouteAgainWhenItIsPushedOffIt) {
     Drive drive(ring_with_turning_lane());
     drive.place(0, 5, 8);
