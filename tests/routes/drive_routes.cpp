@@ -126,17 +126,20 @@ replay::Recording recording_of(const traffic::Network& network,
     return recording;
 }
 
-/// Where a car turns around, both lanes are its own for a moment.
+/// Where a car turns around, all lanes of the street are its own for a moment.
 bool may_turn_around(const TownT& town, std::uint32_t lane, double s) {
-    constexpr double around = 15;  // [m]
-    const auto turns = [](const world::Link& link) { return link.turn() == world::Turn::around; };
-    const auto has_turn = [&](std::uint32_t from) {
-        return std::any_of(town.lanes[from].links.begin(), town.lanes[from].links.end(), turns);
-    };
+    constexpr double around = 20;  // [m]
     const world::LaneT& here = town.lanes[lane];
-    if (here.kind == world::LaneKind::internal || s > here.length - around)
-        return has_turn(lane);
-    return s < around && here.opposite < town.lanes.size() && has_turn(here.opposite);
+    const bool inside = here.kind == world::LaneKind::internal;
+    const auto turns_here = [&](const world::LaneT& from) {
+        return std::any_of(from.links.begin(), from.links.end(), [&](const world::Link& link) {
+            return link.turn() == world::Turn::around &&
+                   (inside ? &from == &here || link.via() == lane
+                           : (from.edge == here.edge && s > here.length - around) ||
+                                 (town.lanes[link.to()].edge == here.edge && s < around));
+        });
+    };
+    return std::any_of(town.lanes.begin(), town.lanes.end(), turns_here);
 }
 
 bool keeps_to_the_road(const Watch& watch) {
@@ -159,8 +162,9 @@ void look(const TownT& town, const world::Tick& tick, Watch& watch) {
     }
     const bool fine = keeps_to_the_road(watch);
     watch.sidewalk = std::max(watch.sidewalk, measured.on_sidewalk());
-    if (measured.lane() == world::none ||
-        !may_turn_around(town, measured.lane(), measured.lane_s()))
+    if (measured.on_opposite_lane() > watch.opposite &&
+        (measured.lane() == world::none ||
+         !may_turn_around(town, measured.lane(), measured.lane_s())))
         watch.opposite = std::max(watch.opposite, measured.on_opposite_lane());
     watch.height = std::max(watch.height, height);
     watch.impulse = measured.impulse_static();
