@@ -65,7 +65,8 @@ Mirrors::Target Mirrors::target_of(const world::VehicleState& vehicle) const {
     if (const auto found = lanes_->best(front, yaw, reach)) {
         const world::LaneT& lane = town_->lanes[found->lane];
         target.lane = found->lane;
-        target.lane_position = found->at.s / lane.length * lane.sumo_length;
+        // At the lane's end rounding must not lead beyond it: SUMO aborts.
+        target.lane_position = std::min(found->at.s / lane.length, 1.0) * lane.sumo_length;
     }
     return target;
 }
