@@ -18,10 +18,10 @@ using world::Link;
 
 constexpr double speed_share = 0.95;  // of the limit that we aim for
 constexpr double change_time = 3.5;   // [s] that a change of lanes takes
-// A quintic step of w metres aside in L metres is bent by 5.8 w / L^2 at most. 12 m ask a car for
+// A quintic step of w metres aside in L metres is bent by 5.8 w / L^2 at most. 10 m ask a car for
 // nearly all its steering angle; at 2.3 s of its speed it feels 4 m/s^2.
 constexpr double between_changes = 5;   // [m]
-constexpr double shortest_change = 12;  // [m]
+constexpr double shortest_change = 10;  // [m]
 constexpr double shortest_time = 2.3;   // [s]
 constexpr double firm_braking = 2;      // [m/s^2] that the path's envelope of speeds counts on
 
