@@ -206,13 +206,15 @@ bool Autopilot::State::find_way(Ego& ego) {
 
 /// Bends that no steering can follow; those where we turn around are not driven along the path.
 bool Autopilot::State::has_tight_bends() const {
+    // [m] to both sides; the points' own curvature is over 6 m, where a jog cancels itself.
+    constexpr double bend_reach = 1.5;
     const double sharpest =
         0.9 * std::tan(car.catalogue->max_steering_angle) / car.catalogue->wheelbase;
     const Path& path = way.path();
     for (std::size_t i = 0; i < path.points().size(); ++i) {
-        if (std::abs(path.points()[i].curvature) < sharpest)
-            continue;
         const double s = path.s_of(i);
+        if (std::abs(path.curvature(s, bend_reach)) < sharpest)
+            continue;
         if (std::none_of(way.gates().begin(), way.gates().end(), [&](const Gate& gate) {
                 return gate.turn == world::Turn::around && gate.s - 5 < s && s < gate.exit_s + 5;
             }))
