@@ -73,6 +73,15 @@ bool cross_each_other(const Piece& one, const Piece& other) {
     return world::distance_to({one.from, one.to}, other.from, other.to) == 0;
 }
 
+/// Of two pieces that cross each other.
+Vector2d meeting_point(const Piece& one, const Piece& other) {
+    const Vector2d along = one.to - one.from;
+    const Vector2d across = other.to - other.from;
+    const double turn = world::cross(along, across);
+    const double share = turn == 0 ? 0.5 : world::cross(other.from - one.from, across) / turn;
+    return one.from + along * std::clamp(share, 0.0, 1.0);
+}
+
 /// The bridges and tunnels of a map: what was drawn as several ways is one span.
 class Spans {
   public:
@@ -162,9 +171,12 @@ struct Overpass {
 
 class LevelFinder {
   public:
-    LevelFinder(const RoadChains& roads, const std::vector<MapShape>& ways)
+    LevelFinder(const RoadChains& roads,
+                const std::vector<MapShape>& ways,
+                const std::set<std::uint32_t>& flat)
         : roads_(roads),
-          spans_(ways) {}
+          spans_(ways),
+          flat_(flat) {}
 
     Levels find();
 
@@ -176,6 +188,7 @@ class LevelFinder {
                                            const Vector2d& place,
                                            double reach) const;
     bool fork(const Track& one, const Track& other, const Vector2d& place) const;
+    bool is_above(std::uint32_t span, std::uint32_t other) const;
     void number_spans();
     void mark_spans();
     void mark_near(std::uint32_t track, const Vector2d& place, double reach, int level);
@@ -184,8 +197,12 @@ class LevelFinder {
 
     int level(std::uint32_t span) const { return span == none ? 0 : levels_of_spans_[span]; }
 
+    /// The map's, unless the span must stay flat.
+    int layer(std::uint32_t span) const { return flat_.contains(span) ? 0 : spans_.layer(span); }
+
     const RoadChains& roads_;
     Spans spans_;
+    const std::set<std::uint32_t>& flat_;
     std::vector<Overpass> overpasses_;
     std::vector<int> levels_of_spans_;
     Levels found_;
@@ -209,10 +226,11 @@ void LevelFinder::keep_together(const Piece& one, const Piece& other) {
     const Track& other_track = roads_.tracks[other.owner];
     const bool crossing = cross_each_other(one, other);
     const auto reach = [&](double half_width) { return crossing ? half_width + apron : 0; };
-    std::vector<std::uint32_t> points = points_near(track, one.from, reach(other_track.half_width));
-    for (const std::uint32_t point : points_near(other_track, one.from, reach(track.half_width)))
+    const Vector2d place = crossing ? meeting_point(one, other) : one.from;
+    std::vector<std::uint32_t> points = points_near(track, place, reach(other_track.half_width));
+    for (const std::uint32_t point : points_near(other_track, place, reach(track.half_width)))
         points.push_back(point);
-    found_.together.push_back(std::move(points));
+    (crossing ? found_.crossed : found_.touching).push_back(std::move(points));
 }
 
 /// Those of a track that are within reach of a place; one at least.
@@ -231,6 +249,11 @@ std::vector<std::uint32_t> LevelFinder::points_near(const Track& track,
     return near.empty() ? std::vector<std::uint32_t>{nearest} : near;
 }
 
+/// Not where a flat span would change places with what the map has below it.
+bool LevelFinder::is_above(std::uint32_t span, std::uint32_t other) const {
+    return spans_.layer(span) > spans_.layer(other) && layer(span) > layer(other);
+}
+
 void LevelFinder::take_crossing(const Piece& one, const Piece& other) {
     const Track& track = roads_.tracks[one.owner];
     const Track& other_track = roads_.tracks[other.owner];
@@ -240,9 +263,9 @@ void LevelFinder::take_crossing(const Piece& one, const Piece& other) {
     const std::uint32_t span = spans_.at(place, (one.to - one.from).normalized(), track);
     const std::uint32_t other_span =
         spans_.at((other.from + other.to) / 2, (other.to - other.from).normalized(), other_track);
-    if (spans_.layer(span) > spans_.layer(other_span))
+    if (is_above(span, other_span))
         overpasses_.push_back({place, one.owner, other.owner, span, other_span});
-    else if (spans_.layer(span) < spans_.layer(other_span))
+    else if (is_above(other_span, span))
         overpasses_.push_back({place, other.owner, one.owner, other_span, span});
     else
         keep_together(one, other);
@@ -277,16 +300,14 @@ void LevelFinder::number_spans() {
     std::vector<std::uint32_t> order(spans_.size());
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t one, std::uint32_t other) {
-        return std::abs(spans_.layer(one)) < std::abs(spans_.layer(other));
+        return std::abs(layer(one)) < std::abs(layer(other));
     });
     for (const std::uint32_t span : order)
         for (const Overpass& overpass : overpasses_) {
             int& level = levels_of_spans_[span];
-            if (overpass.upper == span && spans_.layer(span) > 0 &&
-                spans_.layer(overpass.lower) >= 0)
+            if (overpass.upper == span && layer(span) > 0 && layer(overpass.lower) >= 0)
                 level = std::max(level, this->level(overpass.lower) + 1);
-            if (overpass.lower == span && spans_.layer(span) < 0 &&
-                spans_.layer(overpass.upper) <= 0)
+            if (overpass.lower == span && layer(span) < 0 && layer(overpass.upper) <= 0)
                 level = std::min(level, this->level(overpass.upper) - 1);
         }
 }
@@ -304,14 +325,17 @@ void LevelFinder::mark_near(std::uint32_t track, const Vector2d& place, double r
 }
 
 void LevelFinder::mark_spans() {
+    found_.spans.resize(spans_.size());
     for (const Track& track : roads_.tracks) {
         const std::size_t last = track.points.size() - 1;
         for (std::size_t i = 0; i <= last && last > 0; ++i) {
             const LineSpot spot =
                 spot_along(track.line, static_cast<double>(i) / static_cast<double>(last));
-            const int level = this->level(spans_.at(spot.place, spot.direction, track));
-            if (level != 0)
-                mark(track.points[i], level);
+            const std::uint32_t span = spans_.at(spot.place, spot.direction, track);
+            if (level(span) == 0)
+                continue;
+            mark(track.points[i], level(span));
+            found_.spans[span].push_back(track.points[i]);
         }
     }
 }
@@ -345,8 +369,10 @@ Levels LevelFinder::find() {
 
 }  // namespace
 
-Levels find_levels(const RoadChains& roads, const std::vector<MapShape>& ways) {
-    return LevelFinder(roads, ways).find();
+Levels find_levels(const RoadChains& roads,
+                   const std::vector<MapShape>& ways,
+                   const std::set<std::uint32_t>& flat) {
+    return LevelFinder(roads, ways, flat).find();
 }
 
 }  // namespace reprise::traffic

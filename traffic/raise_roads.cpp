@@ -2,16 +2,21 @@
 //   car can climb; leave alone what has nothing to do with them.
 // What it assumes: all heights are 0.
 // How it goes: the roads as points (road_chains); levels of those that must be up or down (levels);
-//   heights of all (road_heights); then these are written into every shape (height_profile).
+//   heights of all (road_heights); then these are written into every shape (height_profile). Where
+//   the town that comes out of it is worse than the flat one, the bridge to blame stays flat, and
+//   all begins anew.
 // What it keeps: places in plan, lengths, and the order of the file.
 #include "traffic/raise_roads.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <pugixml.hpp>
+#include <set>
 #include <sstream>
 
+#include "traffic/blame.h"
 #include "traffic/height_profile.h"
 #include "traffic/levels.h"
 #include "traffic/network_xml.h"
@@ -142,29 +147,89 @@ void Writer::write(RaisedRoads& report) {
     }
 }
 
-}  // namespace
-
-RaisedRoads raise_roads(std::string& network, const std::vector<MapShape>& ways) {
+/// All of a network, raised.
+struct Raised {
+    std::string network;
+    RoadChains roads;
+    Levels levels;
+    std::vector<double> heights;
     RaisedRoads report;
-    if (ways.empty())
-        return report;
+};
+
+Raised raise_once(const std::string& network,
+                  const std::vector<MapShape>& ways,
+                  const std::set<std::uint32_t>& flat) {
     pugi::xml_document document;
     const pugi::xml_parse_result parsed =
         document.load_buffer(network.data(), network.size(), pugi::parse_full);
     REPRISE_CHECK(parsed, "the network that netconvert made is XML");
     pugi::xml_node net = document.child("net");
-    RoadChains roads = read_road_chains(net);
-    const Levels levels = find_levels(roads, ways);
-    report.crossings = levels.crossings;
-    if (levels.crossings == 0)
-        return report;
-    for (const std::vector<std::uint32_t>& points : levels.together)
-        keep_together(roads, points);
-    const std::vector<double> heights = find_heights(roads, levels);
-    Writer(net, roads, heights).write(report);
+    Raised raised;
+    raised.roads = read_road_chains(net);
+    raised.levels = find_levels(raised.roads, ways, flat);
+    raised.report.crossings = raised.levels.crossings;
+    if (raised.levels.crossings == 0)
+        return raised;
+    for (const auto* groups : {&raised.levels.crossed, &raised.levels.touching})
+        for (const std::vector<std::uint32_t>& points : *groups)
+            keep_together(raised.roads, points);
+    raised.heights = find_heights(raised.roads, raised.levels);
+    Writer(net, raised.roads, raised.heights).write(raised.report);
     std::ostringstream text;
     document.save(text, "    ");
-    network = std::move(text).str();
+    raised.network = std::move(text).str();
+    return raised;
+}
+
+struct Flattened {
+    std::uint32_t span = 0;
+    HeightFault::Kind reason;
+};
+
+/// Few at a time, those with the most faults first: with one bridge flat, its neighbours may do.
+std::vector<Flattened> to_flatten(const Raised& raised, const std::vector<HeightFault>& faults) {
+    constexpr std::size_t parts = 8;
+    const Blame blame(raised.roads, raised.levels, raised.heights);
+    std::map<std::uint32_t, std::vector<HeightFault::Kind>> faults_of;
+    for (const HeightFault& fault : faults)
+        faults_of[blame.at(fault.place)].push_back(fault.kind);
+    std::vector<std::uint32_t> order;
+    for (const auto& [span, kinds] : faults_of)
+        order.push_back(span);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t one, std::uint32_t other) {
+        return faults_of[one].size() > faults_of[other].size();
+    });
+    order.resize((order.size() + parts - 1) / parts);
+    std::vector<Flattened> worst;
+    for (const std::uint32_t span : order)
+        worst.push_back({span, faults_of[span].front()});
+    return worst;
+}
+
+}  // namespace
+
+RaisedRoads raise_roads(std::string& network,
+                        const std::vector<MapShape>& ways,
+                        const FindFaults& find_faults) {
+    std::set<std::uint32_t> flat;
+    std::map<HeightFault::Kind, int> reasons;
+    RaisedRoads report;
+    while (!ways.empty()) {
+        const Raised raised = raise_once(network, ways, flat);
+        report = raised.report;
+        report.flat = reasons;
+        if (report.crossings == 0)
+            break;
+        const std::vector<HeightFault> faults = find_faults(raised.network);
+        if (faults.empty()) {
+            network = raised.network;
+            break;
+        }
+        for (const auto& [span, reason] : to_flatten(raised, faults)) {
+            flat.insert(span);
+            ++reasons[reason];
+        }
+    }
     return report;
 }
 

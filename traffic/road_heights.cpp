@@ -4,12 +4,14 @@
 //   the roads, to the nearest point that must be up and to the nearest one that must stay down: a
 //   smooth step, 112 m long where there is room. So side streets of a ramp rise with it. Two
 //   bridges near each other leave a kink between their ramps: least squares of the change and of
-//   the curvature then round it off.
+//   the curvature then round it off. Where roads cross on one level, all points are one unknown.
 // What it keeps: points with a level.
 #include "traffic/road_heights.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include <Eigen/SparseCholesky>
 
@@ -75,6 +77,25 @@ class Smoother {
     Eigen::VectorXd right_;
 };
 
+/// For each point the first one of those that must have its very height.
+std::vector<std::uint32_t> first_of_equals(std::size_t points, const Levels& levels) {
+    std::vector<std::uint32_t> first(points);
+    std::iota(first.begin(), first.end(), 0U);
+    const auto root = [&](std::uint32_t point) {
+        while (first[point] != point)
+            point = first[point];
+        return point;
+    };
+    for (const std::vector<std::uint32_t>& group : levels.crossed)
+        for (const std::uint32_t point : group) {
+            const std::uint32_t one = root(group.front()), other = root(point);
+            first[std::max(one, other)] = std::min(one, other);
+        }
+    for (std::uint32_t i = 0; i < points; ++i)
+        first[i] = root(i);
+    return first;
+}
+
 /// What is near a ramp, and has no level of its own, may move.
 Smoother::Smoother(const RoadChains& roads, const Levels& levels, std::vector<double>& heights)
     : roads_(roads),
@@ -86,9 +107,22 @@ Smoother::Smoother(const RoadChains& roads, const Levels& levels, std::vector<do
         if (heights[i] != 0)
             raised.push_back({i, 0});
     const std::vector<double> to_raised = distances(roads, raised, margin);
-    for (std::uint32_t i = 0; i < heights.size(); ++i)
-        if (to_raised[i] < margin && !levels.levels.contains(i))
+    const std::vector<std::uint32_t> first = first_of_equals(heights.size(), levels);
+    std::map<std::uint32_t, double> known;
+    for (const auto& [point, level] : levels.levels)
+        known[first[point]] = heights[point];
+    for (std::uint32_t i = 0; i < heights.size(); ++i) {
+        const bool follows = first[i] != i && unknowns_[first[i]] != fixed;
+        const auto same = known.find(first[i]);
+        if (levels.levels.contains(i))
+            continue;
+        if (same != known.end())
+            heights[i] = same->second;
+        else if (follows)
+            unknowns_[i] = unknowns_[first[i]];
+        else if (to_raised[i] < margin)
             unknowns_[i] = count_++;
+    }
     right_ = Eigen::VectorXd::Zero(count_);
 }
 

@@ -69,6 +69,13 @@ std::string without_comments(const std::string& xml) {
     return kept;
 }
 
+double kilometres(const world::TownT& town, LaneKind kind) {
+    double length = 0;
+    for (const world::LaneT& lane : town.lanes)
+        length += lane.kind == kind ? lane.length : 0;
+    return length / 1000;
+}
+
 /// One import on its way.
 class Import {
   public:
@@ -198,7 +205,6 @@ class Import {
         if (roads.town.lanes.empty())
             return;  // a clearer word is said when the network is read
         const MapShapes shapes = read_shapes("map.osm", made, work_, map_);
-        raise(shapes);
         Place found;
         const FootprintReport areas = place_footprints(shapes.areas, roads.town, found);
         say("buildings: {} with their own footprints; {} cut back to the edge of a road, {} left "
@@ -214,12 +220,16 @@ class Import {
         if (areas.broken > 0)
             say("lost: {} areas whose outline crosses itself", areas.broken);
         place = place_xml(found);
+        if (kilometres(roads.town, LaneKind::driving) > 0)
+            raise(shapes);
     }
 
     /// netconvert's own heights (--osm.layer-elevation) reach as far as the next junction at most,
     /// and leave everything beyond a bridge up.
     void raise(const MapShapes& shapes) {
-        const RaisedRoads raised = raise_roads(network, shapes.ways);
+        HeightJudge judge({source_.name, network, "", place});
+        const RaisedRoads raised = raise_roads(
+            network, shapes.ways, [&](const std::string& xml) { return judge.faults(xml); });
         if (shapes.ways.empty())
             return;
         say("bridges and tunnels: {} ways in the map; {} places where a road passes over another; "
@@ -233,6 +243,12 @@ class Import {
                 "longer "
                 "ones",
                 raised.steep);
+        for (const auto& [kind, number] : raised.flat)
+            say("flat: {} bridges and tunnels stay at the height of what they cross: {}",
+                number,
+                kind == HeightFault::Kind::steep ? "ramps would be steeper than 15 %"
+                : kind == HeightFault::Kind::low ? "they leave too little room over another road"
+                                                 : "the ground would fail a criterion");
     }
 
     void from_network(const TownImport& wish) {
@@ -255,13 +271,6 @@ class Import {
     std::string map_;  ///< as the user calls it
     MapSource source_;
 };
-
-double kilometres(const world::TownT& town, LaneKind kind) {
-    double length = 0;
-    for (const world::LaneT& lane : town.lanes)
-        length += lane.kind == kind ? lane.length : 0;
-    return length / 1000;
-}
 
 auto count(const world::TownT& town, LaneKind kind) {
     return std::count_if(town.lanes.begin(), town.lanes.end(), [kind](const world::LaneT& lane) {

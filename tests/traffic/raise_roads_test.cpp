@@ -5,16 +5,22 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <numbers>
+#include <random>
+#include <regex>
 #include <string>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "traffic/height_faults.h"
 #include "traffic/height_profile.h"
 #include "traffic/town_import.h"
 #include "traffic/town_reader.h"
+#include "traffic/walk_check.h"
+#include "traffic/walk_map.h"
 #include "world/frames.h"
+#include "world/furniture_check.h"
 #include "world/ground_check.h"
 #include "world/ground_probe.h"
 #include "world/town.h"
@@ -212,6 +218,110 @@ TEST_F(RaiseRoads, WhatCrossesNothingStaysFlat) {
     const world::TownT town = import(map.text());
     EXPECT_EQ(town.high.z(), 0);
     EXPECT_THAT(report_, HasSubstr("1 ways in the map; 0 places"));
+}
+
+/// A grid of streets with bridges and tunnels from corner to corner, much too near to others: over
+/// streets, over each other, and along streets that they cross without a junction.
+std::string crowded_city(unsigned seed) {
+    std::mt19937 generator(seed);
+    const auto draw = [&](unsigned most) { return static_cast<int>(generator() % most); };
+    constexpr int side = 3, block = 90;
+    StreetMap map;
+    std::vector<int> corners;
+    for (int i = 0; i < side * side; ++i)
+        corners.push_back(map.node(i % side * block, i / side * block));
+    for (int i = 0; i < side * side; ++i)
+        for (const int next : {i + 1, i + side})
+            if (next < side * side && (next == i + side || next % side != 0))
+                map.way(
+                    {corners[static_cast<std::size_t>(i)], corners[static_cast<std::size_t>(next)]},
+                    {{"highway", "tertiary"}, {"sidewalk", draw(2) == 0 ? "both" : "no"}});
+    for (int bridge = 0; bridge < 3; ++bridge) {
+        const int column = draw(side), last = draw(side), start = 20 + draw(60);
+        const int end = (side - 1) * block - 20 - draw(60);
+        const int from = map.node(column * block + 15 + draw(60), start);
+        const int to = map.node(last * block + 15 + draw(60), end);
+        const Tagged street{{"highway", "secondary"}};
+        const std::string layer = std::to_string(draw(2) == 0 ? 1 + draw(2) : -1);
+        map.way({corners[static_cast<std::size_t>(column)], from}, street);
+        map.way({from, to},
+                {street[0], {layer == "-1" ? "tunnel" : "bridge", "yes"}, {"layer", layer}});
+        map.way({to, corners[static_cast<std::size_t>(side * (side - 1) + last)]}, street);
+    }
+    return map.text();
+}
+
+/// All that `town check` asks for, but for reading twice.
+std::vector<world::Criterion> all_criteria(const world::TownT& town) {
+    const world::GroundMesh ground = world::build_ground(town);
+    std::vector<world::Criterion> criteria = world::check_ground(town, ground);
+    criteria.push_back(check_walking(town, WalkMap(ground)));
+    for (const world::Criterion& criterion : world::check_furniture(town))
+        criteria.push_back(criterion);
+    return criteria;
+}
+
+TEST_F(RaiseRoads, NoTownIsSpoiltByItsBridges) {
+    for (const unsigned seed : {2U, 3U}) {
+        const world::TownT town = import(crowded_city(seed));
+        for (const world::Criterion& criterion : all_criteria(town))
+            EXPECT_TRUE(criterion.passed()) << seed << ": " << criterion.name;
+        EXPECT_LT(steepest_lane(town), 0.15) << seed;
+        EXPECT_THAT(report_, HasSubstr("flat: ")) << seed;
+    }
+}
+
+TEST_F(RaiseRoads, OneOfTwoThatAreTooNearStaysFlat) {
+    StreetMap map;
+    const Tagged street{{"highway", "secondary"}};
+    const Tagged bridge{street[0], {"bridge", "yes"}}, tunnel{street[0], {"tunnel", "yes"}};
+    map.way({map.node(-300, 0), map.node(1200, 0)}, {{"highway", "primary"}});
+    map.way({map.node(700, 90), map.node(1200, 90)}, {{"highway", "primary"}});
+    for (const int east : {0, 800}) {
+        const int foot = map.node(east, -30), top = map.node(east, 30);
+        map.way({map.node(east, -300), foot}, street);
+        map.way({foot, top}, bridge);
+        // 30 m behind the second the street dives under the next road.
+        const int entry = map.node(east, 60), exit = map.node(east, 120);
+        map.way({top, entry}, street);
+        map.way({entry, exit}, east == 0 ? street : tunnel);
+        map.way({exit, map.node(east, 300)}, street);
+    }
+    const world::TownT town = import(map.text());
+    EXPECT_THAT(report_, HasSubstr("flat: 1 bridges and tunnels"));
+    const Vector2d west = in_plan(town.low) + Vector2d(0, 300);
+    EXPECT_NEAR(height_of_street(town, west + Vector2d(300, 20)), 6, 0.01);
+    EXPECT_NEAR(height_of_street(town, west + Vector2d(1100, 24)), 6, 0.01);
+    // Its ramp now crosses the second road, which comes up to it.
+    EXPECT_GT(height_of_street(town, west + Vector2d(1100, 110)), 1);
+    for (const world::Criterion& criterion : all_criteria(town))
+        EXPECT_TRUE(criterion.passed()) << criterion.name;
+}
+
+/// A network with all of its heights multiplied.
+std::string stretched(const std::string& network, double factor) {
+    const std::regex height("([-0-9.]+,[-0-9.]+,)([-0-9.]+)");
+    std::string text;
+    auto rest = network.cbegin();
+    for (std::sregex_iterator at(network.begin(), network.end(), height), last; at != last; ++at) {
+        text.append(rest, (*at)[0].first);
+        text += fmt::format("{}{:.3f}", (*at)[1].str(), factor * std::stod((*at)[2]));
+        rest = (*at)[0].second;
+    }
+    return text.append(rest, network.cend());
+}
+
+TEST_F(RaiseRoads, LowBridgesAndSteepRampsAreFaults) {
+    import(interchange({{"bridge", "yes"}, { "layer", "1" }}));
+    HeightJudge judge({"hill", stretched(network_, 0), "", ""});
+    EXPECT_TRUE(judge.faults(network_).empty());
+    EXPECT_TRUE(judge.faults(stretched(network_, 0.9)).empty());
+    const auto low = judge.faults(stretched(network_, 0.7));
+    ASSERT_FALSE(low.empty());
+    EXPECT_EQ(low[0].kind, HeightFault::Kind::low);
+    const auto steep = judge.faults(stretched(network_, 3));
+    ASSERT_FALSE(steep.empty());
+    EXPECT_EQ(steep[0].kind, HeightFault::Kind::steep);
 }
 
 }  // namespace
