@@ -58,7 +58,7 @@ std::size_t link_index(std::string_view via) {
 struct Seen {
     bool any = false;
     bool all_yield = true;
-    bool stops = false;
+    bool all_stop = true;
 };
 
 }  // namespace
@@ -77,7 +77,8 @@ std::vector<GiveWay> read_give_way(const pugi::xml_node& net, const world::TownT
         const auto lane = world::find_lane(town, from);
         if (!lane || town.lanes[*lane].kind != world::LaneKind::driving ||
             town.lanes[*lane].junction == world::none ||
-            *connection.attribute("dir").value() == 't')
+            *connection.attribute("dir").value() == 't' ||
+            *connection.attribute("to").value() == ':')  // walkers, onto the pavement
             continue;
         const auto junction = answers.find(town.junctions[town.lanes[*lane].junction].name);
         if (junction == answers.end())
@@ -86,15 +87,16 @@ std::vector<GiveWay> read_give_way(const pugi::xml_node& net, const world::TownT
         const char state = *connection.attribute("state").value();
         Seen& here = seen[*lane];
         here.any = true;
-        here.stops = here.stops || state == 's' || state == 'w';
+        here.all_stop = here.all_stop && (state == 's' || state == 'w');
         here.all_yield =
             here.all_yield && index < junction->second.size() && junction->second[index];
     }
     std::vector<GiveWay> found;
     for (const Seen& each : seen)
-        found.push_back(!each.any || (!each.stops && !each.all_yield) ? GiveWay::none
-                        : each.stops                                  ? GiveWay::stop
-                                                                      : GiveWay::yield);
+        found.push_back(!each.any        ? GiveWay::none
+                        : each.all_stop  ? GiveWay::stop
+                        : each.all_yield ? GiveWay::yield
+                                         : GiveWay::none);
     return found;
 }
 

@@ -15,7 +15,7 @@ namespace reprise::traffic {
 enum class GiveWay : std::uint8_t {
     none,   ///< it goes first, or all give way to the right, or nobody is met
     yield,  ///< every way on from there gives way to other vehicles
-    stop    ///< and stops before
+    stop    ///< and stops before; not the main road, whose left turns alone are stops in SUMO
 };
 
 /// One for each lane of the town. Links say whether one yields to anybody, walkers on a crossing

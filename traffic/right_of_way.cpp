@@ -20,24 +20,15 @@ struct Approaches {
 };
 
 /// Junctions without lights, by index, that have a sign.
-std::map<std::uint32_t, Approaches> signed_junctions(const OpenDrive& map,
-                                                     const ImportedRoads& roads) {
-    constexpr double nearest_to_end =
-        25;  // [m] a sign further back belongs to nothing that we know
-    const world::TownT& town = roads.town;
+std::map<std::uint32_t, Approaches> signed_junctions(const std::vector<LaneSign>& signs,
+                                                     const world::TownT& town) {
     std::map<std::uint32_t, Approaches> found;
-    for (const SignalSite& site : site_signals(map, roads)) {
-        const Kind kind = site.signal->kind;
-        if ((kind != Kind::stop && kind != Kind::yield) || !site.lane)
-            continue;
-        const world::LaneT& lane = town.lanes[*site.lane];
-        const world::Vec3& end = lane.centre.back();
-        const double to_end = std::hypot(end.x() - site.foot.x(), end.y() - site.foot.y());
-        if (lane.junction == world::none || town.junctions[lane.junction].lit ||
-            to_end > nearest_to_end)
+    for (const LaneSign& sign : signs) {
+        const world::LaneT& lane = town.lanes[sign.lane];
+        if (lane.junction == world::none || town.junctions[lane.junction].lit)
             continue;
         Approaches& junction = found[lane.junction];
-        (kind == Kind::stop ? junction.with_stop : junction.with_yield).insert(lane.edge);
+        (sign.stops ? junction.with_stop : junction.with_yield).insert(lane.edge);
     }
     for (const world::LaneT& lane : town.lanes)
         if (lane.kind == world::LaneKind::driving && !lane.links.empty())
@@ -55,10 +46,25 @@ std::string escaped(std::string_view text) {
 
 }  // namespace
 
-RightOfWay right_of_way(const OpenDrive& map, const ImportedRoads& roads) {
+std::vector<LaneSign> lane_signs(const OpenDrive& map, const ImportedRoads& roads) {
+    constexpr double nearest_to_end =
+        25;  // [m] a sign further back belongs to nothing that we know
+    std::vector<LaneSign> found;
+    for (const SignalSite& site : site_signals(map, roads)) {
+        const Kind kind = site.signal->kind;
+        if ((kind != Kind::stop && kind != Kind::yield) || !site.lane)
+            continue;
+        const world::Vec3& end = roads.town.lanes[*site.lane].centre.back();
+        if (std::hypot(end.x() - site.foot.x(), end.y() - site.foot.y()) <= nearest_to_end)
+            found.push_back({*site.lane, kind == Kind::stop});
+    }
+    return found;
+}
+
+RightOfWay right_of_way(const std::vector<LaneSign>& signs, const world::TownT& town) {
     RightOfWay patch;
     std::set<std::string> lowered;
-    for (const auto& [junction, approaches] : signed_junctions(map, roads)) {
+    for (const auto& [junction, approaches] : signed_junctions(signs, town)) {
         const bool all_stop = approaches.with_stop == approaches.all;
         const bool all_yield = approaches.with_yield == approaches.all;
         const char* type = all_stop                       ? "allway_stop"
@@ -66,7 +72,7 @@ RightOfWay right_of_way(const OpenDrive& map, const ImportedRoads& roads) {
                            : approaches.with_stop.empty() ? "priority"
                                                           : "priority_stop";
         patch.nodes += fmt::format(
-            "<node id=\"{}\" type=\"{}\"/>\n", escaped(roads.town.junctions[junction].name), type);
+            "<node id=\"{}\" type=\"{}\"/>\n", escaped(town.junctions[junction].name), type);
         ++patch.junctions;
         if (all_stop || all_yield)
             continue;
@@ -82,15 +88,15 @@ RightOfWay right_of_way(const OpenDrive& map, const ImportedRoads& roads) {
     return patch;
 }
 
-SignsThatBind signs_that_bind(const OpenDrive& map, const ImportedRoads& roads) {
+SignsThatBind signs_that_bind(const std::vector<LaneSign>& signs, const world::TownT& town) {
     SignsThatBind bind;
-    for (const auto& [junction, approaches] : signed_junctions(map, roads)) {
+    for (const auto& [junction, approaches] : signed_junctions(signs, town)) {
         std::set<std::string> edges = approaches.with_stop;
         edges.insert(approaches.with_yield.begin(), approaches.with_yield.end());
         for (const std::string& edge : edges) {
             ++bind.roads;
-            bind.giving_way += std::any_of(
-                roads.town.lanes.begin(), roads.town.lanes.end(), [&](const world::LaneT& lane) {
+            bind.giving_way +=
+                std::any_of(town.lanes.begin(), town.lanes.end(), [&](const world::LaneT& lane) {
                     return lane.edge == edge &&
                            std::any_of(lane.links.begin(),
                                        lane.links.end(),

@@ -1,10 +1,21 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "traffic/signal_sites.h"
 
 namespace reprise::traffic {
+
+/// A stop sign, or one to give way, at the end of a driving lane. It is for the whole road.
+struct LaneSign {
+    std::uint32_t lane = 0;
+    bool stops = false;
+};
+
+/// The signs of an OpenDRIVE map, those at the ends of lanes only, in its order.
+std::vector<LaneSign> lane_signs(const OpenDrive& map, const ImportedRoads& roads);
 
 /// What netconvert must be told so that a map's stop and yield signs count: node and edge files
 /// that change the junctions of a network. It gets the network itself as well, so that ids agree.
@@ -18,7 +29,7 @@ struct RightOfWay {
 /// a stop sign, and else a priority stop where one has: SUMO knows stops for a whole junction only,
 /// so there roads with a yield sign stop as well. Where every road has a yield sign, who comes from
 /// the right goes first. Lit junctions stay as they are.
-RightOfWay right_of_way(const OpenDrive& map, const ImportedRoads& roads);
+RightOfWay right_of_way(const std::vector<LaneSign>& signs, const world::TownT& town);
 
 /// How many of the roads with a stop or yield sign (at junctions without lights) give way.
 struct SignsThatBind {
@@ -26,6 +37,6 @@ struct SignsThatBind {
     int giving_way = 0;
 };
 
-SignsThatBind signs_that_bind(const OpenDrive& map, const ImportedRoads& roads);
+SignsThatBind signs_that_bind(const std::vector<LaneSign>& signs, const world::TownT& town);
 
 }  // namespace reprise::traffic

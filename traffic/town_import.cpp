@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "traffic/footprints.h"
+#include "traffic/map_signs.h"
 #include "traffic/map_source.h"
 #include "traffic/netconvert.h"
 #include "traffic/opendrive.h"
@@ -143,7 +144,7 @@ class Import {
         if (map.limits_set > 0)
             say("speed limits: {} lanes got that of their road, which netconvert ignores",
                 map.limits_set);
-        obey_signs(map);
+        obey_signs([&](const ImportedRoads& roads) { return lane_signs(map, roads); });
         Place found;
         const SignalReport signals = place_signals(map, read_roads(network, map_), found);
         say("signals: {} in the map, {} heads placed as it says; signs: {} placed",
@@ -169,21 +170,27 @@ class Import {
     }
 
     /// netconvert knows no signs: it is called once more, with what they mean.
-    void obey_signs(const OpenDrive& map) {
-        const RightOfWay patch = right_of_way(map, read_roads(network, map_));
+    template <typename FindSigns>
+    void obey_signs(const FindSigns& find_signs) {
+        const ImportedRoads roads = read_roads(network, map_);
+        const RightOfWay patch = right_of_way(find_signs(roads), roads.town);
         if (patch.junctions == 0)
             return;
         write_text(work_ / "signs.nod.xml", patch.nodes);
         write_text(work_ / "signs.edg.xml", patch.edges);
         write_text(work_ / "first.net.xml", network);
-        convert({"--sumo-net-file",
-                 "first.net.xml",
-                 "--node-files",
-                 "signs.nod.xml",
-                 "--edge-files",
-                 "signs.edg.xml",
-                 "--offset.disable-normalization"});
-        const SignsThatBind bind = signs_that_bind(map, read_roads(network, map_));
+        std::vector<std::string> words{"--sumo-net-file",
+                                       "first.net.xml",
+                                       "--node-files",
+                                       "signs.nod.xml",
+                                       "--offset.disable-normalization"};
+        if (!patch.edges.empty())
+            words.insert(words.end(), {"--edge-files", "signs.edg.xml"});
+        if (source_.kind == MapKind::openstreetmap)
+            words.emplace_back("--output.original-names");
+        convert(words);
+        const ImportedRoads now = read_roads(network, map_);
+        const SignsThatBind bind = signs_that_bind(find_signs(now), now.town);
         say("right of way: {} junctions follow their stop and yield signs; {} of {} roads with "
             "such a "
             "sign give way",
@@ -205,6 +212,7 @@ class Import {
         if (roads.town.lanes.empty())
             return;  // a clearer word is said when the network is read
         const MapShapes shapes = read_shapes("map.osm", made, work_, map_);
+        obey_signs([&](const ImportedRoads& seen) { return lane_signs(shapes.signs, seen.town); });
         Place found;
         const FootprintReport areas = place_footprints(shapes.areas, roads.town, found);
         say("buildings: {} with their own footprints; {} cut back to the edge of a road, {} left "

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <numbers>
 #include <random>
 #include <regex>
 #include <string>
@@ -13,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/traffic/street_map.h"
 #include "traffic/height_faults.h"
 #include "traffic/height_profile.h"
 #include "traffic/town_import.h"
@@ -32,39 +32,6 @@ namespace fs = std::filesystem;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
-
-/// A street map, written down in metres.
-class StreetMap {
-  public:
-    int node(double east, double north) {
-        constexpr double metres_per_degree = 111'320;
-        const double latitude = 51.45 + north / metres_per_degree;
-        const double longitude =
-            -2.59 + east / (metres_per_degree * std::cos(51.45 * std::numbers::pi / 180));
-        nodes_ += fmt::format(
-            "<node id=\"{}\" lat=\"{:.7f}\" lon=\"{:.7f}\"/>\n", ++last_, latitude, longitude);
-        return last_;
-    }
-
-    void way(const std::vector<int>& nodes,
-             const std::vector<std::pair<std::string, std::string>>& tags) {
-        ways_ += fmt::format("<way id=\"{}\">", ++last_way_);
-        for (const int node : nodes)
-            ways_ += fmt::format("<nd ref=\"{}\"/>", node);
-        for (const auto& [key, value] : tags)
-            ways_ += fmt::format("<tag k=\"{}\" v=\"{}\"/>", key, value);
-        ways_ += "</way>\n";
-    }
-
-    std::string text() const { return "<osm version=\"0.6\">\n" + nodes_ + ways_ + "</osm>\n"; }
-
-  private:
-    int last_ = 0;
-    int last_way_ = 0;
-    std::string nodes_, ways_;
-};
-
-using Tagged = std::vector<std::pair<std::string, std::string>>;
 
 /// A motorway from west to east; Hill Road from south to north over (or under) it, whose middle
 /// part has `tags`; a slip road from one to the other; Side Street, which leaves Hill Road 30 m

@@ -467,7 +467,7 @@ TEST_F(Imports, Town07FollowsItsStopAndYieldSigns) {
     expect_heads_suit(roads, place);
     EXPECT_THAT(network, HasSubstr("type=\"allway_stop\""));
     const OpenDrive map = read_opendrive(bytes(shared_map("Town07.xodr")), "Town07.xodr");
-    const SignsThatBind bind = signs_that_bind(map, roads);
+    const SignsThatBind bind = signs_that_bind(lane_signs(map, roads), roads.town);
     EXPECT_EQ(bind.roads, 39);
     EXPECT_GE(bind.giving_way, 36) << "the rest stand where a road only goes on";
     // The signs stand on their own side of the road.
