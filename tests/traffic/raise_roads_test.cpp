@@ -265,6 +265,22 @@ TEST_F(RaiseRoads, OneOfTwoThatAreTooNearStaysFlat) {
         EXPECT_TRUE(criterion.passed()) << criterion.name;
 }
 
+TEST_F(RaiseRoads, WhereRoadsCrossWithoutAJunctionBothAreLevel) {
+    StreetMap map;
+    const Tagged street{{"highway", "secondary"}};
+    map.way({map.node(-300, 0), map.node(300, 0)}, {{"highway", "primary"}});
+    map.way({map.node(-300, 90), map.node(300, 90)}, {{"highway", "primary"}});
+    const int entry = map.node(0, 60), exit = map.node(0, 120);
+    map.way({map.node(0, -300), entry}, street);
+    map.way({entry, exit}, {street[0], {"tunnel", "yes"}});
+    map.way({exit, map.node(0, 400)}, street);
+    const world::TownT town = import(map.text());
+    EXPECT_THAT(report_, ::testing::Not(HasSubstr("flat:")));
+    // The ramp into the tunnel takes the first road down with it, but not below the second.
+    EXPECT_LT(height_of_street(town, in_plan(town.low) + Vector2d(303, 303)), -1);
+    EXPECT_NEAR(town.low.z(), -6, 0.01);
+}
+
 /// A network with all of its heights multiplied.
 std::string stretched(const std::string& network, double factor) {
     const std::regex height("([-0-9.]+,[-0-9.]+,)([-0-9.]+)");
