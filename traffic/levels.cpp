@@ -191,8 +191,8 @@ class LevelFinder {
     bool is_above(std::uint32_t span, std::uint32_t other) const;
     void number_spans();
     void mark_spans();
-    void mark_near(std::uint32_t track, const Vector2d& place, double reach, int level);
-    void mark(std::uint32_t point, int level);
+    void mark_near(std::uint32_t track, const Vector2d& place, double reach, std::uint32_t span);
+    void mark(std::uint32_t point, std::uint32_t span);
     int places() const;
 
     int level(std::uint32_t span) const { return span == none ? 0 : levels_of_spans_[span]; }
@@ -293,19 +293,21 @@ void LevelFinder::find_overpasses() {
     }
 }
 
-/// Bridges from the lowest layer upwards: one storey over the highest that they cross. Tunnels
-/// likewise, downwards. Where a bridge crosses a tunnel, that alone needs neither ramp.
+/// Tunnels from the highest layer downwards: one storey under the lowest that they cross. Bridges
+/// likewise, upwards. A bridge over a tunnel that is down already needs no ramp for that.
 void LevelFinder::number_spans() {
     levels_of_spans_.assign(spans_.size(), 0);
     std::vector<std::uint32_t> order(spans_.size());
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t one, std::uint32_t other) {
-        return std::abs(layer(one)) < std::abs(layer(other));
+        return std::pair(layer(one) > 0, std::abs(layer(one))) <
+               std::pair(layer(other) > 0, std::abs(layer(other)));
     });
     for (const std::uint32_t span : order)
         for (const Overpass& overpass : overpasses_) {
             int& level = levels_of_spans_[span];
-            if (overpass.upper == span && layer(span) > 0 && layer(overpass.lower) >= 0)
+            const bool is_down = layer(overpass.lower) < 0 && this->level(overpass.lower) < 0;
+            if (overpass.upper == span && layer(span) > 0 && !is_down)
                 level = std::max(level, this->level(overpass.lower) + 1);
             if (overpass.lower == span && layer(span) < 0 && layer(overpass.upper) <= 0)
                 level = std::min(level, this->level(overpass.upper) - 1);
@@ -313,29 +315,32 @@ void LevelFinder::number_spans() {
 }
 
 /// What belongs to a bridge is not the ground below it.
-void LevelFinder::mark(std::uint32_t point, int level) {
+void LevelFinder::mark(std::uint32_t point, std::uint32_t span) {
+    const int level = this->level(span);
     const auto [known, is_new] = found_.levels.try_emplace(point, level);
     if (!is_new && std::abs(level) > std::abs(known->second))
         known->second = level;
+    if (level != 0)
+        found_.spans[span].push_back(point);
 }
 
-void LevelFinder::mark_near(std::uint32_t track, const Vector2d& place, double reach, int level) {
+void LevelFinder::mark_near(std::uint32_t track,
+                            const Vector2d& place,
+                            double reach,
+                            std::uint32_t span) {
     for (const std::uint32_t point : points_near(roads_.tracks[track], place, reach))
-        mark(point, level);
+        mark(point, span);
 }
 
 void LevelFinder::mark_spans() {
-    found_.spans.resize(spans_.size());
     for (const Track& track : roads_.tracks) {
         const std::size_t last = track.points.size() - 1;
         for (std::size_t i = 0; i <= last && last > 0; ++i) {
             const LineSpot spot =
                 spot_along(track.line, static_cast<double>(i) / static_cast<double>(last));
             const std::uint32_t span = spans_.at(spot.place, spot.direction, track);
-            if (level(span) == 0)
-                continue;
-            mark(track.points[i], level(span));
-            found_.spans[span].push_back(track.points[i]);
+            if (level(span) != 0)
+                mark(track.points[i], span);
         }
     }
 }
@@ -356,11 +361,12 @@ int LevelFinder::places() const {
 Levels LevelFinder::find() {
     find_overpasses();
     number_spans();
+    found_.spans.resize(spans_.size());
     for (const Overpass& overpass : overpasses_) {
         const double upper_width = roads_.tracks[overpass.upper_track].half_width;
         const double lower_width = roads_.tracks[overpass.lower_track].half_width;
-        mark_near(overpass.upper_track, overpass.place, lower_width + apron, level(overpass.upper));
-        mark_near(overpass.lower_track, overpass.place, upper_width + apron, level(overpass.lower));
+        mark_near(overpass.upper_track, overpass.place, lower_width + apron, overpass.upper);
+        mark_near(overpass.lower_track, overpass.place, upper_width + apron, overpass.lower);
     }
     mark_spans();
     found_.crossings = places();

@@ -226,7 +226,8 @@ RaisedRoads raise_roads(std::string& network,
             break;
         }
         for (const auto& [span, reason] : to_flatten(raised, faults)) {
-            flat.insert(span);
+            const bool is_new = flat.insert(span).second;
+            REPRISE_CHECK(is_new, "a bridge that is flat already spoils nothing");
             ++reasons[reason];
         }
     }

@@ -281,6 +281,20 @@ TEST_F(RaiseRoads, WhereRoadsCrossWithoutAJunctionBothAreLevel) {
     EXPECT_NEAR(town.low.z(), -6, 0.01);
 }
 
+TEST_F(RaiseRoads, ABridgeOverATunnelAloneGoesUp) {
+    StreetMap map;
+    const Tagged street{{"highway", "secondary"}};
+    for (const bool bridge : {false, true}) {
+        const auto node = [&](double at) { return bridge ? map.node(0, at) : map.node(at, 0); };
+        const int foot = node(-40), end = node(40);
+        map.way({node(-300), foot}, street);
+        map.way({foot, end}, {street[0], {bridge ? "bridge" : "tunnel", "yes"}});
+        map.way({end, node(300)}, street);
+    }
+    const world::TownT town = import(map.text());
+    EXPECT_NEAR(town.high.z() - town.low.z(), 6, 0.1) << report_;
+}
+
 /// A network with all of its heights multiplied.
 std::string stretched(const std::string& network, double factor) {
     const std::regex height("([-0-9.]+,[-0-9.]+,)([-0-9.]+)");
