@@ -6,9 +6,9 @@
 
 namespace reprise::traffic {
 
-/// Runs netconvert or polyconvert in the folder `scratch`, with schema checks off, within bounds of
-/// memory and processor time. Returns how many warnings it gave. Throws world::Error "MAP:
-/// netconvert refuses it: ..." with the program's own reason; `map` is how the user calls it.
+/// Runs netconvert, polyconvert or sumo in the folder `scratch`, with schema checks off, within
+/// bounds of memory and processor time. Returns how many warnings it gave. Throws world::Error
+/// "MAP: netconvert refuses it: ..." with the program's own reason; `map` is how the user calls it.
 int run_sumo_tool(const std::string& program,
                   std::vector<std::string> words,
                   const std::filesystem::path& scratch,

@@ -143,6 +143,18 @@ void strip_unknown_classes(pugi::xml_node node, std::map<std::string, int>& unkn
         strip_unknown_classes(child, unknown);
 }
 
+/// SUMO 1.15 writes format 1.9 and says nothing when it reads another. Those of 1.x that are newer
+/// differ in details that are looked at one by one; of 2.x nothing is known.
+void refuse_newer_format(const fs::path& path, std::size_t line, std::string_view version) {
+    constexpr double first_unknown = 2;
+    if (number(version.substr(0, version.find('.')), 0) >= first_unknown)
+        fail_at(path,
+                line,
+                fmt::format("is too new: SUMO's network format {}, of which 1.x can be read; write "
+                            "it again with netconvert 1.x",
+                            version));
+}
+
 bool has_car_lane(pugi::xml_node net) {
     const ClassSet passenger = class_bit("passenger");
     for (const pugi::xml_node edge : net.children("edge")) {
@@ -251,6 +263,7 @@ Network load_network(const std::filesystem::path& path) {
             root_line,
             fmt::format("expected <net>, found <{}>{}", root.name(), root_hint(root.name(), path)));
 
+    refuse_newer_format(path, root_line, root.attribute("version").value());
     if (!has_car_lane(root))
         fail_at(path, root_line, "has no edge that a passenger car may use");
     check_lanes(path, network.xml, root);

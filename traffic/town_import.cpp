@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "traffic/footprints.h"
+#include "traffic/import_check.h"
 #include "traffic/map_signs.h"
 #include "traffic/map_source.h"
 #include "traffic/netconvert.h"
@@ -68,13 +69,6 @@ std::string without_comments(const std::string& xml) {
             from = std::min(xml.find_first_not_of("\r\n", from), xml.size());
     }
     return kept;
-}
-
-double kilometres(const world::TownT& town, LaneKind kind) {
-    double length = 0;
-    for (const world::LaneT& lane : town.lanes)
-        length += lane.kind == kind ? lane.length : 0;
-    return length / 1000;
 }
 
 /// One import on its way.
@@ -228,7 +222,9 @@ class Import {
         if (areas.broken > 0)
             say("lost: {} areas whose outline crosses itself", areas.broken);
         place = place_xml(found);
-        if (kilometres(roads.town, LaneKind::driving) > 0)
+        if (std::any_of(roads.town.lanes.begin(), roads.town.lanes.end(), [](const auto& lane) {
+                return lane.kind == LaneKind::driving;
+            }))
             raise(shapes);
     }
 
@@ -280,61 +276,6 @@ class Import {
     MapSource source_;
 };
 
-auto count(const world::TownT& town, LaneKind kind) {
-    return std::count_if(town.lanes.begin(), town.lanes.end(), [kind](const world::LaneT& lane) {
-        return lane.kind == kind;
-    });
-}
-
-/// SUMO is not at ease with them (see Mirrors::enter_again): worth knowing.
-std::string tiny_lanes(const world::TownT& town) {
-    constexpr double tiny = 1;  // [m]
-    const auto number =
-        std::count_if(town.lanes.begin(), town.lanes.end(), [](const world::LaneT& lane) {
-            return lane.kind == LaneKind::driving && lane.sumo_length < tiny;
-        });
-    return number == 0 ? "" : fmt::format("lanes for cars shorter than 1 m: {}\n", number);
-}
-
-std::string summary(const world::TownT& town) {
-    const auto lit = std::count_if(town.junctions.begin(),
-                                   town.junctions.end(),
-                                   [](const world::JunctionT& junction) { return junction.lit; });
-    return fmt::format(
-        "lanes for cars: {}, {:.2f} km; sidewalks: {}, {:.2f} km; crossings: {}\n"
-        "junctions: {}, {} of them lit\n"
-        "size: {:.0f} m x {:.0f} m, heights {:.1f} to {:.1f} m\n",
-        count(town, LaneKind::driving),
-        kilometres(town, LaneKind::driving),
-        count(town, LaneKind::sidewalk),
-        kilometres(town, LaneKind::sidewalk),
-        count(town, LaneKind::crossing),
-        town.junctions.size(),
-        lit,
-        town.high.x() - town.low.x(),
-        town.high.y() - town.low.y(),
-        town.low.z(),
-        town.high.z());
-}
-
-/// Reads what was written, as a run will do. Returns its summary.
-std::string check(const fs::path& path, const std::string& map) {
-    constexpr double widest = 200'000;  // [m] netconvert has been seen to write 1e10
-    try {
-        const world::TownT town = read_town(load_network(path));
-        const double width = std::max(town.high.x() - town.low.x(), town.high.y() - town.low.y());
-        if (!(width < widest))
-            throw world::Error(fmt::format("{}: is {:.0f} km wide", map, width / 1000));
-        return summary(town) + tiny_lanes(town);
-    } catch (const world::Error& error) {
-        std::string what = error.what();
-        if (what.starts_with(path.string()))
-            what = map + ": what came out of it is no town: " +
-                   what.substr(std::min(what.find(": ") + 2, what.size()));
-        throw world::Error(what);
-    }
-}
-
 }  // namespace
 
 std::string import_town(const TownImport& wish, const fs::path& folder) {
@@ -347,7 +288,7 @@ std::string import_town(const TownImport& wish, const fs::path& folder) {
     if (!import.place.empty())
         write_text(folder / (name + ".place.xml"), import.place);
     const std::string report = fmt::format("{}: made of {}\n", name, wish.map.filename().string()) +
-                               import.report + check(network, wish.map.string());
+                               import.report + check_import(network, work, wish.map.string());
     write_text(folder / "import.txt", report);
     fs::remove_all(work);
     return report;

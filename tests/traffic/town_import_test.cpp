@@ -544,6 +544,39 @@ TEST_F(Imports, WhatIsNoMapIsRefusedInOneLine) {
     EXPECT_THAT(message({own, "", true, false}), HasSubstr("--lefthand is for OpenStreetMap"));
 }
 
+TEST_F(Imports, NetworksThatOnlyANewerSumoLoadsAreRefusedWithSumosReason) {
+    struct Case {
+        const char* name;
+        const char* from;  ///< what 1.15 writes
+        const char* to;
+        const char* said;
+    };
+
+    const Case cases[] = {
+        {"major.net.xml", "<net version=\"1.9\"", "<net version=\"2.3\"", "is too new: SUMO's"},
+        {"lights.net.xml",
+         "type=\"static\"",
+         "type=\"quantum\"",
+         "lights.net.xml: sumo refuses it: Traffic light "},
+        {"turn.net.xml",
+         "dir=\"s\"",
+         "dir=\"q\"",
+         "sumo refuses it: Unrecognised link direction 'q'"},
+    };
+    const std::string text =
+        bytes(fs::path(REPRISE_SOURCE_DIR) / "scenarios/towns/town2/town2.net.xml");
+    for (const Case& one : cases) {
+        std::string newer = text;
+        const std::size_t at = newer.find(one.from);
+        ASSERT_NE(at, std::string::npos) << one.name;
+        newer.replace(at, std::string(one.from).size(), one.to);
+        const std::string said = message({write(one.name, newer), "", false, false});
+        EXPECT_THAT(said, HasSubstr(one.said)) << one.name;
+        EXPECT_THAT(said, Not(HasSubstr("\n"))) << one.name;
+        fs::remove_all(folder_ / "refused");
+    }
+}
+
 TEST_F(Imports, HugeGarbageIsRefusedBeforeItIsRead) {
     for (const char* beginning : {"", "<osm version='0.6'>\n", "<OpenDRIVE>"}) {
         const fs::path path = write("big.osm", beginning);

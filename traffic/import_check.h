@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace reprise::traffic {
+
+/// Reads a network that an import has written, as a run will do, and lets SUMO load it; `work` is a
+/// folder for scratch files. Returns what there is to say of the town, in lines. Throws
+/// world::Error "MAP: what came out of it is no town: ...", or "MAP: sumo refuses it: ..." with
+/// SUMO's reason; `map` is how the user calls it.
+std::string check_import(const std::filesystem::path& network,
+                         const std::filesystem::path& work,
+                         const std::string& map);
+
+}  // namespace reprise::traffic
