@@ -10,11 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 #include <set>
-#include <string_view>
 
+#include "traffic/pieces.h"
+#include "traffic/spans.h"
 #include "world/town.h"
 
 namespace reprise::traffic {
@@ -22,52 +22,12 @@ namespace reprise::traffic {
 namespace {
 
 using Eigen::Vector2d;
-using world::Box;
 using world::BoxGrid;
 using world::none;
 
-constexpr double beside = 3;         ///< [m] a way may lie this far outside of its track
-constexpr double longest_piece = 5;  ///< [m] of lines that are looked at
-constexpr double overlap = 0.2;      ///< [m] roads that touch by less do not meet
-constexpr double aligned = 0.9;      ///< cosine between a way and its track
-constexpr double apron = 6;     ///< [m] beyond a crossing, level as well: kerbs, railings, room
-constexpr double forking = 30;  ///< [m] from a common junction tracks cross without being above
-
-/// A straight piece of a track or of a way.
-struct Piece {
-    std::uint32_t owner = 0;
-    Vector2d from, to;
-    std::string_view way;  ///< its id, of a way
-};
-
-void add_pieces(const world::Loop& line,
-                std::uint32_t owner,
-                std::string_view way,
-                std::vector<Piece>& pieces) {
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        const Vector2d along = line[i + 1] - line[i];
-        const int count = std::max(1, static_cast<int>(std::ceil(along.norm() / longest_piece)));
-        for (int k = 0; k < count; ++k)
-            pieces.push_back({owner,
-                              line[i] + along * (static_cast<double>(k) / count),
-                              line[i] + along * (static_cast<double>(k + 1) / count),
-                              way});
-    }
-}
-
-Box box_of(const Piece& piece, double margin) {
-    Box box;
-    box.take(piece.from, margin);
-    box.take(piece.to, margin);
-    return box;
-}
-
-BoxGrid grid_of(const std::vector<Piece>& pieces) {
-    std::vector<BoxGrid::Entry> entries;
-    for (std::uint32_t i = 0; i < pieces.size(); ++i)
-        entries.push_back({box_of(pieces[i], 0), i});
-    return BoxGrid(entries);
-}
+constexpr double overlap = 0.2;  ///< [m] roads that touch by less do not meet
+constexpr double apron = 6;      ///< [m] beyond a crossing, level as well: kerbs, railings, room
+constexpr double forking = 30;   ///< [m] from a common junction tracks cross without being above
 
 bool cross_each_other(const Piece& one, const Piece& other) {
     return world::distance_to({one.from, one.to}, other.from, other.to) == 0;
@@ -80,86 +40,6 @@ Vector2d meeting_point(const Piece& one, const Piece& other) {
     const double turn = world::cross(along, across);
     const double share = turn == 0 ? 0.5 : world::cross(other.from - one.from, across) / turn;
     return one.from + along * std::clamp(share, 0.0, 1.0);
-}
-
-/// The bridges and tunnels of a map: what was drawn as several ways is one span.
-class Spans {
-  public:
-    explicit Spans(const std::vector<MapShape>& ways);
-
-    /// The span that a track is on at one of its places; none: the ground.
-    std::uint32_t at(const Vector2d& place, const Vector2d& direction, const Track& track) const;
-
-    int layer(std::uint32_t span) const { return span == none ? 0 : layers_[span]; }
-
-    std::size_t size() const { return layers_.size(); }
-
-  private:
-    void join(const std::vector<MapShape>& ways);
-
-    std::vector<int> layers_;
-    std::vector<std::uint32_t> span_of_way_;
-    std::vector<Piece> pieces_;  ///< owned by spans
-    BoxGrid by_place_;
-};
-
-Spans::Spans(const std::vector<MapShape>& ways) : span_of_way_(ways.size()) {
-    join(ways);
-    for (std::uint32_t i = 0; i < ways.size(); ++i)
-        add_pieces(world::in_plan(ways[i].line),
-                   span_of_way_[i],
-                   std::string_view(ways[i].id).substr(0, ways[i].id.find('#')),
-                   pieces_);
-    by_place_ = grid_of(pieces_);
-}
-
-/// Numbers the spans; a way takes the number of the first one that it is joined to.
-void Spans::join(const std::vector<MapShape>& ways) {
-    std::vector<std::uint32_t> first(ways.size());
-    std::iota(first.begin(), first.end(), 0U);
-    const auto root = [&](std::uint32_t way) {
-        while (first[way] != way)
-            way = first[way];
-        return way;
-    };
-    std::map<std::array<double, 3>, std::uint32_t> ends;
-    for (std::uint32_t i = 0; i < ways.size(); ++i)
-        for (const world::Vec3& end : {ways[i].line.front(), ways[i].line.back()}) {
-            const double layer = layer_of(ways[i].tags);
-            const auto [known, is_new] = ends.try_emplace({layer, end.x(), end.y()}, i);
-            if (!is_new)
-                first[std::max(root(i), root(known->second))] =
-                    std::min(root(i), root(known->second));
-        }
-    for (std::uint32_t i = 0; i < ways.size(); ++i) {
-        if (first[i] == i) {
-            span_of_way_[i] = static_cast<std::uint32_t>(layers_.size());
-            layers_.push_back(layer_of(ways[i].tags));
-        } else {
-            span_of_way_[i] = span_of_way_[root(i)];
-        }
-    }
-}
-
-std::uint32_t Spans::at(const Vector2d& place,
-                        const Vector2d& direction,
-                        const Track& track) const {
-    const double reach = track.half_width + beside;
-    Box box;
-    box.take(place, reach);
-    std::uint32_t found = none;
-    double nearest = reach;
-    for (const std::uint32_t i : by_place_.near(box)) {
-        const Piece& piece = pieces_[i];
-        const double distance = world::distance_to({place}, piece.from, piece.to);
-        const Vector2d along = (piece.to - piece.from).normalized();
-        if (distance >= nearest || std::abs(along.dot(direction)) < aligned ||
-            std::find(track.ways.begin(), track.ways.end(), piece.way) == track.ways.end())
-            continue;
-        nearest = distance;
-        found = piece.owner;
-    }
-    return found;
 }
 
 /// One track passes over another. Spans are none where a track is on the ground.

@@ -7,11 +7,10 @@
 #include <fmt/format.h>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <pugixml.hpp>
-#include <utility>
 
 #include "traffic/network_xml.h"
+#include "traffic/sign_words.h"
 #include "world/building_models.h"
 #include "world/check.h"
 
@@ -26,14 +25,7 @@ using Outline = std::vector<Vec3>;
 
 constexpr double deg = std::numbers::pi / 180;
 
-constexpr std::array<std::pair<const char*, PropKind>, 3> sign_kinds{
-    {{"speed_limit", PropKind::speed_limit_sign},
-     {"stop", PropKind::stop_sign},
-     {"yield", PropKind::yield_sign}}};
-
 constexpr std::array<const char*, 5> district_styles{"village", "old", "brick", "modern", "centre"};
-
-// ---- reading ----------------------------------------------------------------------------------
 
 /// An element, and how to speak about it.
 class Element {
@@ -136,7 +128,7 @@ Place::Head read_head(const Element& element) {
 }
 
 world::Prop read_sign(const Element& element) {
-    const std::size_t kind = element.word("kind", names_of(sign_kinds));
+    const std::size_t kind = element.word("kind", names_of(sign_words));
     const std::uint32_t value = element.whole("value", element.text("value"));
     if (value > 999)
         element.fail(fmt::format("value=\"{}\": expected km/h, 999 at most", value));
@@ -147,7 +139,7 @@ world::Prop read_sign(const Element& element) {
             element.real("height"),
             element.whole("style", element.text("style")),
             static_cast<std::uint16_t>(value),
-            sign_kinds[kind].second,
+            sign_words[kind].second,
             0};
 }
 
@@ -186,105 +178,6 @@ Place::District read_district(const Element& element) {
     return district;
 }
 
-// ---- writing ----------------------------------------------------------------------------------
-
-/// Millimetres are enough, and "-0" is 0.
-std::string text_of(double value) {
-    std::string text = fmt::format("{:.3f}", value);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.')
-        text.pop_back();
-    return text == "-0" ? "0" : text;
-}
-
-/// A millimetre at 10 km is 6e-6 degrees.
-std::string degrees_of(double yaw) {
-    std::string text = fmt::format("{:.6f}", yaw / deg);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.')
-        text.pop_back();
-    return text == "-0" ? "0" : text;
-}
-
-std::string shape_of(const Outline& outline) {
-    std::string text;
-    for (const Vec3& point : outline) {
-        text +=
-            fmt::format("{}{},{}", text.empty() ? "" : " ", text_of(point.x()), text_of(point.y()));
-        if (const std::string z = text_of(point.z()); z != "0")
-            text += "," + z;
-    }
-    return text;
-}
-
-/// What an attribute holds between its quotes.
-std::string escaped(std::string_view text) {
-    std::string safe;
-    for (const char c : text)
-        switch (c) {
-            case '&':
-                safe += "&amp;";
-                break;
-            case '<':
-                safe += "&lt;";
-                break;
-            case '"':
-                safe += "&quot;";
-                break;
-            default:
-                safe += c;
-        }
-    return safe;
-}
-
-std::string optional(const char* name, double value) {
-    const std::string text = text_of(value);
-    return text == "0" ? "" : fmt::format(" {}=\"{}\"", name, text);
-}
-
-std::string position_of(const Vec3& at, double yaw) {
-    return fmt::format("x=\"{}\" y=\"{}\" z=\"{}\" yaw=\"{}\"",
-                       text_of(at.x()),
-                       text_of(at.y()),
-                       text_of(at.z()),
-                       degrees_of(yaw));
-}
-
-std::string head_xml(const Place::Head& head) {
-    return fmt::format("  <head program=\"{}\" links=\"{}\" {} height=\"{}\" arm=\"{}\"/>\n",
-                       escaped(head.program),
-                       fmt::join(head.links, " "),
-                       position_of(head.foot, head.yaw),
-                       text_of(head.height),
-                       text_of(head.arm));
-}
-
-std::string sign_xml(const world::Prop& sign) {
-    const auto kind = std::find_if(sign_kinds.begin(), sign_kinds.end(), [&](const auto& known) {
-        return known.second == sign.kind();
-    });
-    REPRISE_CHECK(kind != sign_kinds.end(), world::EnumNamePropKind(sign.kind()));
-    return fmt::format("  <sign kind=\"{}\"{} {} height=\"{}\"{}{}{}/>\n",
-                       kind->first,
-                       optional("value", sign.value()),
-                       position_of(sign.position(), sign.yaw()),
-                       text_of(sign.height()),
-                       optional("length", sign.length()),
-                       optional("width", sign.width()),
-                       optional("style", sign.style()));
-}
-
-std::string building_xml(const world::DrawnBuildingT& building) {
-    std::string model;
-    if (building.model != 0)
-        model = fmt::format(" model=\"{}\"", world::building_models()[building.model - 1].name);
-    return fmt::format("  <building shape=\"{}\" height=\"{}\"{}{}/>\n",
-                       shape_of(building.outline),
-                       text_of(building.height),
-                       model,
-                       optional("style", building.style));
-}
-
 }  // namespace
 
 Place read_place(std::string_view xml, const std::string& file) {
@@ -321,29 +214,6 @@ Place read_place(std::string_view xml, const std::string& file) {
                              name, {"head", "sign", "plot", "building", "district", "keep_clear"}));
     }
     return place;
-}
-
-std::string place_xml(const Place& place) {
-    std::string xml = "<place>\n";
-    for (const Place::Head& head : place.heads)
-        xml += head_xml(head);
-    for (const world::Prop& sign : place.signs)
-        xml += sign_xml(sign);
-    for (const world::PlotT& plot : place.plots)
-        xml += fmt::format("  <plot kind=\"{}\" shape=\"{}\"/>\n",
-                           world::EnumNamePlotKind(plot.kind),
-                           shape_of(plot.outline));
-    for (const world::DrawnBuildingT& building : place.buildings)
-        xml += building_xml(building);
-    for (const Place::District& district : place.districts)
-        xml += fmt::format("  <district style=\"{}\"{}/>\n",
-                           escaped(district.style),
-                           district.outline.empty()
-                               ? ""
-                               : fmt::format(" shape=\"{}\"", shape_of(district.outline)));
-    for (const Outline& outline : place.keep_clear)
-        xml += fmt::format("  <keep_clear shape=\"{}\"/>\n", shape_of(outline));
-    return xml + "</place>\n";
 }
 
 }  // namespace reprise::traffic
