@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cli/worker.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -48,6 +49,10 @@ bool is_imported_town(const fs::path& folder) {
 }
 
 void require_free(const fs::path& folder, bool replace) {
+    if (folder.empty())
+        throw world::Error("-o: the name of a folder was expected");
+    if (fs::is_symlink(folder))
+        throw world::Error(folder.string() + ": is a symbolic link; name a folder itself");
     if (!fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder)))
         return;
     if (!fs::is_directory(folder))
@@ -69,7 +74,9 @@ std::string make_town_folder(const traffic::TownImport& wish,
     try {
         require_free(target, replace);
         const Partial partial(target.string() + ".partial");
-        const std::string report = traffic::import_town(wish, partial.path());
+        // In a process of its own: whatever ends that, what it began is removed here.
+        const std::string report = in_worker(
+            wish.map.string(), [&] { return traffic::import_town(wish, partial.path()); });
         fs::remove_all(target);
         fs::rename(partial.path(), target);
         return report;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/guard.h"
+#include "cli/reproduce.h"
 #include "cli/town_folder.h"
 #include "traffic/map_source.h"
 #include "world/check.h"
@@ -16,7 +17,9 @@ int town_import(const TownImportOptions& options) {
     const traffic::TownImport wish{
         options.source, options.name, options.left_hand, options.sidewalks == "guess"};
     fmt::print("{}", make_town_folder(wish, options.directory, options.force));
-    fmt::print("{}: written\n", options.directory);
+    fmt::print("{}: written; `reprise town check {}` tells whether all of it can be driven\n",
+               options.directory,
+               shell_word(options.directory));
     return exit_good;
 }
 

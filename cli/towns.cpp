@@ -58,6 +58,9 @@ fs::path network_in(const fs::path& folder) {
 
 /// What must be imported first.
 bool is_map(const std::string& town) {
+    std::error_code ignored;
+    if (fs::is_directory(town, ignored))
+        return false;
     return town.ends_with(".xodr") || town.ends_with(".osm") || town.ends_with(".osm.gz");
 }
 
@@ -88,7 +91,8 @@ bool looks_like_path(const std::string& town) {
 
 fs::path find_network(const std::string& town, const fs::path& scenario) {
     std::error_code ignored;
-    if (town.find('/') != std::string::npos && fs::is_directory(town, ignored))
+    const bool has_ending = town.ends_with(".xodr") || town.ends_with(".osm");
+    if ((has_ending || town.find('/') != std::string::npos) && fs::is_directory(town, ignored))
         return network_in(town);
     if (looks_like_path(town) || fs::is_regular_file(town, ignored))
         return town;

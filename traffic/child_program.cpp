@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "traffic/awaited_signals.h"
 #include "world/check.h"
 
 namespace reprise::traffic {
@@ -69,52 +70,6 @@ posix_spawn_file_actions_t files_of_child(const fs::path& scratch, const std::st
     return actions;
 }
 
-/// While a child runs, what would end us comes here first, so that neither the child nor what was
-/// begun is left behind.
-class Signals {
-  public:
-    Signals() {
-        sigemptyset(&awaited_);
-        sigaddset(&awaited_, SIGCHLD);
-        // What is ignored, as under nohup, stays so.
-        for (const int one : {SIGINT, SIGTERM, SIGHUP}) {
-            struct sigaction now {};
-
-            sigaction(one, nullptr, &now);
-            if (now.sa_handler != SIG_IGN)
-                sigaddset(&awaited_, one);
-        }
-        sigprocmask(SIG_BLOCK, &awaited_, &before_);
-    }
-
-    ~Signals() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
-
-    Signals(const Signals&) = delete;
-    Signals& operator=(const Signals&) = delete;
-
-    const sigset_t& before() const { return before_; }
-
-    /// The child's wait status; throws when we are to end, and then the child has ended.
-    int wait_for(pid_t child) const {
-        int status = 0;
-        // A tenth of a second: somebody else's SIGCHLD may have hidden ours.
-        const timespec tenth{0, 100'000'000};
-        while (waitpid(child, &status, WNOHANG) != child) {
-            const int came = sigtimedwait(&awaited_, nullptr, &tenth);
-            if (came == -1 || came == SIGCHLD)
-                continue;
-            kill(child, SIGKILL);
-            waitpid(child, &status, 0);
-            throw world::Error(fmt::format("stopped ({})", strsignal(came)));
-        }
-        return status;
-    }
-
-  private:
-    sigset_t awaited_{};
-    sigset_t before_{};
-};
-
 pid_t start(const std::string& name,
             std::vector<std::string> words,
             const fs::path& scratch,
@@ -161,10 +116,10 @@ ProgramResult run_program(const std::string& name,
                           const fs::path& scratch,
                           const ProgramLimits& limits) {
     const std::string outputs = name + ".said";
-    const Signals signals;
+    const AwaitedSignals signals;
     const pid_t child = start(name, words, scratch, outputs, signals.before());
     limit(child, limits);
-    const int status = signals.wait_for(child);
+    const int status = signals.wait_for(child, child);
     ProgramResult result;
     result.said = beginning_of(scratch / outputs);
     std::error_code ignored;

@@ -70,7 +70,7 @@ std::string read_again(const fs::path& path, const std::string& map) {
         return summary(town) + tiny_lanes(town);
     } catch (const world::Error& error) {
         std::string what = error.what();
-        if (what.starts_with(path.string()))
+        if (what.starts_with(path.parent_path().string()))  // which is gone when this is read
             what = map + ": what came out of it is no town: " +
                    what.substr(std::min(what.find(": ") + 2, what.size()));
         throw world::Error(what);

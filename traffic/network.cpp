@@ -174,6 +174,8 @@ bool has_car_lane(pugi::xml_node net) {
 std::string fault_of(pugi::xml_node lane) {
     const double nothing = std::numeric_limits<double>::infinity();
     constexpr double farthest = 1e7;  // [m]
+    constexpr double highest = 1e4;   // [m]
+    constexpr double widest = 100;    // [m]
     for (const char* name : {"id", "index", "speed", "length", "shape"})
         if (*lane.attribute(name).value() == '\0')
             return fmt::format("<lane> has no {}", name);
@@ -182,13 +184,17 @@ std::string fault_of(pugi::xml_node lane) {
             return fmt::format(
                 "<lane>: {}=\"{}\" is not a number", name, lane.attribute(name).value());
     for (const std::string_view point : words(lane.attribute("shape").value()))
-        for (std::size_t from = 0, to = 0; to != std::string_view::npos; from = to + 1) {
+        for (std::size_t from = 0, to = 0, k = 0; to != std::string_view::npos;
+             from = to + 1, ++k) {
             to = point.find(',', from);
             const double coordinate = number(point.substr(from, to - from), nothing);
             if (coordinate == nothing)
                 return fmt::format("<lane>: '{}' in its shape is not a point", point);
             if (std::abs(coordinate) > farthest)
                 return fmt::format("<lane>: '{}' in its shape is farther than 10,000 km away",
+                                   point);
+            if (k == 2 && std::abs(coordinate) > highest)
+                return fmt::format("<lane>: '{}' in its shape is more than 10 km high or deep",
                                    point);
         }
     if (words(lane.attribute("shape").value()).size() < 2)
@@ -198,6 +204,8 @@ std::string fault_of(pugi::xml_node lane) {
         const double value = *text == '\0' ? 1 : number(text, nothing);
         if (value == nothing || value <= 0)
             return fmt::format("<lane>: {}=\"{}\" is not a number above 0", name, text);
+        if (value > widest && std::string_view(name) == "width")
+            return fmt::format("<lane>: width=\"{}\" is more than {} m", text, widest);
     }
     return "";
 }

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "traffic/network_xml.h"
+#include "traffic/opendrive_check.h"
 #include "traffic/reference_line.h"
 #include "world/check.h"
 
@@ -225,6 +226,7 @@ OpenDrive read_opendrive(const std::string& xml, const std::string& file) {
             fmt::format("{}:{}: has no <road>",
                         file,
                         line_of(xml, static_cast<std::size_t>(root.offset_debug()))));
+    check_opendrive(root, xml, file);
     OpenDrive map;
     const pugi::xml_node header = root.child("header");
     map.version = fmt::format("{}.{}", text(header, "revMajor"), text(header, "revMinor"));

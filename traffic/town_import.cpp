@@ -32,6 +32,7 @@ namespace fs = std::filesystem;
 using world::LaneKind;
 
 constexpr const char* made = "made.net.xml";  ///< in the work folder
+constexpr std::uintmax_t room = 1 << 20;      ///< [bytes] of a disk with less it is said to be full
 
 std::string read_text(const fs::path& path) {
     std::ostringstream text;
@@ -113,6 +114,9 @@ class Import {
         if (!fs::exists(work_ / made))
             throw world::Error(map_ + ": netconvert made no network of it");
         network = without_comments(read_text(work_ / made));
+        // netconvert does not look whether its output could be written.
+        if (network.find("</net>") == std::string::npos && fs::space(work_).available < room)
+            throw world::Error(work_.parent_path().string() + ": cannot be written: no space left");
         replace_all(network, "&amp;amp;", "&amp;");  // some names are escaped twice
         if (warnings > 0)
             say("netconvert gave {} warnings", warnings);

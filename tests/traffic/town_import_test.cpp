@@ -505,6 +505,15 @@ TEST_F(Imports, WhatIsNoMapIsRefusedInOneLine) {
 
     std::string cut = bytes(village());
     cut.resize(cut.size() / 2);
+    std::string deep = "<OpenDRIVE><road id='1' length='9'>";
+    for (int i = 0; i < 2000; ++i)
+        deep += "<userData>";
+    for (int i = 0; i < 2000; ++i)
+        deep += "</userData>";
+    deep += "</road></OpenDRIVE>";
+    const std::string wide =
+        "<net><edge id='e'><lane id='e_0' index='0' speed='9' length='9' width='1000' "
+        "shape='0,0 9,0'/></edge></net>";
     const Case cases[] = {
         {"empty.xodr", "", "empty.xodr: is empty"},
         {"binary.osm",
@@ -527,6 +536,15 @@ TEST_F(Imports, WhatIsNoMapIsRefusedInOneLine) {
          "<osm version='0.6'><node id='1' lat='1' lon='1'/><node id='2' lat='1.001' lon='1'/>"
          "<way id='5'><nd ref='1'/><nd ref='2'/><tag k='highway' v='footway'/></way></osm>",
          "path.osm: what came out of it is no town: has no edge that a passenger car may use"},
+        {"far.xodr",
+         "<OpenDRIVE>\n<road id='1' length='1e7'/></OpenDRIVE>",
+         "far.xodr:2: <road>: length=\"1e7\" is not a number up to 200000"},
+        {"nan.xodr",
+         "<OpenDRIVE><road id='1' length='9'><planView><geometry s='nan'/></planView></road>"
+         "</OpenDRIVE>",
+         "<geometry>: s=\"nan\" is not a number"},
+        {"deep.xodr", deep, "elements are nested more than 1000 deep"},
+        {"wide.net.xml", wide, "<lane>: width=\"1000\" is more than 100 m"},
         {"cut.osm.gz", "\x1f\x8b\x08 and no more", "cut.osm.gz: is damaged or cut off"},
     };
     for (const Case& one : cases) {
