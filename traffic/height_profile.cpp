@@ -108,7 +108,8 @@ std::string shape_text(const std::vector<Vector3d>& line) {
         if (std::abs(p.z()) >= noticed)
             text += fmt::format(",{:.3f}", p.z());
     }
-    return text;
+    // netconvert's lanes of no length begin and end at one place.
+    return line.size() == 1 ? text + " " + text : text;
 }
 
 }  // namespace reprise::traffic

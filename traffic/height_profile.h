@@ -31,7 +31,8 @@ class HeightProfile {
 /// The steepest piece of a line. [m/m]
 double steepest(const std::vector<Eigen::Vector3d>& line);
 
-/// "x,y,z x,y ...": z is left out where it is 0, as netconvert does.
+/// "x,y,z x,y ...": z is left out where it is 0, as netconvert does. A line of one point comes out
+/// with two at the same place: SUMO loads no lane with fewer.
 std::string shape_text(const std::vector<Eigen::Vector3d>& line);
 
 }  // namespace reprise::traffic

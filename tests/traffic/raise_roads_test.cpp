@@ -136,6 +136,20 @@ TEST_F(RaiseRoads, CarsPassOverAndUnderAtOnePlace) {
     EXPECT_THAT(report_, HasSubstr("1 places where a road passes over another"));
 }
 
+TEST_F(RaiseRoads, ABridgeOfAnotherSpeedBecomesATown) {
+    // netconvert keeps the joins at its ends, each with a lane of no length.
+    const world::TownT town =
+        import(interchange({{"bridge", "yes"}, {"layer", "1"}, {"maxspeed", "70"}}));
+    int joins = 0;
+    for (const world::LaneT& lane : town.lanes)
+        joins += lane.kind == world::LaneKind::internal && lane.sumo_length <= 0.1 &&
+                         lane.centre.front().z() > 1
+                     ? 1
+                     : 0;
+    EXPECT_GT(joins, 0);
+    EXPECT_THAT(report_, HasSubstr("1 places where a road passes over another"));
+}
+
 TEST_F(RaiseRoads, RampsCanBeDriven) {
     const world::TownT town = import(interchange({{"bridge", "yes"}, {"layer", "1"}}));
     EXPECT_LT(steepest_lane(town), 0.1);
