@@ -72,6 +72,12 @@ std::string without_comments(const std::string& xml) {
     return kept;
 }
 
+/// netconvert escapes the names of OpenStreetMap's streets twice.
+void escape_once(std::string& xml) {
+    for (const std::string_view entity : {"lt;", "gt;", "quot;", "apos;", "amp;"})
+        replace_all(xml, fmt::format("&amp;{}", entity), fmt::format("&{}", entity));
+}
+
 /// One import on its way.
 class Import {
   public:
@@ -117,7 +123,7 @@ class Import {
         // netconvert does not look whether its output could be written.
         if (network.find("</net>") == std::string::npos && fs::space(work_).available < room)
             throw world::Error(work_.parent_path().string() + ": cannot be written: no space left");
-        replace_all(network, "&amp;amp;", "&amp;");  // some names are escaped twice
+        escape_once(network);
         if (warnings > 0)
             say("netconvert gave {} warnings", warnings);
     }

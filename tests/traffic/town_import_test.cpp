@@ -16,6 +16,7 @@
 
 #include "tests/traffic/stage.h"
 #include "traffic/child_program.h"
+#include "tests/traffic/street_map.h"
 #include "traffic/place.h"
 #include "traffic/right_of_way.h"
 #include "traffic/signal_sites.h"
@@ -128,6 +129,20 @@ TEST_F(Imports, AStreetByItselfIsATown) {
 }
 
 TEST_F(Imports, ExtractsMayCutWaysOff) {
+TEST_F(Imports, StreetsKeepTheSpellingOfTheirNames) {
+    StreetMap map;
+    map.way(
+        {map.node(0, 0), map.node(200, 0)},
+        {{"highway", "residential"}, {"name", "L'\xC3\xA9t\xC3\xA9 &quot;a&quot; &lt;b> &amp;c"}});
+    import_town({write("names.osm", map.text()), "", false, false}, empty("t"));
+    const world::TownT town = read_town(load_network(folder_ / "t/names.net.xml"));
+    const auto named = std::find_if(town.lanes.begin(), town.lanes.end(), [](const auto& lane) {
+        return !lane.street.empty();
+    });
+    ASSERT_NE(named, town.lanes.end());
+    EXPECT_EQ(named->street, "L'\xC3\xA9t\xC3\xA9 \"a\" <b> &c");
+}
+
     std::string map = bytes(village());
     map.insert(map.rfind("</osm>"),
                "<way id=\"9001\"><nd ref=\"77001\"/><nd ref=\"77002\"/>"
