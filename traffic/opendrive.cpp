@@ -12,6 +12,7 @@
 #include "traffic/network_xml.h"
 #include "traffic/opendrive_check.h"
 #include "traffic/reference_line.h"
+#include "traffic/signal_words.h"
 #include "world/check.h"
 
 namespace reprise::traffic {
@@ -116,74 +117,49 @@ double cubic_at(const pugi::xml_node& profile, const char* name, double s) {
            ds * (real(piece, "b") + ds * (real(piece, "c") + ds * real(piece, "d")));
 }
 
-bool contains(std::string name, std::string_view word) {
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
-        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    });
-    return name.find(word) != std::string::npos;
+/// Its attributes, as far as they say what it is.
+SignalWords words_of(const pugi::xml_node& signal) {
+    return {text(signal, "type"),
+            text(signal, "subtype"),
+            text(signal, "value"),
+            text(signal, "unit"),
+            text(signal, "name"),
+            text(signal, "country"),
+            text(signal, "dynamic") == "yes"};
 }
 
-/// The last whole number in a name such as Speed_30; 0 when there is none.
-double number_in(std::string_view name) {
-    const std::size_t end = name.find_last_of("0123456789");
-    if (end == std::string_view::npos)
-        return 0;
-    const std::size_t before = name.find_last_not_of("0123456789", end);
-    const std::size_t start = before == std::string_view::npos ? 0 : before + 1;
-    return number(name.substr(start, end + 1 - start), 0);
+/// A place beside the road's line, on its surface: not where superelevation puts it, for the town's
+/// road is flat from side to side.
+Eigen::Vector3d place_of(const pugi::xml_node& thing,
+                         const pugi::xml_node& road,
+                         const ReferenceLine& line) {
+    const double s = real(thing, "s"), t = real(thing, "t");
+    const RoadPose pose = line.at(s);
+    return {pose.position.x() - t * std::sin(pose.heading),
+            pose.position.y() + t * std::cos(pose.heading),
+            cubic_at(road.child("elevationProfile"), "elevation", s)};
 }
 
-/// By the numbers of the German catalogue, which OpenDRIVE's examples and CARLA use in every
-/// country, by those of the US (MUTCD), or by name.
-std::optional<Kind> kind_of(const pugi::xml_node& signal) {
-    const std::string_view type = text(signal, "type");
-    const std::string name(text(signal, "name"));
-    if (text(signal, "dynamic") == "yes")
-        return type.starts_with("10000") || contains(name, "light") || contains(name, "signal")
-                   ? std::optional(Kind::light)
-                   : std::nullopt;
-    if (type == "206" || type == "R1-1" || contains(name, "stop_sign") || name == "Sign_Stop")
-        return Kind::stop;
-    if (type == "205" || type == "R1-2" || contains(name, "yield"))
-        return Kind::yield;
-    if (type == "274" || type == "R2-1" || contains(name, "speed"))
-        return Kind::speed_limit;
-    return std::nullopt;
-}
-
-/// [km/h]; 0 when the sign does not say.
-double limit_of(const pugi::xml_node& signal) {
-    double limit = real(signal, "value");
-    if (limit <= 0)
-        limit = text(signal, "type") == "274" ? real(signal, "subtype") : 0;
-    if (limit <= 0)
-        limit = number_in(text(signal, "name"));
-    const std::string_view unit = text(signal, "unit");
-    const bool miles =
-        unit == "mph" ||
-        (unit.empty() && (text(signal, "country") == "US" || text(signal, "country") == "USA"));
-    const double factor = miles ? 1.609344 : unit == "m/s" ? 3.6 : 1;
-    return limit > 0 && limit * factor < 300 ? limit * factor : 0;
+void read_crossings(const pugi::xml_node& road, OpenDrive& map) {
+    for (const pugi::xml_node object : road.child("objects").children("object"))
+        if (text(object, "type") == "crosswalk")
+            map.crossings.push_back(place_of(object, road, ReferenceLine(road.child("planView"))));
 }
 
 RoadSignal read_signal(const pugi::xml_node& signal,
                        Kind kind,
                        const pugi::xml_node& road,
                        const ReferenceLine& line) {
-    const double s = real(signal, "s"), t = real(signal, "t");
-    const RoadPose pose = line.at(s);
+    const Eigen::Vector3d foot = place_of(signal, road, line);
     RoadSignal found;
     found.id = text(signal, "id");
     found.kind = kind;
-    found.foot = {pose.position.x() - t * std::sin(pose.heading),
-                  pose.position.y() + t * std::cos(pose.heading),
-                  // Not where superelevation puts it: the town's road is flat from side to side.
-                  cubic_at(road.child("elevationProfile"), "elevation", s)};
-    found.heading = pose.heading + real(signal, "hOffset");
+    found.foot = {foot.x(), foot.y(), foot.z()};
+    found.heading = line.at(real(signal, "s")).heading + real(signal, "hOffset");
     found.against = text(signal, "orientation") == "-";
     found.bottom = real(signal, "zOffset");
     found.height = real(signal, "height");
-    found.limit_kmh = kind == Kind::speed_limit ? limit_of(signal) : 0;
+    found.limit_kmh = kind == Kind::speed_limit ? limit_kmh(words_of(signal)) : 0;
     return found;
 }
 
@@ -202,8 +178,9 @@ void read_signals(const pugi::xml_node& road, OpenDrive& map) {
         return;
     const ReferenceLine line(road.child("planView"));
     for (const pugi::xml_node signal : signals.children("signal")) {
-        const std::optional<Kind> kind = kind_of(signal);
-        if (kind && (*kind != Kind::speed_limit || limit_of(signal) > 0))
+        const SignalWords words = words_of(signal);
+        const std::optional<Kind> kind = kind_of(words);
+        if (kind && (*kind != Kind::speed_limit || limit_kmh(words) > 0))
             map.signals.push_back(read_signal(signal, *kind, road, line));
         else
             ++map.other_signs;
@@ -238,6 +215,7 @@ OpenDrive read_opendrive(const std::string& xml, const std::string& file) {
         map.banked += is_banked(road) ? 1 : 0;
         drop_made_up_name(road);
         read_signals(road, map);
+        read_crossings(road, map);
     }
     std::ostringstream prepared;
     document.save(prepared, "", pugi::format_raw);

@@ -26,11 +26,12 @@ struct RoadSignal {
 
 /// What netconvert does not take over out of an OpenDRIVE map.
 struct OpenDrive {
-    std::string version;              ///< such as 1.4
-    std::vector<RoadSignal> signals;  ///< in the order of the file
-    int other_signs = 0;              ///< of kinds that have no place in a town
-    int limits_set = 0;               ///< lanes that got their road's limit
-    int banked = 0;                   ///< roads with superelevation: netconvert lays them flat
+    std::string version;                     ///< such as 1.4
+    std::vector<RoadSignal> signals;         ///< in the order of the file
+    std::vector<Eigen::Vector3d> crossings;  ///< crosswalks, in the map's frame
+    int other_signs = 0;                     ///< of kinds that have no place in a town
+    int limits_set = 0;                      ///< lanes that got their road's limit
+    int banked = 0;  ///< roads with superelevation: netconvert lays them flat
     /// [m] The header's <offset>: netconvert takes it off every place, if it knows the map's
     /// projection.
     Eigen::Vector2d origin{0, 0};

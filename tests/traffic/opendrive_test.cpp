@@ -105,7 +105,12 @@ TEST(OpenDrive, KindsAreKnownByNumberCountryOrName) {
         {"type='274' subtype='50' value='-1'", Kind::speed_limit, 50},
         {"type='274' value='10' unit='m/s'", Kind::speed_limit, 36},
         {"type='R2-1' value='25' country='US'", Kind::speed_limit, 40.2336},
+        {"type='274.1' value='30' unit='km/h' name='zone'", Kind::speed_limit, 30},
+        {"type='274.1' subtype='20' value='-1'", Kind::speed_limit, 20},
+        {"type='274' subtype='56' value='-1'", Kind::speed_limit, 60},  // before 2017
         {"name='Speed_60' value='-1'", Kind::speed_limit, 60},
+        {"type='-1' name='Sign_SpeedLimit_30'", Kind::speed_limit, 30},
+        {"type='-1' name='Speed_30_mph'", Kind::speed_limit, 48.28032},
         {"name='traffic light' dynamic='yes'", Kind::light, 0},
     };
     for (const Case& one : cases) {
@@ -125,6 +130,20 @@ TEST(OpenDrive, OtherSignsAreCounted) {
         "m.xodr");
     EXPECT_TRUE(map.signals.empty());
     EXPECT_EQ(map.other_signs, 3);
+}
+
+TEST(OpenDrive, WhatOnlyHasSpeedInItsNameIsNoLimit) {
+    for (const char* other : {"name='SpeedBump_Sign_5' type='112'",
+                              "name='SpeedBump_Sign_5' type='-1'",
+                              "name='EndOfSpeedLimit50' type='278' value='50' unit='km/h'",
+                              "name='Speed_50' type='278' value='50'",
+                              "name='AdvisorySpeed_25' type='W13-1' value='25' country='US'",
+                              "name='Speed_Camera' type='-1' value='50'"}) {
+        const OpenDrive map = read_opendrive(
+            map_with(std::string("<signal id='a' s='1' t='1' ") + other + "/>"), "m.xodr");
+        EXPECT_TRUE(map.signals.empty()) << other;
+        EXPECT_EQ(map.other_signs, 1) << other;
+    }
 }
 
 TEST(OpenDrive, TheRuleOfTheRoadIsRead) {
