@@ -7,6 +7,7 @@
 #include <pugixml.hpp>
 #include <set>
 
+#include "traffic/map_rings.h"
 #include "traffic/netconvert.h"
 #include "traffic/network_xml.h"
 #include "world/check.h"
@@ -28,6 +29,7 @@ constexpr const char* wanted_keys = R"(<polygonTypes>
 <polygonType id="highway.pedestrian" name="highway"/>
 <polygonType id="highway.stop" name="highway"/>
 <polygonType id="highway.give_way" name="highway"/>
+<polygonType id="highway.crossing" name="highway"/>
 <polygonType id="layer" name="layer"/>
 <polygonType id="bridge" name="bridge"/>
 <polygonType id="tunnel" name="tunnel"/>
@@ -60,6 +62,19 @@ void take(const pugi::xml_node& poly, std::set<std::string>& seen, MapShapes& sh
         shapes.ways.push_back(std::move(shape));
 }
 
+/// Points with another of the wanted keys are neither signs nor crossings.
+void take_point(const pugi::xml_node& poi, MapShapes& shapes) {
+    MapShape point{
+        poi.attribute("id").value(),
+        tags_of(poi),
+        {{number(poi.attribute("x").value(), 0), number(poi.attribute("y").value(), 0), 0.0}}};
+    const std::string kind = tag(point.tags, "highway");
+    if (kind == "crossing")
+        shapes.crossings.emplace_back(point.line.front().x(), point.line.front().y(), 0);
+    else if (kind == "stop" || kind == "give_way")
+        shapes.signs.push_back(std::move(point));
+}
+
 }  // namespace
 
 int layer_of(const Tags& tags) {
@@ -83,11 +98,13 @@ MapShapes read_shapes(const std::string& map,
                       const std::filesystem::path& scratch,
                       const std::string& called) {
     std::ofstream(scratch / "shapes.typ.xml") << wanted_keys;
+    const MapRings rings = read_rings(scratch / map);
+    std::ofstream(scratch / "rings.osm") << rings.osm;
     run_sumo_tool("polyconvert",
                   {"--net-file",
                    network,
                    "--osm-files",
-                   map,
+                   rings.osm.empty() ? map : map + ",rings.osm",
                    "--type-file",
                    "shapes.typ.xml",
                    "--discard",
@@ -108,20 +125,12 @@ MapShapes read_shapes(const std::string& map,
     if (!document.load_file((scratch / "shapes.xml").c_str()))
         throw world::Error(called + ": polyconvert wrote no shapes");
     MapShapes shapes;
+    shapes.open_areas = rings.open;
     std::set<std::string> seen;
     for (const pugi::xml_node poly : document.document_element().children("poly"))
         take(poly, seen, shapes);
     for (const pugi::xml_node poi : document.document_element().children("poi"))
-        shapes.signs.push_back({poi.attribute("id").value(),
-                                tags_of(poi),
-                                {{number(poi.attribute("x").value(), 0),
-                                  number(poi.attribute("y").value(), 0),
-                                  0.0}}});
-    // Points with another of the wanted keys are no signs.
-    std::erase_if(shapes.signs, [](const MapShape& sign) {
-        const std::string kind = tag(sign.tags, "highway");
-        return kind != "stop" && kind != "give_way";
-    });
+        take_point(poi, shapes);
     return shapes;
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "traffic/map_area.h"
 #include "world/town_generated.h"
 
@@ -21,6 +23,8 @@ struct MapShapes {
     std::vector<MapShape> areas;  ///< buildings and plots, near the roads
     std::vector<MapShape> ways;   ///< roads that lie over or under others: layer_of() is not 0
     std::vector<MapShape> signs;  ///< one point: highway=stop or highway=give_way
+    int open_areas = 0;           ///< multipolygons with an outline that does not close
+    std::vector<Eigen::Vector3d> crossings;  ///< [m] highway=crossing; z is 0
 };
 
 /// SUMO's polyconvert reads and projects the map: the same way as netconvert did with the roads.

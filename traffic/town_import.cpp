@@ -265,6 +265,10 @@ class Import {
                                                  : "the ground would fail a criterion");
     }
 
+        if (shapes.open_areas > 0)
+            say("lost: parts of {} areas whose outline is not closed in the map",
+                shapes.open_areas);
+        count_crossings(shapes.crossings);
     void from_network(const TownImport& wish) {
         const Network loaded = load_network(wish.map);
         say("a SUMO network");

@@ -27,14 +27,25 @@ class StreetMap {
         return last_;
     }
 
-    void way(const std::vector<int>& nodes, const Tagged& tags) {
+    int way(const std::vector<int>& nodes, const Tagged& tags) {
         ways_ += fmt::format("<way id=\"{}\">", ++last_way_);
         for (const int node : nodes)
             ways_ += fmt::format("<nd ref=\"{}\"/>", node);
         ways_ += written(tags) + "</way>\n";
+        return last_way_;
     }
 
-    std::string text() const { return "<osm version=\"0.6\">\n" + nodes_ + ways_ + "</osm>\n"; }
+    /// Of ways, each with its role.
+    void multipolygon(const std::vector<std::pair<int, std::string>>& ways, const Tagged& tags) {
+        relations_ += fmt::format("<relation id=\"{}\">", ++last_relation_);
+        for (const auto& [way, role] : ways)
+            relations_ += fmt::format("<member type=\"way\" ref=\"{}\" role=\"{}\"/>", way, role);
+        relations_ += "<tag k=\"type\" v=\"multipolygon\"/>" + written(tags) + "</relation>\n";
+    }
+
+    std::string text() const {
+        return "<osm version=\"0.6\">\n" + nodes_ + ways_ + relations_ + "</osm>\n";
+    }
 
   private:
     static std::string written(const Tagged& tags) {
@@ -46,7 +57,8 @@ class StreetMap {
 
     int last_ = 0;
     int last_way_ = 0;
-    std::string nodes_, ways_;
+    int last_relation_ = 0;
+    std::string nodes_, ways_, relations_;
 };
 
 }  // namespace reprise::traffic

@@ -245,6 +245,86 @@ TEST_F(Imports, BuildingsAreCutBackToTheRoadsOrLeftOut) {
 }
 
 TEST_F(Imports, TheSameMapGivesTheSameBytes) {
+/// A rectangle: its corners, and two ways around it, both from the first to the third corner.
+struct Halves {
+    std::vector<int> corners;
+    int south_east = 0, north_west = 0;
+};
+
+Halves halves(StreetMap& map,
+              double west,
+              double width,
+              double depth,
+              const Tagged& tags = {},
+              double south = 30) {
+    Halves made;
+    for (const auto& [east, north] :
+         {std::pair{0.0, 0.0}, {width, 0.0}, {width, depth}, {0.0, depth}})
+        made.corners.push_back(map.node(west + east, south + north));
+    const std::vector<int>& c = made.corners;
+    made.south_east = map.way({c[0], c[1], c[2]}, tags);
+    made.north_west = map.way({c[0], c[3], c[2]}, tags);
+    return made;
+}
+
+TEST_F(Imports, OutlinesOfSeveralWaysAreClosed) {
+    StreetMap map;
+    map.way({map.node(0, 0), map.node(300, 0)}, {{"highway", "residential"}});
+    // Two houses of one relation, the second way of each drawn against the first.
+    const Halves one = halves(map, 20, 20, 10), two = halves(map, 60, 30, 10);
+    map.multipolygon({{one.south_east, "outer"},
+                      {two.north_west, "outer"},
+                      {one.north_west, "outer"},
+                      {two.south_east, ""}},
+                     {{"building", "house"}, {"height", "7"}});
+    // A park, drawn as a fence; the northern half of it is an edge of a wood, too.
+    const Halves park = halves(map, 110, 50, 40, {{"barrier", "fence"}});
+    const int far = map.node(100, 110);
+    const int around = map.way({park.corners[2], far, park.corners[0]}, {});
+    map.multipolygon({{park.south_east, "outer"}, {park.north_west, "outer"}},
+                     {{"leisure", "park"}});
+    map.multipolygon({{park.north_west, "outer"}, {around, "outer"}}, {{"natural", "wood"}});
+    // One half is missing.
+    const Halves cut = halves(map, 200, 30, 10);
+    map.multipolygon({{cut.south_east, "outer"}, {777, "outer"}}, {{"building", "yes"}});
+    const std::string report =
+        import_town({write("rings.osm", map.text()), "", false, false}, empty("t"));
+    EXPECT_THAT(report, HasSubstr("buildings: 2 with"));
+    EXPECT_THAT(report, HasSubstr("lost: parts of 1 areas"));
+    const Place place = read_place(bytes(folder_ / "t/rings.place.xml"), "rings.place.xml");
+    std::multiset<long> areas;
+    for (const world::DrawnBuildingT& building : place.buildings) {
+        areas.insert(std::lround(area_of(building.outline) / 10));
+        EXPECT_NEAR(building.height, 7, 1e-9);
+    }
+    EXPECT_EQ(areas, (std::multiset<long>{20, 30}));
+    std::multiset<world::PlotKind> kinds;
+    for (const world::PlotT& plot : place.plots) {
+        kinds.insert(plot.kind);
+        if (plot.kind == world::PlotKind::park) {
+            EXPECT_NEAR(area_of(plot.outline), 50 * 40, 10);
+        }
+    }
+    EXPECT_EQ(kinds, (std::multiset{world::PlotKind::park, world::PlotKind::forest}));
+}
+
+TEST_F(Imports, CourtyardsOfSeveralWaysAreCountedAndFilled) {
+    StreetMap map;
+    map.way({map.node(0, 0), map.node(300, 0)}, {{"highway", "residential"}});
+    const Halves yard = halves(map, 40, 10, 10);
+    const Halves block = halves(map, 30, 40, 30, {}, 20);
+    map.multipolygon({{block.south_east, "outer"},
+                      {block.north_west, "outer"},
+                      {yard.south_east, "inner"},
+                      {yard.north_west, "inner"}},
+                     {{"building", "yes"}});
+    const std::string report =
+        import_town({write("yard.osm", map.text()), "", false, false}, empty("t"));
+    EXPECT_THAT(report, HasSubstr("buildings: 1 with"));
+    EXPECT_THAT(report, HasSubstr("courtyards: 1 were built over"));
+    EXPECT_THAT(report, Not(HasSubstr("lost")));
+}
+
     for (const fs::path& map : {village(), shared_map("Town07.xodr")}) {
         if (!fs::exists(map)) {
             std::printf("skipped: no map %s\n", map.c_str());

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace reprise::traffic {
+
+/// The outlines of an OpenStreetMap map's multipolygons that are drawn as several ways, put
+/// together.
+struct MapRings {
+    int open = 0;     ///< multipolygons of which a part does not close: left out
+    std::string osm;  ///< each outline as one closed way with the tags of its relation; "": none
+};
+
+/// Of buildings and of land that a town shows. polyconvert, which knows outlines of one way only,
+/// reads `osm` along with the map: nodes are named, not repeated. `map` is plain XML, and is looked
+/// through twice, in little memory.
+MapRings read_rings(const std::filesystem::path& map);
+
+}  // namespace reprise::traffic
