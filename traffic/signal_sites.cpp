@@ -64,9 +64,7 @@ double read_yaw(const RoadSignal& signal, bool relative_to_orientation) {
 }
 
 std::vector<SignalSite> site_as(const OpenDrive& map, const ImportedRoads& roads, bool relative) {
-    Vector2d offset = roads.offset;
-    if (roads.projected)
-        offset -= map.origin;
+    const Vector2d offset = offset_of(map, roads);
     std::vector<SignalSite> sites;
     for (const RoadSignal& signal : map.signals) {
         SignalSite site;
@@ -276,6 +274,10 @@ ImportedRoads read_roads(const std::string& network, const std::string& file) {
         roads.lights.push_back(found == lights.end() ? std::vector<std::string>() : found->second);
     }
     return roads;
+}
+
+Vector2d offset_of(const OpenDrive& map, const ImportedRoads& roads) {
+    return roads.projected ? Vector2d(roads.offset - map.origin) : roads.offset;
 }
 
 std::vector<SignalSite> site_signals(const OpenDrive& map, const ImportedRoads& roads) {

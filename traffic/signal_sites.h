@@ -15,7 +15,7 @@ namespace reprise::traffic {
 /// The roads of a network that netconvert made of an OpenDRIVE map.
 struct ImportedRoads {
     world::TownT town;             ///< lanes, links, junctions and signals only
-    Eigen::Vector2d offset{0, 0};  ///< [m] from the map's coordinates to the network's
+    Eigen::Vector2d offset{0, 0};  ///< [m] netconvert's: see offset_of()
     bool projected = false;        ///< netconvert knows where on earth it lies
     /// The map's ids of the lights that netconvert gave to each of town.signals.
     std::vector<std::vector<std::string>> lights;
@@ -23,6 +23,9 @@ struct ImportedRoads {
 
 /// Throws world::Error when the network is not XML.
 ImportedRoads read_roads(const std::string& network, const std::string& file);
+
+/// [m] From the map's coordinates to the network's.
+Eigen::Vector2d offset_of(const OpenDrive& map, const ImportedRoads& roads);
 
 /// A signal of the map, seen from the network.
 struct SignalSite {

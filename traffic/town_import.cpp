@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "traffic/footprints.h"
+#include "traffic/guessed_crossings.h"
 #include "traffic/import_check.h"
 #include "traffic/map_signs.h"
 #include "traffic/map_source.h"
@@ -114,6 +115,11 @@ class Import {
 
     /// Runs netconvert; the network it made is in the file `made` and in `network`.
     void convert(std::vector<std::string> words) {
+        if (const int warnings = run_netconvert(std::move(words)); warnings > 0)
+            say("netconvert gave {} warnings", warnings);
+    }
+
+    int run_netconvert(std::vector<std::string> words) {
         words.insert(words.end(),
                      {"--output.street-names", "--precision", "3", "--output-file", made});
         const int warnings = run_sumo_tool("netconvert", std::move(words), work_, map_);
@@ -124,8 +130,23 @@ class Import {
         if (network.find("</net>") == std::string::npos && fs::space(work_).available < room)
             throw world::Error(work_.parent_path().string() + ": cannot be written: no space left");
         escape_once(network);
-        if (warnings > 0)
-            say("netconvert gave {} warnings", warnings);
+        return warnings;
+    }
+
+    /// The same again, without the crossings that netconvert only guesses where no roads meet.
+    void take_back_crossings(std::vector<std::string> words,
+                             const std::vector<Eigen::Vector3d>& mapped) {
+        const GuessedCrossings guessed = guessed_crossings(network, mapped);
+        if (guessed.at_joins == 0)
+            return;
+        write_text(work_ / "crossings.con.xml", guessed.connections);
+        words.insert(words.end(), {"--connection-files", "crossings.con.xml"});
+        run_netconvert(std::move(words));
+    }
+
+    void count_crossings(const std::vector<Eigen::Vector3d>& mapped) {
+        if (const int lost = lost_crossings(read_roads(network, map_).town, mapped); lost > 0)
+            say("lost: {} crossings between junctions or without sidewalks", lost);
     }
 
     void guess_sidewalks(std::vector<std::string>& words) {
@@ -145,6 +166,8 @@ class Import {
         if (wish.guess_sidewalks)
             guess_sidewalks(words);
         convert(words);
+        const std::vector<Eigen::Vector3d> crossings = crossings_of(map);
+        take_back_crossings(words, crossings);
         if (map.limits_set > 0)
             say("speed limits: {} lanes got that of their road, which netconvert ignores",
                 map.limits_set);
@@ -169,8 +192,18 @@ class Import {
         if (map.banked > 0)
             say("lost: the superelevation of {} roads; they are flat from side to side",
                 map.banked);
+        count_crossings(crossings);
         say("lost: road markings and objects (they are made anew)");
         place = place_xml(found);
+    }
+
+    /// In the network's coordinates.
+    std::vector<Eigen::Vector3d> crossings_of(const OpenDrive& map) const {
+        std::vector<Eigen::Vector3d> crossings = map.crossings;
+        const Eigen::Vector2d offset = offset_of(map, read_roads(network, map_));
+        for (Eigen::Vector3d& crossing : crossings)
+            crossing.head<2>() += offset;
+        return crossings;
     }
 
     /// netconvert knows no signs: it is called once more, with what they mean.
@@ -212,10 +245,11 @@ class Import {
         // Each road says which ways it was made of: bridges and signs are looked up by that.
         words.emplace_back("--output.original-names");
         convert(words);
-        const ImportedRoads roads = read_roads(network, map_);
-        if (roads.town.lanes.empty())
+        if (read_roads(network, map_).town.lanes.empty())
             return;  // a clearer word is said when the network is read
         const MapShapes shapes = read_shapes("map.osm", made, work_, map_);
+        take_back_crossings(words, shapes.crossings);
+        const ImportedRoads roads = read_roads(network, map_);
         obey_signs([&](const ImportedRoads& seen) { return lane_signs(shapes.signs, seen.town); });
         Place found;
         const FootprintReport areas = place_footprints(shapes.areas, roads.town, found);
@@ -231,6 +265,10 @@ class Import {
                 areas.filled);
         if (areas.broken > 0)
             say("lost: {} areas whose outline crosses itself", areas.broken);
+        if (shapes.open_areas > 0)
+            say("lost: parts of {} areas whose outline is not closed in the map",
+                shapes.open_areas);
+        count_crossings(shapes.crossings);
         place = place_xml(found);
         if (std::any_of(roads.town.lanes.begin(), roads.town.lanes.end(), [](const auto& lane) {
                 return lane.kind == LaneKind::driving;
@@ -265,10 +303,6 @@ class Import {
                                                  : "the ground would fail a criterion");
     }
 
-        if (shapes.open_areas > 0)
-            say("lost: parts of {} areas whose outline is not closed in the map",
-                shapes.open_areas);
-        count_crossings(shapes.crossings);
     void from_network(const TownImport& wish) {
         const Network loaded = load_network(wish.map);
         say("a SUMO network");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <map>
 #include <set>
@@ -15,8 +16,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/traffic/stage.h"
-#include "traffic/child_program.h"
 #include "tests/traffic/street_map.h"
+#include "traffic/child_program.h"
 #include "traffic/place.h"
 #include "traffic/right_of_way.h"
 #include "traffic/signal_sites.h"
@@ -128,7 +129,6 @@ TEST_F(Imports, AStreetByItselfIsATown) {
     EXPECT_EQ(driving, 2) << "one each way";
 }
 
-TEST_F(Imports, ExtractsMayCutWaysOff) {
 TEST_F(Imports, StreetsKeepTheSpellingOfTheirNames) {
     StreetMap map;
     map.way(
@@ -143,6 +143,7 @@ TEST_F(Imports, StreetsKeepTheSpellingOfTheirNames) {
     EXPECT_EQ(named->street, "L'\xC3\xA9t\xC3\xA9 \"a\" <b> &c");
 }
 
+TEST_F(Imports, ExtractsMayCutWaysOff) {
     std::string map = bytes(village());
     map.insert(map.rfind("</osm>"),
                "<way id=\"9001\"><nd ref=\"77001\"/><nd ref=\"77002\"/>"
@@ -244,7 +245,6 @@ TEST_F(Imports, BuildingsAreCutBackToTheRoadsOrLeftOut) {
         EXPECT_GT(area_of(building.outline), 0) << "counter-clockwise";
 }
 
-TEST_F(Imports, TheSameMapGivesTheSameBytes) {
 /// A rectangle: its corners, and two ways around it, both from the first to the third corner.
 struct Halves {
     std::vector<int> corners;
@@ -325,6 +325,7 @@ TEST_F(Imports, CourtyardsOfSeveralWaysAreCountedAndFilled) {
     EXPECT_THAT(report, Not(HasSubstr("lost")));
 }
 
+TEST_F(Imports, TheSameMapGivesTheSameBytes) {
     for (const fs::path& map : {village(), shared_map("Town07.xodr")}) {
         if (!fs::exists(map)) {
             std::printf("skipped: no map %s\n", map.c_str());
@@ -437,6 +438,74 @@ TEST_F(Imports, LightsStayWhereTheHeaderMovesTheMap) {
             lit.insert(signal.lane);
     EXPECT_GT(lit.size(), 10U);
     EXPECT_EQ(place.heads.size(), lit.size()) << report;
+}
+
+/// A straight road with sidewalks whose limit changes half-way, after 100 m; with these objects.
+std::string road_with_two_limits(const std::string& objects) {
+    const auto lane = [](int id, const char* type) {
+        return fmt::format(
+            "<lane id='{}' type='{}'><width sOffset='0' a='3' b='0' c='0' d='0'/>"
+            "</lane>",
+            id,
+            type);
+    };
+    const std::string lanes = "<left>" + lane(2, "sidewalk") + lane(1, "driving") +
+                              "</left><center><lane id='0' type='none'/></center><right>" +
+                              lane(-1, "driving") + lane(-2, "sidewalk") + "</right>";
+    return "<OpenDRIVE><header revMajor='1' revMinor='4'/><road id='1' length='200' "
+           "junction='-1'><type s='0' type='town'><speed max='30' unit='km/h'/></type>"
+           "<type s='100' type='town'><speed max='50' unit='km/h'/></type>"
+           "<planView><geometry s='0' x='0' y='0' hdg='0' length='200'><line/></geometry>"
+           "</planView><lanes><laneSection s='0'>" +
+           lanes + "</laneSection><laneSection s='100'>" + lanes +
+           "</laneSection></lanes><objects>" + objects + "</objects></road></OpenDRIVE>";
+}
+
+auto count_of(const world::TownT& town, LaneKind kind) {
+    return std::count_if(town.lanes.begin(), town.lanes.end(), [kind](const world::LaneT& lane) {
+        return lane.kind == kind;
+    });
+}
+
+TEST_F(Imports, NoCrossingIsGuessedWhereARoadOnlyGoesOn) {
+    const std::string report =
+        import_town({write("limits.xodr", road_with_two_limits("")), "", false, false}, empty("t"));
+    const world::TownT town = read_town(load_network(folder_ / "t/limits.net.xml"));
+    EXPECT_EQ(count_of(town, LaneKind::driving), 4) << "there is a join";
+    EXPECT_EQ(count_of(town, LaneKind::crossing), 0);
+    EXPECT_THAT(report, Not(HasSubstr("crossings between junctions")));
+}
+
+TEST_F(Imports, ACrosswalkOfTheMapStaysIfThereIsAJoinForIt) {
+    const std::string report =
+        import_town({write("walk.xodr",
+                           road_with_two_limits("<object type='crosswalk' id='1' s='97' t='0'/>"
+                                                "<object type='crosswalk' id='2' s='40' t='0'/>")),
+                     "",
+                     false,
+                     false},
+                    empty("t"));
+    const world::TownT town = read_town(load_network(folder_ / "t/walk.net.xml"));
+    EXPECT_EQ(count_of(town, LaneKind::crossing), 1);
+    EXPECT_THAT(report, HasSubstr("lost: 1 crossings between junctions"));
+}
+
+TEST_F(Imports, CrossingsOfAStreetMapThatFindNoPlaceAreCounted) {
+    StreetMap map;
+    const Tagged street{{"highway", "residential"}, {"sidewalk", "both"}},
+        zebra{{"highway", "crossing"}};
+    const int corner = map.node(100, 0);
+    map.way(
+        {map.node(0, 0), map.node(50, 0, zebra), map.node(92, 0, zebra), corner, map.node(200, 0)},
+        street);
+    map.way({corner, map.node(100, 100)}, street);
+    map.way({map.node(150, 60, zebra), map.node(180, 60)},
+            {{"highway", "service"}, {"access", "private"}, {"motor_vehicle", "no"}});
+    const std::string report =
+        import_town({write("zebra.osm", map.text()), "", false, false}, empty("t"));
+    const world::TownT town = read_town(load_network(folder_ / "t/zebra.net.xml"));
+    EXPECT_GE(count_of(town, LaneKind::crossing), 1) << "at the corner";
+    EXPECT_THAT(report, HasSubstr("lost: 1 crossings between junctions"));
 }
 
 TEST_F(Imports, ASignOnTheRoadIsMovedBeyondTheMiddleOfTheSidewalk) {
