@@ -51,6 +51,14 @@ std::size_t end_of_element(std::string_view xml, std::string_view name, std::siz
     return closing == nowhere ? nowhere : end_of_tag(xml, closing);
 }
 
+/// The map's "<?xml ...?>", which tells its encoding; "" when it has none.
+std::string_view declaration(std::string_view xml) {
+    const std::size_t start = xml.substr(0, 4).find('<');  // behind a byte order mark
+    return start != nowhere && xml.substr(start).starts_with("<?xml")
+               ? xml.substr(start, end_of_tag(xml, start) - start)
+               : "";
+}
+
 /// Calls `take` with the text of each element of that name.
 template <typename Take>
 void for_each_element(std::string_view xml, std::string_view name, Take&& take) {
@@ -220,8 +228,10 @@ MapRings read_rings(const std::filesystem::path& map) {
             for (const Line& ring : joiner->rings)
                 write_ring(osm, next++, ring, relation.tags);
     }
+    // Whatever the encoding: bytes stay as they are.
     std::ostringstream text;
-    document.save(text, "");
+    text << declaration(xml);
+    document.save(text, "", pugi::format_raw | pugi::format_no_declaration);
     if (next != first_ring)
         found.osm = std::move(text).str();
     return found;

@@ -266,7 +266,7 @@ class Import {
         if (areas.broken > 0)
             say("lost: {} areas whose outline crosses itself", areas.broken);
         if (shapes.open_areas > 0)
-            say("lost: parts of {} areas whose outline is not closed in the map",
+            say("lost: {} areas, or parts of them, whose outline does not close in the map",
                 shapes.open_areas);
         count_crossings(shapes.crossings);
         place = place_xml(found);
