@@ -98,6 +98,14 @@ GuessedCrossings guessed_crossings(const std::string& network,
     return guessed;
 }
 
+std::vector<Vector3d> places_of_crossings(const world::TownT& town) {
+    std::vector<Vector3d> places;
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind == LaneKind::crossing)
+            places.push_back(world::point_at(lane, lane.length / 2).position);
+    return places;
+}
+
 int lost_crossings(const world::TownT& town, const std::vector<Vector3d>& mapped) {
     const world::LaneMap lanes(town);
     constexpr double beside = 2;  // [m] a way may be drawn beside its lanes

@@ -21,6 +21,9 @@ struct GuessedCrossings {
 GuessedCrossings guessed_crossings(const std::string& network,
                                    const std::vector<Eigen::Vector3d>& mapped);
 
+/// The middle of each crossing that a town has.
+std::vector<Eigen::Vector3d> places_of_crossings(const world::TownT& town);
+
 /// How many of the map's crossings, of those that lie on a road for cars, have none of the town
 /// within 15 m.
 int lost_crossings(const world::TownT& town, const std::vector<Eigen::Vector3d>& mapped);

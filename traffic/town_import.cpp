@@ -316,7 +316,10 @@ class Import {
             "--sumo-net-file", "map.net.xml", "--offset.disable-normalization"};
         words.insert(words.end(), {"--crossings.guess", "--walkingareas"});
         guess_sidewalks(words);
+        const std::vector<Eigen::Vector3d> crossings =
+            places_of_crossings(read_roads(network, map_).town);
         convert(words);
+        take_back_crossings(words, crossings);
     }
 
     fs::path work_;

@@ -488,6 +488,19 @@ TEST_F(Imports, NoCrossingIsGuessedWhereARoadOnlyGoesOn) {
     EXPECT_THAT(report, Not(HasSubstr("crossings between junctions")));
 }
 
+TEST_F(Imports, CrossingsOfANetworkStayWhereOthersAreGuessed) {
+    const auto crossings = [&](const std::string& name, const std::string& objects) {
+        import_town({write(name + ".xodr", road_with_two_limits(objects)), "", false, false},
+                    empty(name));
+        const fs::path network = folder_ / name / (name + ".net.xml");
+        import_town({network, "again", false, true}, empty(name + "2"));
+        return count_of(read_town(load_network(folder_ / (name + "2") / "again.net.xml")),
+                        LaneKind::crossing);
+    };
+    EXPECT_EQ(crossings("none", ""), 0);
+    EXPECT_EQ(crossings("one", "<object type='crosswalk' id='1' s='97' t='0'/>"), 1);
+}
+
 TEST_F(Imports, ACrosswalkOfTheMapStaysIfThereIsAJoinForIt) {
     const std::string report =
         import_town({write("walk.xodr",
