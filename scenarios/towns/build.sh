@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds a town's network from its plain sources: build.sh town1|town2 [FOLDER]
 # FOLDER (default: the town's own) gets NAME.net.xml. Same sources, same bytes: the comment in which
-# netconvert notes date and call is taken out.
+# netconvert notes date and call is taken out, and main roads lose the stops that it gives them.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 name=$1
@@ -16,5 +16,6 @@ SUMO_HOME=${SUMO_HOME:-/usr/share/sumo} netconvert \
   --junctions.corner-detail 8 --junctions.internal-link-detail 12 --junctions.limit-turn-speed 5.5 \
   --default.crossing-width 3 --offset.disable-normalization --precision 3 \
   --tls.default-type static --tls.cycle.time 40 --tls.yellow.time 3 --tls.allred.time 2 >&2
-sed '/^<!-- generated on/,/^-->/d' "$target.part" >"$target"
-rm "$target.part"
+sed '/^<!-- generated on/,/^-->/d' "$target.part" >"$target.bare"
+"$here/stop_signs.py" <"$target.bare" >"$target"
+rm "$target.part" "$target.bare"

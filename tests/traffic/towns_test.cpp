@@ -145,5 +145,37 @@ TEST_P(Towns, HoldAllThatATownIsDrivenThroughFor) {
             << edge.attribute("id").value() << " has no name";
 }
 
+TEST_P(Towns, OnlyMinorRoadsStop) {
+    pugi::xml_document file;
+    file.load_string(test::own_town(GetParam()).network.xml.c_str());
+    const pugi::xml_node net = file.child("net");
+    std::set<std::string> stopping;
+    for (const pugi::xml_node connection : net.children("connection"))
+        if (*connection.attribute("state").value() == 's')
+            stopping.insert(connection.attribute("from").value());
+    std::map<std::string, int> highest;  // of the roads into a junction with stops
+    for (const pugi::xml_node junction : net.children("junction"))
+        if (std::string(junction.attribute("type").value()) == "priority_stop")
+            highest[junction.attribute("id").value()] = 0;
+    EXPECT_GE(highest.size(), 2U);
+    std::map<std::string, int> stops;
+    for (const bool looks : {true, false})
+        for (const pugi::xml_node edge : net.children("edge")) {
+            const auto main = highest.find(edge.attribute("to").value());
+            if (main == highest.end())
+                continue;
+            const int priority = edge.attribute("priority").as_int();
+            if (looks) {
+                main->second = std::max(main->second, priority);
+                continue;
+            }
+            EXPECT_EQ(stopping.contains(edge.attribute("id").value()), priority < main->second)
+                << edge.attribute("id").value();
+            stops[main->first] += stopping.contains(edge.attribute("id").value()) ? 1 : 0;
+        }
+    for (const auto& [junction, roads] : stops)
+        EXPECT_EQ(roads, 1) << "of three at " << junction;
+}
+
 }  // namespace
 }  // namespace reprise::traffic
