@@ -13,10 +13,21 @@ namespace reprise::traffic {
 
 namespace {
 
-/// For each link of a junction, in the order of its index: does it give way to a vehicle?
-using Answers = std::vector<bool>;
+/// One link of a junction, walkers on crossings left out.
+struct Answer {
+    bool meets = false;  ///< is there any vehicle that it could meet?
+    bool gives_way = false;
+};
 
-/// Crossings are the last links of a junction; "response" has the first link rightmost.
+/// In the order of the links' indices.
+using Answers = std::vector<Answer>;
+
+/// Has a row of bits, the first link rightmost, one of the first `count`?
+bool any_of_first(std::string_view row, std::size_t count) {
+    return row.substr(row.size() - std::min(count, row.size())).find('1') != std::string_view::npos;
+}
+
+/// Crossings are the last links of a junction.
 Answers answers_of(const pugi::xml_node& junction) {
     const std::string_view lanes = junction.attribute("intLanes").value();
     std::size_t crossings = 0;
@@ -24,18 +35,16 @@ Answers answers_of(const pugi::xml_node& junction) {
     for (std::size_t at = lanes.find(mark); at != std::string_view::npos;
          at = lanes.find(mark, at + 1))
         ++crossings;
-    std::map<std::size_t, std::string_view> responses;
+    std::map<std::size_t, pugi::xml_node> requests;
     for (const pugi::xml_node request : junction.children("request"))
-        responses[request.attribute("index").as_uint()] = request.attribute("response").value();
-    const std::size_t vehicles = responses.size() - std::min(crossings, responses.size());
+        requests[request.attribute("index").as_uint()] = request;
+    const std::size_t vehicles = requests.size() - std::min(crossings, requests.size());
     Answers answers;
-    for (const auto& [index, response] : responses) {
+    for (const auto& [index, request] : requests) {
         if (index != answers.size())
             break;
-        bool gives_way = false;
-        for (std::size_t i = 0; i < std::min(vehicles, response.size()); ++i)
-            gives_way = gives_way || response[response.size() - 1 - i] == '1';
-        answers.push_back(gives_way);
+        answers.push_back({any_of_first(request.attribute("foes").value(), vehicles),
+                           any_of_first(request.attribute("response").value(), vehicles)});
     }
     return answers;
 }
@@ -54,12 +63,21 @@ std::size_t link_index(std::string_view via) {
         number(via.substr(offset + 1), 0));
 }
 
-/// What is known of the links of one lane.
+/// What is known of the links of one road, turnarounds left out.
 struct Seen {
-    bool any = false;
-    bool all_yield = true;
-    bool all_stop = true;
+    bool gives_way = false;
+    bool goes_first = false;  ///< before somebody that it meets
+    bool always_halts = true;
+    bool allway_stop = false;
 };
+
+GiveWay sign_for(const Seen& seen) {
+    const bool minor = seen.gives_way && !seen.goes_first;
+    // A main road's links may be stops just for the crossings behind them.
+    if (seen.always_halts && (minor || seen.allway_stop))
+        return GiveWay::stop;
+    return minor ? GiveWay::yield : GiveWay::none;
+}
 
 }  // namespace
 
@@ -70,7 +88,7 @@ std::vector<GiveWay> read_give_way(const pugi::xml_node& net, const world::TownT
         if (type == "priority" || type.find("stop") != std::string_view::npos)
             answers[junction.attribute("id").value()] = answers_of(junction);
     }
-    std::vector<Seen> seen(town.lanes.size());
+    std::map<std::string, Seen> roads;
     for (const pugi::xml_node connection : net.children("connection")) {
         const std::string from = std::string(connection.attribute("from").value()) + "_" +
                                  connection.attribute("fromLane").value();
@@ -85,18 +103,20 @@ std::vector<GiveWay> read_give_way(const pugi::xml_node& net, const world::TownT
             continue;
         const std::size_t index = link_index(connection.attribute("via").value());
         const char state = *connection.attribute("state").value();
-        Seen& here = seen[*lane];
-        here.any = true;
-        here.all_stop = here.all_stop && (state == 's' || state == 'w');
-        here.all_yield =
-            here.all_yield && index < junction->second.size() && junction->second[index];
+        // Networks without internal lanes: their stops are taken at their word.
+        const Answer answer =
+            index < junction->second.size() ? junction->second[index] : Answer{true, state == 's'};
+        Seen& here = roads[town.lanes[*lane].edge];
+        here.gives_way = here.gives_way || answer.gives_way;
+        here.goes_first = here.goes_first || (answer.meets && !answer.gives_way);
+        here.always_halts = here.always_halts && (state == 's' || state == 'w');
+        here.allway_stop = here.allway_stop || state == 'w';
     }
-    std::vector<GiveWay> found;
-    for (const Seen& each : seen)
-        found.push_back(!each.any        ? GiveWay::none
-                        : each.all_stop  ? GiveWay::stop
-                        : each.all_yield ? GiveWay::yield
-                                         : GiveWay::none);
+    std::vector<GiveWay> found(town.lanes.size(), GiveWay::none);
+    for (std::size_t i = 0; i < town.lanes.size(); ++i)
+        if (const auto seen = roads.find(town.lanes[i].edge);
+            seen != roads.end() && town.lanes[i].kind == world::LaneKind::driving)
+            found[i] = sign_for(seen->second);
     return found;
 }
 

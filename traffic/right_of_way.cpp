@@ -4,8 +4,11 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <pugixml.hpp>
 #include <set>
+#include <sstream>
 
+#include "world/check.h"
 #include "world/town.h"
 
 namespace reprise::traffic {
@@ -76,6 +79,7 @@ RightOfWay right_of_way(const std::vector<LaneSign>& signs, const world::TownT& 
         ++patch.junctions;
         if (all_stop || all_yield)
             continue;
+        patch.edges_with_stops.insert(approaches.with_stop.begin(), approaches.with_stop.end());
         lowered.insert(approaches.with_stop.begin(), approaches.with_stop.end());
         lowered.insert(approaches.with_yield.begin(), approaches.with_yield.end());
     }
@@ -86,6 +90,20 @@ RightOfWay right_of_way(const std::vector<LaneSign>& signs, const world::TownT& 
         patch.edges = "<edges>\n" + patch.edges + "</edges>\n";
     }
     return patch;
+}
+
+std::string stop_only_at(const std::set<std::string>& edges, const std::string& network) {
+    pugi::xml_document document;
+    const pugi::xml_parse_result parsed =
+        document.load_buffer(network.data(), network.size(), pugi::parse_full);
+    REPRISE_CHECK(parsed, "the network that netconvert made is XML");
+    for (const pugi::xml_node connection : document.child("net").children("connection"))
+        if (*connection.attribute("state").value() == 's' &&
+            !edges.contains(connection.attribute("from").value()))
+            connection.attribute("state").set_value("m");
+    std::ostringstream text;
+    document.save(text, "    ");
+    return std::move(text).str();
 }
 
 SignsThatBind signs_that_bind(const std::vector<LaneSign>& signs, const world::TownT& town) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,14 +23,19 @@ std::vector<LaneSign> lane_signs(const OpenDrive& map, const ImportedRoads& road
 struct RightOfWay {
     std::string nodes;  ///< XML; empty: nothing to change
     std::string edges;
-    int junctions = 0;  ///< that change
+    int junctions = 0;                       ///< that change
+    std::set<std::string> edges_with_stops;  ///< ids of the roads with a stop sign there
 };
 
 /// Roads with a sign get a lower priority. A junction becomes an all-way stop where every road has
-/// a stop sign, and else a priority stop where one has: SUMO knows stops for a whole junction only,
-/// so there roads with a yield sign stop as well. Where every road has a yield sign, who comes from
-/// the right goes first. Lit junctions stay as they are.
+/// a stop sign, and else a priority stop where one has. Where every road has a yield sign, who
+/// comes from the right goes first. Lit junctions stay as they are.
 RightOfWay right_of_way(const std::vector<LaneSign>& signs, const world::TownT& town);
+
+/// The network with stops at these roads only: at a priority stop netconvert makes every link one
+/// that gives way to anybody, those of the main road to walkers on a crossing. Links of all other
+/// roads give way without a stop; all-way stops stay.
+std::string stop_only_at(const std::set<std::string>& edges, const std::string& network);
 
 /// How many of the roads with a stop or yield sign (at junctions without lights) give way.
 struct SignsThatBind {

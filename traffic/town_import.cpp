@@ -226,6 +226,7 @@ class Import {
         if (source_.kind == MapKind::openstreetmap)
             words.emplace_back("--output.original-names");
         convert(words);
+        network = stop_only_at(patch.edges_with_stops, network);
         const ImportedRoads now = read_roads(network, map_);
         const SignsThatBind bind = signs_that_bind(find_signs(now), now.town);
         say("right of way: {} junctions follow their stop and yield signs; {} of {} roads with "

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <pugixml.hpp>
+#include <set>
+#include <sstream>
+#include <string>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -88,12 +92,31 @@ TEST_F(MapSigns, StopsAndGivesWayAtTheNearestJunction) {
     EXPECT_EQ(sides(yields, world::PropKind::yield_sign), "ns") << "SUMO gives way in pairs";
 }
 
+TEST_F(MapSigns, OnlyRoadsWithAStopSignStop) {
+    const world::TownT mixed = import(crossroads(stop, {}, give_way));
+    EXPECT_EQ(sides(mixed, world::PropKind::stop_sign), "s");
+    EXPECT_EQ(sides(mixed, world::PropKind::yield_sign), "n");
+    const world::TownT one = import(crossroads(stop, {}, {}));
+    EXPECT_EQ(sides(one, world::PropKind::stop_sign), "s");
+    EXPECT_EQ(sides(one, world::PropKind::yield_sign), "n") << "SUMO gives way in pairs";
+    // What the signs say is what SUMO reads.
+    std::ostringstream network;
+    network << std::ifstream(folder_ / "t/cross.net.xml").rdbuf();
+    pugi::xml_document file;
+    file.load_string(network.str().c_str());
+    std::set<std::string> stopping;
+    for (const pugi::xml_node connection : file.child("net").children("connection"))
+        if (*connection.attribute("state").value() == 's')
+            stopping.insert(connection.attribute("from").value());
+    EXPECT_EQ(stopping.size(), 1U);
+}
+
 TEST_F(MapSigns, DirectionSaysWhoIsMeant) {
     const auto stops_for = [&](const std::string& direction) {
         return sides(import(crossroads({stop[0], {"direction", direction}}, {}, {})),
                      world::PropKind::stop_sign);
     };
-    EXPECT_EQ(stops_for("forward"), "ns");
+    EXPECT_EQ(stops_for("forward"), "s");
     EXPECT_EQ(stops_for("backward"), "") << "that way the next junction is far";
 }
 
@@ -112,7 +135,7 @@ TEST_F(MapSigns, BridgesAreStillFoundBehindSigns) {
     map.way({top, map.node(0, 400)}, street);
     map.way({map.node(-300, 180), map.node(300, 180)}, {{"highway", "motorway"}});
     const world::TownT town = import(map.text());
-    EXPECT_EQ(sides(town, world::PropKind::stop_sign), "ns");
+    EXPECT_EQ(sides(town, world::PropKind::stop_sign), "s");
     EXPECT_NEAR(town.high.z(), 6, 0.01) << report_;
 }
 
