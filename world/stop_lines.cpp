@@ -24,15 +24,14 @@ bool must_yield(const LaneT& lane) {
                                               [](const Link& link) { return link.yields(); });
 }
 
-/// Does a stop sign stand beside the lane's end, for those who drive on it?
-bool has_stop_sign(const TownT& town, const LaneT& lane) {
+/// Does a sign of this kind stand beside the lane's end, for those who drive on it?
+bool has_sign(const TownT& town, const LaneT& lane, PropKind kind) {
     constexpr double reach = 10;   // [m]
     constexpr double askew = 0.6;  // [rad]
     const Vec3& end = lane.centre.back();
     const double yaw = point_at(lane, lane.length).yaw;
     return std::any_of(town.props.begin(), town.props.end(), [&](const Prop& prop) {
-        return prop.kind() == PropKind::stop_sign &&
-               (to_eigen(prop.position()) - to_eigen(end)).norm() < reach &&
+        return prop.kind() == kind && (to_eigen(prop.position()) - to_eigen(end)).norm() < reach &&
                std::abs(wrap_angle(prop.yaw() - yaw)) < askew;
     });
 }
@@ -56,8 +55,11 @@ StopLines::Kind StopLines::kind_of(const LaneT& lane) const {
         return Kind::stop;
     if (!must_yield(lane))
         return Kind::none;
-    if (has_stop_sign(*town_, lane))
+    if (has_sign(*town_, lane, PropKind::stop_sign))
         return Kind::stop;
+    // A main road with a crossing gives way as well, to walkers: the sign tells who is meant.
+    if (has_sign(*town_, lane, PropKind::yield_sign))
+        return Kind::give_way;
     const bool is_minor =
         lane.junction < has_priority_road_.size() && has_priority_road_[lane.junction];
     return is_minor ? Kind::give_way : Kind::none;

@@ -177,6 +177,16 @@ TEST(Markings, LeaveJunctionsOfEqualsUnmarked) {
     EXPECT_EQ(painted_before_end(meeting(true, true)), 0);
 }
 
+TEST(Markings, ShowTeethBesideAYieldSign) {
+    // At crossings the main road gives way as well, to walkers.
+    TownT town = meeting(true, true);
+    world::Prop sign;
+    sign.mutate_kind(world::PropKind::yield_sign);
+    sign.mutable_position() = world::Vec3(99, -3, 0);
+    town.props.push_back(sign);
+    EXPECT_NEAR(painted_before_end(town), 5 * 0.4 * 0.6 / 2, 1e-6);
+}
+
 TEST(Markings, StopBeforeAStopSign) {
     TownT town = meeting(true, false);
     world::Prop sign;
