@@ -15,6 +15,7 @@ using Shape = Obstacle::Shape;
 constexpr double tall_enough = 3;  ///< [m] what is higher is out of reach
 constexpr double head_pole_radius = 0.1;
 constexpr double sign_pole_radius = 0.04;
+constexpr double bush_wood = 0.6;  ///< of its radius; outside of that there are twigs and leaves
 
 Obstacle box(const world::Vec3& foot, double yaw, double length, double width, double height) {
     return {to_bullet(foot),
@@ -86,9 +87,11 @@ std::vector<Obstacle> obstacles_of(const world::TownT& town) {
     for (const world::DrawnBuildingT& drawn : town.drawn_buildings)
         add_drawn(drawn, obstacles);
     for (const world::Tree& tree : town.trees)
-        if (!is_bush(tree.kind()))
-            obstacles.push_back(cylinder(
-                tree.position(), std::clamp(0.025 * tree.height(), 0.1, 0.35), tree.height()));
+        obstacles.push_back(cylinder(tree.position(),
+                                     is_bush(tree.kind())
+                                         ? bush_wood * tree.crown_radius()
+                                         : std::clamp(0.025 * tree.height(), 0.1, 0.35),
+                                     tree.height()));
     for (const world::Prop& prop : town.props)
         obstacles.push_back(of_prop(prop));
     for (std::size_t i = 0; i < town.heads.size(); ++i) {

@@ -20,8 +20,8 @@ struct Obstacle {
     std::vector<btVector3> corners = {};  ///< a prism's foot, seen from its middle: convex
 };
 
-/// Buildings (drawn ones in convex pieces), trunks, poles, street furniture and parked vehicles.
-/// Bushes give way. Sorted by x, then by their order in the town.
+/// Buildings (drawn ones in convex pieces), trunks, the wood of bushes, poles, street furniture and
+/// parked vehicles. Sorted by x, then by their order in the town.
 std::vector<Obstacle> obstacles_of(const world::TownT& town);
 
 /// Its middle is half its height above its foot.
