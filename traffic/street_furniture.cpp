@@ -20,6 +20,7 @@ using world::Purpose;
 constexpr double light_spacing = 60;  ///< [m] on one side of a street
 constexpr double light_height = 7.5;
 constexpr double pole_width = 0.16;
+constexpr double pole_spacing = 38;  ///< [m] of telephone lines
 constexpr double stop_spacing = 400;
 constexpr double shortest_for_stop = 90;
 constexpr double at_kerb = 0.45;     ///< [m] of a bollard's middle from the kerb
@@ -52,11 +53,16 @@ std::optional<Item> on_walk(const Land& land,
     return item;
 }
 
+/// How far inside of a road's border its poles stand in line: on narrow sidewalks at their very
+/// edge, beside roads without one behind it. [m]
+double pole_line(const Roadside& roadside) {
+    const double off_way = roadside.walk / 2 - middle_half - world::pole_radius - off_border;
+    return roadside.walk > 0 ? std::min(roadside.walk / 6, off_way) : -0.9;
+}
+
 /// Poles stand closer to other things than what walkers must walk around: in line with them.
 Item light(const Roadside& roadside, double s) {
-    // On narrow sidewalks at their very edge, or behind it.
-    const double off_way = roadside.walk / 2 - middle_half - world::pole_radius - off_border;
-    const double inside = roadside.walk > 0 ? std::min(roadside.walk / 6, off_way) : -0.9;
+    const double inside = pole_line(roadside);
     const Site at = site(roadside, s, -inside);
     const double to_road = roadside.walk - inside;
     Item item;
@@ -118,22 +124,42 @@ void add_small(Land& land, const Roadside& roadside, Draws& draws) {
     }
 }
 
-/// Wooden poles, as telephone lines have them.
+/// Wooden poles, as telephone lines have them: along half of the roads without sidewalks, behind
+/// their border, and along some streets, in line with the lights.
 void add_poles(Land& land, const Roadside& roadside, Draws& draws) {
-    if (!draws.chance(0.5))
+    const bool street = roadside.walk > 0;
+    if (!draws.chance(street ? 0.2 : 0.5))
         return;
-    for (double s = draws.between(5, 30); s < roadside.border.length; s += 38) {
-        const Site at = site(roadside, s, 2.2);
+    for (double s = draws.between(5, 30); s < roadside.border.length - (street ? 4 : 0);
+         s += pole_spacing) {
+        const Site at = site(roadside, s, street ? -pole_line(roadside) : 2.2);
         Item item;
         item.kind = PropKind::pole;
         item.footprint = {at.position, at.yaw, 0.24, 0.24};
         item.height = 7;
         item.road_z = at.z;
-        item.from_solid = 0.6;
-        item.from_walk = 0.2;
+        item.from_solid = street ? walking_width : 0.6;
+        item.from_walk = street ? -1 : 0.2;
         item.style = draws.style();
         place_prop(land, item);
     }
+}
+
+/// A shelter on the sidewalk, some 40 % of the street behind its start or where there is room.
+bool add_bus_stop(Land& land, const Roadside& roadside, double wanted, std::uint32_t style) {
+    const double width = std::min({1.3,
+                                   roadside.walk - walking_width - off_border,
+                                   roadside.walk / 2 - middle_half - off_border});
+    for (const double off : {0.0, 0.08, -0.08, 0.16, -0.16}) {
+        const double s = (wanted + off) * roadside.border.length;
+        auto item = on_walk(land, roadside, s, PropKind::bus_stop, 4, width, 2.5);
+        if (!item)
+            continue;
+        item->style = style;
+        if (place_prop(land, *item))
+            return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -163,8 +189,8 @@ void place_bus_stops(Land& land) {
         if (!has_road(roadside) || roadside.walk < 2 || length < shortest_for_stop)
             continue;
         Draws draws(land.seed, Purpose::furniture, 4ULL << 32 | i);
-        const double s = length * draws.between(0.3, 0.6);
-        const Vector2d here = site(roadside, s, 0).position;
+        const double wanted = draws.between(0.3, 0.6);
+        const Vector2d here = site(roadside, wanted * length, 0).position;
         // The stop of the other direction is across the street; the next pair is far.
         const bool too_near = std::any_of(stops.begin(), stops.end(), [&](const Vector2d& stop) {
             const double apart = (stop - here).norm();
@@ -175,15 +201,8 @@ void place_bus_stops(Land& land) {
         });
         if (too_near || beside)
             continue;
-        const double width = std::min({1.3,
-                                       roadside.walk - walking_width - off_border,
-                                       roadside.walk / 2 - middle_half - off_border});
-        auto item = on_walk(land, roadside, s, PropKind::bus_stop, 4, width, 2.5);
-        if (!item)
-            continue;
-        item->style = draws.style();
-        if (place_prop(land, *item))
-            stops.push_back(here);
+        if (add_bus_stop(land, roadside, wanted, draws.style()))
+            stops.push_back(world::in_plan(land.town.props.back().position()));
     }
 }
 
@@ -193,10 +212,13 @@ void place_small_furniture(Land& land) {
         if (!has_road(roadside))
             continue;
         Draws draws(land.seed, Purpose::furniture, i);
-        if (roadside.walk > 0)
+        if (roadside.walk > 0) {
+            Draws poles(land.seed, Purpose::furniture, 5ULL << 32 | i);
+            add_poles(land, roadside, poles);
             add_small(land, roadside, draws);
-        else
+        } else {
             add_poles(land, roadside, draws);
+        }
     }
 }
 

@@ -9,7 +9,7 @@ void place_street_lights(Land& land);
 void place_bus_stops(Land& land);
 
 /// Benches, bins, bollards, hydrants and mailboxes on the outer part of sidewalks, so that walkers
-/// keep 1.2 m; poles with wires along roads without sidewalks.
+/// keep 1.2 m; telephone poles along roads without sidewalks and along some streets.
 void place_small_furniture(Land& land);
 
 }  // namespace reprise::traffic

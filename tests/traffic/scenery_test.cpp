@@ -203,5 +203,16 @@ TEST(Scenery, AnotherNameBuildsAnotherTown) {
     EXPECT_NE(read_town(renamed).buildings, test::own_town("town2").town.buildings);
 }
 
+TEST(StreetFurniture, OfOurTownsHasBusStopsAndAFewPoles) {
+    for (const char* name : {"town1", "town2"}) {
+        std::map<PropKind, int> count;
+        for (const world::Prop& prop : test::own_town(name).town.props)
+            ++count[prop.kind()];
+        EXPECT_GE(count[PropKind::bus_stop], 1) << name;
+        EXPECT_GE(count[PropKind::pole], 3) << name;
+        EXPECT_LT(count[PropKind::pole], 40) << name;
+    }
+}
+
 }  // namespace
 }  // namespace reprise::traffic
