@@ -12,6 +12,7 @@
 #include "traffic/walk_map.h"
 #include "world/furniture_check.h"
 #include "world/ground_check.h"
+#include "world/standing_check.h"
 #include "world/town.h"
 
 namespace reprise::cli {
@@ -84,6 +85,8 @@ std::vector<Criterion> check(const Built& first, const Built& second) {
     std::vector<Criterion> criteria = world::check_ground(first.town, first.ground);
     criteria.push_back(traffic::check_walking(first.town, first.walk_map));
     for (Criterion& criterion : world::check_furniture(first.town))
+        criteria.push_back(std::move(criterion));
+    for (Criterion& criterion : world::check_standing(first.town, first.ground))
         criteria.push_back(std::move(criterion));
     criteria.push_back(check_repeats(first, second));
     return criteria;

@@ -1,6 +1,6 @@
 // What it must do: build up both sides of the roads of any network, so that it looks like a town;
 //   the same one for the same network and name.
-// What it assumes: roadsides are polylines; the ground beside a road is as high as the road.
+// What it assumes: roadsides are polylines.
 // How it goes: a few landmarks first, each at the best of some drawn sites; then along every
 //   roadside house by house; then rows behind, where blocks are deep. A footprint is built when it
 //   is clear of everything; a small one is tried where a large one has no room.
@@ -14,6 +14,7 @@
 
 #include "traffic/building_choice.h"
 #include "traffic/draws.h"
+#include "traffic/floors.h"
 #include "world/building_models.h"
 #include "world/check.h"
 
@@ -129,7 +130,7 @@ bool Builder::is_clear(const Draft& draft, double gap) const {
            detached_.is_clear(f, gap) && rows_.is_clear(f, 0) &&
            (in_row ? rows_.is_clear(f, party_wall / 2) : land_.buildings.is_clear(f, gap)) &&
            land_.solid.is_clear(f, party_wall / 2) && land_.sights.is_clear(f, sight_distance) &&
-           !land_.is_steep(f.centre);
+           !land_.is_steep(f.centre) && floor_on(land_.footing, f, draft.z).has_value();
 }
 
 void Builder::build(std::uint32_t roadside, const Draft& draft, Draws& draws) {
@@ -140,7 +141,8 @@ void Builder::build(std::uint32_t roadside, const Draft& draft, Draws& draws) {
     const double eaves = m.ground_floor + m.floor_height * (floors - 1);
     lots_.push_back(
         {static_cast<std::uint32_t>(land_.town.buildings.size()), roadside, draft.setback});
-    land_.town.buildings.emplace_back(Vec3(f.centre.x(), f.centre.y(), draft.z),
+    const double floor = floor_on(land_.footing, f, draft.z).value_or(draft.z);
+    land_.town.buildings.emplace_back(Vec3(f.centre.x(), f.centre.y(), floor),
                                       f.yaw,
                                       f.length,
                                       f.width,

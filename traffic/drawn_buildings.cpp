@@ -6,6 +6,7 @@
 
 #include "traffic/building_choice.h"
 #include "traffic/draws.h"
+#include "traffic/floors.h"
 
 namespace reprise::traffic {
 
@@ -46,6 +47,7 @@ void keep_drawn_buildings(Land& land) {
         const world::Loop loop = world::in_plan(drawn.outline);
         if (!leaves_lanes_free(loop, lanes))
             continue;
+        set_floor(land, drawn);
         Draws draws(land.seed, Purpose::building_model, 1U << 24 | i);
         if (drawn.style == 0)
             drawn.style = draws.style();

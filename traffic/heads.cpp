@@ -25,6 +25,7 @@ constexpr double longest_arm = 8;
 constexpr double on_pole = 1.7;  ///< [m] beside its lane a housing needs no arm
 constexpr double search = 30;    ///< farther from its lane no pole makes sense
 constexpr double pole_radius = 0.1;
+constexpr double lowest = 2.1;  ///< [m] of a housing over its foot: heads pass below
 
 Vector2d left_of(double yaw) {
     return {-std::sin(yaw), std::cos(yaw)};
@@ -66,8 +67,13 @@ class Heads {
     std::uint32_t outermost(std::uint32_t lane, bool inner) const;
     void stand(const Vector2d& foot);
 
-    Vec3 on_ground(const Vector2d& foot, double z) const {
-        return Vec3(foot.x(), foot.y(), land_.ground(foot, z));
+    /// Puts the head's foot on the ground beside a road at height `z`, its housing as high over the
+    /// road as it is over the foot.
+    void set_up(SignalHeadT& head, const Vector2d& foot, double z) const {
+        head.foot = Vec3(foot.x(), foot.y(), land_.ground(foot, z));
+        const double drop = land_.drop(foot, z);
+        if (drop != 0)
+            head.height = std::max(lowest, head.height + drop);
     }
 
     Land& land_;
@@ -102,10 +108,10 @@ void Heads::take_known(std::vector<Group>& groups) {
         std::sort(signals.begin(), signals.end());
         SignalHeadT head;
         head.signals = std::move(signals);
-        head.foot = on_ground(foot, known.foot.z());
         head.yaw = known.yaw;
         head.arm = known.arm;
         head.height = known.height;
+        set_up(head, foot, known.foot.z());
         head.for_walkers = for_walkers;
         stand(foot);
         town_.heads.push_back(std::move(head));
@@ -143,7 +149,7 @@ Vector2d Heads::foot_beside(const LaneT& lane, double side) {
     const Vector2d wish = end.position.head<2>() +
                           left_of(end.yaw) * (side * (lane.width / 2 + from_kerb)) -
                           Vector2d(std::cos(end.yaw), std::sin(end.yaw)) * 0.3;
-    pole->second = land_.pole_place(wish, search).value_or(wish);
+    pole->second = land_.pole_place(wish, search, end.position.z()).value_or(wish);
     stand(pole->second);
     return pole->second;
 }
@@ -168,7 +174,7 @@ void Heads::add_over_lane(const Group& group) {
     const bool needs_arm = std::abs(arm) > lane.width / 2 + on_pole;
     head.arm = needs_arm ? arm : 0;
     head.height = needs_arm ? height_over_road : height_at_kerb;
-    head.foot = on_ground(foot, end.position.z());
+    set_up(head, foot, end.position.z());
     town_.heads.push_back(std::move(head));
 }
 
@@ -180,13 +186,13 @@ void Heads::add_at_crossing(const Group& group, bool at_end) {
     const Vector2d ahead(std::cos(yaw), std::sin(yaw));
     const Vector2d wish =
         point.position.head<2>() + ahead * 0.5 - left_of(yaw) * (crossing.width / 2 + 0.4);
-    const Vector2d foot = land_.pole_place(wish, search).value_or(wish);
+    const Vector2d foot = land_.pole_place(wish, search, point.position.z()).value_or(wish);
     SignalHeadT head;
     head.signals = group.signals;
     head.yaw = world::wrap_angle(yaw);
     head.height = walker_height;
     head.for_walkers = true;
-    head.foot = on_ground(foot, point.position.z());
+    set_up(head, foot, point.position.z());
     stand(foot);
     town_.heads.push_back(std::move(head));
 }

@@ -49,7 +49,8 @@ Land::Land(world::TownT& target, const Place& source, const std::vector<GiveWay>
       place(source),
       right_of_way(signed_lanes),
       seed(world::digest128(target.name).low()),
-      roadsides(traffic::roadsides(target)) {
+      roadsides(traffic::roadsides(target)),
+      footing(target) {
     add_lanes();
     for (const world::JunctionT& junction : town.junctions)
         junctions.add_polygon(junction.outline);
@@ -145,8 +146,17 @@ bool Land::is_country(const Roadside& roadside) const {
     return roadside.walk == 0 || town.lanes[lane].speed_limit > country_speed;
 }
 
-double Land::ground(const Vector2d& p, double road_z) const {
+double Land::level_ground(const Vector2d& p, double road_z) const {
     return road_z + (walks.is_clear(p, 0) ? -world::terrain_depth : world::kerb_height);
+}
+
+double Land::ground(const Vector2d& p, double road_z) const {
+    const double wish = level_ground(p, road_z);
+    return footing.at(p, wish).value_or(wish);
+}
+
+double Land::drop(const Vector2d& p, double road_z) const {
+    return level_ground(p, road_z) - ground(p, road_z);
 }
 
 bool Land::may_stand(const Vector2d& p, double margin) const {
@@ -174,14 +184,19 @@ bool Land::leaves_way(const Vector2d& p) const {
     return false;
 }
 
-std::optional<Vector2d> Land::pole_place(const Vector2d& wish, double reach) const {
+std::optional<Vector2d> Land::pole_place(const Vector2d& wish, double reach, double road_z) const {
     constexpr double ring = 0.3;
-    for (const bool out_of_the_way : {true, false})
+    constexpr double about_level = 1;  // [m]
+    const auto is_level = [&](const Vector2d& p) {
+        return std::abs(drop(p, road_z)) < about_level;
+    };
+    for (const auto& [out_of_the_way, on_level] :
+         {std::pair{true, true}, {false, true}, {false, false}})
         for (int i = 0; i * ring <= reach; ++i)
             for (int k = 0; k < (i == 0 ? 1 : directions); ++k) {
                 const Vector2d p = wish + direction(k) * (i * ring);
                 if (may_stand(p, pole_margin) && solid.is_clear(p, 0.3) &&
-                    (!out_of_the_way || leaves_way(p)))
+                    (!out_of_the_way || leaves_way(p)) && (!on_level || is_level(p)))
                     return p;
             }
     return std::nullopt;

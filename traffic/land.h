@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "traffic/clearance.h"
+#include "traffic/footing.h"
 #include "traffic/give_way.h"
 #include "traffic/place.h"
 #include "traffic/roadside.h"
@@ -25,6 +26,7 @@ struct Land {
     const std::vector<GiveWay>& right_of_way;  ///< one for each lane
     std::uint64_t seed;                        ///< of the town's name
     std::vector<Roadside> roadsides;
+    Footing footing;
 
     // Each as far as what stands must be able to ask about. Metres from the border.
     Clearance roads{20};     ///< lanes for vehicles, and the paths of cars across junctions
@@ -48,8 +50,13 @@ struct Land {
     /// carriageways of a motorway).
     bool is_country(const Roadside& roadside) const;
 
-    /// Height of the ground beside or under a road's side: sidewalks are raised. [m]
+    /// Height of the ground beside or under the side of a road that is at this height: sidewalks
+    /// are raised. [m]
     double ground(const Eigen::Vector2d& p, double road_z) const;
+
+    /// How far ground() is below where it would be beside a level road: what poles carry must hang
+    /// that much higher over their feet. Negative: above. [m]
+    double drop(const Eigen::Vector2d& p, double road_z) const;
 
     /// May a pole with a foot this wide stand there? Off the road by `margin`, off crossings, on a
     /// sidewalk or beside the road.
@@ -58,9 +65,11 @@ struct Land {
     /// Is a pole there off the sidewalks, or at their kerb or outer edge, where walkers pass by?
     bool leaves_way(const Eigen::Vector2d& p) const;
 
-    /// The place nearest to `wish` where a pole may stand and leaves walkers their way; else where
-    /// it may stand at all. At most `reach` away. [m]
-    std::optional<Eigen::Vector2d> pole_place(const Eigen::Vector2d& wish, double reach) const;
+    /// The place nearest to `wish` where a pole may stand, on ground about as high as its road, and
+    /// leaves walkers their way; else where it may stand at all. At most `reach` away. [m]
+    std::optional<Eigen::Vector2d> pole_place(const Eigen::Vector2d& wish,
+                                              double reach,
+                                              double road_z) const;
 
   private:
     struct Levels {
@@ -71,6 +80,9 @@ struct Land {
     void add_lanes();
     void add_level(const world::LaneT& lane);
     void add_sights();
+
+    /// Of the ground where roads lie level.
+    double level_ground(const Eigen::Vector2d& p, double road_z) const;
 
     std::map<std::pair<std::int32_t, std::int32_t>, Levels> levels_;
 };

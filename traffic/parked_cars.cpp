@@ -115,7 +115,9 @@ void park_along_wide_lanes(Land& land) {
                 !land.solid.is_clear(footprint, 0.8) || !land.crossings.is_clear(footprint, 5))
                 continue;
             land.solid.add_footprint(footprint);
-            land.town.props.emplace_back(world::Vec3(middle.x(), middle.y(), at.position.z()),
+            const double lane_z = at.position.z();
+            const double z = land.footing.at(middle, lane_z).value_or(lane_z);
+            land.town.props.emplace_back(world::Vec3(middle.x(), middle.y(), z),
                                          at.yaw,
                                          car.length,
                                          car.width,

@@ -149,7 +149,7 @@ bool place_tree(
         !land.crossings.is_clear(foot, 1) || !land.may_stand(foot, trunk_to_kerb) ||
         (!on_walk && !land.walks.is_clear(foot, trunk_to_walk)) ||
         !land.solid.is_clear(foot, trunk_to_solid) || !land.sights.is_clear(foot, sight_distance) ||
-        land.is_steep(foot))
+        land.is_steep(foot) || !land.footing.at(foot, road_z))
         return false;
     const double crown = crown_there(land, foot, height, wish);
     if (crown < std::max(smallest_crown, 0.5 * wish))
@@ -167,7 +167,7 @@ bool place_bush(Land& land, PlantKind kind, const Vector2d& foot, double road_z,
         height = std::min(height, 0.9);
     if (land.town.trees.size() >= most_plants || !land.roads.is_clear(foot, crown + 0.5) ||
         !land.walks.is_clear(foot, crown + 0.1) || !land.solid.is_clear(foot, crown * 0.8) ||
-        !land.may_stand(foot, 0.5) || land.is_steep(foot))
+        !land.may_stand(foot, 0.5) || land.is_steep(foot) || !land.footing.at(foot, road_z))
         return false;
     add(land, kind, foot, road_z, height, crown, draws);
     land.solid.add_point(foot, crown * 0.6);

@@ -19,7 +19,8 @@ struct Item {
 };
 
 /// Adds it to town.props when it stands clear: kerb_margin from the road, off crossings and
-/// junctions, not in sight triangles when it is higher than 1 m. False: it does not.
+/// junctions, not in sight triangles when it is higher than 1 m, on ground that is even enough.
+/// Fences, walls and hedges go down a slope in steps. False: it does not stand.
 bool place_prop(Land& land, const Item& item);
 
 }  // namespace reprise::traffic

@@ -81,7 +81,7 @@ std::vector<std::uint32_t> Signs::roads() const {
 void Signs::take_known() {
     for (const Prop& sign : land_.place.signs) {
         const Vector2d wish = world::in_plan(sign.position());
-        const auto foot = land_.pole_place(wish, search);
+        const auto foot = land_.pole_place(wish, search, sign.position().z());
         if (!foot)
             continue;
         Prop kept = sign;
@@ -110,7 +110,7 @@ Vector2d Signs::wish_at(std::uint32_t lane, double s) const {
 
 void Signs::add(PropKind kind, std::uint32_t lane, double s, int value, double height) {
     const world::LanePoint at = world::point_at(town_.lanes[lane], s);
-    const auto foot = land_.pole_place(wish_at(lane, s), search);
+    const auto foot = land_.pole_place(wish_at(lane, s), search, at.position.z());
     if (!foot)
         return;
     land_.solid.add_point(*foot, 0.05);
@@ -118,7 +118,7 @@ void Signs::add(PropKind kind, std::uint32_t lane, double s, int value, double h
                              at.yaw,
                              0.1,
                              plate,
-                             height,
+                             height + std::max(0.0, land_.drop(*foot, at.position.z())),
                              0U,
                              static_cast<std::uint16_t>(value),
                              kind,

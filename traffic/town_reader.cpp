@@ -60,8 +60,8 @@ world::TownT read_town(const Network& network) {
     read_links(net, town);
     const Place place =
         network.place.empty() ? Place() : read_place(network.place, network.name + ".place.xml");
-    place_scenery(town, place, read_give_way(net, town));
     measure(town);
+    place_scenery(town, place, read_give_way(net, town));
     return town;
 }
 

@@ -1,11 +1,15 @@
 #include "world/ground_probe.h"
 
+#include <cmath>
+#include <limits>
+
 namespace reprise::world {
 
 namespace {
 
 constexpr double cell = 4.0;          ///< [m] about a lane: few triangles in each
 constexpr double least_area = 1e-9;   ///< [m2] twice that of a triangle from above
+constexpr double headroom = 2.0;      ///< [m] terrain closer below a road carries only the road
 constexpr double on_the_edge = 1e-9;  ///< [m2] a plumb line on a seam hits both sides
 
 Box box_of(const GroundMesh& mesh, std::size_t triangle) {
@@ -63,6 +67,18 @@ std::optional<GroundProbe::Hit> GroundProbe::below(const Eigen::Vector3d& from_w
             highest = Hit{*z, surface};
     }
     return highest;
+}
+
+std::optional<GroundProbe::Hit> GroundProbe::nearest(const Eigen::Vector3d& near_world) const {
+    const double z = near_world.z();
+    std::optional<Hit> best;
+    double from = std::numeric_limits<double>::max();
+    while (const std::optional<Hit> hit = below({near_world.x(), near_world.y(), from})) {
+        if (!best || std::abs(hit->z - z) < std::abs(best->z - z))
+            best = hit;
+        from = hit->z - headroom;
+    }
+    return best;
 }
 
 }  // namespace reprise::world

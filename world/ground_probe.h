@@ -25,6 +25,10 @@ class GroundProbe {
     /// the town's terrain.
     std::optional<Hit> below(const Eigen::Vector3d& from_world) const;
 
+    /// The ground of the level that a thing at `near_world` is on: of the levels that have headroom
+    /// over them, the nearest one above or below. None: a hole, or beyond the town's terrain.
+    std::optional<Hit> nearest(const Eigen::Vector3d& near_world) const;
+
     /// Triangles whose box in plan may touch `box`; some beside it, too. Ascending.
     std::vector<std::uint32_t> near(const Box& box) const { return by_place_.near(box); }
 

@@ -20,6 +20,7 @@ namespace reprise::world {
 namespace {
 
 constexpr double border = 60.0;        ///< [m] beyond the last road
+constexpr double hilly_border = 190;   ///< [m] and where it is not flat
 constexpr double flat_cell = 32.0;     ///< [m]
 constexpr double smallest_cell = 4.0;  ///< [m] in hilly towns
 constexpr double most_cells = 60000;
@@ -178,14 +179,18 @@ bool is_flat(const GroundMesh& mesh) {
     return high - low < 1e-3;
 }
 
-Box extent(const TownT& town, const GroundMesh& mesh) {
+/// What stands gets its height from hilly ground, so that it may not change that: all heights
+/// depend on where the cells begin.
+Box extent(const TownT& town, const GroundMesh& mesh, bool flat) {
     Box box;
     for (const Eigen::Vector3d& vertex : mesh.vertices)
-        box.take(vertex.head<2>(), border);
-    for (const Building& building : town.buildings)
-        box.take(in_plan(building.centre()), border);
-    for (const Tree& tree : town.trees)
-        box.take(in_plan(tree.position()), border);
+        box.take(vertex.head<2>(), flat ? border : hilly_border);
+    if (flat) {
+        for (const Building& building : town.buildings)
+            box.take(in_plan(building.centre()), border);
+        for (const Tree& tree : town.trees)
+            box.take(in_plan(tree.position()), border);
+    }
     // Whole metres, and one to spare.
     box.low = box.low.array().floor() - 1;
     box.high = box.high.array().ceil() + 1;
@@ -198,10 +203,11 @@ void add_terrain(const TownT& town, GroundBuilder& ground) {
     const GroundMesh& mesh = ground.mesh();
     if (mesh.triangles.empty())
         return;
-    const Box box = extent(town, mesh);
+    const bool flat = is_flat(mesh);
+    const Box box = extent(town, mesh, flat);
     const Eigen::Vector2d size = box.high - box.low;
     const double cell =
-        is_flat(mesh) ? flat_cell : std::max(smallest_cell, std::sqrt(size.prod() / most_cells));
+        flat ? flat_cell : std::max(smallest_cell, std::sqrt(size.prod() / most_cells));
     Terrain terrain(box, cell);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (mesh.surfaces[i] == Surface::kerb)

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "traffic/land.h"
+
+namespace reprise::traffic {
+
+/// Height of the ground floor of a building whose front is at -y: a step over the ground before the
+/// door, in the middle of the front. `road_z`: of the road beside it; the floor in a level town.
+/// None: the ground falls or rises too much under the footprint to build there. [m]
+std::optional<double> floor_on(const Footing& footing, const Footprint& footprint, double road_z);
+
+/// Moves a drawn building to the height of its street side, where its door is. It stays where it is
+/// in a level town and beyond the terrain.
+void set_floor(const Land& land, world::DrawnBuildingT& drawn);
+
+}  // namespace reprise::traffic
