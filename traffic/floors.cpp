@@ -14,6 +14,7 @@ using Eigen::Vector2d;
 constexpr double before_door = 0.3;  ///< [m]
 constexpr double steepest = 2.5;     ///< [m] of height under a footprint
 constexpr double deepest = 1.2;      ///< [m] of the ground floor below the ground around it
+constexpr double front_rise = 1.0;   ///< [m] along the front: rows have doors at its ends as well
 constexpr double shortest = 1.6;     ///< [m] side of a building that has room for a door
 
 /// Where one stands before the door of the street side: of the sides nearest to a road the longest
@@ -51,7 +52,9 @@ std::optional<double> floor_on(const Footing& footing, const Footprint& footprin
         return std::nullopt;
     const double floor = *ground + world::terrain_depth;
     const auto under = footing.under(footprint, *ground);
-    if (!under || under->rise() > steepest || under->high > floor + deepest)
+    const auto front = footing.under({door, footprint.yaw, footprint.length, 0}, *ground);
+    if (!under || !front || under->rise() > steepest || under->high > floor + deepest ||
+        front->rise() > front_rise)
         return std::nullopt;
     return floor;
 }

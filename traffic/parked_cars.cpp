@@ -114,9 +114,11 @@ void park_along_wide_lanes(Land& land) {
             if (offset - car.width / 2 < world::car_clearance + 0.2 || draws.chance(0.4) ||
                 !land.solid.is_clear(footprint, 0.8) || !land.crossings.is_clear(footprint, 5))
                 continue;
+            const auto ground = land.footing.under(footprint, at.position.z());
+            if (!ground || ground->rise() > car_slope)
+                continue;
             land.solid.add_footprint(footprint);
-            const double lane_z = at.position.z();
-            const double z = land.footing.at(middle, lane_z).value_or(lane_z);
+            const double z = (ground->low + ground->high) / 2;
             land.town.props.emplace_back(world::Vec3(middle.x(), middle.y(), z),
                                          at.yaw,
                                          car.length,

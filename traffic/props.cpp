@@ -12,7 +12,6 @@ constexpr double sight_height = 1.0;  ///< [m] drivers look over what is lower
 constexpr double even = 0.24;         ///< [m] of ground under what stands level
 constexpr double step = 0.15;         ///< [m] under each piece of a fence that goes down in steps
 constexpr double shortest = 0.5;      ///< [m] of such a piece
-constexpr double slope = 0.6;         ///< [m] under the length of a parked car
 
 bool is_pole(world::PropKind kind) {
     return kind == world::PropKind::street_light || kind == world::PropKind::pole ||
@@ -49,7 +48,7 @@ bool is_even(const Land& land, const Footprint& foot, double near, double most) 
 /// Into how many level pieces it is cut to follow the ground; none: that is too steep for it.
 std::optional<int> pieces_on(const Land& land, const Item& item, const Footprint& foot) {
     const double near = land.ground(foot.centre, item.road_z);
-    const double most = item.kind == world::PropKind::parked_vehicle ? slope : even;
+    const double most = item.kind == world::PropKind::parked_vehicle ? car_slope : even;
     if (is_even(land, foot, near, most))
         return 1;
     if (!goes_in_steps(item.kind))

@@ -18,6 +18,9 @@ struct Item {
     std::uint16_t value = 0;
 };
 
+/// Parked cars stand level: there is no more height than that under one. [m]
+inline constexpr double car_slope = 0.3;
+
 /// Adds it to town.props when it stands clear: kerb_margin from the road, off crossings and
 /// junctions, not in sight triangles when it is higher than 1 m, on ground that is even enough.
 /// Fences, walls and hedges go down a slope in steps. False: it does not stand.

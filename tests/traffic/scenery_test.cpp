@@ -13,6 +13,8 @@
 #include "tests/traffic/stage.h"
 #include "traffic/clearance.h"
 #include "world/building_models.h"
+#include "world/ground.h"
+#include "world/standing_check.h"
 
 namespace reprise::traffic {
 namespace {
@@ -85,6 +87,12 @@ TEST_P(AnyScenery, NothingStandsOnALaneOrTurningPath) {
         EXPECT_GE(lanes.border_distance(world::in_plan(head.foot), 1.25), 0.29);
     for (const world::Tree& tree : town().trees)
         EXPECT_GE(lanes.border_distance(world::in_plan(tree.position()), 1.25), 0.5);
+}
+
+TEST_P(AnyScenery, EverythingStandsOnTheGround) {
+    for (const world::Criterion& criterion :
+         world::check_standing(town(), world::build_ground(town())))
+        EXPECT_TRUE(criterion.passed()) << criterion.name << ": " << criterion.figure;
 }
 
 TEST_P(AnyScenery, CrownsLeaveRoomForLorries) {
