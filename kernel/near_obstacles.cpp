@@ -35,7 +35,7 @@ NearObstacles::Body NearObstacles::make(std::size_t index) const {
     info.m_restitution = 0.3;
     info.m_startWorldTransform =
         btTransform(btQuaternion(btVector3(0, 0, 1), obstacle.yaw),
-                    obstacle.position + btVector3(0, 0, obstacle.half.z()));
+                    obstacle.position + btVector3(0, 0, obstacle.half.z() - obstacle.depth));
     near.body = std::make_unique<btRigidBody>(info);
     tag(*near.body, obstacle_body, 0);
     return near;

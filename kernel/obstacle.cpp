@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/building_models.h"
 #include "world/polygons.h"
 
 namespace reprise::kernel {
@@ -55,6 +56,13 @@ Obstacle of_prop(const world::Prop& prop) {
     }
 }
 
+/// On a slope a wall goes on below the floor: nobody drives under a house.
+Obstacle with_foundation(Obstacle building) {
+    building.depth = world::foundation_depth;
+    building.half += btVector3(0, 0, building.depth / 2);
+    return building;
+}
+
 /// A drawn building may be concave: prisms over the convex pieces of its outline.
 void add_drawn(const world::DrawnBuildingT& drawn, std::vector<Obstacle>& obstacles) {
     const Eigen::Vector2d origin = world::in_plan(drawn.outline.front());
@@ -74,7 +82,7 @@ void add_drawn(const world::DrawnBuildingT& drawn, std::vector<Obstacle>& obstac
             prism.corners.emplace_back(p.x() - middle.x(), p.y() - middle.y(), 0);
             prism.radius = std::max(prism.radius, (p - middle).norm());
         }
-        obstacles.push_back(std::move(prism));
+        obstacles.push_back(with_foundation(std::move(prism)));
     }
 }
 
@@ -83,7 +91,8 @@ void add_drawn(const world::DrawnBuildingT& drawn, std::vector<Obstacle>& obstac
 std::vector<Obstacle> obstacles_of(const world::TownT& town) {
     std::vector<Obstacle> obstacles;
     for (const world::Building& b : town.buildings)
-        obstacles.push_back(box(b.centre(), b.yaw(), b.length(), b.width(), b.height()));
+        obstacles.push_back(
+            with_foundation(box(b.centre(), b.yaw(), b.length(), b.width(), b.height())));
     for (const world::DrawnBuildingT& drawn : town.drawn_buildings)
         add_drawn(drawn, obstacles);
     for (const world::Tree& tree : town.trees)

@@ -1,6 +1,7 @@
 #include "render/building_site.h"
 
 #include "render/noise.h"
+#include "world/building_models.h"
 
 namespace reprise::render {
 
@@ -8,7 +9,7 @@ using Eigen::Vector3f;
 
 namespace {
 
-constexpr float foundation = 8;  // [m] below the door: on a slope the back of a house shows it
+constexpr auto foundation = static_cast<float>(world::foundation_depth);
 
 }  // namespace
 

@@ -7,6 +7,9 @@
 
 namespace reprise::world {
 
+/// Walls reach that far below the ground floor: on a slope they are seen, and hit. [m]
+inline constexpr double foundation_depth = 8;
+
 /// What a building is for: decides where in a town it stands.
 enum class BuildingUse : std::uint8_t { house, terrace, flats, shop, office, tower, civic, garage };
 

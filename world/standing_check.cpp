@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/building_models.h"
 #include "world/frames.h"
 #include "world/ground_probe.h"
 #include "world/plan.h"
@@ -22,7 +23,6 @@ using Eigen::Vector3d;
 constexpr double things_limit = 0.25;  ///< [m]
 constexpr double doors_limit = 0.30;   ///< [m]
 constexpr double no_ground = 10;       ///< [m] said of what stands beyond the terrain
-constexpr double foundation = 8;       ///< [m] of a building's walls below its floor
 constexpr double before_door = 0.3;    ///< [m]
 constexpr double at_edge = 0.05;       ///< [m] from a wall to the ground that it stands on
 
@@ -104,7 +104,7 @@ double door_gap(const GroundProbe& probe,
         door = std::min(door, std::abs(gap(probe, place, floor)));
     }
     for (const Vector2d& corner : outline)
-        door = std::max(door, gap(probe, corner, floor) - foundation);
+        door = std::max(door, gap(probe, corner, floor) - foundation_depth);
     return door;
 }
 

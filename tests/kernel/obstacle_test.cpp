@@ -60,6 +60,12 @@ TEST(Obstacle, AllThatStandsStopsAVehicle) {
     EXPECT_GT(impulse_in(town), 5000);
 }
 
+TEST(Obstacle, NobodyDrivesUnderAHouse) {
+    world::TownT town;
+    town.buildings.emplace_back(Vec3(20, 0, 2.5), 0, 10, 8, 6, 0U, 1U);
+    EXPECT_GT(impulse_in(town), 5000) << "its floor is over the car's roof";
+}
+
 TEST(Obstacle, BushesStopAVehicleThatDrivesIntoTheirMiddle) {
     for (const auto kind : {world::PlantKind::round_bush,
                             world::PlantKind::tall_bush,
