@@ -148,8 +148,9 @@ TEST(GroundProbe, AgreesWithAPlumbLineThatAsksEveryTriangle) {
     const GroundMesh ground = world::build_ground(test::t_junction(0.04));
     const world::GroundProbe probe(ground);
     int hits = 0;
+    // Off every border of a surface: which side of it counts is not promised.
     for (double x = -3.3; x < 105; x += 3.7)
-        for (double y = -61.1; y < 10; y += 2.9)
+        for (double y = -61.13; y < 10; y += 2.9)
             for (const double z : {1.0, 50.0}) {
                 const auto slow = test::plumb(ground, {x, y, z});
                 const auto fast = probe.below({x, y, z});
@@ -160,6 +161,18 @@ TEST(GroundProbe, AgreesWithAPlumbLineThatAsksEveryTriangle) {
                 ++hits;
             }
     EXPECT_GT(hits, 500);
+}
+
+TEST(GroundProbe, FindsTheNearestLevel) {
+    const GroundMesh ground = world::build_ground(test::bridge());
+    const world::GroundProbe probe(ground);
+    EXPECT_NEAR(probe.nearest({0.5, 0.5, 9})->z, 6, 1e-6);
+    EXPECT_NEAR(probe.nearest({0.5, 0.5, 3.1})->z, 6, 1e-6);
+    EXPECT_NEAR(probe.nearest({0.5, 0.5, 2.9})->z, 0, 1e-6);
+    EXPECT_NEAR(probe.nearest({0.5, 0.5, -4})->z, 0, 1e-6);
+    // The terrain closely below a road carries nothing else.
+    EXPECT_EQ(probe.nearest({20.5, 0.5, -4})->surface, Surface::road);
+    EXPECT_FALSE(probe.nearest({9000, 0, 0}).has_value());
 }
 
 TEST(GroundCheck, SeesEveryBitOfAMesh) {
