@@ -20,12 +20,19 @@ using world::PropKind;
 using world::TownT;
 using world::Vec3;
 
+/// All of it then climbs along x.
+void tilt(TownT& town, double slope) {
+    for (world::LaneT& lane : town.lanes) {
+        for (Vec3& p : lane.centre)
+            p.mutate_z(slope * p.x());
+        lane.length *= std::hypot(1, slope);
+    }
+}
+
 /// A street of 400 m along x that climbs by `slope`, with all that stands beside it.
 TownT street(double slope, const Place& place = {}) {
     TownT town = test::straight_road(400);
-    for (world::LaneT& lane : town.lanes)
-        for (Vec3& p : lane.centre)
-            p.mutate_z(slope * p.x());
+    tilt(town, slope);
     place_scenery(town, place, std::vector<GiveWay>(town.lanes.size()));
     return town;
 }
@@ -82,6 +89,24 @@ TEST(Footing, HedgesGoDownASlopeInSteps) {
     EXPECT_GT(longest, 4.5) << "across the slope they are one piece";
 }
 
+/// Its pole may stand a metre lower, but drivers look for it over the road.
+TEST(Footing, LampsHangAtTheirHeightOverTheRoad) {
+    TownT level = test::straight_road_with_signal(400);
+    level.lanes[1].links.clear();  // it leads nowhere
+    const std::vector<GiveWay> right_of_way(level.lanes.size());
+    TownT steep = level;
+    tilt(steep, 0.3);
+    const auto over_the_road = [&](TownT& town) {
+        place_scenery(town, {}, right_of_way);
+        const world::SignalHeadT& head = town.heads.at(0);
+        return head.foot.z() + head.height - town.lanes[town.signals[0].lane].centre.back().z();
+    };
+    const double wanted = over_the_road(level);
+    EXPECT_NEAR(over_the_road(steep), wanted, 0.05);
+    EXPECT_GT(std::abs(steep.heads[0].height - level.heads[0].height), 0.05);
+    EXPECT_LE(figure(steep, "things on the ground"), 0.25);
+}
+
 TEST(Footing, StaysOnItsLevel) {
     TownT town = test::straight_road(100);
     const std::vector<world::LaneT> low = town.lanes;
@@ -104,9 +129,7 @@ TEST(Footing, StaysOnItsLevel) {
 
 TEST(Floors, AreAStepOverTheGroundBeforeTheDoor) {
     TownT town = test::straight_road(400);
-    for (world::LaneT& lane : town.lanes)
-        for (Vec3& p : lane.centre)
-            p.mutate_z(0.08 * p.x());
+    tilt(town, 0.08);
     const Footing footing(town);
     // Its front looks south at the road; 10 m along it, that is, 0.8 m of height.
     const Footprint house{{200, 15}, 0, 10, 8};
