@@ -12,10 +12,9 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double before_door = 0.3;  ///< [m]
-constexpr double steepest = 2.5;     ///< [m] of height under a footprint
-constexpr double deepest = 1.2;      ///< [m] of the ground floor below the ground around it
-constexpr double front_rise = 1.0;   ///< [m] along the front: rows have doors at its ends as well
-constexpr double shortest = 1.6;     ///< [m] side of a building that has room for a door
+constexpr double off_floor = 1.2;  ///< [m] of the ground under a building, below or above its floor
+constexpr double front_rise = 1.0;  ///< [m] along the front: rows have doors at its ends as well
+constexpr double shortest = 1.6;    ///< [m] side of a building that has room for a door
 
 /// Where one stands before the door of the street side: of the sides nearest to a road the longest
 /// one.
@@ -53,7 +52,7 @@ std::optional<double> floor_on(const Footing& footing, const Footprint& footprin
     const double floor = *ground + world::terrain_depth;
     const auto under = footing.under(footprint, *ground);
     const auto front = footing.under({door, footprint.yaw, footprint.length, 0}, *ground);
-    if (!under || !front || under->rise() > steepest || under->high > floor + deepest ||
+    if (!under || !front || under->low < floor - off_floor || under->high > floor + off_floor ||
         front->rise() > front_rise)
         return std::nullopt;
     return floor;

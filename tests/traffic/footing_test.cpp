@@ -139,8 +139,10 @@ TEST(Floors, AreAStepOverTheGroundBeforeTheDoor) {
     EXPECT_NEAR(*floor, 16, 0.3) << "about as high as the road";
     EXPECT_FALSE(floor_on(footing, {{200, 15}, 0, 40, 8}, 16)) << "3.2 m of height along it";
     EXPECT_FALSE(floor_on(footing, {{200, 15}, 0, 16, 8}, 16)) << "1.3 m of height along the front";
-    EXPECT_TRUE(floor_on(footing, {{200, 15}, std::acos(0.0), 8, 16}, 16))
-        << "1.3 m from the front to the back";
+    const double uphill = std::acos(0.0);
+    EXPECT_TRUE(floor_on(footing, {{200, 15}, uphill, 8, 12}, 16)) << "1 m from front to back";
+    EXPECT_FALSE(floor_on(footing, {{200, 15}, uphill, 8, 17}, 16)) << "1.4 m below the back door";
+    EXPECT_FALSE(floor_on(footing, {{200, 15}, -uphill, 8, 17}, 16)) << "1.4 m over the back door";
 }
 
 TEST(Floors, OfDrawnBuildingsFaceTheStreet) {
