@@ -13,6 +13,7 @@
 
 #include "world/frames.h"
 #include "world/ground_probe.h"
+#include "world/island_check.h"
 #include "world/ribbon.h"
 #include "world/town.h"
 
@@ -206,6 +207,7 @@ std::vector<Criterion> check_ground(const TownT& town, const GroundMesh& ground)
     std::vector<Criterion> criteria;
     check_levels(town, probe, criteria);
     criteria.push_back(check_kerbs(town, ground, probe));
+    criteria.push_back(check_islands(ground, probe));
     criteria.push_back(check_holes(town, probe));
     criteria.push_back(check_joints(town));
     return criteria;

@@ -88,6 +88,11 @@ void Area::add(const Loop& loop) {
     set_->polygons.insert(turned_against);
 }
 
+void Area::add(const Area& other) {
+    using namespace bp::operators;
+    set_->polygons |= other.set_->polygons;
+}
+
 void Area::subtract(const Area& other) {
     using namespace bp::operators;
     set_->polygons -= other.set_->polygons;
@@ -144,6 +149,17 @@ std::vector<Loop> Area::borders() const {
         }
     }
     return loops;
+}
+
+std::vector<Area> Area::parts() const {
+    std::vector<PolygonWithHoles> polygons;
+    set_->polygons.get(polygons);
+    std::vector<Area> parts;
+    for (const PolygonWithHoles& polygon : polygons) {
+        parts.emplace_back(set_->origin);
+        parts.back().set_->polygons.insert(polygon);
+    }
+    return parts;
 }
 
 }  // namespace reprise::world

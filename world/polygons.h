@@ -24,6 +24,7 @@ class Area {
     Area copy() const;
 
     void add(const Loop& loop);
+    void add(const Area& other);  ///< of the same origin, as below
     void subtract(const Area& other);
     void intersect(const Area& other);
 
@@ -37,6 +38,9 @@ class Area {
 
     /// Borders with the area on their left: outer ones counter-clockwise, holes clockwise.
     std::vector<Loop> borders() const;
+
+    /// Its connected parts, with their holes.
+    std::vector<Area> parts() const;
 
   private:
     struct Set;

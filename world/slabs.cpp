@@ -5,7 +5,7 @@
 // Assumes: nothing of the outlines, which cross themselves or have no area in real networks.
 // Goes: each slab on its own - what cuts it is looked up by place and by storey, so that a bridge's
 //   lanes do not cut the sidewalk below; only a slab that something cuts, or that is no plain
-//   ribbon, goes through polygon differences.
+//   ribbon, goes through polygon differences. Splinters that are left over are dropped.
 // Keeps: slab tops disjoint from car_clearance around every centre line.
 #include "world/slabs.h"
 
@@ -15,6 +15,8 @@
 #include "world/frames.h"
 #include "world/polygons.h"
 #include "world/ribbon.h"
+#include "world/slab_cutters.h"
+#include "world/splinters.h"
 #include "world/surface_height.h"
 #include "world/town.h"
 
@@ -22,26 +24,17 @@ namespace reprise::world {
 
 namespace {
 
-constexpr double storey = 2.5;         ///< [m] what lies farther above or below is another level
-constexpr double bus_clearance = 1.6;  ///< [m] within junctions, where wide lanes fan out
-constexpr double end_clearance =
-    1.0;                            ///< [m] around a line's ends: paths may start with a sharp turn
-constexpr double touch = 0.005;     ///< [m] neighbours that merely touch do not cut
+constexpr double storey = 2.5;      ///< [m] what lies farther above or below is another level
 constexpr double noticed = 0.002;   ///< [m2] smaller cuts are rounding
 constexpr double kerb_depth = 0.3;  ///< [m] of the kerb faces below the road: no gap on slopes
-
-/// Something that a slab must not cover.
-struct Cutter {
-    Loop loop;
-    Box box;
-    double z = 0;
-};
 
 struct Slab {
     std::vector<Loop> loops;
     std::vector<Box> boxes;  ///< of the loops, or of their parts: for looking up what is near
     Ribbon ribbon;           ///< sidewalks only
     SurfaceHeight height;    ///< of the road beside it
+    Area top;                ///< what is left of it
+    bool is_cut = false;
 };
 
 bool overlap(const Box& one, const Box& other) {
@@ -49,43 +42,11 @@ bool overlap(const Box& one, const Box& other) {
            (other.low.array() < one.high.array()).all();
 }
 
-double mean_height(const std::vector<Eigen::Vector3d>& corners) {
-    double sum = 0;
-    for (const Eigen::Vector3d& p : corners)
-        sum += p.z();
-    return sum / static_cast<double>(corners.size());
-}
-
 Loop flat_loop(const std::vector<Eigen::Vector3d>& corners) {
     Loop loop;
     for (const Eigen::Vector3d& p : corners)
         loop.push_back(p.head<2>());
     return loop;
-}
-
-void add_cutters(const Ribbon& ribbon, std::vector<Cutter>& cutters) {
-    for (const auto& piece : ribbon.pieces) {
-        const Loop loop = flat_loop(piece);
-        cutters.push_back({loop, box_around(loop), mean_height(piece)});
-    }
-}
-
-/// What a lane keeps clear of slabs.
-void add_cutters(const LaneT& lane, std::vector<Cutter>& cutters) {
-    if (lane.kind == LaneKind::crossing && lane.outline.size() >= 3) {
-        const Loop loop = in_plan(lane.outline);
-        cutters.push_back({loop, box_around(loop), lane.outline[0].z()});
-    }
-    if (!is_for_cars(lane))
-        return;
-    const double half_width = lane.kind == LaneKind::internal
-                                  ? std::clamp(lane.width / 2, car_clearance, bus_clearance)
-                                  : std::max(lane.width / 2, car_clearance) - touch;
-    add_cutters(make_ribbon(clean_line(lane.centre), -half_width, half_width), cutters);
-    // Where a path sets off sideways from its lane, neither's ribbon covers the corner between
-    // them.
-    add_cutters(make_ribbon(clean_line(lane.centre, end_clearance), -end_clearance, end_clearance),
-                cutters);
 }
 
 Slab make_slab(const LaneT& lane) {
@@ -112,21 +73,25 @@ class Slabs {
     void add_to(GroundBuilder& ground) const;
 
   private:
-    std::vector<const Cutter*> cutters_of(const Slab& slab) const;
+    std::vector<const SlabCutter*> cutters_near(const Box& box, const SurfaceHeight& height) const;
+    void cut(Slab& slab) const;
+    bool is_at_crossing(const Loop& outline, const SurfaceHeight& height) const;
+    void drop_splinters();
     bool is_hidden(std::size_t slab, const Eigen::Vector3d& p) const;
     void add_kerb(std::size_t slab, const Loop& border, GroundBuilder& ground) const;
     void add_slab(std::size_t slab, GroundBuilder& ground) const;
 
     Eigen::Vector2d origin_;
     std::vector<Slab> slabs_;
-    std::vector<Cutter> cutters_;
+    std::vector<SlabCutter> cutters_;
     BoxGrid slabs_by_place_;
     BoxGrid cutters_by_place_;
 };
 
-Slabs::Slabs(const TownT& town) : origin_(std::floor(town.low.x()), std::floor(town.low.y())) {
+Slabs::Slabs(const TownT& town)
+    : origin_(std::floor(town.low.x()), std::floor(town.low.y())),
+      cutters_(slab_cutters(town)) {
     for (const LaneT& lane : town.lanes) {
-        add_cutters(lane, cutters_);
         const bool is_area = lane.kind == LaneKind::walking_area && lane.outline.size() >= 3;
         if (lane.kind == LaneKind::sidewalk || is_area)
             slabs_.push_back(make_slab(lane));
@@ -140,24 +105,75 @@ Slabs::Slabs(const TownT& town) : origin_(std::floor(town.low.x()), std::floor(t
         for (const Box& box : slabs_[i].boxes)
             entries.push_back({box, i});
     slabs_by_place_ = BoxGrid(entries);
+    for (Slab& slab : slabs_)
+        cut(slab);
+    drop_splinters();
 }
 
-std::vector<const Cutter*> Slabs::cutters_of(const Slab& slab) const {
-    std::vector<std::uint32_t> near;
-    for (const Box& box : slab.boxes)
-        for (const std::uint32_t index : cutters_by_place_.near(box))
-            if (overlap(box, cutters_[index].box))
-                near.push_back(index);
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-    std::vector<const Cutter*> found;
-    for (const std::uint32_t index : near) {
-        const Cutter& cutter = cutters_[index];
+/// Those of the same level whose box overlaps, in their order.
+std::vector<const SlabCutter*> Slabs::cutters_near(const Box& box,
+                                                   const SurfaceHeight& height) const {
+    std::vector<const SlabCutter*> found;
+    for (const std::uint32_t index : cutters_by_place_.near(box)) {
+        const SlabCutter& cutter = cutters_[index];
         const Eigen::Vector2d middle = (cutter.box.low + cutter.box.high) / 2;
-        if (std::abs(slab.height.at(middle) - cutter.z) < storey)
+        if (overlap(box, cutter.box) && std::abs(height.at(middle) - cutter.z) < storey)
             found.push_back(&cutter);
     }
     return found;
+}
+
+void Slabs::cut(Slab& slab) const {
+    slab.top = Area(origin_);
+    for (const Loop& loop : slab.loops)
+        slab.top.add(loop);
+    std::vector<const SlabCutter*> cutters;
+    for (const Box& box : slab.boxes)
+        for (const SlabCutter* cutter : cutters_near(box, slab.height))
+            cutters.push_back(cutter);
+    if (cutters.empty())
+        return;
+    // All of them are elements of one vector.
+    std::sort(cutters.begin(), cutters.end());
+    cutters.erase(std::unique(cutters.begin(), cutters.end()), cutters.end());
+    Area clear(origin_);
+    for (const SlabCutter* cutter : cutters)
+        clear.add(cutter->loop);
+    const double before = slab.top.size();
+    slab.top.subtract(clear);
+    slab.is_cut = before - slab.top.size() > noticed;
+}
+
+bool Slabs::is_at_crossing(const Loop& outline, const SurfaceHeight& height) const {
+    const std::vector<const SlabCutter*> near =
+        cutters_near(box_around(outline, joined_within), height);
+    return std::any_of(near.begin(), near.end(), [&](const SlabCutter* cutter) {
+        return cutter->is_crossing && distance_between(outline, cutter->loop) <= joined_within;
+    });
+}
+
+/// What cars leave over between their paths becomes road, or whatever lies under it.
+void Slabs::drop_splinters() {
+    std::vector<Area> parts;
+    std::vector<std::size_t> slab_of_part;
+    for (std::size_t i = 0; i < slabs_.size(); ++i)
+        for (Area& part : slabs_[i].top.parts()) {
+            parts.push_back(std::move(part));
+            slab_of_part.push_back(i);
+        }
+    std::vector<Patch> patches;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Loop outline = parts[i].borders()[0];
+        const SurfaceHeight& height = slabs_[slab_of_part[i]].height;
+        patches.push_back(
+            {&parts[i], &height, outline, box_around(outline), is_at_crossing(outline, height)});
+    }
+    const std::vector<bool> is_splinter = find_splinters(patches);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (is_splinter[i]) {
+            slabs_[slab_of_part[i]].top.subtract(parts[i]);
+            slabs_[slab_of_part[i]].is_cut = true;
+        }
 }
 
 /// Is a place beside a slab covered by another one, so that no face shows there?
@@ -213,21 +229,8 @@ void Slabs::add_kerb(std::size_t slab, const Loop& border, GroundBuilder& ground
 
 void Slabs::add_slab(std::size_t index, GroundBuilder& ground) const {
     const Slab& slab = slabs_[index];
-    Area area(origin_);
-    for (const Loop& loop : slab.loops)
-        area.add(loop);
-    const std::vector<const Cutter*> cutters = cutters_of(slab);
-    bool is_cut = false;
-    if (!cutters.empty()) {
-        Area clear(origin_);
-        for (const Cutter* cutter : cutters)
-            clear.add(cutter->loop);
-        const double before = area.size();
-        area.subtract(clear);
-        is_cut = before - area.size() > noticed;
-    }
     // The plain case keeps the ribbon's own quads.
-    if (!is_cut && slab.ribbon.simple) {
+    if (!slab.is_cut && slab.ribbon.simple) {
         for (std::vector<Eigen::Vector3d> piece : slab.ribbon.pieces) {
             for (Eigen::Vector3d& corner : piece)
                 corner.z() += kerb_height;
@@ -238,9 +241,9 @@ void Slabs::add_slab(std::size_t index, GroundBuilder& ground) const {
     }
     const auto top = [&](const Eigen::Vector2d& p) { return slab.height.at(p) + kerb_height; };
     const double cell = slab.height.is_plane() ? 0 : surface_cell;
-    for (const Loop& piece : area.pieces())
+    for (const Loop& piece : slab.top.pieces())
         ground.add_face(piece, top, cell, Surface::sidewalk);
-    for (const Loop& border : area.borders())
+    for (const Loop& border : slab.top.borders())
         add_kerb(index, border, ground);
 }
 
