@@ -88,7 +88,7 @@ void Area::add(const Loop& loop) {
     set_->polygons.insert(turned_against);
 }
 
-void Area::add(const Area& other) {
+void Area::merge(const Area& other) {
     using namespace bp::operators;
     set_->polygons |= other.set_->polygons;
 }

@@ -24,7 +24,7 @@ class Area {
     Area copy() const;
 
     void add(const Loop& loop);
-    void add(const Area& other);  ///< of the same origin, as below
+    void merge(const Area& other);  ///< as below, of the same origin
     void subtract(const Area& other);
     void intersect(const Area& other);
 

@@ -163,10 +163,13 @@ void Slabs::drop_splinters() {
         }
     std::vector<Patch> patches;
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        const Loop outline = parts[i].borders()[0];
+        const std::vector<Loop> borders = parts[i].borders();
         const SurfaceHeight& height = slabs_[slab_of_part[i]].height;
-        patches.push_back(
-            {&parts[i], &height, outline, box_around(outline), is_at_crossing(outline, height)});
+        patches.push_back({&parts[i],
+                           &height,
+                           borders,
+                           box_around(borders[0]),
+                           is_at_crossing(borders[0], height)});
     }
     const std::vector<bool> is_splinter = find_splinters(patches);
     for (std::size_t i = 0; i < parts.size(); ++i)

@@ -1,7 +1,7 @@
 // Must: find the rests of sidewalk that cars leave over between their paths; leave alone what joins
 //   a real sidewalk, and refuges on crossings.
 // Assumes: patches of one slab do not touch each other; others may touch, overlap or repeat.
-// Goes: from each small patch to all that it is joined to, until that is enough of an island.
+// Goes: from each small patch to all that it is joined to, until that is too large for a splinter.
 // Keeps: patches are dropped as whole islands, so that no sidewalk loses its end.
 #include "world/splinters.h"
 
@@ -15,6 +15,20 @@ namespace {
 
 constexpr double level = 0.25;  ///< [m] patches that meet and differ by more are not joined
 
+/// Clear of the border of a hole in which it lies?
+bool lies_in_a_hole(const Patch& inner, const Patch& outer) {
+    const Loop& outline = inner.borders[0];
+    const auto holds = [&](const Loop& hole) {
+        if (!contains(hole, outline[0]))
+            return false;
+        for (std::size_t i = 0; i < hole.size(); ++i)
+            if (distance_between({hole[i], hole[(i + 1) % hole.size()]}, outline) <= joined_within)
+                return false;
+        return true;
+    };
+    return std::any_of(outer.borders.begin() + 1, outer.borders.end(), holds);
+}
+
 bool are_joined(const Patch& one, const Patch& other) {
     Box shared;
     shared.low = one.box.low.cwiseMax(other.box.low);
@@ -23,7 +37,8 @@ bool are_joined(const Patch& one, const Patch& other) {
         return false;
     const Eigen::Vector2d middle = (shared.low + shared.high) / 2;
     return std::abs(one.height->at(middle) - other.height->at(middle)) < level &&
-           distance_between(one.outline, other.outline) <= joined_within;
+           distance_between(one.borders[0], other.borders[0]) <= joined_within &&
+           !lies_in_a_hole(one, other) && !lies_in_a_hole(other, one);
 }
 
 /// Patches that are joined, as far as one must look to know that they are no splinter.
@@ -68,8 +83,8 @@ Island Finder::island_of(std::uint32_t first) const {
         const Patch& patch = patches_[island.patches[i]];
         island.at_crossing = island.at_crossing || patch.at_crossing;
         if (i > 0)
-            island.area.add(*patch.area);
-        if (!is_splinter(island.area, island.at_crossing))
+            island.area.merge(*patch.area);
+        if (island.area.size() >= most_strip)
             break;
         Box reach = patch.box;
         reach.take(patch.box.low, joined_within);
@@ -86,7 +101,7 @@ Island Finder::island_of(std::uint32_t first) const {
 std::vector<bool> Finder::find() const {
     std::vector<bool> splinters(patches_.size(), false);
     for (std::uint32_t i = 0; i < patches_.size(); ++i) {
-        if (splinters[i])
+        if (splinters[i] || patches_[i].area->size() >= most_strip)
             continue;
         const Island island = island_of(i);
         if (is_splinter(island.area, island.at_crossing))

@@ -26,7 +26,7 @@ inline constexpr double joined_within = 0.05;
 struct Patch {
     const Area* area = nullptr;
     const SurfaceHeight* height = nullptr;  ///< of the road beside it
-    Loop outline;                           ///< the outer border
+    std::vector<Loop> borders;              ///< of the area: the outer one first, then holes
     Box box;
     bool at_crossing = false;
 };

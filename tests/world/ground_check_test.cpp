@@ -36,8 +36,11 @@ GroundMesh moved(GroundMesh mesh, Surface surface, const Eigen::Vector3d& by) {
 }
 
 TEST(GroundCheck, PassesTheGroundOfItsTown) {
-    for (const TownT& town :
-         {test::t_junction(), test::t_junction(0.03), test::bridge(), test::straight_road(100, 2)})
+    for (const TownT& town : {test::t_junction(),
+                              test::t_junction(0.03),
+                              test::bridge(),
+                              test::bend(),
+                              test::straight_road(100, 2)})
         for (const Criterion& criterion : world::check_ground(town, world::build_ground(town)))
             EXPECT_TRUE(criterion.passed())
                 << town.name << ": " << criterion.name << ' ' << criterion.figure;
@@ -101,6 +104,40 @@ TEST(GroundCheck, MeasuresTheDistanceOfKerbs) {
     const Criterion kerbs = find(world::check_ground(town, nearer), "kerbs clear of lanes");
     EXPECT_FALSE(kerbs.passed());
     EXPECT_NEAR(kerbs.figure, clear - 1.2, 0.01);
+}
+
+/// Adds a rectangle of sidewalk.
+void add_sidewalk(GroundMesh& ground, const Eigen::Vector3d& low, double length, double width) {
+    const auto first = static_cast<std::uint32_t>(ground.vertices.size());
+    for (const Eigen::Vector3d& corner : {Eigen::Vector3d(0, 0, 0),
+                                          Eigen::Vector3d(length, 0, 0),
+                                          Eigen::Vector3d(length, width, 0),
+                                          Eigen::Vector3d(0, width, 0)})
+        ground.vertices.push_back(low + corner);
+    for (const auto& [second, third] : {std::pair(1u, 2u), std::pair(2u, 3u)}) {
+        ground.triangles.push_back({first, first + second, first + third});
+        ground.surfaces.push_back(Surface::sidewalk);
+    }
+}
+
+TEST(GroundCheck, CountsSplintersOfSidewalk) {
+    const TownT town = test::bend();
+    GroundMesh ground = world::build_ground(town);
+    const auto splinters = [&] {
+        return find(world::check_ground(town, ground), "splinters of sidewalk");
+    };
+    EXPECT_TRUE(splinters().passed());
+    add_sidewalk(ground, {20, 20, 0.15}, 1.9, 2);
+    add_sidewalk(ground, {30, 20, 0.15}, 10, 0.5);
+    EXPECT_EQ(splinters().figure, 2) << "too small; too narrow";
+    EXPECT_EQ(splinters().worst.at(0).name, "380 dm2 of sidewalk");
+    add_sidewalk(ground, {21.94, 20, 0.15}, 1, 2);
+    EXPECT_EQ(splinters().figure, 1) << "4 cm away: one island with the first";
+    add_sidewalk(ground, {30, 20, 5.15}, 10, 4);
+    EXPECT_EQ(splinters().figure, 1) << "a sidewalk on a bridge is no part of what is below";
+    add_sidewalk(ground, {50, 20, 0.15}, 1.9, 2);
+    add_sidewalk(ground, {50, 20, 0.15}, 1.9, 2);
+    EXPECT_EQ(splinters().figure, 2) << "drawn twice is not twice as large";
 }
 
 TEST(GroundCheck, HairpinsOverAWalkingAreaAreKeptClear) {

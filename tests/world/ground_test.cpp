@@ -21,6 +21,7 @@ using world::LaneKind;
 using world::LaneT;
 using world::Surface;
 using world::TownT;
+using world::Vec3;
 
 /// Half a car's track and a bit, both sides of every path.
 template <typename Visit>
@@ -298,6 +299,65 @@ TEST(Ground, CoversABendThatIsTighterThanTheLaneIsWide) {
                    {{0, 0, 0}, {30, 0, 0}, {30.5, 0.5, 0}, {30, 1, 0}, {0, 4, 0}}));
     expect_road_under_every_wheel(town);
     expect_well_formed(world::build_ground(town));
+}
+
+TEST(Ground, LeavesNoKerbBetweenThePathsOfABend) {
+    const TownT town = test::bend();
+    const GroundMesh mesh = world::build_ground(town);
+    // Between the paths, and behind the ends of the lanes, which the paths leave at an angle.
+    for (const Eigen::Vector2d& p :
+         std::vector<Eigen::Vector2d>{{3.6, 1.5}, {1.4, 5.7}, {8.6, 1.07}, {8.86, -1.95}})
+        EXPECT_EQ(surface_at(mesh, p.x(), p.y()), Surface::road) << p.transpose();
+    EXPECT_EQ(surface_at(mesh, -3.2, 10), Surface::sidewalk);
+    EXPECT_EQ(surface_at(mesh, 5.5, 5.5), Surface::sidewalk) << "the inner corner is walked on";
+    expect_well_formed(mesh);
+    expect_road_under_every_wheel(town);
+}
+
+/// A lane that ends at (50, 0), a path that leaves it at an angle of 45 degrees, and a walking area
+/// along its right side.
+TownT sharp_turn() {
+    TownT town;
+    town.lanes = {test::lane(":j_0_0", LaneKind::internal, {{50, 0, 0}, {60, 10, 0}}),
+                  test::lane(":j_w0_0", LaneKind::walking_area, {{50, -5, 0}, {60, -5, 0}}),
+                  test::lane("in_1", LaneKind::driving, {{0, 0, 0}, {50, 0, 0}})};
+    town.lanes[1].outline = {{50, -6, 0}, {60, -6, 0}, {60, -0.9, 0}, {50, -0.9, 0}};
+    town.lanes[2].links = {{0, world::none, world::none, world::Turn::left, false, 0}};
+    town.low = Vec3(0, -6, 0);
+    town.high = Vec3(60, 12, 1);
+    return town;
+}
+
+TEST(Ground, KerbsKeepClearOfTheCornerWhereAPathTurnsOffItsLane) {
+    const GroundMesh mesh = world::build_ground(sharp_turn());
+    EXPECT_EQ(surface_at(mesh, 55, -3), Surface::sidewalk);
+    EXPECT_NE(surface_at(mesh, 50.8, -1.2), Surface::sidewalk);
+}
+
+/// Two carriageways with a strip of `width` between them, and a crossing over both.
+TownT refuge(double width) {
+    TownT town;
+    town.lanes = {
+        test::lane(":r_c0_0", LaneKind::crossing, {{50, -3.5, 0}, {50, 0, 0}}),
+        test::lane(":r_c1_0", LaneKind::crossing, {{50, width, 0}, {50, width + 3.5, 0}}),
+        test::lane(":r_w0_0", LaneKind::walking_area, {{48, width / 2, 0}, {52, width / 2, 0}}),
+        test::lane("there_0", LaneKind::driving, {{0, -1.75, 0}, {100, -1.75, 0}}),
+        test::lane("back_0", LaneKind::driving, {{100, width + 1.75, 0}, {0, width + 1.75, 0}})};
+    town.lanes[0].outline = {{48, -3.5, 0}, {52, -3.5, 0}, {52, 0, 0}, {48, 0, 0}};
+    town.lanes[1].outline = {
+        {48, width, 0}, {52, width, 0}, {52, width + 3.5, 0}, {48, width + 3.5, 0}};
+    town.lanes[2].outline = {{48.6, 0, 0}, {51.4, 0, 0}, {51.4, width, 0}, {48.6, width, 0}};
+    town.low = Vec3(0, -4, 0);
+    town.high = Vec3(100, width + 4, 1);
+    return town;
+}
+
+TEST(Ground, RefugesOnCrossingsStayWhenTheyHoldAPerson) {
+    EXPECT_EQ(surface_at(world::build_ground(refuge(1.2)), 50, 0.6), Surface::sidewalk);
+    EXPECT_NE(surface_at(world::build_ground(refuge(0.4)), 50, 0.2), Surface::sidewalk);
+    TownT without = refuge(1.2);
+    without.lanes.erase(without.lanes.begin(), without.lanes.begin() + 2);
+    EXPECT_NE(surface_at(world::build_ground(without), 50, 0.6), Surface::sidewalk);
 }
 
 TEST(Ground, IsTheSameBytesEveryTime) {

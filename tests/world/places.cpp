@@ -98,6 +98,58 @@ TownT t_junction(double slope) {
     return town;
 }
 
+TownT bend() {
+    TownT town;
+    town.name = "bend";
+    town.lanes = {lane(":b_0_0",
+                       LaneKind::internal,
+                       {{8.386, 2.639, 0},
+                        {5.852, 2.544, 0},
+                        {4.039, 3.060, 0},
+                        {2.946, 4.188, 0},
+                        {2.574, 5.929, 0}}),
+                  lane(":b_1_0",
+                       LaneKind::internal,
+                       {{-0.626, 5.911, 0},
+                        {-0.019, 2.603, 0},
+                        {1.759, 0.427, 0},
+                        {4.707, -0.617, 0},
+                        {8.826, -0.530, 0}}),
+                  lane(":b_w0_0", LaneKind::walking_area, {{5.174, 5.944, 0}, {-3.226, 5.896, 0}}),
+                  lane("east_in_0", LaneKind::driving, {{60, 9.797, 0}, {8.386, 2.639, 0}}),
+                  lane("east_out_0", LaneKind::driving, {{8.826, -0.530, 0}, {60, 6.567, 0}}),
+                  lane("north_in_0", LaneKind::sidewalk, {{-3.226, 60, 0}, {-3.226, 5.896, 0}}),
+                  lane("north_in_1", LaneKind::driving, {{-0.626, 60, 0}, {-0.626, 5.911, 0}}),
+                  lane("north_out_0", LaneKind::sidewalk, {{5.174, 5.944, 0}, {5.174, 60, 0}}),
+                  lane("north_out_1", LaneKind::driving, {{2.574, 5.929, 0}, {2.574, 60, 0}})};
+    for (LaneT& part : town.lanes)
+        part.width = part.kind == LaneKind::sidewalk ? 2 : 3.2;
+    town.lanes[2].outline = {{4.174, 5.938, 0},
+                             {6.174, 5.949, 0},
+                             {8.167, 4.224, 0},
+                             {8.606, 1.054, 0},
+                             {9.046, -2.115, 0},
+                             {-4.226, 5.891, 0},
+                             {-2.226, 5.902, 0}};
+    const auto ahead = world::Turn::straight;
+    town.lanes[3].links = {{8, 0, world::none, ahead, false, 0}};
+    town.lanes[6].links = {{4, 1, world::none, ahead, false, 0}};
+    town.lanes[0].links = {{8, world::none, world::none, ahead, false, 0}};
+    town.lanes[1].links = {{4, world::none, world::none, ahead, false, 0}};
+    town.junctions.resize(1);
+    town.junctions[0].outline = {{8.167, 4.224, 0},
+                                 {9.046, -2.115, 0},
+                                 {1.697, -2.041, 0},
+                                 {-2.726, 0.628, 0},
+                                 {-4.226, 5.891, 0},
+                                 {6.174, 5.949, 0}};
+    for (const std::size_t part : {0, 1, 2})
+        town.lanes[part].junction = 0;
+    town.low = Vec3(-5, -3, 0);
+    town.high = Vec3(61, 60, 1);
+    return town;
+}
+
 TownT bridge() {
     TownT town;
     town.name = "bridge";

@@ -18,6 +18,11 @@ world::LaneT lane(const std::string& name, world::LaneKind kind, std::vector<wor
 /// south-western one lies in the way of cars that turn right. z = slope * x.
 world::TownT t_junction(double slope = 0);
 
+/// A road that comes from the north and bends to the east: junction 101 of
+/// tests/traffic/village.osm as netconvert makes it, with sidewalks along the northern arm only,
+/// and one walking area that lies across the carriageway.
+world::TownT bend();
+
 /// A road along the x axis at z = 0, and one along the y axis that crosses it at z = 6.
 world::TownT bridge();
 

@@ -56,6 +56,24 @@ TEST(Area, CutsHoles) {
     expect_size(area, 12);
 }
 
+TEST(Area, MergesAndComesApartAgain) {
+    Area area(origin);
+    area.add(square(0, 0, 4));
+    Area hole(origin);
+    hole.add(square(1, 1, 2));
+    area.subtract(hole);
+    Area other(origin);
+    other.add(square(4, 0, 1));
+    other.add(square(9, 9, 1));
+    area.merge(other);
+    expect_size(area, 14);
+    const std::vector<Area> parts = area.parts();
+    ASSERT_EQ(parts.size(), 2u);
+    const std::size_t small = parts[0].size() < parts[1].size() ? 0 : 1;
+    expect_size(parts[small], 1);
+    expect_size(parts[1 - small], 13);
+}
+
 TEST(Area, TakesEitherTurningSense) {
     Area area(origin);
     Loop clockwise = square(0, 0, 3);
