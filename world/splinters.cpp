@@ -22,7 +22,7 @@ bool lies_in_a_hole(const Patch& inner, const Patch& outer) {
         if (!contains(hole, outline[0]))
             return false;
         for (std::size_t i = 0; i < hole.size(); ++i)
-            if (distance_between({hole[i], hole[(i + 1) % hole.size()]}, outline) <= joined_within)
+            if (distance_to(outline, hole[i], hole[(i + 1) % hole.size()]) <= joined_within)
                 return false;
         return true;
     };
@@ -120,6 +120,8 @@ bool is_splinter(const Area& island, bool at_crossing) {
 }
 
 double distance_between(const Loop& one, const Loop& other) {
+    if (other.size() > 2 && contains(other, one[0]))
+        return 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < other.size(); ++i)
         least = std::min(least, distance_to(one, other[i], other[(i + 1) % other.size()]));

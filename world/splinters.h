@@ -31,7 +31,7 @@ struct Patch {
     bool at_crossing = false;
 };
 
-/// Between their borders; 0 where they overlap. [m]
+/// In plan; 0 where they overlap. [m]
 double distance_between(const Loop& one, const Loop& other);
 
 /// Is all of an island too small or too narrow to be one?
