@@ -156,8 +156,11 @@ std::vector<Area> Area::parts() const {
     set_->polygons.get(polygons);
     std::vector<Area> parts;
     for (const PolygonWithHoles& polygon : polygons) {
-        parts.emplace_back(set_->origin);
-        parts.back().set_->polygons.insert(polygon);
+        Area part(set_->origin);
+        part.set_->polygons.insert(polygon);
+        // Rounding to whole millimetres leaves nothing of some slivers.
+        if (part.size() > 0)
+            parts.push_back(std::move(part));
     }
     return parts;
 }

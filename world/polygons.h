@@ -39,7 +39,7 @@ class Area {
     /// Borders with the area on their left: outer ones counter-clockwise, holes clockwise.
     std::vector<Loop> borders() const;
 
-    /// Its connected parts, with their holes.
+    /// Its connected parts, with their holes. None is empty.
     std::vector<Area> parts() const;
 
   private:
