@@ -1,9 +1,12 @@
 #include "render/body.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "render/head.h"
+#include "world/check.h"
 
 namespace reprise::render {
 
@@ -113,6 +116,48 @@ void add_torso(Mesh& mesh, const world::WalkerModel& model, const Build& build) 
     }
 }
 
+/// How much wider a hem is below than at the hips, across and ahead: the longer, the more room a
+/// step takes.
+std::pair<double, double> flare_of(Clothing clothing) {
+    switch (clothing) {
+        case Clothing::suit:
+            return {1.10, 1.0};
+        case Clothing::coat:
+            return {1.22, 1.25};
+        case Clothing::gown:
+            return {1.45, 2.1};
+        default:
+            return {1.45, 1.40};
+    }
+}
+
+/// Wide enough for hips and thighs that stand: strides stretch it, see figure().
+std::vector<Slice> hem_slices(const world::WalkerModel& model) {
+    const double length = hem_length(model);
+    if (length == 0)
+        return {};
+    const Build build(model);
+    const double h = model.height;
+    const double waist = model.girth / (2 * std::numbers::pi);
+    const double hips = std::max(0.094 * h, 1.12 * waist);
+    const double legs = build.half_hip + thigh_radius(build);
+    const double wide = std::max(hips, 1.02 * legs);
+    const double bent = model.age == world::Age::senior ? 0.018 * h : 0;  // the trunk, see stoop
+    const auto [flare, fall] = flare_of(model.clothing);
+    const Material cloth = model.clothing == Clothing::skirt ? Material::trousers : Material::shirt;
+    return {{-length, .9 * flare * wide, .9 * fall * hips, 0, cloth},
+            {-length + 0.004, flare * wide, fall * hips, 0, cloth},
+            {-0.5 * length,
+             std::lerp(1, flare, 0.55) * wide,
+             std::lerp(.9, fall, .5) * hips + bent,
+             0,
+             cloth},
+            {std::max(-0.03 * h, -0.4 * length), 1.06 * wide, 0.90 * hips + bent, -0.004, cloth},
+            {0.10 * build.trunk, 1.03 * hips, 0.84 * hips, 0, cloth},
+            // Ends inside of the trunk, also when strides stretch it.
+            {0.22 * build.trunk, 0.62 * hips, 0.50 * hips, 0, cloth}};
+}
+
 }  // namespace
 
 Mesh trunk_mesh(const world::WalkerModel& model) {
@@ -144,25 +189,23 @@ double hem_length(const world::WalkerModel& model) {
 
 Mesh hem_mesh(const world::WalkerModel& model) {
     Mesh mesh;
-    const double length = hem_length(model);
-    if (length == 0)
-        return mesh;
-    const Build build(model);
-    const double waist = model.girth / (2 * std::numbers::pi);
-    const double hips = std::max(0.094 * model.height, 1.12 * waist);
-    const double flare = model.clothing == Clothing::suit   ? 1.10
-                         : model.clothing == Clothing::coat ? 1.22
-                                                            : 1.45;
-    const Material cloth = model.clothing == Clothing::skirt ? Material::trousers : Material::shirt;
-    add_slices(mesh,
-               {{-length, flare * hips * .9, flare * hips * .8, 0, cloth},
-                {-length + 0.004, flare * hips, flare * hips * .9, 0, cloth},
-                {-0.5 * length, (0.45 + 0.55 * flare) * hips, (0.4 + 0.5 * flare) * hips, 0, cloth},
-                {-0.03 * model.height, 1.06 * hips, 0.90 * hips, -0.004, cloth},
-                {0.22 * build.trunk, 1.03 * hips, 0.83 * hips, 0, cloth}});
+    add_slices(mesh, hem_slices(model));
     drop_degenerate(mesh);
     smooth(mesh, 1.2);
     return mesh;
+}
+
+HemSize hem_size(const world::WalkerModel& model, double z) {
+    const std::vector<Slice> slices = hem_slices(model);
+    REPRISE_CHECK(!slices.empty(), model.name);
+    std::size_t above = 1;
+    while (above + 1 < slices.size() && slices[above].z < z)
+        ++above;
+    const Slice& low = slices[above - 1];
+    const Slice& high = slices[above];
+    const double share = std::clamp((z - low.z) / (high.z - low.z), 0.0, 1.0);
+    return {std::lerp(low.half_width, high.half_width, share),
+            std::lerp(low.half_depth, high.half_depth, share)};
 }
 
 Mesh shoe_mesh() {

@@ -16,6 +16,15 @@ Mesh hem_mesh(const world::WalkerModel& model);
 /// How far below the hips the hem ends; 0 without one. [m]
 double hem_length(const world::WalkerModel& model);
 
+/// Half sizes of the hem at this height over the hips. [m]
+struct HemSize {
+    double width;
+    double depth;
+};
+
+/// Of a model with a hem.
+HemSize hem_size(const world::WalkerModel& model, double z);
+
 /// A shoe around the tip of its sole: x ahead, the ankle behind, length 1 from toe to ankle.
 Mesh shoe_mesh();
 

@@ -121,15 +121,39 @@ void add_underbody(Mesh& mesh, const CarShape& shape) {
     }
 }
 
+/// On two arms from the front corners.
+void add_tall_mirrors(Mesh& mesh, const CarShape& shape) {
+    const float x = shape.front - 0.12F;
+    const float z = shape.height() * 0.68F;
+    const float y = shape.half_width(x) + 0.14F;
+    const float back = x - 0.30F;
+    const float pillar = 0.85F * shape.half_width(back);  // inside of the body
+    for (const float side : {-1.0F, 1.0F}) {
+        add_ellipsoid(mesh, {x, side * y, z}, {.06F, .09F, .19F}, 12, {Material::car_body});
+        for (const float up : {-.13F, .13F})
+            add_tube(mesh,
+                     {{back, side * pillar, z + up}, {x, side * y, z + up}, .018F, .018F, 6},
+                     part_finish(CarPart::rubber));
+    }
+}
+
 void add_mirrors(Mesh& mesh, const CarShape& shape) {
-    const bool tall =
-        shape.style == world::BodyStyle::lorry || shape.style == world::BodyStyle::bus;
-    const float x = tall ? shape.front - 0.12F : shape.rear + 0.675F * shape.length();
-    const float z = tall ? shape.height() * 0.68F : shape.belt(x) + 0.075F;
-    const float y = shape.half_width(x) + (tall ? 0.14F : 0.055F);
-    const Vector3f size = tall ? Vector3f(.06F, .09F, .19F) : Vector3f(.065F, .105F, .07F);
-    for (const float side : {-1.0F, 1.0F})
-        add_ellipsoid(mesh, {x, side * y, z}, size, 12, {Material::car_body});
+    if (shape.style == world::BodyStyle::lorry || shape.style == world::BodyStyle::bus)
+        return add_tall_mirrors(mesh, shape);
+    const float x = shape.rear + 0.675F * shape.length();
+    const float z = shape.belt(x) + 0.075F;
+    const float y = shape.half_width(x) + 0.055F;
+    for (const float side : {-1.0F, 1.0F}) {
+        add_ellipsoid(mesh, {x, side * y, z}, {.065F, .105F, .07F}, 12, {Material::car_body});
+        // Its foot stands on the shoulder below the window.
+        add_tube(mesh,
+                 {{x + .06F, side * 0.88F * shape.half_width(x), z - .13F},
+                  {x + .01F, side * y, z},
+                  .032F,
+                  .022F,
+                  8},
+                 part_finish(CarPart::rubber));
+    }
 }
 
 void add_cargo(Mesh& mesh, const CarShape& shape) {
@@ -145,8 +169,16 @@ void add_cargo(Mesh& mesh, const CarShape& shape) {
     for (const float side : {-1.0F, 1.0F}) {
         const float y = side * (half - 0.08F);
         const float from = arch_radius(shape) + 0.15F;
-        add_span(mesh, {from, y - .03F, .45F}, {shape.body_rear - 0.5F, y + .03F, .85F}, black);
+        const float to = shape.body_rear - 0.5F;
+        add_span(mesh, {from, y - .03F, .45F}, {to, y + .03F, .85F}, black);
+        for (const float x : {from + .25F, 0.5F * (from + to), to - .25F})
+            add_span(mesh, {x - .03F, y - .02F, .5F}, {x + .03F, y + .02F, deck + .02F}, black);
     }
+    for (const float y : {-.35F, .35F})
+        add_span(mesh,
+                 {shape.rear + .07F, y - .03F, .44F},
+                 {shape.rear + .13F, y + .03F, deck + .02F},
+                 black);
     add_span(
         mesh, {shape.rear + .05F, -half + .1F, .42F}, {shape.rear + .15F, half - .1F, .56F}, black);
 }

@@ -184,7 +184,7 @@ void paint_livery(Look& look, const CarSpot& at) {
                     : Color(.58F, .58F, .05F);
         else if (is_side &&
                  written(
-                     "AMBULANCE", (ahead - (at.y > 0 ? 2.6F : 1.0F)) / 2.3F, (up - 0.60F) / 0.13F))
+                     "AMBULANCE", (ahead - (at.y > 0 ? 2.8F : .85F)) / 2.3F, (up - 0.60F) / 0.13F))
             look.albedo = red;
     }
     if (livery == Livery::taxi && is_side && up > 0.47F && up < 0.53F) {

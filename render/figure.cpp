@@ -1,5 +1,7 @@
 #include "render/figure.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -67,7 +69,8 @@ void add_leg(std::vector<Limb>& limbs,
     const Vector3d knee =
         joint_between(hip, ankle, build.thigh, build.thigh, Vector3d(1, 0.08 * out, 0));
     const bool loose = cover.shank == Material::trousers;
-    limbs.push_back({Limb::Shape::bone, cover.thigh, stretched_bone(hip, knee, .055 * h)});
+    limbs.push_back(
+        {Limb::Shape::bone, cover.thigh, stretched_bone(hip, knee, thigh_radius(build))});
     limbs.push_back(
         {Limb::Shape::bone, cover.shank, stretched_bone(knee, ankle, (loose ? .040 : .036) * h)});
     Affine3d shoe = Affine3d::Identity();
@@ -101,6 +104,9 @@ void add_arm(std::vector<Limb>& limbs,
          stretched_bone(wrist - 0.004 * h * along, wrist + .085 * build.height * along, .020 * h)});
 }
 
+/// Where limbs_of() puts the thighs; shank and shoe follow each.
+constexpr std::size_t first_leg = 1, second_leg = 8;
+
 std::vector<Limb> limbs_of(const world::WalkerModel& model,
                            const Build& build,
                            const Posture& posture,
@@ -115,12 +121,50 @@ std::vector<Limb> limbs_of(const world::WalkerModel& model,
     return limbs;
 }
 
-/// It gives way to the knees: wider while the legs are apart.
-Limb hem(const world::WalkerModel& model, const Build& build, const Posture& posture) {
-    const double share = hem_length(model) / build.hip;
-    const double apart = std::abs(posture.toe[0].x() - posture.toe[1].x()) * share;
+/// What a hem must hold: a point of a leg's skin, seen from the hips, and the hem's size there.
+struct Held {
+    double x, y, z;
+    HemSize size;
+};
+
+/// Of the legs among these limbs as far down as the hem goes.
+std::vector<Held> held_by_hem(const world::WalkerModel& model,
+                              const Posture& posture,
+                              const std::vector<Limb>& limbs) {
+    static const std::array<Mesh, 3> meshes{bone_mesh(), bone_mesh(), shoe_mesh()};
+    const double low = -hem_length(model);
+    std::vector<Held> held;
+    for (const std::size_t leg : {first_leg, second_leg})
+        for (std::size_t part = 0; part < meshes.size(); ++part)
+            for (const Eigen::Vector3f& vertex : meshes[part].vertices) {
+                const Vector3d p = limbs[leg + part].pose * vertex.cast<double>() - posture.hip;
+                if (p.z() > low && p.z() < 0)
+                    held.push_back({p.x(), p.y(), p.z(), hem_size(model, p.z())});
+            }
+    return held;
+}
+
+/// It gives way to the legs: swings with them as a whole, and is wider while they are apart.
+Limb hem(const world::WalkerModel& model, const Posture& posture, const std::vector<Limb>& limbs) {
+    constexpr double room = 0.93;   // of an ellipse for the polygon in it
+    constexpr double aside = 0.80;  // share of the half width where legs also have depth
+    const std::vector<Held> held = held_by_hem(model, posture, limbs);
+    double front = 0, back = 0, wide = 1, deep = 1;
+    for (const Held& p : held)
+        if (p.z < -0.5 * hem_length(model)) {
+            front = std::max(front, -p.x / p.z);
+            back = std::min(back, -p.x / p.z);
+        }
+    const double swing = 0.5 * (front + back);  // [m] ahead for each metre down
+    for (const Held& p : held)
+        wide = std::max(wide, std::abs(p.y) / (aside * p.size.width));
+    for (const Held& p : held) {
+        const double across = p.y / (wide * p.size.width);
+        deep = std::max(
+            deep, std::abs(p.x + swing * p.z) / (p.size.depth * std::sqrt(room - across * across)));
+    }
     Affine3d pose(Eigen::Translation3d(posture.hip));
-    pose.scale(Vector3d(1 + 1.1 * apart / (0.2 * build.height), 1, 1));
+    pose.linear() << deep, 0, -swing, 0, wide, 0, 0, 0, 1;
     return {Limb::Shape::hem, Material::shirt, pose};
 }
 
@@ -144,7 +188,7 @@ std::vector<Limb> figure(const world::WalkerModel& model,
         hold(posture, build, outfit.carried, rains);
     std::vector<Limb> limbs = limbs_of(model, build, posture, outfit);
     if (hem_length(model) > 0)
-        limbs.push_back(hem(model, build, posture));
+        limbs.push_back(hem(model, posture, limbs));
     if (!walker.down()) {
         add_carried(limbs, posture, build, outfit.carried, rains);
         return limbs;

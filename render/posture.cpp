@@ -144,6 +144,10 @@ Build::Build(const world::WalkerModel& model) : height(model.height) {
     stoutness = std::sqrt(model.mass / (22.5 * height * height));
 }
 
+double thigh_radius(const Build& build) {
+    return .055 * build.height * build.stoutness;
+}
+
 Isometry3d Posture::trunk() const {
     Isometry3d pose = Isometry3d::Identity();
     pose.translation() = hip;

@@ -28,6 +28,9 @@ struct Build {
     double stoutness;  ///< of the limbs, 1 is usual
 };
 
+/// Of a thigh, trousers included, at the hip. [m]
+double thigh_radius(const Build& build);
+
 /// Where a body's joints are. Frame of the walker: x ahead, y left, z up, origin on the ground
 /// between the feet. Index 0 is left, 1 right.
 struct Posture {

@@ -57,7 +57,9 @@ void add_bicycle(Mesh& mesh, const CarShape& shape) {
     add_tube(mesh,
              {bottom + Vector3f(0, -.05F, 0), bottom + Vector3f(0, -.04F, 0), .095F, .095F, 20},
              part_finish(CarPart::chrome));
-    rod(mesh, {-.16F, 0, .74F}, {.24F, 0, .74F}, .012F, CarPart::rubber);
+    rod(mesh, {-.175F, 0, .735F}, {.24F, 0, .74F}, .012F, CarPart::rubber);
+    for (const float x : {-.12F, .04F, .20F})
+        rod(mesh, {x, -.055F, .74F}, {x, .055F, .74F}, .006F, CarPart::rubber);
     rods(mesh, {-.16F, .05F, .74F}, {.22F, .05F, .74F}, .008F, CarPart::rubber);
     rods(mesh, {0, .06F, r}, {-.03F, .06F, .74F}, .006F, CarPart::rubber);
     box(mesh, {-.18F, 0, .71F}, {.015F, .035F, .025F}, CarPart::rear_lamp);

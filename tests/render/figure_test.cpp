@@ -1,5 +1,7 @@
 #include "render/figure.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -67,6 +69,69 @@ TEST(Figure, LiesWhenDown) {
     EXPECT_LT(box.max().z(), 0.6);
     EXPECT_GT(box.min().z(), -0.1);
     EXPECT_GT(box.sizes().x(), 1.5);
+}
+
+/// Does a ray that starts at `from` and goes this way meet the mesh? (Moeller and Trumbore, 1997.)
+bool is_covered(const Mesh& mesh, const Vector3d& from, const Vector3d& direction) {
+    for (const auto& corners : mesh.triangles) {
+        const Vector3d a = mesh.vertices[corners[0]].cast<double>();
+        const Vector3d u = mesh.vertices[corners[1]].cast<double>() - a;
+        const Vector3d v = mesh.vertices[corners[2]].cast<double>() - a;
+        const Vector3d p = direction.cross(v);
+        const double det = u.dot(p);
+        const Vector3d t = (from - a) / det;
+        const double s = t.dot(p);
+        const double r = direction.dot(t.cross(u));
+        if (s >= -1e-4 && r >= -1e-4 && s + r <= 1 + 1e-4 && v.dot(t.cross(u)) > 0)
+            return true;
+    }
+    return false;
+}
+
+/// Of thighs, shanks and shoes above the hem's lower edge: points that stand out of it.
+int bare_points(const WalkerModel& model, const Mesh& hem, std::span<const Limb> limbs) {
+    const auto worn = std::find_if(limbs.begin(), limbs.end(), [](const Limb& limb) {
+        return limb.shape == Limb::Shape::hem;
+    });
+    const Eigen::Affine3d to_hem = worn->pose.inverse();
+    const std::array<Mesh, 3> leg{bone_mesh(), bone_mesh(), shoe_mesh()};
+    int bare = 0;
+    for (std::size_t i = 3; i < limbs.size(); ++i) {
+        if (limbs[i - 1].shape != Limb::Shape::bone || limbs[i].shape != Limb::Shape::shoe)
+            continue;
+        for (std::size_t part = 0; part < leg.size(); ++part)
+            for (const Eigen::Vector3f& vertex : leg[part].vertices) {
+                const Vector3d p = to_hem * (limbs[i - 2 + part].pose * vertex.cast<double>());
+                if (p.z() > 0.01 - hem_length(model) && p.z() < 0 && p.head<2>().norm() > 1e-6)
+                    bare += is_covered(hem, p, Vector3d(p.x(), p.y(), 0).normalized()) ? 0 : 1;
+            }
+    }
+    return bare;
+}
+
+TEST(Figure, NoLegShowsThroughACoatOrASkirt) {
+    int dressed = 0;
+    for (std::uint16_t index = 0; index < world::walker_models().size(); ++index) {
+        const WalkerModel& model = world::walker_models()[index];
+        if (hem_length(model) == 0)
+            continue;
+        ++dressed;
+        const Mesh hem = limb_mesh(Limb::Shape::hem, model);
+        for (std::uint32_t look = 1; look <= 12; ++look)
+            EXPECT_EQ(
+                bare_points(model, hem, figure(model, walker(index, 0, 0, false, look), false)), 0)
+                << model.name << " stands, look " << look;
+        for (const double speed : {model.walking_speed, 2.8})
+            for (const float phase : {0.0F, .08F, .17F, .26F, .38F, .5F, .63F, .76F, .9F})
+                EXPECT_EQ(
+                    bare_points(
+                        model,
+                        hem,
+                        figure(model, walker(index, static_cast<float>(speed), phase), false)),
+                    0)
+                    << model.name << " at " << speed << " m/s, phase " << phase;
+    }
+    EXPECT_GT(dressed, 12);
 }
 
 /// The phase counts walk_cycle_length(): what a foot on the ground goes back in the walker's frame

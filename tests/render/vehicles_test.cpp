@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <map>
 #include <set>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -119,6 +121,107 @@ TEST(Vehicles, WheelsTouchTheGroundAndNothingElseDoes) {
         for (const Eigen::Vector3f& vertex : body.vertices)
             EXPECT_GT(vertex.z(), 0.08) << model.name;
     }
+}
+
+/// Which part of a mesh each triangle belongs to: those that share a corner's place.
+std::vector<std::size_t> parts_of(const render::Mesh& mesh) {
+    std::vector<std::size_t> group(mesh.triangles.size());
+    std::map<std::tuple<float, float, float>, std::size_t> first;
+    const auto root = [&](std::size_t i) {
+        while (group[i] != i)
+            i = group[i];
+        return i;
+    };
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        group[i] = i;
+        for (const std::uint32_t corner : mesh.triangles[i]) {
+            const Eigen::Vector3f& p = mesh.vertices[corner];
+            const std::size_t met = root(first.try_emplace({p.x(), p.y(), p.z()}, i).first->second);
+            const std::size_t mine = root(i);
+            group[std::max(met, mine)] = std::min(met, mine);
+        }
+    }
+    for (std::size_t i = 0; i < group.size(); ++i)
+        group[i] = root(i);
+    return group;
+}
+
+/// Does a side of the first triangle go through the second one? (Moeller and Trumbore, 1997.)
+bool pierces(const render::Mesh& mesh, std::size_t first, std::size_t second) {
+    const auto& corners = mesh.triangles[second];
+    const Eigen::Vector3f& a = mesh.vertices[corners[0]];
+    const Eigen::Vector3f u = mesh.vertices[corners[1]] - a;
+    const Eigen::Vector3f v = mesh.vertices[corners[2]] - a;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Eigen::Vector3f& from = mesh.vertices[mesh.triangles[first][i]];
+        const Eigen::Vector3f way = mesh.vertices[mesh.triangles[first][(i + 1) % 3]] - from;
+        const Eigen::Vector3f p = way.cross(v);
+        const float det = u.dot(p);
+        const Eigen::Vector3f t = (from - a) / det;
+        const float s = t.dot(p);
+        const float r = way.dot(t.cross(u));
+        const float at = v.dot(t.cross(u));
+        if (s >= 0 && r >= 0 && s + r <= 1 && at >= 0 && at <= 1)
+            return true;
+    }
+    return false;
+}
+
+Eigen::AlignedBox3f box_of(const render::Mesh& mesh, std::size_t triangle) {
+    Eigen::AlignedBox3f box;
+    for (const std::uint32_t corner : mesh.triangles[triangle])
+        box.extend(mesh.vertices[corner]);
+    return box;
+}
+
+/// How many parts reach through no other one: they float before the body, or are sunk in it.
+int loose_parts(const render::Mesh& mesh) {
+    const std::vector<std::size_t> part = parts_of(mesh);
+    std::set<std::size_t> loose(part.begin(), part.end());
+    std::vector<Eigen::AlignedBox3f> boxes;
+    for (std::size_t i = 0; i < part.size(); ++i)
+        boxes.push_back(box_of(mesh, i));
+    for (std::size_t i = 0; i < part.size(); ++i)
+        for (std::size_t j = 0; j < part.size(); ++j)
+            if (part[i] != part[j] && (loose.contains(part[i]) || loose.contains(part[j])) &&
+                boxes[i].intersects(boxes[j]) && pierces(mesh, i, j)) {
+                loose.erase(part[i]);
+                loose.erase(part[j]);
+            }
+    return static_cast<int>(loose.size());
+}
+
+TEST(Vehicles, EveryPartHoldsOnToAnother) {
+    for (const world::VehicleModel& model : world::vehicle_models()) {
+        const render::CarShape shape(model);
+        EXPECT_EQ(loose_parts(world::is_two_wheeler(model.body) ? two_wheeler_mesh(shape)
+                                                                : car_body_mesh(shape)),
+                  0)
+            << model.name;
+    }
+}
+
+/// Red paint above the band, seen from this side of an ambulance. [pixels]
+int red_letters(render::Sensors& sensors, double side) {
+    world::CarState car = car_at(7, 120, 0);
+    car.mutate_model(*world::find_vehicle_model("ambulance"));
+    world::SensorSpec spec = camera(SensorKind::rgb, {120.9, side * 6, 1.8});
+    spec.yaw = -side * 1.5707963;
+    spec.fov = 0.6;
+    spec.width = 480;
+    spec.height = 240;
+    const auto frames = sensors.observe(test::tick_with({}, {car}).view(), {spec}, test::noon());
+    int red = 0;
+    for (std::size_t i = 0; i + 2 < frames[0].data.size() / 2; i += 3)
+        red += frames[0].data[i] > 2.2 * frames[0].data[i + 1] ? 1 : 0;
+    return red;
+}
+
+TEST(Vehicles, AmbulanceIsWrittenInFullOnBothSides) {
+    render::Sensors sensors(test::straight_road(400));
+    const int left = red_letters(sensors, 1);
+    EXPECT_GT(left, 100);
+    EXPECT_NEAR(left, red_letters(sensors, -1), 0.02 * left);
 }
 
 }  // namespace
