@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/noise.h"
+#include "world/roofs.h"
 
 namespace reprise::render {
 
@@ -88,30 +89,6 @@ std::span<const Scheme> schemes(FacadeKind facade) {
     return plaster;
 }
 
-float roof_rise(const world::BuildingModel& model, float x, float y, std::uint32_t seed) {
-    const float narrow = std::min(x, y);
-    const float draw = unit(hash(seed, 21));
-    switch (model.roof) {
-        case RoofKind::gabled:
-            // Wide halls have flatter roofs.
-            return y > 6.5F ? y * mix(0.42F, 0.55F, draw) : y * mix(0.72F, 0.98F, draw);
-        case RoofKind::hipped:
-            return narrow * mix(0.50F, 0.66F, draw);
-        case RoofKind::mansard:
-            return 3.4F;
-        case RoofKind::shed:
-            return 2 * y * mix(0.10F, 0.18F, draw);
-        case RoofKind::sawtooth:
-            return 2.4F;
-        case RoofKind::spire:
-            return y * mix(0.95F, 1.15F, draw);
-        case RoofKind::dome:
-        case RoofKind::flat:
-            return 0;
-    }
-    return 0;
-}
-
 }  // namespace
 
 BuildingPaint::BuildingPaint(const world::BuildingModel& of, std::uint32_t seed_of_it)
@@ -168,7 +145,7 @@ BuildingPaint::BuildingPaint(const world::BuildingModel& of, std::uint32_t seed_
 BuildingPlan::BuildingPlan(
     const world::BuildingModel& of, double length, double width, double height, std::uint32_t style)
     : model(of),
-      seed(hash(style, 0x5eedu)),
+      seed(world::building_seed(style)),
       x(static_cast<float>(length / 2)),
       y(static_cast<float>(width / 2)),
       eaves(static_cast<float>(height)),
@@ -183,7 +160,7 @@ BuildingPlan::BuildingPlan(
     floor_height = floors == 0 ? wish : above / static_cast<float>(floors);
     if (floors == 0)
         ground_floor = eaves - (flat ? 0.6F : 0.15F);
-    rise = roof_rise(of, x, y, seed);
+    rise = world::roof_rise(of, x, y, seed);
 }
 
 const world::BuildingModel& BuildingPlan::model_of(std::uint32_t model,

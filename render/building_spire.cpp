@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "render/building_site.h"
+#include "world/roofs.h"
 
 namespace reprise::render {
 
@@ -65,7 +66,7 @@ void add_dome(BuildingSite& site) {
 void add_church(BuildingSite& site) {
     const BuildingPlan& plan = site.plan;
     const bool large = plan.has(world::part_clock);
-    const float half = std::min(plan.y * 0.46F, 3.2F);
+    const float half = world::tower_half(plan.y);
     const float tower = plan.eaves + plan.rise + (large ? 5.5F : 2.5F);
     add_gabled_roof(site, {0, 0, plan.eaves}, {plan.x, plan.y}, plan.rise);
     const float x = -plan.x + half - 0.02F;

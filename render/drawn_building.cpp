@@ -5,6 +5,7 @@
 #include "render/town_mesh.h"
 #include "world/frames.h"
 #include "world/polygons.h"
+#include "world/roofs.h"
 
 namespace reprise::render {
 
@@ -19,48 +20,22 @@ Vector3f at_height(const Vector2f& p, float z) {
     return {p.x(), p.y(), z};
 }
 
-/// Four corners without a notch, as most houses have.
-bool is_convex_quad(const Outline& outline) {
-    if (outline.size() != 4)
-        return false;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const Vector2f side = outline[(i + 1) % 4] - outline[i];
-        const Vector2f next = outline[(i + 2) % 4] - outline[(i + 1) % 4];
-        if (side.x() * next.y() - side.y() * next.x() <= 0.01F)
-            return false;
+/// Slopes from all sides, where the outline is plain enough; else false.
+bool add_hips(BuildingSite& site, const Outline& outline) {
+    constexpr double overhang = 0.4;
+    constexpr float thick = .16F;
+    world::Loop loop;
+    for (const Vector2f& p : outline)
+        loop.push_back(p.cast<double>());
+    const auto faces = world::hipped_faces(loop, overhang);
+    for (const auto& face : faces) {
+        std::vector<Vector3f> corners;
+        for (const Eigen::Vector3d& p : face)
+            corners.push_back(p.cast<float>() + Vector3f(0, 0, site.plan.eaves + thick));
+        site.build.plate(
+            corners, thick, site.finish(BuildingFinish::tiles), site.finish(BuildingFinish::trim));
     }
-    return true;
-}
-
-/// Four slopes over any convex quadrangle; the ridge runs between the middles of its short sides.
-void add_hips(BuildingSite& site, Outline outline, float eaves) {
-    const float first = (outline[1] - outline[0]).norm() + (outline[3] - outline[2]).norm();
-    const float second = (outline[2] - outline[1]).norm() + (outline[0] - outline[3]).norm();
-    if (first < second)
-        std::rotate(outline.begin(), outline.begin() + 1, outline.end());
-    const float narrow = 0.5F * std::min(first, second);
-    const Vector2f west = 0.5F * (outline[3] + outline[0]);
-    const Vector2f east = 0.5F * (outline[1] + outline[2]);
-    const float length = std::max(0.1F, (east - west).norm());
-    const Vector2f inset = (east - west) * std::min(0.46F, 0.5F * narrow / length);
-    const float rise = std::min(5.0F, 0.30F * narrow);
-    const Vector3f ridge_west = at_height(west + inset, eaves + rise);
-    const Vector3f ridge_east = at_height(east - inset, eaves + rise);
-    const Vector2f middle = 0.25F * (outline[0] + outline[1] + outline[2] + outline[3]);
-    std::array<Vector3f, 4> corner;
-    for (std::size_t i = 0; i < 4; ++i)
-        corner[i] = at_height(outline[i] + (outline[i] - middle) * (0.5F / narrow), eaves - .12F);
-    const Finish tiles = site.finish(BuildingFinish::tiles);
-    const Finish trim = site.finish(BuildingFinish::trim);
-    const auto slope = [&](std::vector<Vector3f> corners) {
-        for (Vector3f& p : corners)
-            p.z() += .16F;
-        site.build.plate(corners, .16F, tiles, trim);
-    };
-    slope({corner[0], corner[1], ridge_east, ridge_west});
-    slope({corner[1], corner[2], ridge_east});
-    slope({corner[2], corner[3], ridge_west, ridge_east});
-    slope({corner[3], corner[0], ridge_west});
+    return !faces.empty();
 }
 
 /// A deck below the walls' upper end, and a coping along them.
@@ -156,9 +131,7 @@ void add_drawn_building(Mesh& mesh,
                                    : WallUse::side);
     const bool pitched =
         model.roof == world::RoofKind::gabled || model.roof == world::RoofKind::hipped;
-    if (pitched && is_convex_quad(outline))
-        add_hips(site, outline, plan.eaves);
-    else
+    if (!pitched || !add_hips(site, outline))
         add_deck(site, outline, plan.eaves);
 }
 

@@ -3,28 +3,14 @@
 #include <cstdint>
 
 #include "render/fast_math.h"
+#include "world/hash.h"
 
 namespace reprise::render {
 
-/// Mixes bits (Wellons' lowbias32): textures anchored in the world are functions of place alone.
-constexpr std::uint32_t hash(std::uint32_t x) {
-    x = (x ^ (x >> 16)) * 0x7feb352du;
-    x = (x ^ (x >> 15)) * 0x846ca68bu;
-    return x ^ (x >> 16);
-}
+using world::hash;
+using world::unit;
 
-constexpr std::uint32_t hash(std::uint32_t x, std::uint32_t y) {
-    return hash(x * 0x9e3779b1u + hash(y));
-}
-
-constexpr std::uint32_t hash(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    return hash(hash(x, y), z);
-}
-
-/// Hashed bits as a number in [0, 1).
-constexpr float unit(std::uint32_t bits) {
-    return static_cast<float>(bits >> 8) * 0x1.0p-24F;
-}
+// Textures anchored in the world are functions of place alone.
 
 /// The hash of a lattice cell, in [0, 1).
 inline float cell_noise(int x, int y, std::uint32_t salt = 0) {

@@ -7,6 +7,8 @@
 #include "traffic/building_choice.h"
 #include "traffic/draws.h"
 #include "traffic/floors.h"
+#include "traffic/rectangular_site.h"
+#include "world/building_models.h"
 
 namespace reprise::traffic {
 
@@ -17,6 +19,9 @@ using world::Purpose;
 
 constexpr double overlap_allowed = 0.5;  ///< [m] a drawn building may reach into a lane
 constexpr double smallest_drawn = 2;     ///< [m2]
+
+/// Each has some thousand triangles: in a city the rest stay prisms.
+constexpr std::size_t most_models = 1500;
 
 /// Does no wall of it reach into a lane by more than is allowed?
 bool leaves_lanes_free(const world::Loop& loop, const Clearance& lanes) {
@@ -29,6 +34,30 @@ bool leaves_lanes_free(const world::Loop& loop, const Clearance& lanes) {
     return true;
 }
 
+/// A whole building of its model, with roof, door and chimneys, where the footprint allows. False:
+/// it stays as drawn.
+bool stand_as_model(Land& land, const world::DrawnBuildingT& drawn, const Streets& streets) {
+    if (land.town.buildings.size() >= most_models)
+        return false;
+    const world::BuildingModel& model = world::building_models()[drawn.model - 1];
+    const auto site = rectangular_site(world::in_plan(drawn.outline), streets);
+    const auto f = site ? fit(model, *site, streets) : std::nullopt;
+    if (!f)
+        return false;
+    land.solid.add_footprint(*f);
+    // The model's door may be on another side than the one that the outline's floor was set for.
+    const double z = drawn.outline.front().z();
+    land.town.buildings.emplace_back(
+        world::Vec3(f->centre.x(), f->centre.y(), floor_on(land.footing, *f, z).value_or(z)),
+        f->yaw,
+        f->length,
+        f->width,
+        drawn.height,
+        drawn.style,
+        drawn.model);
+    return true;
+}
+
 }  // namespace
 
 void keep_drawn_buildings(Land& land) {
@@ -37,6 +66,7 @@ void keep_drawn_buildings(Land& land) {
         if (world::is_for_cars(lane))
             lanes.add_line(lane.centre, std::max(0.1, lane.width / 2 - overlap_allowed));
     const Districts districts(land);
+    const Streets streets(land.town);
     for (std::size_t i = 0; i < land.place.buildings.size(); ++i) {
         world::DrawnBuildingT drawn = land.place.buildings[i];
         const double area = world::signed_area(world::in_plan(drawn.outline));
@@ -54,8 +84,9 @@ void keep_drawn_buildings(Land& land) {
         if (drawn.model == 0)
             drawn.model =
                 1 + choose_model(districts.at(loop[0]), Situation::street, draws.between(0, 1));
-        land.town.drawn_buildings.push_back(std::move(drawn));
         land.solid.add_polygon(loop);
+        if (!stand_as_model(land, drawn, streets))
+            land.town.drawn_buildings.push_back(std::move(drawn));
         land.buildings.add_polygon(loop);
     }
 }

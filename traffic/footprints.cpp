@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "traffic/map_area.h"
+#include "traffic/mapped_building.h"
 #include "world/digest.h"
 
 namespace reprise::traffic {
@@ -168,6 +169,7 @@ std::vector<world::Vec3> outline_of(const Polygon& polygon) {
 void place_building(const Area& area,
                     const world::TownT& roads,
                     const Tree& lanes,
+                    const Streets& streets,
                     Place& place,
                     FootprintReport& report) {
     const std::optional<Polygon> rest = beside_lanes(area.outline, roads, lanes);
@@ -176,13 +178,8 @@ void place_building(const Area& area,
         return;
     }
     report.cut += bg::area(*rest) < bg::area(area.outline) - 0.01 ? 1 : 0;
-    const std::uint64_t draw = world::digest128(area.id).low();
-    world::DrawnBuildingT building;
-    building.outline = outline_of(*rest);
-    building.height = eaves_height(area.tags);
-    building.model = model_of(area.tags, draw);
-    building.style = static_cast<std::uint32_t>(draw >> 48);
-    place.buildings.push_back(std::move(building));
+    place.buildings.push_back(
+        mapped_building(area.tags, outline_of(*rest), streets, world::digest128(area.id).low()));
     ++report.buildings;
 }
 
@@ -214,6 +211,7 @@ FootprintReport place_footprints(const std::vector<MapShape>& shapes,
     });
     const Tree lanes = tree_of(roads);
     const Box box = reach(lanes);
+    const Streets streets(roads);
     for (const Area& area : areas) {
         if (!is_near_road(area.outline, lanes))
             continue;
@@ -221,7 +219,7 @@ FootprintReport place_footprints(const std::vector<MapShape>& shapes,
             if (!bg::is_valid(area.outline) || bg::area(area.outline) < 1)
                 ++report.broken;
             else if (is_building(area.tags))
-                place_building(area, roads, lanes, place, report);
+                place_building(area, roads, lanes, streets, place, report);
             else
                 place_plot(area, box, place, report);
         } catch (const bg::exception&) {

@@ -51,6 +51,14 @@ constexpr std::array<Usual, 36> usual_buildings{{
 
 constexpr double floor_height = 3;
 
+constexpr double lowest = 2.2, highest = 500;  // [m]
+
+/// [m] of the whole.
+std::optional<double> tagged_height(const Tags& tags) {
+    const std::optional<double> height = length_of(value(tags, "height"));
+    return height ? height : length_of(value(tags, "building:height"));
+}
+
 /// [1] as tagged, or as usual for the kind.
 double floors_of(const Tags& tags) {
     const double tagged = number(value(tags, "building:levels"), 0);
@@ -121,34 +129,53 @@ bool is_building(const Tags& tags) {
            number(value(tags, "layer"), 0) >= 0;
 }
 
+std::optional<double> ridge_height(const Tags& tags) {
+    const std::optional<double> height = tagged_height(tags);
+    if (!height || length_of(value(tags, "roof:height")))
+        return std::nullopt;
+    return std::clamp(*height, lowest, highest);
+}
+
 double eaves_height(const Tags& tags) {
-    constexpr double lowest = 2.2, highest = 500;
-    std::optional<double> height = length_of(value(tags, "height"));
-    if (!height)
-        height = length_of(value(tags, "building:height"));
+    std::optional<double> height = tagged_height(tags);
     // What is tagged is the ridge.
     if (height)
         height = *height - length_of(value(tags, "roof:height")).value_or(0);
     return std::clamp(height.value_or(floors_of(tags) * floor_height), lowest, highest);
 }
 
-std::uint32_t model_of(const Tags& tags, std::uint64_t draw) {
-    // Some are called as the map calls them, such as a church.
-    if (const auto same = world::find_building_model(value(tags, "building")))
-        return *same + 1;
+std::vector<std::vector<std::uint32_t>> suitable_models(const Tags& tags) {
     const double floors = floors_of(tags);
-    const BuildingUse use = use_of(tags, floors);
     const auto models = world::building_models();
-    std::vector<std::uint32_t> same_use, fitting;
+    const auto named = world::find_building_model(value(tags, "building"));
+    const BuildingUse use = named ? models[*named].use : use_of(tags, floors);
+    std::vector<std::uint32_t> same_name, same_roof, same_floors, same_use;
     for (std::uint32_t i = 0; i < models.size(); ++i) {
         if (models[i].use != use)
             continue;
-        same_use.push_back(i + 1);
+        if (i == named)
+            same_name.push_back(i);
+        else if (named && models[i].roof == models[*named].roof)
+            same_roof.push_back(i);
         if (floors >= models[i].fewest_floors && floors <= models[i].most_floors)
-            fitting.push_back(i + 1);
+            same_floors.push_back(i);
+        same_use.push_back(i);
     }
-    const std::vector<std::uint32_t>& choice = fitting.empty() ? same_use : fitting;
-    return choice[draw % choice.size()];
+    std::vector<std::vector<std::uint32_t>> suitable;
+    // A church is no town hall: of the named civic ones only those with the same roof will do.
+    const std::vector<std::vector<std::uint32_t>> all =
+        named && use == BuildingUse::civic
+            ? std::vector{same_name, same_roof}
+            : std::vector{same_name, same_roof, same_floors, same_use};
+    for (const auto& each : all)
+        if (!each.empty())
+            suitable.push_back(each);
+    return suitable;
+}
+
+std::uint32_t model_of(const Tags& tags, std::uint64_t draw) {
+    const std::vector<std::uint32_t> choice = suitable_models(tags).front();
+    return 1 + choice[draw % choice.size()];
 }
 
 std::optional<PlotKind> plot_kind(const Tags& tags) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "world/town_generated.h"
 
@@ -18,11 +19,18 @@ std::optional<double> length_of(const std::string& text);
 /// A building that fills its outline from the ground up; not a roof on posts, nor a cellar.
 bool is_building(const Tags& tags);
 
+/// [m] of the ridge, where the map says how high the whole is, but not how high its roof.
+std::optional<double> ridge_height(const Tags& tags);
+
 /// [m] of the eaves: as tagged, else by floors, else usual for the kind.
 double eaves_height(const Tags& tags);
 
 /// 1 + index of a model that suits the kind and the floors; `draw` decides between several.
 std::uint32_t model_of(const Tags& tags, std::uint64_t draw);
+
+/// Indices of models that suit the kind, the best ones first: called as the map calls it; then as
+/// that one in use and roof; then of the use, with as many floors; then of the use.
+std::vector<std::vector<std::uint32_t>> suitable_models(const Tags& tags);
 
 /// What the land is, if it is something that a town shows.
 std::optional<world::PlotKind> plot_kind(const Tags& tags);
