@@ -98,7 +98,7 @@ std::optional<RectangularSite> rectangular_site(const world::Loop& outline,
     for (std::size_t i = 0; i < 4; ++i) {
         site.fronts[i] = around;
         const Vector2d middle = around.centre - backwards(around) * around.width / 2;
-        site.to_street[i] = streets.roads.of(Footprint{middle, around.yaw, around.length, 0});
+        site.to_street[i] = streets.roads.of(middle);
         // The next side to the right becomes the front.
         around = {around.centre, around.yaw + 0.5 * std::numbers::pi, around.width, around.length};
     }

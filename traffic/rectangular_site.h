@@ -21,7 +21,7 @@ struct Streets {
 /// (at -y, as models have it).
 struct RectangularSite {
     std::array<Footprint, 4> fronts;
-    std::array<double, 4> to_street;  ///< [m]
+    std::array<double, 4> to_street;  ///< [m] from the middle of the front
 };
 
 /// The rectangle around an outline, shrunk to the outline's area, so that neighbours stay apart.

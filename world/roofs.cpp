@@ -134,11 +134,16 @@ std::vector<std::vector<Eigen::Vector3d>> hipped_faces(const Loop& outline, doub
     const double pitch = std::min(usual_pitch, highest_hip / deepest);
     std::vector<std::vector<Eigen::Vector3d>> faces;
     for (std::size_t i = 0; i < sides.size(); ++i) {
-        if (plans[i].size() < 3)
-            continue;
-        std::vector<Eigen::Vector3d>& face = faces.emplace_back();
-        for (const Vector2d& p : plans[i])
-            face.emplace_back(p.x(), p.y(), pitch * sides[i].distance(p));
+        std::vector<Eigen::Vector3d> face;
+        for (const Vector2d& p : plans[i]) {
+            const Eigen::Vector3d corner(p.x(), p.y(), pitch * sides[i].distance(p));
+            // Several slopes meet in a point: it comes once from each.
+            if (face.empty() ||
+                ((corner - face.back()).norm() > 1e-6 && (corner - face.front()).norm() > 1e-6))
+                face.push_back(corner);
+        }
+        if (face.size() >= 3)
+            faces.push_back(std::move(face));
     }
     return faces;
 }

@@ -6,6 +6,8 @@
 #include "render/building_plan.h"
 #include "render/town_mesh.h"
 #include "tests/render/everything.h"
+#include "world/plan.h"
+#include "world/roofs.h"
 
 namespace reprise {
 
@@ -178,6 +180,51 @@ TEST(DrawnBuilding, ConcaveOutlinesAreClosedAndRoofedWhole) {
             deck += static_cast<double>(normal.z()) / 2;
     }
     EXPECT_NEAR(deck, 20 * 8 + 8 * 10, 0.1);
+}
+
+TEST(DrawnBuilding, PlainConvexOutlinesHaveThePitchedRoofOfTheirModel) {
+    world::DrawnBuildingT drawn;
+    drawn.outline = {world::Vec3(0, 0, 0),
+                     world::Vec3(10, 0, 0),
+                     world::Vec3(13, 6, 0),
+                     world::Vec3(6, 11, 0),
+                     world::Vec3(-1, 7, 0)};
+    drawn.height = 6;
+    drawn.model = 1 + *world::find_building_model("cottage");
+    Built built;
+    add_drawn_building(built.mesh, built.facades, drawn, Eigen::Vector3d::Zero());
+    EXPECT_EQ(escaping_rays(built.mesh, {5, 4, 2}), 0);
+    Eigen::AlignedBox3f box;
+    for (const Vector3f& vertex : built.mesh.vertices)
+        box.extend(vertex);
+    const double rise = world::hipped_rise(world::in_plan(drawn.outline));
+    EXPECT_GT(rise, 2);
+    EXPECT_NEAR(static_cast<double>(box.max().z()), 6 + rise, 0.2);
+}
+
+/// What reads a map's heights counts on it.
+TEST(ModelBuilding, IsAsHighAsItsRoofRises) {
+    for (const world::Building& building : models()) {
+        const world::BuildingModel& model = world::building_models()[building.model() - 1];
+        const auto x = static_cast<float>(building.length() / 2);
+        const auto y = static_cast<float>(building.width() / 2);
+        const bool spire = model.roof == world::RoofKind::spire;
+        // Machines, clocks and chimneys stand out of roofs.
+        if (!spire &&
+            (model.roof == world::RoofKind::dome || model.roof == world::RoofKind::mansard ||
+             (model.parts & (world::part_chimney | world::part_clock | world::part_roof_plant)) !=
+                 0))
+            continue;
+        float top = 0;
+        for (const Vector3f& vertex : build(building).mesh.vertices)
+            top = std::max(top, vertex.z());
+        const float rise = world::roof_rise(model, x, y, world::building_seed(building.style())) +
+                           (spire ? world::spire_rise(model, y) : 0);
+        const double cross = spire ? 1.3 : 0;
+        EXPECT_NEAR(
+            static_cast<double>(top), building.height() + static_cast<double>(rise) + cross, 0.25)
+            << model.name;
+    }
 }
 
 TEST(DrawnBuilding, BrokenOutlinesBuildNothing) {

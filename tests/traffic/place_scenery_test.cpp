@@ -121,6 +121,7 @@ TEST(PlaceScenery, DrawnBuildingsStandAloneAndLeaveTheLanesFree) {
     Place place;
     place.buildings.resize(2);
     place.buildings[0].outline = rectangle(free_land(), 12, 9);
+    place.buildings[0].outline.pop_back();  // no model stands on a triangle
     std::reverse(place.buildings[0].outline.begin(), place.buildings[0].outline.end());
     place.buildings[0].height = 7;
     place.buildings[1].outline = rectangle(lane->centre[0], 12, 9);
@@ -130,6 +131,28 @@ TEST(PlaceScenery, DrawnBuildingsStandAloneAndLeaveTheLanesFree) {
     ASSERT_EQ(town.drawn_buildings.size(), 1U) << "the other stands on the road";
     EXPECT_GT(world::signed_area(world::in_plan(town.drawn_buildings[0].outline)), 0);
     EXPECT_GE(town.drawn_buildings[0].model, 1U);
+}
+
+TEST(PlaceScenery, RectanglesStandAsWholeModels) {
+    Place place;
+    place.buildings.resize(2);
+    place.buildings[0].outline = rectangle(free_land(), 12, 9);
+    place.buildings[0].height = 6.5;
+    place.buildings[0].style = 7;
+    place.buildings[0].model = 1 + *world::find_building_model("brick_house");
+    place.buildings[1] = place.buildings[0];
+    for (Vec3& corner : place.buildings[1].outline)
+        corner.mutate_y(corner.y() - 14);
+    place.buildings[1].model = 1 + *world::find_building_model("department_store");
+    const TownT town = town_with(place);
+    ASSERT_EQ(town.buildings.size(), 1U);
+    const world::Building& house = town.buildings[0];
+    EXPECT_NEAR((world::in_plan(house.centre()) - world::in_plan(free_land())).norm(), 0, 1e-3);
+    EXPECT_NEAR(house.length() * house.width(), 12 * 9, 0.03) << "millimetres in the file";
+    EXPECT_EQ(house.height(), 6.5) << "of the eaves";
+    EXPECT_EQ(house.model(), place.buildings[0].model);
+    EXPECT_EQ(house.style(), 7U);
+    EXPECT_EQ(town.drawn_buildings.size(), 1U) << "far too small for a department store";
 }
 
 TEST(PlaceScenery, ParksAreParksAndPondsAreEmpty) {

@@ -24,6 +24,7 @@
 #include "world/building_models.h"
 #include "world/check.h"
 #include "world/frames.h"
+#include "world/roofs.h"
 
 namespace reprise::traffic {
 namespace {
@@ -178,24 +179,31 @@ TEST_F(Imports, FootprintsKeepTheirPlaceAndHeight) {
     const Place place = read_place(bytes(folder_ / "t/village.place.xml"), "village.place.xml");
     // One lies 2 km away, one is the courtyard of another.
     ASSERT_EQ(place.buildings.size(), 7U);
-    const auto with_height = [&](double height) {
+    const auto side = [](const world::DrawnBuildingT& b, std::size_t i) {
+        return std::hypot(b.outline[i].x() - b.outline[i + 1].x(),
+                          b.outline[i].y() - b.outline[i + 1].y());
+    };
+    const auto with_ridge = [&](double height) {
         return std::find_if(place.buildings.begin(), place.buildings.end(), [&](const auto& b) {
-            return std::abs(b.height - height) < 1e-3;
+            const auto [y, x] = std::minmax({side(b, 0) / 2, side(b, 1) / 2});
+            const float rise = world::roof_rise(world::building_models()[b.model - 1],
+                                                static_cast<float>(x),
+                                                static_cast<float>(y),
+                                                world::building_seed(b.style));
+            return std::abs(b.height + static_cast<double>(rise) - height) < 0.01;
         });
     };
-    const auto church = with_height(18.288);  // 60'
+    const auto church = with_ridge(18.288);  // 60'
     ASSERT_NE(church, place.buildings.end());
     EXPECT_EQ(church->model, *world::find_building_model("church") + 1);
     // 16 m x 40 m on the map; projected, within the scale of UTM.
     ASSERT_EQ(church->outline.size(), 4U);
-    const auto side = [&](std::size_t i, std::size_t j) {
-        return std::hypot(church->outline[i].x() - church->outline[j].x(),
-                          church->outline[i].y() - church->outline[j].y());
-    };
-    EXPECT_NEAR(std::min(side(0, 1), side(1, 2)), 16, 0.1);
-    EXPECT_NEAR(std::max(side(0, 1), side(1, 2)), 40, 0.1);
-    EXPECT_NE(with_height(11.5), place.buildings.end());
-    EXPECT_NE(with_height(15), place.buildings.end()) << "five floors";
+    EXPECT_NEAR(std::min(side(*church, 0), side(*church, 1)), 16, 0.1);
+    EXPECT_NEAR(std::max(side(*church, 0), side(*church, 1)), 40, 0.1);
+    EXPECT_NE(with_ridge(11.5), place.buildings.end());
+    EXPECT_TRUE(std::any_of(place.buildings.begin(), place.buildings.end(), [](const auto& b) {
+        return b.height == 15;
+    })) << "five floors";
     std::multiset<world::PlotKind> kinds;
     for (const world::PlotT& plot : place.plots)
         kinds.insert(plot.kind);
