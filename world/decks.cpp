@@ -31,17 +31,6 @@ bool is_flat(const TownT& town) {
     return high - low < hanging;
 }
 
-std::vector<Vector3d> with_more_points(const std::vector<Vector3d>& line) {
-    std::vector<Vector3d> dense{line[0]};
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        const Vector3d along = line[i + 1] - line[i];
-        const int count = std::max(1, static_cast<int>(std::ceil(along.norm() / spacing)));
-        for (int k = 1; k <= count; ++k)
-            dense.push_back(line[i] + along * (static_cast<double>(k) / count));
-    }
-    return dense;
-}
-
 /// Terrain lies under everything: where none is found below the surface, it carries that.
 bool hangs(const GroundProbe& probe, const Vector3d& p) {
     const auto below = probe.below(p - level * Vector3d::UnitZ());
@@ -66,7 +55,7 @@ void add_side(const GroundProbe& probe,
 }
 
 void add_deck(const LaneT& lane, const GroundProbe& probe, GroundBuilder& ground) {
-    const std::vector<Vector3d> line = with_more_points(clean_line(lane.centre));
+    const std::vector<Vector3d> line = with_more_points(clean_line(lane.centre), spacing);
     const Ribbon ribbon = make_ribbon(line, -lane.width / 2, lane.width / 2);
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         if (!hangs(probe, (line[i] + line[i + 1]) / 2))

@@ -7,9 +7,12 @@
 #include "world/ground_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
+
+#include <Eigen/Geometry>
 
 #include "world/frames.h"
 #include "world/ground_probe.h"
@@ -118,7 +121,18 @@ void check_levels(const TownT& town, const GroundProbe& probe, std::vector<Crite
     criteria.push_back(std::move(levels.bank).verdict(looked_at));
 }
 
-/// The raised triangle nearest to a segment of a centre line; `reach` when none is nearer.
+/// Height of a triangle near a place: its plane's, within its own heights.
+double height_near(const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector2d& p) {
+    constexpr double least_area = 1e-3;  // [m2] from above; kerb faces have none
+    const auto [low, high] = std::minmax({triangle[0].z(), triangle[1].z(), triangle[2].z()});
+    const Eigen::Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+    if (normal.z() / 2 < least_area)
+        return (low + high) / 2;
+    const Eigen::Vector2d slope = -normal.head<2>() / normal.z();
+    return std::clamp(triangle[0].z() + slope.dot(p - triangle[0].head<2>()), low, high);
+}
+
+/// The raised triangle nearest to a short segment of a centre line; `reach` when none is nearer.
 double clear_width(const GroundMesh& ground,
                    const GroundProbe& probe,
                    const Eigen::Vector3d& from,
@@ -127,38 +141,39 @@ double clear_width(const GroundMesh& ground,
     Box box;
     box.take(from.head<2>(), reach);
     box.take(to.head<2>(), reach);
-    const double level = (from.z() + to.z()) / 2;
+    const Eigen::Vector3d middle = (from + to) / 2;
     double least = reach;
     for (const std::uint32_t i : probe.near(box)) {
         if (ground.surfaces[i] != Surface::kerb && ground.surfaces[i] != Surface::sidewalk)
             continue;
-        Loop triangle;
-        double z = 0;
-        for (const std::uint32_t vertex : ground.triangles[i]) {
-            triangle.push_back(ground.vertices[vertex].head<2>());
-            z += ground.vertices[vertex].z() / 3;
-        }
-        if (std::abs(z - level) < storey)
-            least = std::min(least, distance_to(triangle, from.head<2>(), to.head<2>()));
+        const auto& [first, second, third] = ground.triangles[i];
+        const std::array<Eigen::Vector3d, 3> triangle = {
+            ground.vertices[first], ground.vertices[second], ground.vertices[third]};
+        if (std::abs(height_near(triangle, middle.head<2>()) - middle.z()) >= storey)
+            continue;
+        Loop outline;
+        for (const Eigen::Vector3d& p : triangle)
+            outline.push_back(p.head<2>());
+        least = std::min(least, distance_to(outline, from.head<2>(), to.head<2>()));
     }
     return least;
 }
 
 Criterion check_kerbs(const TownT& town, const GroundMesh& ground, const GroundProbe& probe) {
-    constexpr double reach = 3.0;  // [m]
+    constexpr double reach = 3.0;    // [m]
+    constexpr double longest = 4.0;  // [m] piece of a centre line
     Measured clear("kerbs clear of lanes", kerb_limit, "m", true);
     std::size_t lanes = 0;
     for (const LaneT& lane : town.lanes) {
         if (!is_for_cars(lane))
             continue;
         ++lanes;
-        for (std::size_t i = 0; i + 1 < lane.centre.size(); ++i) {
-            const Eigen::Vector3d from = to_eigen(lane.centre[i]);
-            const Eigen::Vector3d to = to_eigen(lane.centre[i + 1]);
+        // On a slope a long piece has no one height to compare.
+        const auto line = with_more_points(clean_line(lane.centre), longest);
+        for (std::size_t i = 0; i + 1 < line.size(); ++i)
             clear.take(lane.name,
-                       ((from + to) / 2).head<2>(),
-                       clear_width(ground, probe, from, to, reach));
-        }
+                       ((line[i] + line[i + 1]) / 2).head<2>(),
+                       clear_width(ground, probe, line[i], line[i + 1], reach));
     }
     return std::move(clear).verdict(std::to_string(lanes) + " lanes");
 }

@@ -48,17 +48,6 @@ struct Meeting {
     double weight = 0;
 };
 
-std::vector<Eigen::Vector3d> resampled(const std::vector<Eigen::Vector3d>& line) {
-    std::vector<Eigen::Vector3d> samples{line[0]};
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        const Eigen::Vector3d along = line[i + 1] - line[i];
-        const int count = std::max(1, static_cast<int>(std::ceil(along.norm() / spacing)));
-        for (int k = 1; k <= count; ++k)
-            samples.push_back(line[i] + along * (static_cast<double>(k) / count));
-    }
-    return samples;
-}
-
 /// A sum of squares, (sum of factor * unknown - target)^2 * weight each, as its normal equations.
 class LeastSquares {
   public:
@@ -112,7 +101,8 @@ class Leveller {
 Leveller::Leveller(const TownT& town, std::uint32_t junction, const JunctionParts& parts)
     : slope_(height_of_junction(town, junction, parts).slope()) {
     for (const std::uint32_t lane : parts.paths)
-        paths_.push_back({lane, resampled(clean_line(town.lanes[lane].centre)), {}});
+        paths_.push_back(
+            {lane, with_more_points(clean_line(town.lanes[lane].centre), spacing), {}});
     number_samples();
     find_meetings();
 }

@@ -143,6 +143,18 @@ Line clean_line(const std::vector<Vec3>& line, double overlap) {
     return clean;
 }
 
+Line with_more_points(const Line& line, double spacing) {
+    Line dense{line[0]};
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const Eigen::Vector3d along = line[i + 1] - line[i];
+        const int count = std::max(1, static_cast<int>(std::ceil(along.norm() / spacing)));
+        for (int k = 1; k < count; ++k)
+            dense.push_back(line[i] + along * (static_cast<double>(k) / count));
+        dense.push_back(line[i + 1]);
+    }
+    return dense;
+}
+
 Line moved_left(const Line& line, double offset) {
     Line moved;
     moved.reserve(line.size());

@@ -28,6 +28,11 @@ struct Ribbon {
 /// Points without repeats (closer than 1 cm), at least two, extended by `overlap` at both ends.
 std::vector<Eigen::Vector3d> clean_line(const std::vector<Vec3>& line, double overlap = 0);
 
+/// The same line with points between its own, evenly, so that no two are farther apart than
+/// `spacing`. [m]
+std::vector<Eigen::Vector3d> with_more_points(const std::vector<Eigen::Vector3d>& line,
+                                              double spacing);
+
 /// From `right` to `left` of a clean line, metres left of it, with mitred corners. z is the line's.
 Ribbon make_ribbon(const std::vector<Eigen::Vector3d>& line, double right, double left);
 

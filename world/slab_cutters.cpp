@@ -1,6 +1,7 @@
 #include "world/slab_cutters.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "world/frames.h"
 #include "world/ribbon.h"
@@ -13,7 +14,10 @@ namespace {
 
 constexpr double bus_clearance = 1.6;  ///< [m] within junctions, where wide lanes fan out
 constexpr double end_clearance =
-    1.0;                         ///< [m] around a line's ends: paths may start with a sharp turn
+    1.0;                        ///< [m] around a line's ends: paths may start with a sharp turn
+constexpr double storey = 2.5;  ///< [m] lanes that differ by less are on one level
+constexpr double cutter_length =
+    5.0;                         ///< [m] at most, of those that climb: they have one height each
 constexpr double touch = 0.005;  ///< [m] neighbours that merely touch do not cut
 
 Loop flat_loop(const std::vector<Eigen::Vector3d>& corners) {
@@ -46,12 +50,14 @@ double half_width(const LaneT& lane) {
                : std::max(lane.width / 2, car_clearance) - touch;
 }
 
-void add_lane(const LaneT& lane, std::vector<SlabCutter>& cutters) {
-    add(make_ribbon(clean_line(lane.centre), -half_width(lane), half_width(lane)), cutters);
+/// In pieces of at most `length` metres.
+void add_lane(const LaneT& lane, double length, std::vector<SlabCutter>& cutters) {
+    const auto line = with_more_points(clean_line(lane.centre), length);
+    add(make_ribbon(line, -half_width(lane), half_width(lane)), cutters);
     // Where a path sets off sideways from its lane, neither's ribbon covers the corner between
     // them.
-    add(make_ribbon(clean_line(lane.centre, end_clearance), -end_clearance, end_clearance),
-        cutters);
+    const auto longer = with_more_points(clean_line(lane.centre, end_clearance), length);
+    add(make_ribbon(longer, -end_clearance, end_clearance), cutters);
 }
 
 /// The corners that end_clearance leaves on the outside of a bend from one lane into the next, on
@@ -69,6 +75,10 @@ void add_bend(const LaneT& lane, const LaneT& next, std::vector<SlabCutter>& cut
 
 std::vector<SlabCutter> slab_cutters(const TownT& town) {
     std::vector<SlabCutter> cutters;
+    // Within one storey all is one level, and no piece need be short.
+    const double length = town.high.z() - town.low.z() < storey
+                              ? std::numeric_limits<double>::infinity()
+                              : cutter_length;
     for (const LaneT& lane : town.lanes) {
         if (lane.kind == LaneKind::crossing && lane.outline.size() >= 3) {
             const Loop loop = in_plan(lane.outline);
@@ -76,7 +86,7 @@ std::vector<SlabCutter> slab_cutters(const TownT& town) {
         }
         if (!is_for_cars(lane))
             continue;
-        add_lane(lane, cutters);
+        add_lane(lane, length, cutters);
         for (const Link& link : lane.links) {
             const std::uint32_t next = link.via() != none ? link.via() : link.to();
             if (next < town.lanes.size() && is_for_cars(town.lanes[next]))

@@ -140,6 +140,26 @@ TEST(GroundCheck, CountsSplintersOfSidewalk) {
     EXPECT_EQ(splinters().figure, 2) << "drawn twice is not twice as large";
 }
 
+TEST(GroundCheck, ComparesTheHeightOfKerbsWhereTheyLie) {
+    TownT town;
+    town.name = "slope";
+    town.lanes = {test::lane("up_0", LaneKind::driving, {{0, 0, 0}, {150, 0, 12}})};
+    town.low = {0, -2, 0};
+    town.high = {150, 2, 12};
+    const auto clear_of_kerb = [&](double x, double z) {
+        GroundMesh ground = world::build_ground(town);
+        const auto first = static_cast<std::uint32_t>(ground.vertices.size());
+        for (const auto& [dx, y] : {std::pair{0, 0.5}, std::pair{2, 0.5}, std::pair{1, 1.5}})
+            ground.vertices.emplace_back(x + dx, y, z);
+        ground.triangles.push_back({first, first + 1, first + 2});
+        ground.surfaces.push_back(Surface::sidewalk);
+        return find(world::check_ground(town, ground), "kerbs clear of lanes").figure;
+    };
+    // On the road at its upper end; then at the road's mean height, 5 m below that end.
+    EXPECT_NEAR(clear_of_kerb(140, 11.4), 0.5, 0.01);
+    EXPECT_NEAR(clear_of_kerb(140, 6), 3.0, 0.01);
+}
+
 TEST(GroundCheck, HairpinsOverAWalkingAreaAreKeptClear) {
     TownT town = test::t_junction();
     world::LaneT area =

@@ -137,6 +137,30 @@ TEST(Ground, GivesEveryWheelRoadOnAndBelowABridge) {
     EXPECT_NEAR(plumb(mesh, {0, 0, 3})->z, 0, 1e-9);
 }
 
+TEST(Ground, AFootpathAcrossASlopeLeavesTheRoadClear) {
+    // Two points each: the road's mean height is 5 m below that of the footpath.
+    TownT town;
+    town.name = "slope";
+    town.lanes = {test::lane("path_0", LaneKind::sidewalk, {{140, -30, 11.2}, {140, 30, 11.2}}),
+                  test::lane("up_0", LaneKind::driving, {{0, 0, 0}, {150, 0, 12}})};
+    town.low = {0, -30, 0};
+    town.high = {150, 30, 12};
+    expect_road_under_every_wheel(town);
+    EXPECT_EQ(surface_at(world::build_ground(town), 140, 10, 11.2), Surface::sidewalk);
+}
+
+TEST(Ground, AFootpathUnderASlopeStaysWhole) {
+    // At the road's mean height, but 6 m below it where it passes.
+    TownT town;
+    town.name = "slope";
+    town.lanes = {test::lane("path_0", LaneKind::sidewalk, {{150, -30, 6}, {150, 30, 6}}),
+                  test::lane("up_0", LaneKind::driving, {{0, 0, 0}, {150, 0, 12}})};
+    town.low = {0, -30, 0};
+    town.high = {150, 30, 12};
+    const GroundMesh mesh = world::build_ground(town);
+    EXPECT_EQ(surface_at(mesh, 149.5, 0, 6), Surface::sidewalk);
+}
+
 TEST(Ground, FillsAJunctionWhoseOutlineIsUseless) {
     TownT town = test::t_junction();
     using world::Vec3;
