@@ -152,8 +152,9 @@ world::Control Autopilot::decide(const world::TickView& last) {
                      last, ego, state.way(), state.hazards.overlaps(), state.style, state.step));
 
     // Hands and feet.
+    const double climb = state.way().path().climb(ego.rear_axle_s + ego.model->wheelbase / 2, 1);
     const Pedals::Position pedals =
-        state.pedals.press(acceleration, ego.speed, state.car, state.step);
+        state.pedals.press(acceleration, ego.speed, climb, state.car, state.step);
     control.mutate_throttle(pedals.throttle);
     control.mutate_brake(pedals.brake);
     control.mutate_steer(state.swings ? steer(ego, *state.swing) : steer(ego, state.way().path()));
@@ -276,8 +277,9 @@ void Autopilot::State::turn(const world::TickView& last, Ego& ego, world::Contro
     const bool back = move.speed < 0;
     const double along = back ? -ego.speed : ego.speed;
     const double wanted = std::clamp(2 * (std::abs(move.speed) - along), -2.5, 1.0);
+    const double climb = (back ? -1 : 1) * turn_around.climb(ego);
     const Pedals::Position position =
-        move.speed == 0 ? Pedals::Position{0, 0.5} : pedals.press(wanted, along, car, step);
+        move.speed == 0 ? Pedals::Position{0, 0.5} : pedals.press(wanted, along, climb, car, step);
     control.mutate_throttle(position.throttle);
     control.mutate_brake(position.brake);
     control.mutate_steer(move.steer);

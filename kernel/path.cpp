@@ -122,6 +122,12 @@ double Path::curvature(double s, double reach) const {
     return (points_[ahead].yaw - points_[back].yaw) / (static_cast<double>(ahead - back) * spacing);
 }
 
+double Path::climb(double s, double reach) const {
+    const Eigen::Vector3d along = at(s + reach).position - at(s - reach).position;
+    const double length = along.norm();
+    return length > 0 ? along.z() / length : 0;
+}
+
 double Path::project(const Eigen::Vector3d& p_world, double from, double reach) const {
     double best = from;
     double least = INFINITY;

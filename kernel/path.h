@@ -61,6 +61,9 @@ class Path {
     /// Turn per metre over +- reach. [1/m]
     double curvature(double s, double reach) const;
 
+    /// Sine of its slope over +- reach; positive where it leads uphill.
+    double climb(double s, double reach) const;
+
     /// The distance of the point of the path nearest to p in plan, in [from, from + reach].
     double project(const Eigen::Vector3d& p_world, double from, double reach) const;
 

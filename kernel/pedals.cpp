@@ -48,7 +48,8 @@ double travel_time(double distance, double speed, double acceleration, double to
     return (top_speed - start) / acceleration + (distance - ramp) / top_speed;
 }
 
-Pedals::Position Pedals::press(double wanted, double speed, const CarModel& car, double step) {
+Pedals::Position Pedals::press(
+    double wanted, double speed, double climb, const CarModel& car, double step) {
     // What became of the last wish?
     if (started_ && !holding_ && !saturated_ && speed > 1) {
         const double got = (speed - last_speed_) / step;
@@ -74,7 +75,7 @@ Pedals::Position Pedals::press(double wanted, double speed, const CarModel& car,
     const world::VehicleModel& model = *car.catalogue;
     const double resistance = 0.5 * air_density * model.drag_area * speed * speed +
                               (speed > 0.1 ? car.rolling_resistance * model.mass * gravity : 0);
-    const double force = model.mass * (asked_ + correction_) + resistance;
+    const double force = model.mass * (asked_ + correction_ + gravity * climb) + resistance;
     Position pedals;
     if (force > 0) {
         const double most = std::min(model.max_drive_force, model.power / std::max(speed, 1.0));

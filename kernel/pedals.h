@@ -33,7 +33,8 @@ double follow_acceleration(double gap,
 double travel_time(double distance, double speed, double acceleration, double top_speed);
 
 /// Throttle and brake for a wanted acceleration. Feed-forward from the car's mass, forces and drag,
-/// and an integral over what the car made of the last wish (slopes, tyres, loads).
+/// from the slope of the lane, and an integral over what the car made of the last wish (tyres,
+/// loads).
 class Pedals {
   public:
     struct Position {
@@ -41,7 +42,8 @@ class Pedals {
         double brake = 0;
     };
 
-    Position press(double wanted, double speed, const CarModel& car, double step);
+    /// `climb` is the sine of the road's slope the way the car drives, or wants to.
+    Position press(double wanted, double speed, double climb, const CarModel& car, double step);
 
     void add_to(world::Hasher& hasher) const;
 

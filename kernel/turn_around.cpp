@@ -114,7 +114,12 @@ std::optional<TurnAround::Street> TurnAround::street_of(const world::TownT& town
     const double circle = 2 * model.wheelbase / std::tan(model.max_steering_angle);
     if (std::abs(side) > circle)
         return std::nullopt;
-    Street street{place.position.head<2>(), place.yaw, 0, 0};
+    Street street{place.position.head<2>(), place.yaw, 0, 0, 0};
+    const Eigen::Vector3d along =
+        world::point_at(out, std::min(2 * before_end, out.length)).position -
+        world::point_at(out, 0).position;
+    if (along.norm() > 0)
+        street.climb = along.z() / along.norm();
     const auto left = &world::LaneT::left;
     const auto right = &world::LaneT::right;
     street.left = side > 0 ? side + to_edge(town, lane, right) : to_edge(town, link.to(), left);
@@ -177,6 +182,11 @@ TurnAround::Move TurnAround::next(const world::TickView& last, const Ego& ego) {
     if (somebody_is_near(last, ego, sign * looks_ahead) || (!wheels_turned && along < 0.3))
         return {0, steer};
     return {sign * creep, steer};
+}
+
+double TurnAround::climb(const Ego& ego) const {
+    return street_.climb *
+           ego.direction.dot(Eigen::Vector2d(std::cos(street_.yaw), std::sin(street_.yaw)));
 }
 
 void TurnAround::add_to(world::Hasher& hasher) const {

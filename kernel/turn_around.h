@@ -30,6 +30,7 @@ class TurnAround {
         double yaw = 0;                   ///< [rad] of that lane
         double left = 0;                  ///< [m] to the kerb on the left
         double right = 0;                 ///< [m] to the kerb on the right
+        double climb = 0;                 ///< sine of its slope along `yaw`
     };
 
     struct Move {
@@ -50,6 +51,9 @@ class TurnAround {
     bool done() const { return done_; }
 
     Move next(const world::TickView& last, const Ego& ego);
+
+    /// Sine of the street's slope the way the car points.
+    double climb(const Ego& ego) const;
 
     void add_to(world::Hasher& hasher) const;
 

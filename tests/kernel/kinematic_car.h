@@ -21,6 +21,7 @@ struct KinematicCar {
     double x = 0, y = 0, yaw = 0, speed = 0;
     double steering_angle = 0, odometer = 0;
     std::uint16_t model = 0;
+    double slope = 0;  ///< what the ground rises per metre along x
 
     void advance(const world::Control& control, double time) {
         const world::VehicleModel& car = world::vehicle_models()[model];
@@ -32,7 +33,7 @@ struct KinematicCar {
             steering_angle += std::clamp(wanted - steering_angle, -turn, turn);
             const double drive = control.throttle() * (control.reverse() ? -3 : 3) * step;
             const double brake = control.brake() * 9 * step;
-            speed += drive;
+            speed += drive - 9.81 * slope * std::cos(yaw) * step;
             speed = std::copysign(std::max(std::abs(speed) - brake, 0.0), speed);
             x += speed * std::cos(yaw) * step;
             y += speed * std::sin(yaw) * step;
@@ -78,7 +79,7 @@ class Drive {
 
     void place(std::uint32_t lane, double s, double speed) {
         const world::LanePoint at = world::point_at(town.lanes[lane], s);
-        z = at.position.z();
+        z = at.position.z() - car.slope * at.position.x();
         car.x = at.position.x();
         car.y = at.position.y();
         car.yaw = at.yaw;
@@ -89,7 +90,7 @@ class Drive {
         world::TickDraft draft;
         draft.tick.index = ++tick;
         draft.tick.vehicles = {car.state(1)};
-        draft.tick.vehicles[0].mutable_position().mutate_z(z);
+        draft.tick.vehicles[0].mutable_position().mutate_z(z + car.slope * car.x);
         draft.tick.signals = signals;
         draft.tick.weather = start.weather;
         draft.traffic.cars = cars;
@@ -123,7 +124,7 @@ class Drive {
     std::vector<world::SignalColor> signals;
     world::Control control;
     std::uint64_t tick = 0;
-    double z = 0;  ///< of the ground under the car
+    double z = 0;  ///< of the ground where x = 0, under the car
 };
 
 /// Draws lanes: a point that moves ahead and turns.

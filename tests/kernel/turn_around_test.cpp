@@ -88,6 +88,27 @@ INSTANTIATE_TEST_SUITE_P(Widths,
                          testing::Combine(testing::Values(3.0, 3.2, 3.5, 4.5),
                                           testing::Values("sedan", "suv", "city_car")));
 
+class TurnAroundOnSlopes : public testing::TestWithParam<double> {};
+
+TEST_P(TurnAroundOnSlopes, ComesBackUphillAndDownhill) {
+    world::TownT town = dead_end(3.2);
+    for (world::LaneT& lane : town.lanes)
+        for (world::Vec3& point : lane.centre)
+            point.mutate_z(GetParam() * point.x());
+    Drive drive(town);
+    drive.car.slope = GetParam();
+    drive.place(1, 60, 8);
+    Reach farthest;
+    while (drive.car.x > 50 && drive.seconds() < 60) {
+        drive.step();
+        farthest.side = std::max(farthest.side, reach_of(drive.car).side);
+    }
+    EXPECT_LE(drive.car.x, 50) << "it drives back";
+    EXPECT_LT(farthest.side, 3.2 + 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Slopes, TurnAroundOnSlopes, testing::Values(-0.15, -0.08, 0.08, 0.15));
+
 TEST(TurnAround, IsForStreetsThatAreTooNarrowToDriveAroundIn) {
     const auto street = [](double lane_width, const char* name) {
         const world::TownT town = dead_end(lane_width);
