@@ -84,6 +84,29 @@ double off_wheel(const TownT& town,
     return best;
 }
 
+/// What a wheel feels of being `off` its lane's level: the greatest step of the ground on the way
+/// from below the middle. Who crosses a slope is banked, and how much he may be is a criterion of
+/// its own; what is steeper than that is a step.
+double felt(const GroundProbe& probe,
+            const Eigen::Vector3d& middle,
+            const Eigen::Vector3d& wheel,
+            double off) {
+    if (std::abs(off) <= ground_limit)
+        return std::abs(off);
+    constexpr int count = 4;  // about a tyre's width each
+    const double start = off_level(probe, middle);
+    double last = start;
+    double greatest = 0;
+    for (int i = 1; i <= count; ++i) {
+        const double next = off_level(probe, middle + (wheel - middle) * i / count);
+        greatest = std::max(greatest, std::abs(next - last));
+        last = next;
+    }
+    if (std::abs(last - start) > bank_limit * track)
+        return std::abs(off);
+    return std::min(std::abs(off), greatest);
+}
+
 void measure_lane(const TownT& town,
                   const LaneT& lane,
                   std::span<const std::uint32_t> joined,
@@ -100,11 +123,16 @@ void measure_lane(const TownT& town,
         const double middle = off_level(probe, at.position);
         const bool at_end = s < track || s > lane.length - track;
         const auto beside = at_end ? joined : std::span<const std::uint32_t>();
-        const double left_wheel = off_wheel(town, probe, at.position + track * left, beside);
-        const double right_wheel = off_wheel(town, probe, at.position - track * left, beside);
+        const Eigen::Vector3d to_left = at.position + track * left;
+        const Eigen::Vector3d to_right = at.position - track * left;
+        const double left_wheel = off_wheel(town, probe, to_left, beside);
+        const double right_wheel = off_wheel(town, probe, to_right, beside);
         const Eigen::Vector2d place = at.position.head<2>();
         levels.centre.take(lane.name, place, std::abs(middle));
-        levels.wheels.take(lane.name, place, std::max(std::abs(left_wheel), std::abs(right_wheel)));
+        levels.wheels.take(lane.name,
+                           place,
+                           std::max(felt(probe, at.position, to_left, left_wheel),
+                                    felt(probe, at.position, to_right, right_wheel)));
         levels.bank.take(lane.name, place, std::abs(left_wheel - right_wheel) / (2 * track));
     }
 }

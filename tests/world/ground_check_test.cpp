@@ -82,6 +82,33 @@ TEST(GroundCheck, MeasuresHowFarTheGroundIsOffItsLane) {
     EXPECT_NEAR(off.worst[0].value, 0.08, 1e-9);
 }
 
+/// A lane along x, and ground whose height is a function of y.
+Criterion wheels_on(double (*height)(double)) {
+    TownT town;
+    town.name = "plank";
+    town.lanes = {test::lane("ahead_0", LaneKind::driving, {{0, 0, 0}, {20, 0, 0}})};
+    town.low = {0, -2, 0};
+    town.high = {20, 2, 0};
+    GroundMesh ground;
+    for (double y = -2; y < 2; y += 0.05) {
+        const auto first = static_cast<std::uint32_t>(ground.vertices.size());
+        for (const double x : {-1, 21})
+            for (const double side : {y, y + 0.05})
+                ground.vertices.emplace_back(x, side, height(side));
+        ground.triangles.push_back({first, first + 2, first + 3});
+        ground.triangles.push_back({first, first + 3, first + 1});
+        ground.surfaces.insert(ground.surfaces.end(), 2, Surface::road);
+    }
+    return find(world::check_ground(town, ground), "ground under wheels");
+}
+
+TEST(GroundCheck, WheelsMayStandOnABankButNotOnAStep) {
+    EXPECT_TRUE(wheels_on([](double y) { return 0.11 * y; }).passed());
+    EXPECT_TRUE(wheels_on([](double y) { return 0.11 * std::max(y, 0.0); }).passed()) << "a ridge";
+    EXPECT_FALSE(wheels_on([](double y) { return 0.15 * std::max(y, 0.0); }).passed()) << "steep";
+    EXPECT_FALSE(wheels_on([](double y) { return y < 0.475 ? 0 : 0.07; }).passed()) << "a kerb";
+}
+
 TEST(GroundCheck, NamesTheLaneWithoutARoad) {
     TownT town = test::t_junction();
     const GroundMesh ground = world::build_ground(town);
