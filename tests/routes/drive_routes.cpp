@@ -19,6 +19,7 @@
 #include "world/catalogue.h"
 #include "world/check.h"
 #include "world/digest.h"
+#include "world/frames.h"
 #include "world/planner.h"
 #include "world/random.h"
 
@@ -35,6 +36,7 @@ using world::TownT;
 constexpr double most_off = 0.3;     // share of the footprint on the sidewalk, or on the other side
 constexpr double most_across = 0.6;  // on the other side, of a long vehicle in a tight bend
 constexpr double most_height = 0.5;  // [m] between the car and its lane
+constexpr double most_aside = 3;     // [m] from the lane's nearest point, to compare heights
 
 struct Pair {
     std::string task;
@@ -157,8 +159,11 @@ void look(const TownT& town, const world::Tick& tick, Watch& watch) {
     if (measured.lane() != world::none) {
         const world::LaneT& under = town.lanes[measured.lane()];
         lane = fmt::format("{} {:.0f}", under.name, measured.lane_s());
-        height =
-            std::abs(ego.position().z() - world::point_at(under, measured.lane_s()).position.z());
+        const Eigen::Vector3d off =
+            world::to_eigen(ego.position()) - world::point_at(under, measured.lane_s()).position;
+        // Who turns around may be on a lane that begins metres ahead, up or down the slope.
+        if (off.head<2>().norm() < most_aside)
+            height = std::abs(off.z());
     }
     const bool fine = keeps_to_the_road(watch);
     watch.sidewalk = std::max(watch.sidewalk, measured.on_sidewalk());
