@@ -121,6 +121,22 @@ Mirrors::Mirror& Mirrors::find_or_add(const world::VehicleState& vehicle, const 
     return *mirrors_.insert(at, std::move(mirror));
 }
 
+/// SUMO chooses the lane by the place, and may have gone on to the second edge of the way, or have
+/// chosen another one than we named: at a dead end, where a car that turns around goes to and fro
+/// between lanes. A way that starts on another edge SUMO would put behind what the vehicle has
+/// passed: the route grows in every tick, leads where nothing leads, and SUMO aborts (an assertion
+/// of MSVehicle::updateBestLanes). So the way is made to start where SUMO has the vehicle; false:
+/// it does not lead there.
+bool Mirrors::start_where_sumo_has_it(const Mirror& mirror, std::vector<std::uint32_t>& way) const {
+    const std::string road = libsumo::Vehicle::getRoadID(mirror.sumo);
+    if (road.empty() || road.front() == ':' || road == graph_->edge(way.front()).name)
+        return true;
+    if (way.size() < 2 || road != graph_->edge(way[1]).name)
+        return false;
+    way.erase(way.begin());
+    return true;
+}
+
 void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Target& target) {
     using libsumo::Vehicle;
     auto place = [&](const std::string& edge, int index, int keep_route) {
@@ -150,7 +166,7 @@ void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Tar
         const bool connected =
             mirror.edge != world::none &&
             (!goes_on || std::binary_search(successors.begin(), successors.end(), edge));
-        if (!connected) {
+        if (!connected || !start_where_sumo_has_it(mirror, way)) {
             // SUMO finds the edge by the place, and takes it for the whole route until the next
             // tick.
             place(lane.edge, lane.index, anywhere);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include "tests/traffic/stage.h"
 #include "traffic/child_program.h"
 #include "world/catalogue.h"
+#include "world/random.h"
 
 namespace reprise::traffic {
 namespace {
@@ -174,6 +176,40 @@ TEST(Mirrors, ATailOverATinyEdgeIsSeenAllTheWay) {
         ASSERT_LT(gap, 20) << "with the ego at " << x;
     }
     EXPECT_GT(x, 200) << "behind both junctions";
+}
+
+TEST(Mirrors, ACarMayGoToAndFroAtADeadEnd) {
+    const test::Loaded loaded = converted(
+        "dead_end",
+        R"(<nodes> <node id="a" x="0" y="0"/> <node id="b" x="150" y="0"/> </nodes>)",
+        R"(<edges> <edge id="ab" from="a" to="b"/> <edge id="ba" from="b" to="a"/> </edges>)");
+    Stage stage(loaded, 0);
+    // As somebody who cannot make up his mind; the seed is one that SUMO once aborted with.
+    double x = 8, y = 1.6, yaw = std::numbers::pi, speed = 0, wanted = 1.3, lock = 0;
+    for (std::uint64_t i = 0; i < 3000; ++i) {
+        const auto dice = [i](std::uint64_t item) {
+            return world::draw(23, i, world::Purpose::scenario, item);
+        };
+        if (dice(0) < 0.02)
+            wanted = dice(1) < 0.5 ? 1.3 : -1.3;
+        if (dice(2) < 0.02)
+            lock = 1.2 * (dice(3) - 0.5);
+        speed += wanted > speed ? 0.05 : -0.05;
+        const double next_x = x + 0.05 * speed * std::cos(yaw);
+        const double next_y = y + 0.05 * speed * std::sin(yaw);
+        if (std::abs(next_x) > 12 || std::abs(next_y) > 2.2) {
+            wanted = -wanted;
+            speed = 0;
+        } else {
+            yaw += 0.05 * speed * std::tan(lock) / 2.7;
+        }
+        if (speed != 0) {
+            x = next_x;
+            y = next_y;
+        }
+        ASSERT_NO_THROW(stage.step({}, {test::vehicle_at(ego, x, y, yaw, speed)})) << "tick " << i;
+        ASSERT_EQ(stage.car(ego), nullptr);
+    }
 }
 
 TEST(Mirrors, RunsWithMirrorsAreRepeatable) {
