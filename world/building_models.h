@@ -21,17 +21,17 @@ enum class RoofKind : std::uint8_t { flat, gabled, hipped, mansard, shed, sawtoo
 /// What is built onto the walls. Bits.
 enum BuildingPart : std::uint16_t {
     part_balconies = 1,
-    part_bays = 2,          ///< bay windows over the height
-    part_porch = 4,         ///< a roof over the door
-    part_shop_front = 8,    ///< glass ground floor with a sign over it
-    part_awning = 16,       ///< over the shop front
+    part_bays = 2,        ///< bay windows over the height
+    part_porch = 4,       ///< a roof over the door
+    part_shop_front = 8,  ///< glass ground floor with a sign over it
+    part_awning = 16,     ///< over the shop front
     part_chimney = 32,
     part_dormers = 64,
     part_roof_plant = 128,  ///< machines on a flat roof
     part_arcade = 256,      ///< columns before the ground floor
     part_gate = 512,        ///< garage doors
     part_fire_escape = 1024,
-    part_clock = 2048       ///< a tower with a clock or a bell
+    part_clock = 2048  ///< a tower with a clock or a bell
 };
 
 /// A parametric building: what is drawn by seed within these bounds. Frame: x along the street, the
