@@ -148,7 +148,7 @@ TEST(Floors, AreAStepOverTheGroundBeforeTheDoor) {
 TEST(Floors, OfDrawnBuildingsFaceTheStreet) {
     Place place;
     world::DrawnBuildingT drawn;
-    drawn.outline = {{180, 12, 0}, {220, 12, 0}, {220, 22, 0}, {180, 22, 0}};
+    drawn.outline = {{180, 12, 0}, {220, 12, 0}, {210, 22, 0}, {190, 22, 0}};  // no rectangle
     drawn.height = 9;
     place.buildings = {drawn};
     const TownT town = street(0.08, place);

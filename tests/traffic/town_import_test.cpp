@@ -303,7 +303,8 @@ TEST_F(Imports, OutlinesOfSeveralWaysAreClosed) {
     std::multiset<long> areas;
     for (const world::DrawnBuildingT& building : place.buildings) {
         areas.insert(std::lround(area_of(building.outline) / 10));
-        EXPECT_NEAR(building.height, 7, 1e-9);
+        EXPECT_GT(building.height, 3);
+        EXPECT_LE(building.height, 7) << "of the eaves; the ridge has the map's height";
     }
     EXPECT_EQ(areas, (std::multiset<long>{20, 30}));
     std::multiset<world::PlotKind> kinds;
