@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "cli/guard.h"
-#include "cli/other_build.h"
-#include "cli/output.h"
-#include "cli/progress.h"
-#include "cli/reproduce.h"
-#include "cli/self_test.h"
-#include "cli/this_build.h"
+#include "cli/fingerprint/other_build.h"
+#include "cli/fingerprint/self_test.h"
+#include "cli/fingerprint/this_build.h"
+#include "cli/process/guard.h"
+#include "cli/process/output.h"
+#include "cli/process/progress.h"
+#include "cli/process/reproduce.h"
 #include "kernel/verify.h"
 #include "replay/imported.h"
 #include "replay/slice.h"

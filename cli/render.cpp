@@ -1,12 +1,13 @@
 #include "cli/render.h"
 
 #include <filesystem>
-#include <fmt/format.h>
 #include <numbers>
 
-#include "cli/guard.h"
-#include "cli/progress.h"
-#include "cli/tick_option.h"
+#include <fmt/format.h>
+
+#include "cli/options/tick_option.h"
+#include "cli/process/guard.h"
+#include "cli/process/progress.h"
 #include "render/picture.h"
 #include "render/sensors.h"
 #include "replay/trace_reader.h"

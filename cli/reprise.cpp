@@ -6,19 +6,19 @@
 #include <filesystem>
 #include <unistd.h>
 
-#include "cli/accept.h"
-#include "cli/cat.h"
-#include "cli/diff.h"
-#include "cli/golden_list.h"
-#include "cli/guard.h"
-#include "cli/helper_program.h"
-#include "cli/info.h"
-#include "cli/options.h"
-#include "cli/recover.h"
-#include "cli/slice.h"
-#include "cli/stats.h"
-#include "cli/strip.h"
-#include "cli/test.h"
+#include "cli/golden/accept.h"
+#include "cli/golden/golden_list.h"
+#include "cli/golden/test.h"
+#include "cli/options/options.h"
+#include "cli/process/guard.h"
+#include "cli/process/helper_program.h"
+#include "cli/trace/cat.h"
+#include "cli/trace/diff.h"
+#include "cli/trace/info.h"
+#include "cli/trace/recover.h"
+#include "cli/trace/slice.h"
+#include "cli/trace/stats.h"
+#include "cli/trace/strip.h"
 #include "world/check.h"
 
 namespace {

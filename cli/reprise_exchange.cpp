@@ -1,8 +1,8 @@
 // `reprise query` and `reprise export`: the program with SQLite in it.
-#include "cli/export.h"
-#include "cli/guard.h"
-#include "cli/options.h"
-#include "cli/query.h"
+#include "cli/options/options.h"
+#include "cli/process/guard.h"
+#include "cli/trace/export.h"
+#include "cli/trace/query.h"
 
 int main(int argc, char** argv) {
     using namespace reprise::cli;

@@ -1,7 +1,7 @@
 // `reprise render`: the program with Embree and OpenCV in it. It has no kernel: what it draws can
 // only come from the trace.
-#include "cli/guard.h"
-#include "cli/options.h"
+#include "cli/options/options.h"
+#include "cli/process/guard.h"
 #include "cli/render.h"
 
 int main(int argc, char** argv) {

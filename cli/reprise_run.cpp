@@ -2,10 +2,10 @@
 // in it.
 #include "cli/branch.h"
 #include "cli/expand.h"
-#include "cli/guard.h"
-#include "cli/import.h"
-#include "cli/options.h"
+#include "cli/options/options.h"
+#include "cli/process/guard.h"
 #include "cli/run.h"
+#include "cli/trace/import.h"
 #include "cli/verify.h"
 
 int main(int argc, char** argv) {

@@ -1,10 +1,10 @@
 // `reprise town`: imports, shows and checks towns. It reads road networks and draws; it has no
 // kernel.
-#include "cli/guard.h"
-#include "cli/options.h"
-#include "cli/town_check.h"
-#include "cli/town_import.h"
-#include "cli/town_show.h"
+#include "cli/options/options.h"
+#include "cli/process/guard.h"
+#include "cli/town/town_check.h"
+#include "cli/town/town_import.h"
+#include "cli/town/town_show.h"
 
 int main(int argc, char** argv) {
     using namespace reprise::cli;

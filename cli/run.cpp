@@ -2,14 +2,15 @@
 
 #include <cmath>
 #include <filesystem>
+
 #include <fmt/format.h>
 
-#include "cli/guard.h"
-#include "cli/progress.h"
-#include "cli/reproduce.h"
-#include "cli/self_test.h"
-#include "cli/this_build.h"
-#include "cli/towns.h"
+#include "cli/fingerprint/self_test.h"
+#include "cli/fingerprint/this_build.h"
+#include "cli/process/guard.h"
+#include "cli/process/progress.h"
+#include "cli/process/reproduce.h"
+#include "cli/town/towns.h"
 #include "kernel/kernel.h"
 #include "replay/imported.h"
 #include "replay/level.h"
@@ -18,7 +19,7 @@
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "scripting/scenario.h"
-#include "traffic/town_reader.h"
+#include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/digest.h"
 

@@ -19,6 +19,29 @@ if(REPRISE_SANITIZE)
   target_link_options(reprise_build INTERFACE -fsanitize=${REPRISE_SANITIZE})
 endif()
 
+# A newcomer's build compiles the files of a folder together, at most this many at a time: headers are
+# read once for all of them (a third of the time of single files). 0: each file alone, for work on them.
+set(REPRISE_UNITY 0 CACHE STRING "Files compiled together; 0: each alone")
+
+# Only files of one folder are compiled together: they are about one thing, and their names do not clash.
+function(reprise_unity target)
+  if(NOT REPRISE_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    if(NOT source MATCHES "\\.cpp$")
+      continue()
+    endif()
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER "in_${folder}" folder)
+    math(EXPR batch "${${folder}_count} / ${REPRISE_UNITY}")
+    math(EXPR ${folder}_count "${${folder}_count} + 1")
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP "${target}_${folder}_${batch}")
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
 # reprise_room(NAME SOURCES ... ROOMS ... LIBRARIES ...): one static library per folder. LIBRARIES
 # stay private to the room: no third-party type crosses its headers.
 function(reprise_room name)
@@ -26,6 +49,7 @@ function(reprise_room name)
   add_library(${name} STATIC ${ROOM_SOURCES})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PUBLIC ${ROOM_ROOMS} PRIVATE reprise_build ${ROOM_LIBRARIES})
+  reprise_unity(${name})
 endfunction()
 
 # reprise_test(NAME SOURCES ... ROOMS ...): one test program per room.

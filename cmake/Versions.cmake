@@ -13,14 +13,18 @@ reprise_package_version(SUMO_VERSION sumo)
 reprise_package_version(LIBM_VERSION musl-dev)
 string(PREPEND LIBM_VERSION "musl ")
 
-file(GLOB REPRISE_STATE_SOURCES CONFIGURE_DEPENDS
-     ${PROJECT_SOURCE_DIR}/world/*.cpp ${PROJECT_SOURCE_DIR}/world/*.h ${PROJECT_SOURCE_DIR}/world/*.fbs
-     ${PROJECT_SOURCE_DIR}/scripting/*.cpp ${PROJECT_SOURCE_DIR}/scripting/*.h
-     ${PROJECT_SOURCE_DIR}/scripting/*.lua
-     ${PROJECT_SOURCE_DIR}/replay/*.cpp ${PROJECT_SOURCE_DIR}/replay/*.h
-     ${PROJECT_SOURCE_DIR}/traffic/*.cpp ${PROJECT_SOURCE_DIR}/traffic/*.h
-     ${PROJECT_SOURCE_DIR}/kernel/*.cpp ${PROJECT_SOURCE_DIR}/kernel/*.h)
+# Every room that a run's state comes out of, at any depth; tests/state_sources_test.sh counts after.
+set(REPRISE_STATE_ROOMS world ground towns scripting traffic drivers replay kernel)
+set(patterns)
+foreach(room IN LISTS REPRISE_STATE_ROOMS)
+  foreach(ending cpp h fbs lua in)
+    list(APPEND patterns ${PROJECT_SOURCE_DIR}/${room}/*.${ending})
+  endforeach()
+endforeach()
+file(GLOB_RECURSE REPRISE_STATE_SOURCES CONFIGURE_DEPENDS ${patterns})
 list(SORT REPRISE_STATE_SOURCES)
+list(JOIN REPRISE_STATE_SOURCES "\n" lines)
+file(WRITE ${PROJECT_BINARY_DIR}/generated/state_sources.txt "${lines}\n")
 
 string(JOIN " " REPRISE_FLAGS_TEXT -O2 ${REPRISE_FLAGS})
 if(REPRISE_SANITIZE)

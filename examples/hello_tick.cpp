@@ -4,7 +4,7 @@
 
 #include "kernel/kernel.h"
 #include "scripting/scenario.h"
-#include "traffic/town_reader.h"
+#include "towns/town_reader.h"
 #include "world/tick.h"
 
 int main() {

@@ -2,13 +2,14 @@
 // second.
 #include <algorithm>
 #include <filesystem>
+
 #include <fmt/format.h>
 
 #include "kernel/kernel.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "scripting/scenario.h"
-#include "traffic/town_reader.h"
+#include "towns/town_reader.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "replay/table/value.h"
 #include "replay/trace_reader.h"
-#include "replay/value.h"
 
 namespace reprise::exchange {
 

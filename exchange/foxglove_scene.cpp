@@ -2,11 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <numbers>
 
-#include "world/catalogue.h"
+#include <fmt/format.h>
+
 #include "world/frames.h"
+#include "world/models/catalogue.h"
 #include "world/town.h"
 
 namespace reprise::exchange {

@@ -15,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-#include "replay/kept.h"
+#include "replay/table/kept.h"
 
 namespace reprise::exchange {
 

@@ -4,7 +4,7 @@
 
 #include <sqlite3.h>
 
-#include "replay/table.h"
+#include "replay/table/table.h"
 #include "replay/trace_reader.h"
 
 namespace reprise::exchange {

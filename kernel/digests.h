@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "kernel/pedestrians.h"
-#include "kernel/physics.h"
+#include "kernel/physics/physics.h"
 #include "kernel/roster.h"
 #include "scripting/scenario.h"
 #include "traffic/background.h"

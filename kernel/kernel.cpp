@@ -4,7 +4,7 @@
 #include "kernel/measurements.h"
 #include "kernel/nudger.h"
 #include "kernel/pedestrians.h"
-#include "kernel/physics.h"
+#include "kernel/physics/physics.h"
 #include "kernel/roster.h"
 #include "replay/recording.h"
 #include "traffic/background.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/nudge.h"
+#include "kernel/drill/nudge.h"
 #include "replay/recording.h"
 #include "scripting/scenario.h"
 #include "world/tick.h"

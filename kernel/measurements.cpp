@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "world/catalogue.h"
 #include "world/frames.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::kernel {
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fmt/format.h>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "kernel/drill/real_fields.h"
 #include "kernel/pedestrians.h"
-#include "kernel/physics.h"
-#include "kernel/real_fields.h"
+#include "kernel/physics/physics.h"
 #include "kernel/roster.h"
 #include "world/check.h"
 

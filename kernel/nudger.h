@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "kernel/nudge.h"
+#include "kernel/drill/nudge.h"
 #include "world/tick.h"
 
 namespace reprise::kernel {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/nudge.h"
-#include "world/catalogue.h"
+#include "ground/mesh/ground.h"
+#include "kernel/drill/nudge.h"
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/frames.h"
-#include "world/ground.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::kernel {
 

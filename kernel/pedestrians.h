@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "world/episode_generated.h"
-#include "world/gait.h"
+#include "world/models/gait.h"
 #include "world/tick.h"
 #include "world/town.h"
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "world/catalogue.h"
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/frames.h"
+#include "world/models/catalogue.h"
 #include "world/random.h"
 
 namespace reprise::kernel {

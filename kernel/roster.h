@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
-#include "kernel/driver.h"
-#include "kernel/physics.h"
+#include "drivers/driver.h"
+#include "kernel/physics/physics.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"
 #include "world/town.h"

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "kernel/kernel.h"
-#include "replay/divergence.h"
+#include "replay/compare/divergence.h"
 #include "replay/trace_reader.h"
 
 namespace reprise::kernel {

@@ -6,11 +6,12 @@
 #include <limits>
 #include <optional>
 #include <string>
+
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include "render/frame.h"
-#include "render/scene.h"
+#include "render/scene/scene.h"
+#include "render/shade/frame.h"
 #include "world/check.h"
 
 namespace reprise::render {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "replay/compression.h"
-#include "replay/files.h"
-#include "replay/mcap.h"
+#include "replay/mcap/compression.h"
+#include "replay/mcap/files.h"
+#include "replay/mcap/mcap.h"
 #include "replay/trace_reader.h"
 
 namespace reprise::replay {

@@ -1,12 +1,13 @@
 #include "replay/noun_check.h"
 
-#include <fmt/format.h>
 #include <span>
 #include <tuple>
 
-#include "replay/usable.h"
-#include "world/catalogue.h"
+#include <fmt/format.h>
+
+#include "replay/mcap/usable.h"
 #include "world/episode_generated.h"
+#include "world/models/catalogue.h"
 #include "world/tick.h"
 
 namespace reprise::replay {

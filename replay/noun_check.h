@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "replay/mcap.h"
+#include "replay/mcap/mcap.h"
 
 /// Whether bytes of unknown origin are what they claim to be. FlatBuffers' verifier looks at
 /// offsets and lengths; ids, order, enumerators and presence are ours to check: afterwards everyone

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "replay/aligned_copy.h"
 #include "replay/chunk_reader.h"
-#include "replay/files.h"
+#include "replay/mcap/aligned_copy.h"
+#include "replay/mcap/files.h"
 #include "replay/trace_index.h"
 #include "replay/trace_reader.h"
 

@@ -1,9 +1,10 @@
 #include "replay/recovery.h"
 
-#include <fmt/format.h>
 #include <optional>
 
-#include "replay/files.h"
+#include <fmt/format.h>
+
+#include "replay/mcap/files.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "world/check.h"

@@ -1,10 +1,11 @@
 #include <algorithm>
+
 #include <fmt/format.h>
 
+#include "replay/mcap/usable.h"
 #include "replay/noun_check.h"
-#include "replay/usable.h"
-#include "world/building_models.h"
-#include "world/catalogue.h"
+#include "world/models/building_models.h"
+#include "world/models/catalogue.h"
 #include "world/tick.h"
 #include "world/town_generated.h"
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "replay/mcap.h"
+#include "replay/mcap/mcap.h"
 #include "replay/recording.h"
 
 /// What is where in a trace. An MCAP file with, in this order:

@@ -1,9 +1,10 @@
 #include "replay/trace_index.h"
 
 #include <algorithm>
+
 #include <fmt/format.h>
 
-#include "replay/compression.h"
+#include "replay/mcap/compression.h"
 #include "replay/trace_format.h"
 
 namespace reprise::replay {

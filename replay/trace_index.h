@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "replay/files.h"
-#include "replay/mcap.h"
+#include "replay/mcap/files.h"
+#include "replay/mcap/mcap.h"
 
 namespace reprise::replay {
 

@@ -1,14 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <fstream>
 #include <iterator>
 
-#include "scripting/header.h"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scripting/lua/vm.h"
 #include "scripting/scenario.h"
-#include "scripting/tasks.h"
-#include "scripting/vm.h"
+#include "scripting/words/header.h"
+#include "scripting/words/tasks.h"
 #include "world/check.h"
 #include "world/weather.h"
 

@@ -1,16 +1,15 @@
 #include "scripting/scenario.h"
 
 #include <fmt/format.h>
-
 #include <lua.hpp>
 
-#include "scripting/arguments.h"
-#include "scripting/binding.h"
-#include "scripting/header.h"
-#include "scripting/literals.h"
-#include "scripting/places.h"
-#include "scripting/run.h"
-#include "scripting/sandbox.h"
+#include "scripting/lua/arguments.h"
+#include "scripting/lua/binding.h"
+#include "scripting/lua/literals.h"
+#include "scripting/lua/sandbox.h"
+#include "scripting/words/header.h"
+#include "scripting/words/places.h"
+#include "scripting/words/run.h"
 #include "world/check.h"
 #include "world/digest.h"
 

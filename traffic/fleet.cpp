@@ -1,9 +1,10 @@
 #include "traffic/fleet.h"
 
 #include <array>
+
 #include <fmt/format.h>
 
-#include "world/catalogue.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::traffic {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "traffic/network_xml.h"
+#include "towns/network/network_xml.h"
 
 namespace reprise::traffic {
 

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
+#include <fmt/format.h>
 #include <libsumo/libsumo.h>
 
 #include "traffic/fleet.h"
 #include "traffic/sumo.h"
-#include "world/catalogue.h"
 #include "world/frames.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::traffic {
 

@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
+#include <fmt/format.h>
 #include <libsumo/libsumo.h>
 
 #include "traffic/background_state.h"
 #include "traffic/fleet.h"
 #include "traffic/walk.h"
-#include "world/catalogue.h"
 #include "world/check.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::traffic {
 

@@ -10,8 +10,8 @@
 #include <libsumo/libsumo.h>
 
 #include "traffic/background_state.h"
-#include "world/catalogue.h"
 #include "world/digest.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::traffic {
 
@@ -122,7 +122,7 @@ void Background::Sumo::read_car(Car& car) {
     // SUMO writes a height only where the network has one; elsewhere it is a number of its own.
     const libsumo::TraCIPosition p = Vehicle::getPosition3D(car.sumo);
     Eigen::Vector3d front(p.x, p.y, p.z == libsumo::INVALID_DOUBLE_VALUE ? 0.0 : p.z);
-    // Where paths cross, the town's road is not the network's: see world/level_paths.h.
+    // Where paths cross, the town's road is not the network's: see ground/mesh/level_paths.h.
     if (p.z != libsumo::INVALID_DOUBLE_VALUE && car.lane != none &&
         town.lanes[car.lane].kind == world::LaneKind::internal) {
         const world::LaneT& path = town.lanes[car.lane];

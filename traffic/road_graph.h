@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "traffic/network_xml.h"
+#include "towns/network/network_xml.h"
 #include "world/town_generated.h"
 
 namespace reprise::traffic {

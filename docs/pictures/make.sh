@@ -58,5 +58,5 @@ montage town1_roundabout.jpg town1_bend.jpg town1_old_street.jpg town1_crossing.
     -tile 4x -geometry 300x169+2+2 -background white -strip -quality 85 towns.jpg
 cd "$here/../.."
 
-map tests/traffic/village.osm village 600
+map tests/towns/village.osm village 600
 [ $# -eq 0 ] || map "$1/Town07.xodr" Town07 900

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <BulletDynamics/Vehicle/btRaycastVehicle.h>
 #include <memory>
 #include <vector>
 
+#include <BulletDynamics/Vehicle/btRaycastVehicle.h>
 #include <btBulletDynamicsCommon.h>
 
-#include "world/ground.h"
+#include "ground/mesh/ground.h"
 
 namespace reprise::bench {
 

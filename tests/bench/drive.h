@@ -4,7 +4,7 @@
 
 #include "replay/recording.h"
 #include "scripting/scenario.h"
-#include "traffic/town_reader.h"
+#include "towns/town_reader.h"
 
 namespace reprise::bench {
 

@@ -1,17 +1,17 @@
 // An 800x600 frame of Town 1 with 100 cars, beside bare Embree: the same number of primary rays, in
 // packets of 8, on the same ground, and nothing else.
-#include <benchmark/benchmark.h>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
+#include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
 
+#include "ground/mesh/ground.h"
 #include "kernel/kernel.h"
 #include "render/sensors.h"
 #include "tests/bench/drive.h"
 #include "world/frames.h"
-#include "world/ground.h"
 #include "world/weather.h"
 
 namespace {

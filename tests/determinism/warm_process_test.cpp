@@ -10,7 +10,7 @@
 
 #include "kernel/kernel.h"
 #include "scripting/scenario.h"
-#include "traffic/town_reader.h"
+#include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/random.h"

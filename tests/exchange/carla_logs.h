@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "exchange/carla_log.h"
+#include "exchange/carla/carla_log.h"
 
 namespace reprise::test {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "replay/mcap.h"
+#include "replay/mcap/mcap.h"
 
 namespace reprise::test {
 

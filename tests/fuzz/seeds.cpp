@@ -2,7 +2,7 @@
 
 #include <zstd.h>
 
-#include "replay/mcap.h"
+#include "replay/mcap/mcap.h"
 #include "replay/slice.h"
 #include "tests/replay/synthetic_run.h"
 

@@ -6,7 +6,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "replay/divergence.h"
+#include "replay/compare/divergence.h"
 #include "replay/recovery.h"
 #include "replay/trace_reader.h"
 #include "tests/fuzz/finished_trace.h"

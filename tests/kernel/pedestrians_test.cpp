@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "ground/mesh/ground.h"
 #include "tests/support/worlds.h"
-#include "world/catalogue.h"
-#include "world/ground.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::kernel {
 

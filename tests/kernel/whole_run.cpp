@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "scripting/scenario.h"
-#include "traffic/town_reader.h"
+#include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/digest.h"
 

@@ -3,11 +3,11 @@
 
 #include <gmock/gmock.h>
 
-#include "render/building_plan.h"
-#include "render/town_mesh.h"
+#include "ground/mesh/roofs.h"
+#include "render/shapes/buildings/building_plan.h"
+#include "render/shapes/buildings/town_mesh.h"
 #include "tests/render/everything.h"
-#include "world/plan.h"
-#include "world/roofs.h"
+#include "world/geometry2d.h"
 
 namespace reprise {
 

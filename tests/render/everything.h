@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "tests/render/frames.h"
-#include "world/building_models.h"
+#include "world/models/building_models.h"
 
 /// A straight street with one of everything that stands in a town.
 namespace reprise::test {

@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include "render/look.h"
-#include "render/plot_mesh.h"
-#include "render/prop_mesh.h"
+#include "render/look/look.h"
+#include "render/shapes/street/plot_mesh.h"
+#include "render/shapes/street/prop_mesh.h"
 #include "tests/render/everything.h"
 #include "tests/render/street.h"
 

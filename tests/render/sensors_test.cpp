@@ -4,10 +4,10 @@
 
 #include <gmock/gmock.h>
 
-#include "render/camera.h"
+#include "render/trace/camera.h"
 #include "tests/render/frames.h"
-#include "world/catalogue.h"
 #include "world/check.h"
+#include "world/models/catalogue.h"
 
 namespace reprise {
 

@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "render/car_parts.h"
-#include "render/paint.h"
-#include "render/two_wheeler.h"
+#include "render/shapes/cars/car_parts.h"
+#include "render/shapes/cars/two_wheeler.h"
+#include "render/shapes/paint.h"
 #include "tests/render/frames.h"
-#include "world/catalogue.h"
+#include "world/models/catalogue.h"
 
 namespace reprise {
 namespace {

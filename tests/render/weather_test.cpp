@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/render/frames.h"
-#include "world/catalogue.h"
+#include "world/models/catalogue.h"
 
 namespace reprise {
 

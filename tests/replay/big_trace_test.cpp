@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "replay/mcap.h"
+#include "replay/mcap/mcap.h"
 #include "replay/recovery.h"
 #include "replay/trace_reader.h"
 #include "tests/replay/synthetic_run.h"

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "replay/divergence.h"
+#include "replay/compare/divergence.h"
 #include "replay/recovery.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"

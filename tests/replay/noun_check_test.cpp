@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "replay/divergence.h"
+#include "replay/compare/divergence.h"
 #include "replay/trace_format.h"
 #include "tests/replay/synthetic_run.h"
 #include "tests/support/worlds.h"

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "replay/mcap.h"
+#include "replay/mcap/mcap.h"
 #include "replay/trace_reader.h"
 #include "tests/replay/synthetic_run.h"
 #include "world/check.h"

@@ -1,26 +1,27 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fmt/format.h>
 #include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "cli/towns.h"
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/town/towns.h"
+#include "drivers/swing.h"
 #include "kernel/kernel.h"
-#include "kernel/swing.h"
 #include "replay/recording.h"
 #include "scripting/scenario.h"
-#include "traffic/town_reader.h"
-#include "world/catalogue.h"
+#include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/frames.h"
-#include "world/planner.h"
+#include "world/lanes/planner.h"
+#include "world/models/catalogue.h"
 #include "world/random.h"
 
 // Drives routes through an empty town with the built-in driver, and watches it:

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scripting/text.h"
+#include "scripting/lua/text.h"
 #include "tests/scripting/stage.h"
 
 // Traps of Lua, by their numbers in docs/lua-traps.md: texts and numbers.

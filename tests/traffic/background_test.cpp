@@ -10,8 +10,8 @@
 
 #include "tests/support/worlds.h"
 #include "tests/traffic/stage.h"
-#include "world/catalogue.h"
 #include "world/check.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::traffic {
 namespace {

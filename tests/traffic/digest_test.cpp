@@ -5,7 +5,7 @@
 #include "tests/traffic/stage.h"
 #include "traffic/road_graph.h"
 #include "traffic/trail.h"
-#include "world/catalogue.h"
+#include "world/models/catalogue.h"
 
 // What decides the future is in the digest as soon as it is there, before it shows in the record.
 namespace reprise::traffic {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "world/catalogue.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::traffic {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "tests/support/worlds.h"
 #include "tests/traffic/stage.h"
-#include "traffic/child_program.h"
-#include "world/catalogue.h"
+#include "towns/maps/child_program.h"
+#include "world/models/catalogue.h"
 #include "world/random.h"
 
 namespace reprise::traffic {

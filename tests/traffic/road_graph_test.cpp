@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/traffic/stage.h"
+#include "tests/support/towns.h"
 #include "traffic/walk.h"
 
 namespace reprise::traffic {

@@ -1,33 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
-#include <string>
-#include <string_view>
 #include <vector>
 
+#include "tests/support/towns.h"
 #include "traffic/background.h"
-#include "traffic/town_reader.h"
 #include "world/tick.h"
 #include "world/town.h"
 
 namespace reprise::test {
-
-/// A network with the town read out of it.
-struct Loaded {
-    traffic::Network network;
-    world::TownT town;
-};
-
-/// scenarios/towns/NAME/NAME.net.xml, read once in the process.
-const Loaded& own_town(const std::string& name);
-
-Loaded load(const std::filesystem::path& network);
-
-/// Index of a lane; fails the process when there is none.
-std::uint32_t lane(const world::TownT& town, std::string_view name);
 
 /// Runs nothing but traffic: tick by tick, with commands and with physics vehicles put where the
 /// test wants them.

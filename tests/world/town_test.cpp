@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/places.h"
 #include "tests/support/worlds.h"
-#include "tests/world/places.h"
 
 namespace reprise {
 

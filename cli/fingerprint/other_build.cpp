@@ -1,0 +1,25 @@
+#include "cli/fingerprint/other_build.h"
+
+#include <fmt/format.h>
+
+namespace reprise::cli {
+
+void print_other_build(const std::string& headline,
+                       const std::string& expected_name,
+                       const replay::Fingerprint& expected,
+                       const std::string& found_name,
+                       const replay::Fingerprint& found) {
+    const auto lines = replay::build_differences(expected, found);
+    if (lines.empty())
+        return;
+    fmt::print("{}; equal bytes are not promised\n", headline);
+    for (const replay::BuildDifference& line : lines)
+        fmt::print("  {:<13}{} {}, {} {}\n",
+                   line.key,
+                   expected_name,
+                   line.expected,
+                   found_name,
+                   line.found);
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,53 @@
+#include "cli/golden/golden_list.h"
+
+#include <fmt/format.h>
+
+#include "cli/golden/golden_case.h"
+#include "cli/process/guard.h"
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace {
+
+int list_orphans(const FoundCases& found) {
+    int code = exit_good;
+    for (const GoldenCase& one : found.cases) {
+        if (one.state != GoldenCase::State::orphan)
+            continue;
+        fmt::print("{}: there is no {}\n", one.golden.string(), one.scenario.string());
+        code = exit_differs;
+    }
+    return code;
+}
+
+}  // namespace
+
+int golden_list(const GoldenListOptions& options) {
+    const FoundCases found = find_cases(options.paths);
+    if (options.orphans)
+        return list_orphans(found);
+    int code = exit_good;
+    for (const GoldenCase& one : found.cases) {
+        if (one.state == GoldenCase::State::no_golden) {
+            fmt::print("{}  no golden yet\n", one.scenario.string());
+            continue;
+        }
+        const bool orphan = one.state == GoldenCase::State::orphan;
+        try {
+            const replay::Golden golden = replay::load_golden(one.golden);
+            fmt::print("{}  {}, {}; because {}\n",
+                       one.golden.string(),
+                       orphan ? "ORPHAN: no " + one.scenario.string()
+                              : command_line(run_words(one, golden.given)),
+                       golden.verdict,
+                       replay::in_quotes(golden.because));
+        } catch (const world::Error& error) {
+            fmt::print("{}  unreadable: {}\n", one.golden.string(), error.what());
+            code = exit_bad_input;
+        }
+    }
+    return code;
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,248 @@
+// The heart of `reprise test`.
+//   must      fail for one reason only, say which, and say how to come back to it
+//   assumes   that `reprise run` makes equal bytes of equal inputs, and finds out when it does not
+//   goes      every case at once in processes of their own; those that differ from their golden
+//             once more, one at a time; then what became of each
+//   keeps     the traces of cases that failed, in the output folder
+#include "cli/golden/golden_suite.h"
+
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/golden/golden_files.h"
+#include "cli/golden/golden_runs.h"
+#include "cli/process/progress.h"
+#include "cli/process/reproduce.h"
+#include "replay/compare/divergence.h"
+#include "replay/golden/golden_difference.h"
+#include "replay/trace_reader.h"
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using State = GoldenCase::State;
+
+/// One case on its way through the suite.
+struct Running {
+    std::optional<replay::Golden> golden;
+    GoldenRun run;
+    fs::path trace;
+    std::optional<replay::Golden> candidate;
+    std::optional<replay::GoldenDifference> difference;
+};
+
+class Suite {
+  public:
+    Suite(const TestOptions& options, std::vector<GoldenCase> cases)
+        : options_(options),
+          runner_(options.jobs == 0 ? default_jobs() : options.jobs),
+          progress_("testing", "runs", cases.size()),
+          running_(cases.size()),
+          reports_(cases.size()) {
+        for (std::size_t i = 0; i < cases.size(); ++i)
+            reports_[i].tested = std::move(cases[i]);
+    }
+
+    void run() {
+        std::vector<std::size_t> ready;
+        for (std::size_t i = 0; i < reports_.size(); ++i)
+            if (prepare(i))
+                ready.push_back(i);
+        run_first(ready);
+        for (const std::size_t i : ready)
+            guard(i, [&] { judge(i); });
+        for (const std::size_t i : ready)
+            if (running_[i].difference)
+                guard(i, [&] { run_again(i); });
+    }
+
+    const std::vector<CaseReport>& reports() const { return reports_; }
+
+    double seconds() const { return progress_.seconds(); }
+
+  private:
+    /// A mistake in one case is that case's.
+    template <typename Work>
+    void guard(std::size_t i, const Work& work) {
+        try {
+            work();
+        } catch (const world::Error& error) {
+            fail(i, {"infrastructure", error.what(), ""});
+        }
+    }
+
+    void fail(std::size_t i, const RunFailure& failure) {
+        CaseReport& report = reports_[i];
+        report.result = CaseResult::error;
+        report.error_kind = failure.kind;
+        report.headline = failure.headline;
+        report.text = failure.text;
+        running_[i].difference.reset();
+    }
+
+    /// Whether there is something to run.
+    bool prepare(std::size_t i) {
+        CaseReport& report = reports_[i];
+        const GoldenCase& tested = report.tested;
+        if (tested.state == State::orphan) {
+            report.result = CaseResult::orphan;
+            report.headline = "there is no " + tested.scenario.string();
+            report.text =
+                report_row("next", "rm " + shell_path(tested.golden) + "   # or bring it back");
+            return false;
+        }
+        if (tested.state == State::no_golden) {
+            report.result = CaseResult::no_golden;
+            report.headline = "no golden yet";
+            report.text = report_row("next", accept_command(tested));
+            return false;
+        }
+        Running& running = running_[i];
+        try {
+            running.golden = replay::load_golden(tested.golden);
+        } catch (const world::Error& error) {
+            fail(i, {"golden", error.what(), ""});
+            return false;
+        }
+        report.given = running.golden->given;
+        running.trace = temporary_ / fmt::format("{}.mcap", i);
+        running.run = {run_words(tested, report.given, running.trace),
+                       temporary_ / fmt::format("{}.log", i)};
+        return true;
+    }
+
+    void run_first(const std::vector<std::size_t>& ready) {
+        std::vector<GoldenRun> runs;
+        for (const std::size_t i : ready)
+            runs.push_back(running_[i].run);
+        const auto results = runner_.run(runs, [&](std::size_t done) { progress_.update(done); });
+        progress_.clear();
+        for (std::size_t n = 0; n < ready.size(); ++n) {
+            reports_[ready[n]].seconds = results[n].seconds;
+            if (const auto failure = failure_of(results[n], runs[n].log)) {
+                fail(ready[n], *failure);
+                move_file(runs[n].log, kept(ready[n], ".log"));
+            }
+        }
+    }
+
+    fs::path kept(std::size_t i, const std::string& ending) const {
+        return place_in(options_.output, reports_[i].tested.label()).string() + ending;
+    }
+
+    /// Compares a candidate with its golden.
+    void judge(std::size_t i) {
+        CaseReport& report = reports_[i];
+        Running& running = running_[i];
+        if (report.result == CaseResult::error)
+            return;
+        replay::TraceReader trace(running.trace);
+        running.candidate = replay::make_golden(trace, running.golden->sampling);
+        report.starts = running.candidate->starts;
+        running.difference = replay::compare(*running.golden, *running.candidate);
+        if (!running.difference)
+            pass(i);
+    }
+
+    void pass(std::size_t i) {
+        CaseReport& report = reports_[i];
+        const replay::Golden& golden = *running_[i].golden;
+        const replay::Golden& candidate = *running_[i].candidate;
+        report.headline = fmt::format("equal, verdict {}", candidate.verdict);
+        for (const replay::Changed& change : replay::start_differences(golden, candidate))
+            report.headline += fmt::format("; {} changed without effect", change.what);
+        if (!options_.keep.empty() && golden.chain == candidate.chain)
+            keep_trace(running_[i].trace, candidate.chain, options_.keep);
+        for (const char* ending : {".mcap", ".second.mcap", ".log"})
+            remove_stale(kept(i, ending), options_.output);
+    }
+
+    /// The candidate once more, alone: did the behaviour change, or is there no such thing?
+    void run_again(std::size_t i) {
+        Running& running = running_[i];
+        const fs::path second = temporary_ / fmt::format("{}.second.mcap", i);
+        const GoldenRun again{run_words(reports_[i].tested, reports_[i].given, second),
+                              temporary_ / fmt::format("{}.second.log", i)};
+        const GoldenRunResult result = runner_.run({again}).front();
+        const fs::path first_kept = kept(i, ".mcap");
+        copy_file_whole(running.trace, first_kept);
+        if (const auto failure = failure_of(result, again.log)) {
+            fail(i, *failure);
+            reports_[i].text +=
+                report_row("", "it went through once, and not when it was run again");
+            return;
+        }
+        replay::TraceReader expected(running.trace);
+        replay::TraceReader found(second);
+        if (const auto divergence = replay::compare(expected, found)) {
+            const fs::path second_kept = kept(i, ".second.mcap");
+            move_file(second, second_kept);
+            tell_nondeterministic(i, *divergence, first_kept, second_kept);
+        } else {
+            tell_changed(i, first_kept);
+        }
+    }
+
+    void tell_nondeterministic(std::size_t i,
+                               const replay::Divergence& divergence,
+                               const fs::path& first,
+                               const fs::path& second) {
+        CaseReport& report = reports_[i];
+        report.result = CaseResult::nondeterministic;
+        report.headline =
+            "two runs of the same scenario differ; the golden says nothing about that";
+        report.text = report_row("first", replay::to_text(divergence, running_[i].golden->step_ns));
+        report.text +=
+            report_row("next", "reprise diff " + shell_path(first) + " " + shell_path(second));
+        report.text += report_row("", "reprise verify " + shell_path(first));
+    }
+
+    void tell_changed(std::size_t i, const fs::path& trace) {
+        CaseReport& report = reports_[i];
+        Running& running = running_[i];
+        report.result = CaseResult::changed;
+        report.headline = fmt::format("{}; repeatable, 2 of 2 runs equal",
+                                      replay::to_word(running.difference->severity));
+        report.signature = signature_of(*running.difference);
+        report.text = difference_text(*running.golden, *running.candidate, *running.difference);
+        std::string next;
+        if (const auto before = kept_golden_trace(i)) {
+            replay::TraceReader expected(*before);
+            replay::TraceReader found(trace);
+            if (const auto divergence = replay::compare(expected, found))
+                report.text +=
+                    report_row("exactly", replay::to_text(*divergence, running.golden->step_ns));
+            next = "reprise diff " + shell_path(*before) + " " + shell_path(trace) + "\n";
+        }
+        next += "reprise info " + shell_path(trace) + "\n" + accept_command(report.tested);
+        report.text += report_row("next", next);
+    }
+
+    /// The trace that the golden was made from, when it was kept.
+    std::optional<fs::path> kept_golden_trace(std::size_t i) const {
+        if (options_.keep.empty())
+            return std::nullopt;
+        return kept_trace(running_[i].golden->chain, options_.keep);
+    }
+
+    const TestOptions& options_;
+    GoldenRunner runner_;
+    TemporaryFolder temporary_;
+    Progress progress_;
+    std::vector<Running> running_;
+    std::vector<CaseReport> reports_;
+};
+
+}  // namespace
+
+SuiteResult run_suite(const TestOptions& options, std::vector<GoldenCase> cases) {
+    Suite suite(options, std::move(cases));
+    suite.run();
+    return {suite.reports(), suite.seconds()};
+}
+
+}  // namespace reprise::cli

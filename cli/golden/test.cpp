@@ -1,0 +1,115 @@
+#include "cli/golden/test.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "cli/golden/golden_case.h"
+#include "cli/golden/golden_files.h"
+#include "cli/golden/golden_runs.h"
+#include "cli/golden/golden_suite.h"
+#include "cli/golden/junit.h"
+#include "cli/process/guard.h"
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace {
+
+using State = GoldenCase::State;
+using Counts = std::map<CaseResult, std::size_t>;
+
+Counts count(const std::vector<CaseReport>& reports) {
+    Counts counts;
+    for (const CaseReport& report : reports)
+        ++counts[report.result];
+    return counts;
+}
+
+int exit_code(Counts counts) {
+    if (counts[CaseResult::nondeterministic] > 0)
+        return exit_nondeterministic;
+    if (counts[CaseResult::error] > 0)
+        return exit_bad_input;
+    const bool failed =
+        counts[CaseResult::changed] + counts[CaseResult::no_golden] + counts[CaseResult::orphan] >
+        0;
+    return failed ? exit_differs : exit_good;
+}
+
+/// Cases that changed in the same way, where there are several.
+void print_groups(const std::vector<CaseReport>& reports) {
+    std::map<std::string, std::vector<std::string>> groups;
+    for (const CaseReport& report : reports)
+        if (report.result == CaseResult::changed)
+            groups[report.signature].push_back(report.tested.label());
+    for (const auto& [signature, labels] : groups) {
+        if (labels.size() < 2)
+            continue;
+        std::string list;
+        for (std::size_t i = 0; i < std::min<std::size_t>(labels.size(), 5); ++i)
+            list += (i == 0 ? "" : ", ") + labels[i];
+        fmt::print("{} alike ({}): {}{}\n",
+                   labels.size(),
+                   signature,
+                   list,
+                   labels.size() > 5 ? ", ..." : "");
+    }
+}
+
+void print_summary(Counts counts, double seconds) {
+    std::string text = fmt::format("{} passed, {} changed, {} nondeterministic",
+                                   counts[CaseResult::passed],
+                                   counts[CaseResult::changed],
+                                   counts[CaseResult::nondeterministic]);
+    const auto add = [&](CaseResult result, const char* what) {
+        if (counts[result] > 0)
+            text += fmt::format(", {} {}", counts[result], what);
+    };
+    add(CaseResult::no_golden, "without a golden");
+    add(CaseResult::orphan, "orphaned");
+    add(CaseResult::error, "with errors");
+    fmt::print("{} ({:.1f} s)\n", text, seconds);
+}
+
+int list_cases(const FoundCases& found) {
+    for (const GoldenCase& one : found.cases)
+        fmt::print("{}{}\n",
+                   one.label(),
+                   one.state == State::ready       ? ""
+                   : one.state == State::no_golden ? "  (no golden yet)"
+                                                   : "  (orphan)");
+    return exit_good;
+}
+
+}  // namespace
+
+int test(const TestOptions& options) {
+    const FoundCases found = find_cases(options.paths);
+    for (const std::string& note : found.notes)
+        fmt::print(stderr, "{}\n", note);
+    if (found.cases.empty())
+        throw world::Error("there are no scenarios and no goldens" +
+                           (options.paths.empty() ? "" : " in " + options.paths.front()));
+    if (options.list)
+        return list_cases(found);
+    if (!options.junit.empty())
+        check_writable(options.junit);  // rather now than after an hour
+    try {
+        const SuiteResult result = run_suite(options, found.cases);
+        for (const CaseReport& report : result.reports)
+            fmt::print("{}", to_text(report));
+        print_groups(result.reports);
+        const Counts counts = count(result.reports);
+        print_summary(counts, result.seconds);
+        if (!options.junit.empty())
+            write_junit(options.junit, result.reports, result.seconds);
+        return exit_code(counts);
+    } catch (const Interrupted& interrupted) {
+        fmt::print(stderr, "reprise: interrupted; no run is left behind\n");
+        return 128 + interrupted.signal;
+    }
+}
+
+}  // namespace reprise::cli

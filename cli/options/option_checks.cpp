@@ -1,0 +1,45 @@
+#include "cli/options/option_checks.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+
+#include <CLI/CLI.hpp>
+
+#include "world/check.h"
+
+namespace reprise::cli {
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+CLI::Validator one_of(std::vector<std::string> words, const std::string& what) {
+    return CLI::Validator(
+        [words, what](std::string& word) -> std::string {
+            if (std::find(words.begin(), words.end(), word) != words.end())
+                return "";
+            return "no " + what + " '" + word + "'" + world::did_you_mean(word, words) +
+                   "; there are " + joined(words);
+        },
+        "");
+}
+
+CLI::Validator whole_number() {
+    return CLI::Validator(
+        [](std::string& text) -> std::string {
+            std::uint64_t value = 0;
+            const char* end = text.data() + text.size();
+            const auto [stop, error] = std::from_chars(text.data(), end, value);
+            if (error != std::errc() || stop != end)
+                return "expected a whole number from 0 to 18446744073709551615, got '" + text + "'";
+            text = std::to_string(value);  // without the leading zeros of an octal number
+            return "";
+        },
+        "");
+}
+
+}  // namespace reprise::cli

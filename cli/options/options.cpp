@@ -1,0 +1,98 @@
+#include "cli/options/options.h"
+
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/options/golden_options.h"
+#include "cli/options/option_checks.h"
+#include "world/check.h"
+#include "world/fingerprint.h"
+
+namespace reprise::cli {
+
+namespace {
+
+std::string version_text() {
+    std::string text;
+    for (const auto& [key, value] : world::build_fingerprint())
+        text += key + std::string(key.size() < 13 ? 13 - key.size() : 1, ' ') + value + "\n";
+    text.pop_back();
+    return text;
+}
+
+/// CLI11 would only say that a command is missing.
+void check_command(const CLI::App& app, const std::string& word) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    if (word.empty() || word.starts_with('-') ||
+        std::find(names.begin(), names.end(), word) != names.end())
+        return;
+    throw CLI::ExtrasError("no command '" + word + "'" + world::did_you_mean(word, names) +
+                               "; there are " + joined(names),
+                           CLI::ExitCodes::ExtrasError);
+}
+
+}  // namespace
+
+struct CommandLine::App {
+    CLI::App app{
+        "Reprise: runs scripted drives in live traffic, records every tick, proves that they "
+        "replay\n"
+        "bit for bit, and renders what the sensors saw under any weather.",
+        "reprise"};
+    std::vector<std::string> assignments;
+    std::vector<std::string> accept_assignments;
+    std::vector<std::string> branch_assignments;
+    RenderWords render_words;
+};
+
+CommandLine::~CommandLine() = default;
+
+CommandLine::CommandLine() : app_(std::make_unique<App>()) {
+    CLI::App& app = app_->app;
+    app.require_subcommand(1);
+    app.set_version_flag("--version", version_text());
+    app.get_formatter()->column_width(28);
+    // The last word counts, as in every shell alias.
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    add_run(app, run, app_->assignments);
+    add_verify(app, verify);
+    add_info(app, info);
+    add_diff(app, diff);
+    add_recover(app, recover);
+    add_strip(app, strip);
+    add_expand(app, expand);
+    add_branch(app, branch, app_->branch_assignments);
+    add_render(app, render, app_->render_words);
+    add_tool_commands(app, tools);
+    add_town_commands(app, town);
+    add_golden_commands(app, test, accept, golden_list, [&](CLI::App& to) {
+        add_start(to, accept.start, app_->accept_assignments);
+    });
+}
+
+std::optional<int> CommandLine::parse(int argc, char** argv) {
+    CLI::App& app = app_->app;
+    try {
+        check_command(app, argc > 1 ? argv[1] : "");
+        app.parse(argc, argv);
+        for (const std::string& assignment : app_->assignments)
+            run.parameters.push_back(split_assignment(assignment));
+        for (const std::string& assignment : app_->branch_assignments)
+            branch.parameters.push_back(split_assignment(assignment));
+        for (const std::string& assignment : app_->accept_assignments)
+            accept.start.parameters.push_back(split_assignment(assignment));
+        finish_render(app, app_->render_words, render);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0)
+            return app.exit(error);
+        std::fprintf(stderr, "reprise: %s (reprise --help says more)\n", error.what());
+        return 2;
+    }
+    command = app.get_subcommands().front()->get_name();
+    return std::nullopt;
+}
+
+}  // namespace reprise::cli

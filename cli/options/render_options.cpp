@@ -1,0 +1,121 @@
+#include "cli/options/render_options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/options/option_checks.h"
+#include "world/weather.h"
+
+namespace reprise::cli {
+
+namespace {
+
+void read_size(const std::string& text, RenderOptions& render) {
+    int used = 0;
+    const int found = std::sscanf(text.c_str(), "%dx%d%n", &render.width, &render.height, &used);
+    if (found != 2 || used != static_cast<int>(text.size()) || render.width < 1 ||
+        render.height < 1 || render.width > 16384 || render.height > 16384)
+        throw CLI::ValidationError("--size",
+                                   "expected WIDTHxHEIGHT such as 800x600, got '" + text + "'");
+}
+
+void read_threads(const std::string& text, RenderOptions& render) {
+    constexpr int most = 1024;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, render.threads);
+    if (error != std::errc() || stop != end || render.threads < 1 || render.threads > most)
+        throw CLI::ValidationError("--threads",
+                                   "expected a number of threads from 1 to " +
+                                       std::to_string(most) + ", got '" + text + "'");
+}
+
+/// Each kind has one folder.
+void check_cameras(const std::vector<std::string>& cameras) {
+    for (auto camera = cameras.begin(); camera != cameras.end(); ++camera)
+        if (std::find(cameras.begin(), camera, *camera) != camera)
+            throw CLI::ValidationError("--camera", "'" + *camera + "' is there twice");
+}
+
+void read_mount(const std::string& text, RenderOptions& render) {
+    int used = 0;
+    std::vector<double>& at = render.mount;
+    const int found = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &at[0], &at[1], &at[2], &used);
+    if (found != 3 || used != static_cast<int>(text.size()))
+        throw CLI::ValidationError("--mount", "expected X,Y,Z such as 1,0,1.4, got '" + text + "'");
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
+    CLI::App& command = *app.add_subcommand("render", "Render what cameras saw, from a trace");
+    command.add_option("trace", render.trace, "The trace")->required()->type_name("T.mcap");
+    command.add_option("-o,--output", render.directory, "Folder for the pictures")
+        ->required()
+        ->type_name("DIR");
+    command
+        .add_option("--weather",
+                    render.weather,
+                    "Another weather than recorded: " + joined(world::weather_names()))
+        ->type_name("NAME")
+        ->check(one_of(world::weather_names(), "weather"));
+    command
+        .add_option("--camera",
+                    render.cameras,
+                    "rgb (default), depth, semantic; several by commas, each into its own folder")
+        ->type_name("KIND")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->delimiter(',')
+        ->check(one_of({"rgb", "depth", "semantic"}, "camera"));
+    command.add_option("--size", words.size, "Of the pictures (default 800x600)")->type_name("WxH");
+    command.add_option("--fov", render.fov_deg, "Horizontal field of view (default 90)")
+        ->type_name("DEGREES")
+        ->check(CLI::Range(1.0, 170.0));
+    command.add_option("--from", render.from, "First tick, or time such as 2.5s")
+        ->type_name("TICK");
+    command.add_option("--to", render.to, "Last tick, or time")->type_name("TICK");
+    command.add_option("--every", render.every, "Every so many ticks, or time (default 1s)")
+        ->type_name("N");
+    command
+        .add_option(
+            "--actor", render.actor, "The vehicle that carries the camera (default: the first)")
+        ->type_name("ID");
+    command
+        .add_option("--mount",
+                    words.mount,
+                    "Place on it: ahead of the rear axle, left, up (default 1,0,1.4)")
+        ->type_name("X,Y,Z");
+    command.add_option("--pitch", render.pitch_deg, "Camera up by this (default 0)")
+        ->type_name("DEGREES");
+    command.add_option("--yaw", render.yaw_deg, "Camera left by this (default 0)")
+        ->type_name("DEGREES");
+    command
+        .add_option("--threads",
+                    words.threads,
+                    "How many work on a picture (default: all cores); the bytes stay the same")
+        ->type_name("N");
+    command.add_flag(
+        "--portable",
+        render.portable,
+        "Make pictures whose bytes are the same on every x86-64 CPU (depth and semantic take "
+        "twice as long, rgb 10 to 20 % longer)");
+    command.footer(
+        "Pictures are named by tick: DIR/000120.png. depth: 16-bit, millimetres; semantic: 8-bit\n"
+        "class ids (CARLA 0.9.14); DIR/view/ holds versions of these two for people to look at.\n"
+        "Example: reprise render a.mcap -o rain --weather hard_rain_sunset --every 20");
+}
+
+void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions& render) {
+    read_size(words.size, render);
+    if (!words.mount.empty())
+        read_mount(words.mount, render);
+    if (app.get_subcommand("render")->count("--threads") > 0)
+        read_threads(words.threads, render);
+    check_cameras(render.cameras);
+    if (render.cameras.empty())
+        render.cameras = {"rgb"};
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,121 @@
+#include "cli/options/run_options.h"
+
+#include <cstdlib>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/options/option_checks.h"
+#include "cli/options/trace_options.h"
+
+namespace reprise::cli {
+
+namespace {
+
+void add_set_and_for(CLI::App& command,
+                     std::vector<std::string>& assignments,
+                     std::optional<double>& seconds,
+                     const std::string& what_for) {
+    command.add_option("--set", assignments, "Set a parameter of the scenario; may be given again")
+        ->type_name("KEY=VALUE")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);
+    command.add_option("--for", seconds, what_for)
+        ->type_name("SECONDS")
+        ->check(CLI::Validator(
+            [](std::string& text) -> std::string {
+                const double value = std::strtod(text.c_str(), nullptr);
+                return value > 0 && value <= 86'400
+                           ? ""
+                           : "expected seconds above 0, 86400 at most, got '" + text + "'";
+            },
+            ""));
+}
+
+}  // namespace
+
+void add_start(CLI::App& command, RunOptions& run, std::vector<std::string>& assignments) {
+    command
+        .add_option("--town",
+                    run.town,
+                    "Another town: its name or folder, a SUMO network (.net.xml[.gz]), or a map "
+                    "(.xodr, .osm[.gz])")
+        ->type_name("NET");
+    command.add_option("--seed", run.seed, "What decides everything random")
+        ->type_name("N")
+        ->transform(whole_number());
+    add_set_and_for(command, assignments, run.seconds, "End after this much simulated time");
+}
+
+void add_branch(CLI::App& app, BranchOptions& branch, std::vector<std::string>& assignments) {
+    CLI::App& command = *app.add_subcommand(
+        "branch", "What if: let another script, or other parameters, take over in a recorded run");
+    command.add_option("trace", branch.trace, "The trace")->required()->type_name("T.mcap");
+    command.add_option("--at", branch.at, "The last tick of what was, or time such as 12.5 or 12s")
+        ->required()
+        ->type_name("TICK");
+    command
+        .add_option(
+            "--script",
+            branch.scripts,
+            "What happens from there on; several share the way there. Without it the run's own "
+            "script goes on where it is, and finds what --set says the next time it looks")
+        ->type_name("WHAT_IF.lua")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option("-o,--output",
+                    branch.output,
+                    "A trace; or a folder, where a trace named like each script goes")
+        ->required()
+        ->type_name("B.mcap|DIR");
+    add_set_and_for(command, assignments, branch.seconds, "End this long after the branch");
+    command.footer(
+        "The run is simulated again up to that tick, and every tick compared with the trace; then\n"
+        "each script goes on in a process of its own. Traffic, walkers, contacts and random "
+        "streams\n"
+        "are in their true state. Exit status: 0 all checks passed, 1 one failed, or the run came\n"
+        "out differently, 2 bad input.\n"
+        "Examples: reprise branch a.mcap --at 12.5 --script brake.lua swerve.lua -o what_if\n"
+        "          reprise branch a.mcap --at 12.5 --set distance=10 -o closer.mcap");
+}
+
+void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignments) {
+    CLI::App& command = *app.add_subcommand("run", "Run a scenario and record it");
+    command
+        .add_option("scenario",
+                    run.scenario,
+                    "The scenario, a Lua file; or a trace, whose run is made again from what it "
+                    "carries")
+        ->required()
+        ->type_name("SCENARIO.lua");
+    command
+        .add_option("-o,--output",
+                    run.output,
+                    "Where the trace goes (default: the scenario's name, in this folder)")
+        ->type_name("T.mcap")
+        ->check(CLI::Validator(
+            [](std::string& path) -> std::string {
+                return path.empty() ? "expected the path of a file, got ''" : "";
+            },
+            ""));
+    add_start(command, run, assignments);
+    add_level(command, run.level, {"full", "keyed", "core", "inputs"});
+    command
+        .add_option("--nudge",
+                    run.nudge,
+                    "A drill: in this tick move one recorded number (default: the first vehicle's "
+                    "steering) by so many units in the last place (default 1), without a word in "
+                    "the recording, to see verify and diff find it; such as 600:ego.velocity.x")
+        ->type_name("TICK[:ACTOR.FIELD[:N]]");
+    command.footer(
+        "Exit status: 0 all checks passed, 1 a check failed, 2 bad input.\n"
+        "Example: reprise run scenarios/free_drive.lua -o a.mcap --seed 7 --for 60");
+}
+
+std::pair<std::string, std::string> split_assignment(const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw CLI::ValidationError("--set", "expected KEY=VALUE, got '" + text + "'");
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+}  // namespace reprise::cli

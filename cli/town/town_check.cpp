@@ -1,0 +1,210 @@
+#include "cli/town/town_check.h"
+
+#include <algorithm>
+#include <chrono>
+#include <sys/resource.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/process/guard.h"
+#include "cli/town/towns.h"
+#include "towns/check/furniture_check.h"
+#include "towns/check/ground_check.h"
+#include "towns/check/standing_check.h"
+#include "towns/check/walk_check.h"
+#include "towns/check/walk_map.h"
+#include "world/town.h"
+
+namespace reprise::cli {
+
+namespace {
+
+using world::Criterion;
+
+/// All that a town is made into, and how long each part took. [s]
+struct Built {
+    world::TownT town;
+    world::GroundMesh ground;
+    world::GroundMesh markings;
+    traffic::WalkMap walk_map;
+    std::vector<std::pair<std::string, double>> seconds;
+};
+
+class Stopwatch {
+  public:
+    /// Since the last call. [s]
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+Built build(const std::string& name) {
+    Stopwatch watch;
+    world::TownT town = traffic::read_town(load_town(name));
+    const double reading = watch.lap();
+    world::GroundMesh ground = world::build_ground(town);
+    const double meshing = watch.lap();
+    world::GroundMesh markings = world::build_markings(town);
+    const double marking = watch.lap();
+    traffic::WalkMap walk_map(ground);
+    return {
+        std::move(town),
+        std::move(ground),
+        std::move(markings),
+        std::move(walk_map),
+        {{"read", reading}, {"ground", meshing}, {"markings", marking}, {"walk map", watch.lap()}}};
+}
+
+world::Digest128 digest_of(const world::TownT& town) {
+    flatbuffers::FlatBufferBuilder bytes;
+    bytes.Finish(world::Town::Pack(bytes, &town));
+    return world::digest128(
+        {reinterpret_cast<const char*>(bytes.GetBufferPointer()), bytes.GetSize()});
+}
+
+/// Made twice from the file: equal to the last bit?
+Criterion check_repeats(const Built& first, const Built& second) {
+    std::vector<Criterion::Place> faults;
+    const auto compare = [&](const char* what, const auto& one, const auto& other) {
+        if (!(one == other))
+            faults.push_back({what, Eigen::Vector2d::Zero(), 1});
+    };
+    compare("town", digest_of(first.town), digest_of(second.town));
+    compare("ground", world::digest_of(first.ground), world::digest_of(second.ground));
+    compare("markings", world::digest_of(first.markings), world::digest_of(second.markings));
+    compare("walk map", first.walk_map.digest(), second.walk_map.digest());
+    return world::none_of(
+        "differences when read twice", std::move(faults), "town, ground, markings, walk map");
+}
+
+std::vector<Criterion> check(const Built& first, const Built& second) {
+    std::vector<Criterion> criteria = world::check_ground(first.town, first.ground);
+    criteria.push_back(traffic::check_walking(first.town, first.walk_map));
+    for (Criterion& criterion : world::check_furniture(first.town))
+        criteria.push_back(std::move(criterion));
+    for (Criterion& criterion : world::check_standing(first.town, first.ground))
+        criteria.push_back(std::move(criterion));
+    criteria.push_back(check_repeats(first, second));
+    return criteria;
+}
+
+/// Length of the lanes that cars may use between junctions. [km]
+double drivable_km(const world::TownT& town) {
+    double metres = 0;
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind == world::LaneKind::driving)
+            metres += lane.length;
+    return metres / 1000;
+}
+
+/// Of this process, so far. [MB]
+long peak_memory_mb() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss / 1024;
+}
+
+std::string with_unit(double figure, const std::string& unit) {
+    return unit.empty() ? fmt::format("{:.0f}", figure) : fmt::format("{:.3f} {}", figure, unit);
+}
+
+void print_criterion(const Criterion& criterion) {
+    fmt::print("  {:<5}{:<28}{:>10}   {} {:<10} {}\n",
+               criterion.passed() ? "ok" : "FAIL",
+               criterion.name,
+               with_unit(criterion.figure, criterion.unit),
+               criterion.at_least ? ">=" : "<=",
+               with_unit(criterion.limit, criterion.unit),
+               criterion.looked_at);
+    for (const Criterion::Place& place : criterion.worst)
+        fmt::print("         {} at ({:.2f}, {:.2f}){}\n",
+                   place.name,
+                   place.position.x(),
+                   place.position.y(),
+                   criterion.unit.empty() ? "" : ": " + with_unit(place.value, criterion.unit));
+}
+
+void print_table(const Built& built, const std::vector<Criterion>& criteria) {
+    fmt::print("{}: {} lanes, {:.2f} km of driving lanes, {} junctions, {} signals\n",
+               built.town.name,
+               built.town.lanes.size(),
+               drivable_km(built.town),
+               built.town.junctions.size(),
+               built.town.signals.size());
+    for (const Criterion& criterion : criteria)
+        print_criterion(criterion);
+    fmt::print("  {} triangles of ground, {} of markings; walk map: {} polygons, {} kB\n",
+               built.ground.triangles.size(),
+               built.markings.triangles.size(),
+               built.walk_map.polygons(),
+               built.walk_map.bytes() / 1024);
+    std::string times;
+    for (const auto& [part, seconds] : built.seconds)
+        times += fmt::format("{}{} {:.2f} s", times.empty() ? "" : ", ", part, seconds);
+    fmt::print("  {}; {} MB at most\n", times, peak_memory_mb());
+}
+
+nlohmann::json to_json(const Criterion& criterion) {
+    nlohmann::json worst = nlohmann::json::array();
+    for (const Criterion::Place& place : criterion.worst)
+        worst.push_back({{"name", place.name},
+                         {"x", place.position.x()},
+                         {"y", place.position.y()},
+                         {"value", place.value}});
+    return {{"name", criterion.name},
+            {"figure", criterion.figure},
+            {"limit", criterion.limit},
+            {"at_least", criterion.at_least},
+            {"unit", criterion.unit},
+            {"passed", criterion.passed()},
+            {"looked_at", criterion.looked_at},
+            {"worst", worst}};
+}
+
+void print_json(const Built& built, const std::vector<Criterion>& criteria, bool passed) {
+    nlohmann::json report = {{"town", built.town.name},
+                             {"passed", passed},
+                             {"lanes", built.town.lanes.size()},
+                             {"drivable_km", drivable_km(built.town)},
+                             {"junctions", built.town.junctions.size()},
+                             {"signals", built.town.signals.size()},
+                             {"ground_triangles", built.ground.triangles.size()},
+                             {"marking_triangles", built.markings.triangles.size()},
+                             {"walk_polygons", built.walk_map.polygons()},
+                             {"walk_bytes", built.walk_map.bytes()},
+                             {"peak_memory_mb", peak_memory_mb()},
+                             {"criteria", nlohmann::json::array()}};
+    for (const Criterion& criterion : criteria)
+        report["criteria"].push_back(to_json(criterion));
+    for (const auto& [part, seconds] : built.seconds)
+        report["seconds"][part] = seconds;
+    fmt::print("{}\n", report.dump(2));
+}
+
+}  // namespace
+
+int town_check(const TownCheckOptions& options) {
+    const Built first = build(options.town);
+    const std::vector<Criterion> criteria = check(first, build(options.town));
+    const auto failed =
+        std::count_if(criteria.begin(), criteria.end(), [](const Criterion& criterion) {
+            return !criterion.passed();
+        });
+    if (options.json) {
+        print_json(first, criteria, failed == 0);
+    } else {
+        print_table(first, criteria);
+        fmt::print("{}\n",
+                   failed == 0
+                       ? fmt::format("all {} criteria hold", criteria.size())
+                       : fmt::format("{} of {} criteria do not hold", failed, criteria.size()));
+    }
+    return failed == 0 ? exit_good : exit_differs;
+}
+
+}  // namespace reprise::cli

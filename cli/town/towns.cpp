@@ -1,0 +1,124 @@
+#include "cli/town/towns.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/town/town_folder.h"
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Folders that hold towns: beside the scenario, and where this build or installation keeps its
+/// own.
+std::vector<fs::path> town_folders(const fs::path& scenario) {
+    const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
+    return {
+        scenario.parent_path() / "towns",
+        program / "../../../scenarios/towns",            // build/<preset>/bin
+        program / "../share/reprise/scenarios/towns",    // PREFIX/bin
+        program / "../../share/reprise/scenarios/towns"  // PREFIX/libexec/reprise
+    };
+}
+
+std::vector<std::string> names_in(const std::vector<fs::path>& folders) {
+    std::vector<std::string> names;
+    for (const fs::path& folder : folders) {
+        std::error_code ignored;
+        for (const auto& entry : fs::directory_iterator(folder, ignored))
+            if (entry.is_directory())
+                names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
+/// The one network in a folder.
+fs::path network_in(const fs::path& folder) {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (name.ends_with(".net.xml") || name.ends_with(".net.xml.gz"))
+            found.push_back(entry.path());
+    }
+    if (found.size() != 1)
+        throw world::Error(folder.string() + ": is a folder with " +
+                           (found.empty() ? "no" : std::to_string(found.size())) +
+                           " SUMO networks (.net.xml); one was expected");
+    return found.front();
+}
+
+/// What must be imported first.
+bool is_map(const std::string& town) {
+    std::error_code ignored;
+    if (fs::is_directory(town, ignored))
+        return false;
+    return town.ends_with(".xodr") || town.ends_with(".osm") || town.ends_with(".osm.gz");
+}
+
+/// A town made of a map for this run only.
+traffic::Network import_map(const std::string& map) {
+    std::string folder = (fs::temp_directory_path() / "reprise_town_XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr)
+        throw world::Error(folder + ": cannot be made: " + std::strerror(errno));
+
+    struct Remove {
+        const std::string& folder;
+
+        ~Remove() {
+            std::error_code ignored;
+            fs::remove_all(folder, ignored);
+        }
+    } const remove{folder};
+
+    fmt::print(stderr, "{}: importing it; `reprise town import` would keep the town\n", map);
+    make_town_folder({map, "", false, false}, folder, false);
+    return traffic::load_network(network_in(folder));
+}
+
+bool looks_like_path(const std::string& town) {
+    return town.find('/') != std::string::npos || town.ends_with(".xml") || town.ends_with(".gz") ||
+           is_map(town);
+}
+
+fs::path find_network(const std::string& town, const fs::path& scenario) {
+    std::error_code ignored;
+    const bool has_ending = town.ends_with(".xodr") || town.ends_with(".osm");
+    if ((has_ending || town.find('/') != std::string::npos) && fs::is_directory(town, ignored))
+        return network_in(town);
+    if (looks_like_path(town) || fs::is_regular_file(town, ignored))
+        return town;
+    const auto folders = town_folders(scenario);
+    for (const fs::path& folder : folders) {
+        const fs::path network = folder / town / (town + ".net.xml");
+        if (fs::exists(network, ignored))
+            return network;
+    }
+    if (fs::is_directory(town, ignored))
+        return network_in(town);
+    const auto names = names_in(folders);
+    std::string list;
+    for (const std::string& name : names)
+        list += (list.empty() ? "" : ", ") + name;
+    throw world::Error(
+        "no town '" + town + "'" + world::did_you_mean(town, names) + "; there are " +
+        (list.empty() ? "none" : list) +
+        ", or give the path of a SUMO network (.net.xml), a town's folder or a map (.xodr, .osm)");
+}
+
+}  // namespace
+
+traffic::Network load_town(const std::string& town, const fs::path& scenario) {
+    return is_map(town) ? import_map(town) : traffic::load_network(find_network(town, scenario));
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,211 @@
+#include "cli/trace/diff.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/fingerprint/other_build.h"
+#include "cli/process/guard.h"
+#include "cli/process/reproduce.h"
+#include "replay/compare/divergence.h"
+#include "replay/trace_reader.h"
+#include "world/digest.h"
+
+namespace reprise::cli {
+
+namespace {
+
+/// Runs of one start cannot differ: each is simulated again, which tells the one that does not
+/// repeat. Of different starts, both runs anew.
+std::string commands_again(const DiffOptions& options,
+                           replay::TraceReader& expected,
+                           replay::TraceReader& found,
+                           std::uint64_t tick) {
+    const auto again = [&](replay::TraceReader& trace) {
+        const world::EpisodeT& episode = trace.episode();
+        return rerun_command(
+            trace.path(),
+            episode,
+            tick == 0 ? replay::tick_limit(episode) : length_beyond(episode, tick));
+    };
+    if (expected.chain(0) == found.chain(0) &&
+        replay::branch_text(expected.episode(), found.episode()).empty())
+        return "reprise verify " + shell_path(options.expected) + "; reprise verify " +
+               shell_path(options.found);
+    return again(expected) + " -o expected.mcap; " + again(found) +
+           " -o found.mcap; reprise diff expected.mcap found.mcap";
+}
+
+/// What became of the comparison.
+struct Comparison {
+    std::optional<replay::Divergence> divergence;
+    std::optional<replay::Tolerance> tolerance;  ///< what was given, and the largest within it
+    std::vector<replay::StageDifference> all;    ///< when they were asked for
+};
+
+/// All that differs in the tick of the divergence, when both runs have it.
+std::vector<replay::StageDifference> all_of(const Comparison& result,
+                                            replay::TraceReader& expected,
+                                            replay::TraceReader& found) {
+    const std::uint64_t tick = result.divergence->tick;
+    if (tick == 0 || tick > std::min(expected.ticks(), found.ticks()))
+        return {};
+    return replay::all_differences(expected.recorded(tick), found.recorded(tick), result.tolerance);
+}
+
+Comparison compare(const DiffOptions& options,
+                   replay::TraceReader& expected,
+                   replay::TraceReader& found) {
+    Comparison result;
+    if (options.tolerance) {
+        result.tolerance.emplace(replay::Tolerance{*options.tolerance});
+        result.divergence = replay::compare(expected, found, *result.tolerance);
+    } else {
+        result.divergence = replay::compare(expected, found);
+    }
+    if (result.divergence)
+        result.divergence->again =
+            commands_again(options, expected, found, result.divergence->tick);
+    if (result.divergence && options.all)
+        result.all = all_of(result, expected, found);
+    return result;
+}
+
+/// "largest difference 3e-09: ..." or that there was none.
+std::string largest(const replay::Tolerance& tolerance) {
+    if (tolerance.largest == 0)
+        return "no recorded value differs";
+    return fmt::format("largest difference {:.3g}: {} {} / {}",
+                       tolerance.largest,
+                       tolerance.field,
+                       tolerance.expected,
+                       tolerance.found);
+}
+
+/// "  physics       vehicles[id 1].velocity.x  8.1 / 8.2  (1 unit in the last place apart)".
+void print_all(const Comparison& result) {
+    fmt::print("all {} differences of tick {}:\n", result.all.size(), result.divergence->tick);
+    for (const auto& [stage, field] : result.all)
+        fmt::print("  {:<14}{}  {} / {}{}\n",
+                   stage,
+                   field.field,
+                   field.expected,
+                   field.found,
+                   field.distance.empty() ? "" : "  (" + field.distance + ")");
+}
+
+void print_text(const Comparison& result,
+                replay::TraceReader& expected,
+                replay::TraceReader& found) {
+    if (result.divergence) {
+        const std::string branched = replay::branch_text(expected.episode(), found.episode());
+        if (!branched.empty() && result.divergence->tick > 0)
+            fmt::print("equal for {} ticks; {}; first difference:\n",
+                       result.divergence->tick - 1,
+                       branched);
+        else
+            fmt::print("different\n");
+        fmt::print("{}", to_text(*result.divergence, expected.episode().step_ns));
+        if (!result.all.empty())
+            print_all(result);
+    } else if (result.tolerance) {
+        fmt::print("equal within tolerance {:g}: {} ticks, {}\n",
+                   result.tolerance->bound,
+                   expected.ticks(),
+                   largest(*result.tolerance));
+        if (const std::string note = start_difference(expected, found); !note.empty())
+            fmt::print("  note      {}\n", note);
+    } else {
+        fmt::print("equal: {} ticks, chain {}\n",
+                   expected.ticks(),
+                   world::to_hex(expected.chain(expected.ticks())));
+    }
+}
+
+using Json = nlohmann::ordered_json;
+
+/// What has 64 bits is text: many readers of JSON keep 53.
+Json json_of(const replay::Divergence& divergence, std::uint64_t step_ns) {
+    return {{"tick", std::to_string(divergence.tick)},
+            {"seconds", world::seconds(divergence.tick, step_ns)},
+            {"stage", divergence.stage},
+            {"actor", divergence.actor},
+            {"actor_id", divergence.actor_id},
+            {"field", divergence.field},
+            {"expected", divergence.expected},
+            {"found", divergence.found},
+            {"note", divergence.note},
+            {"script", divergence.script},
+            {"again", divergence.again}};
+}
+
+Json json_of(const std::vector<replay::StageDifference>& all) {
+    Json list = Json::array();
+    for (const auto& [stage, field] : all)
+        list.push_back({{"stage", stage},
+                        {"field", field.field},
+                        {"actor_id", field.actor},
+                        {"expected", field.expected},
+                        {"found", field.found},
+                        {"distance", field.distance}});
+    return list;
+}
+
+void print_json(const DiffOptions& options,
+                const Comparison& result,
+                replay::TraceReader& expected,
+                replay::TraceReader& found) {
+    const auto side = [](const std::string& path, replay::TraceReader& trace) {
+        return Json{{"path", path},
+                    {"ticks", std::to_string(trace.ticks())},
+                    {"chain", world::to_hex(trace.chain(trace.ticks()))}};
+    };
+    Json out{{"result",
+              result.divergence  ? "different"
+              : result.tolerance ? "within_tolerance"
+                                 : "equal"},
+             {"expected", side(options.expected, expected)},
+             {"found", side(options.found, found)},
+             {"start", start_difference(expected, found)},
+             {"branch", replay::branch_text(expected.episode(), found.episode())},
+             {"builds", Json::array()}};
+    for (const replay::BuildDifference& line :
+         replay::build_differences(expected.episode().fingerprint, found.episode().fingerprint))
+        out["builds"].push_back(
+            {{"key", line.key}, {"expected", line.expected}, {"found", line.found}});
+    if (result.tolerance)
+        out["tolerance"] = {{"bound", result.tolerance->bound},
+                            {"largest", result.tolerance->largest},
+                            {"field", result.tolerance->field},
+                            {"expected", result.tolerance->expected},
+                            {"found", result.tolerance->found}};
+    if (result.divergence)
+        out["divergence"] = json_of(*result.divergence, expected.episode().step_ns);
+    if (options.all)
+        out["all"] = json_of(result.all);
+    // Names may be no UTF-8: JSON must be.
+    fmt::print("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace
+
+int diff(const DiffOptions& options) {
+    replay::TraceReader expected(options.expected);
+    replay::TraceReader found(options.found);
+    if (!options.json)
+        print_other_build("recorded by different builds",
+                          "expected",
+                          expected.episode().fingerprint,
+                          "found",
+                          found.episode().fingerprint);
+    const Comparison result = compare(options, expected, found);
+    if (options.json)
+        print_json(options, result, expected, found);
+    else
+        print_text(result, expected, found);
+    return result.divergence ? exit_differs : exit_good;
+}
+
+}  // namespace reprise::cli

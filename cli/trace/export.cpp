@@ -1,0 +1,129 @@
+#include "cli/trace/export.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "cli/options/tick_option.h"
+#include "cli/options/tick_range.h"
+#include "cli/process/guard.h"
+#include "cli/process/output.h"
+#include "cli/process/progress.h"
+#include "cli/trace/level_note.h"
+#include "exchange/foxglove.h"
+#include "replay/table/json_lines.h"
+#include "replay/table/kept.h"
+#include "replay/table/table.h"
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A table on its way into its file.
+struct TableFile {
+    replay::Table table;
+    std::unique_ptr<Output> output;
+};
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder))
+        throw world::Error(folder.string() + ": cannot be made a folder");
+}
+
+/// Files of those tables of which the trace has anything.
+void export_csv(replay::TraceReader& trace,
+                const TickRange& range,
+                std::uint64_t every,
+                const fs::path& folder) {
+    make_folder(folder);
+    std::vector<TableFile> files;
+    for (const std::string& name : replay::Table::names()) {
+        if (kept(trace.level(), name) == replay::Kept::nothing)
+            continue;
+        TableFile file{replay::Table(name, {}, trace.episode().step_ns),
+                       std::make_unique<Output>((folder / (name + ".csv")).string())};
+        append_csv_header(file.table, file.output->text);
+        files.push_back(std::move(file));
+    }
+    Progress progress("exporting", "ticks", range.last);
+    for (std::uint64_t index = range.first; index <= range.last; index += every) {
+        const replay::RecordedTick tick = trace.recorded(index);
+        for (const TableFile& file : files) {
+            append_csv(file.table, tick, file.output->text);
+            file.output->flush_if_large();
+        }
+        progress.update(index);
+    }
+    progress.clear();
+    for (const TableFile& file : files)
+        file.output->finish();
+}
+
+void export_jsonl(replay::TraceReader& trace,
+                  const TickRange& range,
+                  std::uint64_t every,
+                  const std::string& path) {
+    const replay::JsonLines lines({}, trace.episode().step_ns);
+    Output output(path);
+    for (std::uint64_t index = range.first; index <= range.last; index += every) {
+        const replay::RecordedTick tick = trace.recorded(index);
+        lines.append_tick(tick, output.text);
+        lines.append_traffic(tick, output.text);
+        output.flush_if_large();
+    }
+    output.finish();
+}
+
+void export_foxglove(replay::TraceReader& trace,
+                     const TickRange& range,
+                     std::uint64_t every,
+                     const ExportOptions& options) {
+    const exchange::FoxgloveOptions wanted{range.first, range.last, every, options.images};
+    const auto done = exchange::export_foxglove(trace, wanted, options.output);
+    fmt::print(stderr,
+               "{}: {} messages, {} of them pictures{}\n",
+               options.output,
+               done.messages,
+               done.images,
+               done.located ? "" : "; no /location: the road network lies nowhere on the globe");
+}
+
+/// Every so many ticks; unless said, all of them, and scenes ten times a second.
+std::uint64_t interval(const ExportOptions& options, std::uint64_t step_ns) {
+    const std::string usual = options.format == "foxglove" ? "0.1s" : "1";
+    const std::string& text = options.every.empty() ? usual : options.every;
+    const std::uint64_t every = parse_tick("--every", text, step_ns, 1);
+    if (every < 1)
+        throw world::Error("--every: expected 1 tick at least, got '" + text + "'");
+    return every;
+}
+
+}  // namespace
+
+int export_trace(const ExportOptions& options) {
+    refuse_overwriting(options.trace, options.output);
+    if (options.format != "foxglove" && !options.images.empty())
+        throw world::Error("--images: only --to foxglove takes pictures");
+    replay::TraceReader trace(options.trace);
+    const TickRange range = parse_ticks("--ticks", options.ticks, trace);
+    const std::uint64_t every = interval(options, trace.episode().step_ns);
+    if (options.format == "foxglove") {
+        export_foxglove(trace, range, every, options);
+        return exit_good;
+    }
+    print_level_note(trace);
+    if (options.format == "csv")
+        export_csv(trace, range, every, options.output);
+    else
+        export_jsonl(trace, range, every, options.output);
+    fmt::print(stderr, "{}: {} ticks\n", options.output, (range.last - range.first) / every + 1);
+    return exit_good;
+}
+
+}  // namespace reprise::cli

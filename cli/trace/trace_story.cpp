@@ -1,0 +1,126 @@
+#include "cli/trace/trace_story.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "replay/imported.h"
+#include "world/tick.h"
+
+namespace reprise::cli {
+
+namespace {
+
+constexpr std::uint64_t chunk = 64;  // ticks
+
+std::string text_of(const world::Event& event) {
+    return event.text() == nullptr ? "" : event.text()->str();
+}
+
+class Teller {
+  public:
+    TraceStory story;
+
+    void hear(const world::Event& event, std::uint64_t tick) {
+        switch (event.kind()) {
+            case world::EventKind::spawned:
+                if (event.actor() < world::first_background_id)
+                    story.actors.push_back({event.actor(), text_of(event)});
+                return;
+            case world::EventKind::despawned:
+            case world::EventKind::finished:  // the outcome says so
+                return;
+            case world::EventKind::check_passed:
+                story.checks.push_back({"passed", text_of(event), tick});
+                return;
+            case world::EventKind::check_failed:
+                story.checks.push_back({"failed", text_of(event), tick});
+                return;
+            case world::EventKind::not_evaluated:
+                story.checks.push_back({"not evaluated", text_of(event), tick});
+                return;
+            default:
+                count(event, tick);
+        }
+    }
+
+  private:
+    void count(const world::Event& event, std::uint64_t tick) {
+        const std::string name = world::EnumNameEventKind(event.kind());
+        auto kind = std::find_if(story.kinds.begin(), story.kinds.end(), [&](const auto& known) {
+            return known.name == name;
+        });
+        if (kind == story.kinds.end())
+            kind = story.kinds.insert(kind, {name, 0, tick, tick, describe(event), ""});
+        ++kind->count;
+        kind->last = tick;
+        kind->last_text = describe(event);
+    }
+
+    std::string describe(const world::Event& event) const {
+        if (event.kind() != world::EventKind::collision)
+            return text_of(event);
+        return fmt::format("{} with {}, {:.0f} N s",
+                           name_of(event.actor()),
+                           event.other() == 0 ? "something fixed" : name_of(event.other()),
+                           event.value());
+    }
+
+    std::string name_of(std::uint32_t actor) const {
+        for (const TraceStory::Actor& known : story.actors)
+            if (known.id == actor)
+                return fmt::format("{} ({})", known.name, actor);
+        return fmt::format("actor {}", actor);
+    }
+};
+
+}  // namespace
+
+TraceStory read_story(replay::TraceReader& trace, bool all) {
+    Teller teller;
+    const std::uint64_t ticks = trace.ticks();
+    const std::uint64_t first = trace.first();
+    teller.story.whole = all || ticks <= 2 * chunk;
+    for (std::uint64_t index = first; index <= trace.last(); ++index) {
+        if (!teller.story.whole && index == first + chunk)
+            index = trace.last() - chunk + 1;
+        const auto* events = trace.recorded(index).view.tick->events();
+        if (events == nullptr)  // the trace's level leaves them out
+            break;
+        for (const world::Event* event : *events)
+            teller.hear(*event, index);
+    }
+    const bool has_traffic = ticks > 0 && trace.level() == replay::Level::full;
+    if (has_traffic) {
+        const world::TickView last = trace.recorded(trace.last()).view;
+        const bool imported = replay::is_imported(trace);  // all are foreign, then
+        const auto of_demand = [&](const auto& actor) {
+            return imported || actor.id() >= world::first_background_id;
+        };
+        const auto count = [&](const auto& range) {
+            return static_cast<std::uint64_t>(std::count_if(range.begin(), range.end(), of_demand));
+        };
+        teller.story.cars = count(last.cars());
+        teller.story.walkers = count(last.walkers());
+    }
+    return std::move(teller.story);
+}
+
+ChannelBytes sample_channels(replay::TraceReader& trace) {
+    constexpr std::uint64_t most = 16;
+    const std::uint64_t ticks = trace.ticks();
+    const std::uint64_t samples = std::min(most, ticks);
+    ChannelBytes bytes;
+    for (std::uint64_t i = 0; i < samples; ++i) {
+        const replay::RecordedTick tick = trace.recorded(trace.first() + i * ticks / samples);
+        bytes.tick += tick.tick_bytes.size();
+        bytes.traffic += tick.traffic_bytes.size();
+    }
+    if (samples > 0) {
+        bytes.tick = bytes.tick * ticks / samples;
+        bytes.traffic = bytes.traffic * ticks / samples;
+    }
+    return bytes;
+}
+
+}  // namespace reprise::cli

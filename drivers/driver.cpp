@@ -1,0 +1,339 @@
+#include "drivers/driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "drivers/ego.h"
+#include "drivers/gatekeeper.h"
+#include "drivers/hazards.h"
+#include "drivers/lane_change.h"
+#include "drivers/navigator.h"
+#include "drivers/pedals.h"
+#include "drivers/steering.h"
+#include "drivers/swing.h"
+#include "drivers/turn_around.h"
+#include "world/check.h"
+#include "world/digest.h"
+#include "world/models/car_model.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double speed_gain = 0.8;      // [1/s]
+constexpr double indicate_before = 30;  // [m]
+constexpr double low_sun = 0.1;         // [rad]
+constexpr double longest_wait = 12;     // [s] for room on the next lane
+
+CarModel model_with(std::uint16_t index) {
+    REPRISE_CHECK(index < world::vehicle_models().size(), "model " + std::to_string(index));
+    return car_model(world::vehicle_models()[index]);
+}
+
+}  // namespace
+
+struct Autopilot::State {
+    State(std::uint32_t actor_id,
+          std::uint16_t model,
+          const world::EpisodeT& episode,
+          const world::TownT& town,
+          const world::LaneMap& lane_map)
+        : actor(actor_id),
+          step(static_cast<double>(episode.step_ns) * 1e-9),
+          car(model_with(model)),
+          lanes(&lane_map),
+          navigator(town, lane_map, episode.seed, actor_id, step, style.comfortable_braking),
+          hazards(town),
+          gatekeeper(town) {}
+
+    const world::TownT& town() const { return navigator.graph().town(); }
+
+    const Way& way() const { return navigator.way(); }
+
+    bool has_tight_bends() const;
+    void plan_swing(const Ego& ego);
+    double change_lanes(const world::TickView& last, Ego& ego);
+    double cruise(const Ego& ego) const;
+    double approach_turn(const Ego& ego);
+    void turn(const world::TickView& last, Ego& ego, world::Control& control);
+    std::uint16_t lamps(const world::TickView& last, const Ego& ego) const;
+
+    std::uint32_t actor;
+    double step;  ///< [s] of a tick
+    CarModel car;
+    DrivingStyle style;
+    const world::LaneMap* lanes;
+    Navigator navigator;
+    std::optional<Swing> swing;      ///< once there was a bend that needs it
+    std::uint64_t swing_of_way = 0;  ///< the way's plan() that it was planned for
+    bool swings = false;             ///< on the way ahead
+    Hazards hazards;
+    Gatekeeper gatekeeper;
+    Pedals pedals;
+    TurnAround turn_around;
+    std::uint32_t turns_into = 0;  ///< the lane behind the turn
+    std::optional<double> speed_cap;
+    std::uint32_t waiting_ticks = 0;  ///< beside cars on the lane that we want
+};
+
+Autopilot::Autopilot(std::uint32_t actor,
+                     std::uint16_t model,
+                     const world::EpisodeT& episode,
+                     const world::TownT& town,
+                     const world::LaneMap& lanes)
+    : state_(std::make_unique<State>(actor, model, episode, town, lanes)) {}
+
+Autopilot::~Autopilot() = default;
+Autopilot::Autopilot(Autopilot&&) noexcept = default;
+Autopilot& Autopilot::operator=(Autopilot&&) noexcept = default;
+
+void Autopilot::set_route(std::vector<std::uint32_t> lanes, double last_s) {
+    state_->navigator.set_route(std::move(lanes), last_s);
+}
+
+void Autopilot::change_lane(std::uint32_t lane) {
+    state_->navigator.change_lane(lane);
+}
+
+void Autopilot::set_speed(double speed) {
+    state_->speed_cap = std::max(speed, 0.0);
+}
+
+void Autopilot::free_speed() {
+    state_->speed_cap.reset();
+}
+
+const std::vector<std::uint32_t>& Autopilot::path() const {
+    return state_->way().lanes();
+}
+
+/// What every driver does: where am I, where do I go, who is in the way, then hands and feet.
+world::Control Autopilot::decide(const world::TickView& last) {
+    State& state = *state_;
+    const world::VehicleState* own = world::find(last.vehicles(), state.actor);
+    REPRISE_CHECK(
+        own != nullptr,
+        "actor " + std::to_string(state.actor) + ", tick " + std::to_string(last.index()));
+    Ego ego = ego_of(*own);
+    world::Control control(0, 0, 0, state.actor, 0, false, false);
+    if (!state.turn_around.done())
+        state.turn(last, ego, control);
+    if (!state.turn_around.done())
+        return control;
+
+    // Where am I? Off every road there is nothing to follow: stop.
+    const Navigator::Found found = state.navigator.follow(ego);
+    if (found == Navigator::Found::nothing) {
+        control.mutate_brake(0.5);
+        return control;
+    }
+    if (found == Navigator::Found::another)
+        state.gatekeeper.reset();
+
+    // Who is in the way, and may I go on? The most careful answer counts.
+    state.plan_swing(ego);
+    double acceleration = state.cruise(ego);
+    acceleration = std::min(acceleration, state.change_lanes(last, ego));
+    acceleration = std::min(acceleration, state.approach_turn(ego));
+    state.plan_swing(ego);
+    state.hazards.look(last,
+                       ego,
+                       state.way().path(),
+                       state.style,
+                       state.swings ? state.swing->swept() : std::span<const SweptWidth>());
+    acceleration = std::min(acceleration, state.hazards.acceleration());
+    acceleration =
+        std::min(acceleration,
+                 state.gatekeeper.decide(
+                     last, ego, state.way(), state.hazards.overlaps(), state.style, state.step));
+
+    // Hands and feet.
+    const double climb = state.way().path().climb(ego.rear_axle_s + ego.model->wheelbase / 2, 1);
+    const Pedals::Position pedals =
+        state.pedals.press(acceleration, ego.speed, climb, state.car, state.step);
+    control.mutate_throttle(pedals.throttle);
+    control.mutate_brake(pedals.brake);
+    control.mutate_steer(state.swings ? steer(ego, *state.swing) : steer(ego, state.way().path()));
+    control.mutate_lamps(state.lamps(last, ego));
+    return control;
+}
+
+/// Bends that no steering can follow; those where we turn around are not driven along the path.
+bool Autopilot::State::has_tight_bends() const {
+    // [m] to both sides; the points' own curvature is over 6 m, where a jog cancels itself.
+    constexpr double bend_reach = 1.5;
+    const double sharpest =
+        0.9 * std::tan(car.catalogue->max_steering_angle) / car.catalogue->wheelbase;
+    const Path& path = way().path();
+    for (std::size_t i = 0; i < path.points().size(); ++i) {
+        const double s = path.s_of(i);
+        if (std::abs(path.curvature(s, bend_reach)) < sharpest)
+            continue;
+        if (std::none_of(way().gates().begin(), way().gates().end(), [&](const Gate& gate) {
+                return gate.turn == world::Turn::around && gate.s - 5 < s && s < gate.exit_s + 5;
+            }))
+            return true;
+    }
+    return false;
+}
+
+/// Bends that need it are planned when the way has changed.
+void Autopilot::State::plan_swing(const Ego& ego) {
+    if (swing_of_way == way().plan() && !(swings && swing->empty()))
+        return;
+    swing_of_way = way().plan();
+    swings = Swing::is_needed(*car.catalogue) || has_tight_bends();
+    if (!swings)
+        return;
+    if (!swing)
+        swing.emplace(*car.catalogue, town(), *lanes);
+    swing->plan(way().path(), ego);
+    swings = !swing->empty();
+}
+
+/// Before the path leaves our lane: is there room on the other one? If not, leave it later, and at
+/// the latest place wait.
+double Autopilot::State::change_lanes(const world::TickView& last, Ego& ego) {
+    for (const LaneChange& change : way().changes()) {
+        const double before = change.start - ego.front_s();
+        if (before < 0 || before > 2 + ego.speed)
+            continue;
+        if (is_clear(last, ego, town(), change.to) || waiting_ticks * step > longest_wait) {
+            if (before < 1)
+                waiting_ticks = 0;
+            return infinity;
+        }
+        if (change.spare > 5) {
+            const double later = before + std::min(5 + ego.speed, change.spare);
+            navigator.put_off_change(later, ego);
+            return infinity;
+        }
+        waiting_ticks += ego.speed < 0.5 ? 1 : 0;
+        return stop_acceleration(before, ego.speed, style.comfortable_braking, style);
+    }
+    return infinity;
+}
+
+/// The speed that lanes, curves and the scenario's cap allow, and dead ends. [m/s^2]
+double Autopilot::State::cruise(const Ego& ego) const {
+    const Path& path = way().path();
+    const double cap = speed_cap.value_or(infinity);
+    // A glance ahead makes up for the tick's delay.
+    const double middle = ego.model->wheelbase / 2;
+    const double s = ego.rear_axle_s + middle + ego.speed * step;
+    const auto squared_speed = [&](double at) {
+        const double most = path.at(at).squared_speed;
+        return swings ? std::min(most, swing->at(at - middle).squared_speed) : most;
+    };
+    const double here = squared_speed(s);
+    const double allowed = std::sqrt(here);
+    double acceleration = speed_gain * (std::min(allowed, cap) - ego.speed);
+    if (allowed < cap && ego.speed > allowed - 1) {
+        acceleration +=
+            std::clamp((squared_speed(s + 1) - here) / 2, -style.comfortable_braking, 0.0);
+    }
+    acceleration = std::clamp(acceleration, -4.0, style.acceleration);
+    if (way().ended())
+        acceleration = std::min(
+            acceleration,
+            stop_acceleration(
+                path.end() - ego.front_s() - 1, ego.speed, style.comfortable_braking, style));
+    return acceleration;
+}
+
+/// Stops where a turn begins that takes going back and forth, and begins it. [m/s^2]
+double Autopilot::State::approach_turn(const Ego& ego) {
+    constexpr double sight = 80;  // [m]
+    const auto ahead = std::find_if(way().gates().begin(),
+                                    way().gates().end(),
+                                    [&](const Gate& gate) { return gate.s > ego.front_s() - 1; });
+    if (ahead == way().gates().end() || ahead->turn != world::Turn::around ||
+        ahead->s > ego.front_s() + sight)
+        return infinity;
+    const world::Link& link = town().lanes[ahead->from].links[ahead->link];
+    const auto street = TurnAround::street_of(town(), ahead->from, link, *ego.model);
+    if (!street)
+        return infinity;
+    const double distance = ahead->s - TurnAround::before_end - ego.front_s();
+    if (distance < 0.7 && ego.speed < 0.2) {
+        turn_around.begin(*street, ego);
+        turns_into = ahead->to;
+    }
+    return stop_acceleration(distance, ego.speed, style.comfortable_braking, style);
+}
+
+/// Hands and feet while we turn around; when that is done, a new path on the lane behind it.
+void Autopilot::State::turn(const world::TickView& last, Ego& ego, world::Control& control) {
+    const TurnAround::Move move = turn_around.next(last, ego);
+    if (turn_around.done()) {
+        gatekeeper.reset();
+        navigator.start_on(turns_into, ego);
+        return;
+    }
+    const bool back = move.speed < 0;
+    const double along = back ? -ego.speed : ego.speed;
+    const double wanted = std::clamp(2 * (std::abs(move.speed) - along), -2.5, 1.0);
+    const double climb = (back ? -1 : 1) * turn_around.climb(ego);
+    const Pedals::Position position =
+        move.speed == 0 ? Pedals::Position{0, 0.5} : pedals.press(wanted, along, climb, car, step);
+    control.mutate_throttle(position.throttle);
+    control.mutate_brake(position.brake);
+    control.mutate_steer(move.steer);
+    control.mutate_reverse(back);
+    control.mutate_lamps(town().left_hand ? world::lamp_right : world::lamp_left);
+}
+
+std::uint16_t Autopilot::State::lamps(const world::TickView& last, const Ego& ego) const {
+    int lit = 0;
+    const int around = town().left_hand ? world::lamp_right : world::lamp_left;
+    for (const Gate& gate : way().gates()) {
+        if (gate.s - ego.front_s() > indicate_before || ego.rear_s() > gate.exit_s)
+            continue;
+        switch (gate.turn) {
+            case world::Turn::left:
+            case world::Turn::partially_left:
+                lit |= world::lamp_left;
+                break;
+            case world::Turn::right:
+            case world::Turn::partially_right:
+                lit |= world::lamp_right;
+                break;
+            case world::Turn::around:
+                lit |= around;
+                break;
+            case world::Turn::straight:
+                break;
+        }
+        break;
+    }
+    for (const LaneChange& change : way().changes())
+        if (change.start - ego.front_s() < indicate_before && ego.rear_axle_s < change.end)
+            lit = change.to_left ? world::lamp_left : world::lamp_right;
+    const world::Weather* weather = last.tick->weather();
+    if (weather != nullptr &&
+        (weather->rain() > 0 || static_cast<double>(weather->sun_altitude()) < low_sun))
+        lit |= world::lamp_low_beam;
+    return static_cast<std::uint16_t>(lit);
+}
+
+std::uint64_t Autopilot::digest() const {
+    const State& state = *state_;
+    world::Hasher hasher;
+    state.navigator.add_to(hasher);
+    state.gatekeeper.add_to(hasher);
+    state.pedals.add_to(hasher);
+    state.turn_around.add_to(hasher);
+    hasher.add(state.turns_into);
+    hasher.add(state.speed_cap.value_or(-1));  // a cap is never negative
+    hasher.add(state.waiting_ticks);
+    hasher.add(state.swings);
+    if (state.swings)
+        state.swing->add_to(hasher);
+    return hasher.digest64();
+}
+
+}  // namespace reprise::kernel

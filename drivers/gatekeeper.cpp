@@ -1,0 +1,259 @@
+#include "drivers/gatekeeper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "world/models/catalogue.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+using world::SignalColor;
+using world::Turn;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double line_distance = 1;     // [m] from the lane's end to our bumper when we stand
+constexpr double yellow_braking = 3.5;  // [m/s^2] harder than this we rather drive through
+constexpr double red_braking = 7;       // [m/s^2] at red only what is hardly possible
+constexpr double patience = 12;         // [s]
+constexpr double creep_speed = 1.8;     // [m/s]
+constexpr double foe_sight = 120;       // [m]
+constexpr double time_margin = 0.8;     // [s] between them and us
+constexpr double space_margin = 2;      // [m] around the place where the ways meet
+
+SignalColor color_of(const world::TickView& last, std::uint32_t signal) {
+    return signal < last.signals().size() ? last.signals()[signal] : SignalColor::off;
+}
+
+bool is_left(Turn turn) {
+    return turn == Turn::left || turn == Turn::partially_left || turn == Turn::around;
+}
+
+bool is_right(Turn turn) {
+    return turn == Turn::right || turn == Turn::partially_right;
+}
+
+/// Before the junction: does the foe go before us?
+bool goes_first(const Foe& foe, SignalColor foe_color, SignalColor our_color, Turn our_turn) {
+    switch (foe_color) {
+        case SignalColor::red:
+        case SignalColor::red_yellow:
+        case SignalColor::stop:
+            return false;
+        case SignalColor::green:
+        case SignalColor::yellow:
+            return true;
+        case SignalColor::green_minor:
+            return our_color != SignalColor::green_minor ||
+                   (is_left(our_turn) && !is_left(foe.turn));
+        case SignalColor::off:
+            break;
+    }
+    if (!foe.yields)
+        return true;
+    return foe.from_right || (foe.oncoming && is_left(our_turn) && !is_left(foe.turn));
+}
+
+/// A foe as it comes: where its front bumper is on the foe's lane, and how fast.
+struct Comer {
+    double front_s = 0;
+    double speed = 0;
+    double length = 0;
+    std::uint16_t lamps = 0;
+};
+
+/// From when until when somebody is at the place where the ways meet. [s]
+struct Stay {
+    double from = 0;
+    double to = 0;
+};
+
+bool meet(const Stay& ours, const Stay& theirs) {
+    return theirs.from < ours.to + time_margin && theirs.to > ours.from - time_margin;
+}
+
+bool conflicts(const Comer& comer, const Foe& foe, const Stay& ours, const world::LaneT& lane) {
+    const double to_meeting = foe.to_conflict - comer.front_s;
+    if (to_meeting + comer.length + space_margin < 0)
+        return false;
+    if (!foe.inside) {
+        // Stands in a queue, or shows that it turns another way.
+        if (comer.speed < 0.5 && lane.length - comer.front_s > 8)
+            return false;
+        if (((comer.lamps & world::lamp_left) != 0 && !is_left(foe.turn)) ||
+            ((comer.lamps & world::lamp_right) != 0 && !is_right(foe.turn)))
+            return false;
+    } else if (comer.speed < 0.3 && to_meeting > 3) {
+        return false;  // waits in the junction, perhaps for us
+    }
+    const double top = std::max({comer.speed, lane.speed_limit * 0.8, 3.0});
+    const Stay theirs{travel_time(to_meeting - space_margin, comer.speed, 2, top),
+                      travel_time(to_meeting + comer.length + space_margin, comer.speed, 1, top)};
+    return meet(ours, theirs);
+}
+
+}  // namespace
+
+Gatekeeper::Gatekeeper(const world::TownT& town) : town_(&town) {}
+
+void Gatekeeper::reset() {
+    yellow_gate_ = waiting_gate_ = stopped_gate_ = creeping_gate_ = world::none;
+    waited_ticks_ = 0;
+}
+
+double Gatekeeper::decide(const world::TickView& last,
+                          const Ego& ego,
+                          const Way& way,
+                          std::span<const Overlap> overlaps,
+                          const DrivingStyle& style,
+                          double step) {
+    const double sight = std::max(40.0, ego.speed * ego.speed / 3 + 15);
+    for (const Gate& gate : way.gates()) {
+        const double to_line = gate.s - ego.front_s();
+        if (to_line > sight)
+            break;
+        if (to_line < 0) {
+            // Creep until the whole junction is behind us.
+            if (gate.serial == creeping_gate_ && ego.front_s() < gate.exit_s)
+                return creep_speed - ego.speed;
+            continue;
+        }
+        if (must_stop(last, ego, way, gate, overlaps, step)) {
+            // Whoever comes to stop nearer to the line need not stamp on the brake for it.
+            const double distance = std::max(to_line - line_distance, to_line / 2);
+            return stop_acceleration(distance, ego.speed, style.comfortable_braking, style);
+        }
+        if (gate.serial == creeping_gate_)
+            return creep_speed - ego.speed;
+    }
+    return infinity;
+}
+
+bool Gatekeeper::must_stop(const world::TickView& last,
+                           const Ego& ego,
+                           const Way& way,
+                           const Gate& gate,
+                           std::span<const Overlap> overlaps,
+                           double step) {
+    const double to_line = gate.s - ego.front_s();
+    const double needed = ego.speed * ego.speed / (2 * std::max(to_line, 0.1));
+    const SignalColor color = color_of(last, gate.signal);
+    if (color == SignalColor::yellow) {
+        const double room = std::max(to_line - line_distance, to_line / 2);
+        return stops_at_yellow(gate, ego.speed * ego.speed / (2 * std::max(room, 0.1)));
+    }
+    if (color == SignalColor::red || color == SignalColor::red_yellow) {
+        const bool drove_on = gate.serial == yellow_gate_ && !yellow_stop_ && ego.speed > 3;
+        return !drove_on && needed < red_braking;
+    }
+
+    // Free to go by the light; from here on it is a question of the others. Too late to ask when we
+    // could not stop any more.
+    if (needed > yellow_braking)
+        return false;
+    bool stop = !has_room(ego, gate, overlaps);
+    if (must_give_way(gate, color, ego, to_line)) {
+        const bool sign = color == SignalColor::stop && gate.serial != stopped_gate_;
+        const bool give_way = sign || !has_gap(last, ego, way, gate);
+        if (gate.serial != waiting_gate_) {
+            waiting_gate_ = gate.serial;
+            waited_ticks_ = 0;
+        }
+        if (give_way && ego.speed < 0.5 && to_line < 5)
+            ++waited_ticks_;
+        if (waited_ticks_ * step > patience)
+            creeping_gate_ = gate.serial;
+        stop = stop || (give_way && gate.serial != creeping_gate_);
+    }
+    return stop;
+}
+
+bool Gatekeeper::stops_at_yellow(const Gate& gate, double needed) {
+    // Decided once, or it would change its mind while it brakes.
+    if (yellow_gate_ != gate.serial) {
+        yellow_gate_ = gate.serial;
+        yellow_stop_ = needed <= yellow_braking;
+    }
+    return yellow_stop_;
+}
+
+bool Gatekeeper::must_give_way(const Gate& gate,
+                               SignalColor color,
+                               const Ego& ego,
+                               double to_line) {
+    if (color == SignalColor::stop && ego.speed < 0.1 && to_line < 4)
+        stopped_gate_ = gate.serial;
+    if (color == SignalColor::off)
+        return gate.yields;
+    return color == SignalColor::green_minor || color == SignalColor::stop;
+}
+
+bool Gatekeeper::has_room(const Ego& ego,
+                          const Gate& gate,
+                          std::span<const Overlap> overlaps) const {
+    const double needed =
+        std::min(ego.model->length + 2.5, std::max(town_->lanes[gate.to].length - 1, 1.0));
+    return std::none_of(overlaps.begin(), overlaps.end(), [&](const Overlap& other) {
+        return other.s > gate.s && other.s < gate.exit_s + needed && std::abs(other.speed) < 1.5;
+    });
+}
+
+bool Gatekeeper::has_gap(const world::TickView& last,
+                         const Ego& ego,
+                         const Way& way,
+                         const Gate& gate) const {
+    const SignalColor our_color = color_of(last, gate.signal);
+    const auto threatens = [&](const Comer& comer, std::uint32_t lane) {
+        return std::any_of(gate.foes.begin(), gate.foes.end(), [&](const Foe& foe) {
+            if (foe.lane != lane)
+                return false;
+            const SignalColor foe_color = color_of(last, foe.signal);
+            if (!foe.inside && !goes_first(foe, foe_color, our_color, gate.turn))
+                return false;
+            const double top =
+                std::max({ego.speed, std::sqrt(way.path().at(foe.our_s).squared_speed), 3.0});
+            const double ahead = foe.our_s - ego.front_s();
+            const Stay ours{
+                travel_time(ahead - space_margin, ego.speed, 2, top),
+                travel_time(ahead + ego.model->length + space_margin, ego.speed, 1.5, top)};
+            return conflicts(comer, foe, ours, town_->lanes[lane]);
+        });
+    };
+    for (const world::CarState& car : last.cars()) {
+        if (car.lane() == world::none ||
+            std::abs(car.position().x() - ego.position.x()) > foe_sight ||
+            std::abs(car.position().y() - ego.position.y()) > foe_sight)
+            continue;
+        const Comer comer{static_cast<double>(car.lane_s()),
+                          static_cast<double>(car.speed()),
+                          world::vehicle_models()[car.model()].length,
+                          car.lamps()};
+        if (threatens(comer, car.lane()))
+            return false;
+    }
+    for (const world::VehicleState& other : last.vehicles()) {
+        const world::Measurement* measured = world::find(last.measurements(), other.id());
+        if (other.id() == ego.id || measured == nullptr || measured->lane() == world::none)
+            continue;
+        const world::VehicleModel& model = world::vehicle_models()[other.model()];
+        const Comer comer{measured->lane_s() + model.length - model.rear_overhang,
+                          measured->speed(),
+                          model.length,
+                          other.lamps()};
+        if (threatens(comer, measured->lane()))
+            return false;
+    }
+    return true;
+}
+
+void Gatekeeper::add_to(world::Hasher& hasher) const {
+    hasher.add(yellow_gate_);
+    hasher.add(yellow_stop_);
+    hasher.add(waiting_gate_);
+    hasher.add(waited_ticks_);
+    hasher.add(stopped_gate_);
+    hasher.add(creeping_gate_);
+}
+
+}  // namespace reprise::kernel

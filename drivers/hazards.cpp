@@ -1,0 +1,329 @@
+#include "drivers/hazards.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "world/models/catalogue.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double side_margin = 0.3;     // [m] between our side and theirs
+constexpr double horizon = 1.5;         // [s] of foresight
+constexpr double look_step = 0.25;      // [s]
+constexpr std::size_t coarse_step = 8;  // [samples] = 4 m
+constexpr double storey = 3;            // [m] higher or lower is another road
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
+
+}  // namespace
+
+/// A footprint: an oriented box that moves.
+struct Hazards::Body {
+    Eigen::Vector2d centre;
+    Eigen::Vector2d direction;
+    double z = 0;
+    double half_length = 0;
+    double half_width = 0;
+    Eigen::Vector2d velocity;
+    double speed = 0;
+    std::uint32_t id = 0;
+    std::uint32_t lane = world::none;
+    double lane_s = 0;  ///< of the front bumper
+
+    double radius() const { return std::hypot(half_length, half_width); }
+
+    /// Does the segment centre_point +- half touch the box? Clips it against both pairs of sides.
+    bool meets(const Eigen::Vector2d& centre_point, const Eigen::Vector2d& half) const {
+        const Eigen::Vector2d from = centre_point - centre;
+        double first = -1;
+        double last = 1;
+        const auto clip = [&](double at, double step, double size) {
+            if (std::abs(step) < 1e-12)
+                return std::abs(at) <= size;
+            const double u = (-size - at) / step;
+            const double v = (size - at) / step;
+            first = std::max(first, std::min(u, v));
+            last = std::min(last, std::max(u, v));
+            return first <= last;
+        };
+        return clip(from.dot(direction), half.dot(direction), half_length) &&
+               clip(cross(direction, from), cross(direction, half), half_width);
+    }
+};
+
+struct Hazards::Scene {
+    const Ego& ego;
+    const Path& path;
+    const DrivingStyle& style;
+};
+
+namespace {
+
+/// Rear axle, heading and model give the box.
+template <typename Body>
+void set_box(Body& body, const Eigen::Vector2d& rear_axle, const world::VehicleModel& model) {
+    body.half_length = model.length / 2;
+    body.half_width = model.width / 2;
+    body.centre = rear_axle + (body.half_length - model.rear_overhang) * body.direction;
+}
+
+}  // namespace
+
+Hazards::Hazards(const world::TownT& town) : town_(&town) {
+    coarse_.reserve(64);
+    coarse_index_.reserve(64);
+    overlaps_.reserve(64);
+}
+
+void Hazards::make_corridor(const Ego& ego, const Path& path) {
+    const double sight = std::clamp(20 + 4 * ego.speed, 30.0, 150.0);
+    half_width_ = ego.model->width / 2 + side_margin;
+    sight_start_ = ego.front_s() - 1;
+    coarse_.clear();
+    coarse_index_.clear();
+    low_.setConstant(infinity);
+    high_.setConstant(-infinity);
+    const std::size_t last = path.index(sight_start_ + sight);
+    for (std::size_t i = path.index(sight_start_);; i = std::min(i + coarse_step, last)) {
+        const Eigen::Vector2d point = path.points()[i].position.head<2>();
+        coarse_.push_back(point);
+        coarse_index_.push_back(i);
+        low_ = low_.cwiseMin(point);
+        high_ = high_.cwiseMax(point);
+        if (i >= last)
+            break;
+    }
+    if (!swept_.empty())
+        for (std::size_t i = coarse_index_.front(); i <= last; ++i) {
+            const SweptWidth width = corridor_at(i);
+            half_width_ = std::max({half_width_, width.left, width.right});
+        }
+}
+
+/// With the margin beside it.
+SweptWidth Hazards::corridor_at(std::size_t sample) const {
+    if (swept_.empty())
+        return {half_width_, half_width_};
+    return {swept_[sample].left + side_margin, swept_[sample].right + side_margin};
+}
+
+void Hazards::look(const world::TickView& last,
+                   const Ego& ego,
+                   const Path& path,
+                   const DrivingStyle& style,
+                   std::span<const SweptWidth> swept) {
+    swept_ = swept;
+    overlaps_.clear();
+    acceleration_ = infinity;
+    if (path.points().size() < 2)
+        return;
+    make_corridor(ego, path);
+    const Scene scene{ego, path, style};
+    const auto far = [&](const world::Vec3& p, double speed) {
+        const double reach = 10 + horizon * std::abs(speed);
+        return p.x() < low_.x() - reach || p.x() > high_.x() + reach || p.y() < low_.y() - reach ||
+               p.y() > high_.y() + reach;
+    };
+    Body body;
+    for (const world::VehicleState& state : last.vehicles()) {
+        const Eigen::Vector2d velocity(state.velocity().x(), state.velocity().y());
+        if (state.id() == ego.id || far(state.position(), velocity.norm()))
+            continue;
+        const Ego other = ego_of(state);
+        body.direction = other.direction;
+        set_box(body, other.position.head<2>(), *other.model);
+        body.velocity = velocity;
+        body.speed = velocity.norm();
+        body.z = other.position.z();
+        body.id = state.id();
+        body.lane = world::none;
+        consider(body, scene);
+    }
+    for (const world::CarState& car : last.cars()) {
+        const double speed = static_cast<double>(car.speed());
+        if (far(car.position(), speed))
+            continue;
+        const double yaw = static_cast<double>(car.yaw());
+        body.direction = {std::cos(yaw), std::sin(yaw)};
+        set_box(
+            body, {car.position().x(), car.position().y()}, world::vehicle_models()[car.model()]);
+        body.velocity = speed * body.direction;
+        body.speed = std::abs(speed);
+        body.z = car.position().z();
+        body.id = car.id();
+        body.lane = car.lane();
+        body.lane_s = static_cast<double>(car.lane_s());
+        consider(body, scene);
+    }
+    for (const world::WalkerState& walker : last.walkers()) {
+        const double speed = static_cast<double>(walker.speed());
+        if (far(walker.position(), speed))
+            continue;
+        const double yaw = static_cast<double>(walker.yaw());
+        body.direction = {std::cos(yaw), std::sin(yaw)};
+        body.centre = {walker.position().x(), walker.position().y()};
+        body.half_length = body.half_width = 0.25;
+        if (walker.down())
+            body.half_length = 0.9;
+        body.velocity = speed * body.direction;
+        body.speed = std::abs(speed);
+        body.z = walker.position().z();
+        body.id = walker.id();
+        body.lane = world::none;
+        consider(body, scene);
+    }
+}
+
+void Hazards::consider(const Body& body, const Scene& scene) {
+    const double distance = coarse_distance(body.centre) - body.radius() - half_width_;
+    // Half a coarse step is the most that the coarse polyline can overlook.
+    if (distance > 2.1 + horizon * body.speed)
+        return;
+    const double contact = distance > 2.1 ? infinity : first_contact(body, scene.path);
+    if (contact == infinity) {
+        foresee(body, scene, distance);
+        return;
+    }
+    // Who comes towards us, as many do in junctions, drives off our path before we are there: until
+    // then it is an obstacle that stands.
+    const double along = std::max(body.velocity.dot(scene.path.at(contact).direction), 0.0);
+    const double gap = contact - scene.ego.front_s();
+    overlaps_.push_back({contact, along, body.id});
+    acceleration_ =
+        std::min(acceleration_, follow_acceleration(gap, scene.ego.speed, along, scene.style));
+}
+
+/// Somebody beside the path: will they be on it when we come?
+void Hazards::foresee(const Body& body, const Scene& scene, double distance) {
+    const Ego& ego = scene.ego;
+    if (body.speed < 0.3 || distance > 2.1 + horizon * body.speed)
+        return;
+    // Who drives beside or behind us in our direction will look out for us.
+    const Eigen::Vector2d nose =
+        ego.position.head<2>() + (ego.model->length - ego.model->rear_overhang) * ego.direction;
+    const double heading = body.direction.dot(ego.direction);
+    if ((body.centre - nose).dot(ego.direction) < 0 && heading > 0.7)
+        return;
+
+    double entered = infinity;
+    double left = 0;
+    double contact = infinity;
+    Body moved = body;
+    for (double time = look_step; time <= horizon; time += look_step) {
+        if (!place_after(body, time, moved))
+            break;
+        const double touched = first_contact(moved, scene.path);
+        if (touched == infinity)
+            continue;
+        entered = std::min(entered, time);
+        left = time;
+        contact = std::min(contact, touched);
+    }
+    if (contact == infinity)
+        return;
+    if (left > horizon - look_step / 2)
+        left += 1;  // still there at the end of our foresight
+
+    const double along = moved.speed * moved.direction.dot(scene.path.at(contact).direction);
+    const double gap = contact - ego.front_s();
+    if (along > 0.7 * body.speed && along > 1) {
+        // Joins our way: follow at once, from where it is now.
+        const double behind = gap - along * entered;
+        if (behind > 0)
+            acceleration_ =
+                std::min(acceleration_, follow_acceleration(behind, ego.speed, along, scene.style));
+        return;
+    }
+    // Crosses: into our side, where braking helps nobody; or before us, then only if we are there
+    // at the same time, half a second more or less.
+    if (gap < 0)
+        return;
+    const double speed = std::max(ego.speed, 2.0);
+    const double come = gap / speed;
+    const double gone = (gap + ego.model->length + 2 * body.half_width) / speed;
+    if (come > left + 0.5 || gone < entered - 0.5)
+        return;
+    acceleration_ = std::min(acceleration_, stop_acceleration(gap - 1, ego.speed, 3, scene.style));
+}
+
+/// Where the body will be: along its lane when it follows one, straight on otherwise. False when
+/// that cannot be said: past the end of a lane, where drivers choose.
+bool Hazards::place_after(const Body& body, double time, Body& moved) const {
+    if (body.lane < town_->lanes.size()) {
+        const world::LaneT& lane = town_->lanes[body.lane];
+        const double now = body.lane_s - body.half_length;
+        const world::LanePoint here = world::point_at(lane, now);
+        const Eigen::Vector2d lane_direction(std::cos(here.yaw), std::sin(here.yaw));
+        if (lane_direction.dot(body.direction) > 0.95) {
+            const double s = now + body.speed * time;
+            if (s > lane.length && lane.kind == world::LaneKind::driving)
+                return false;
+            const world::LanePoint then = world::point_at(lane, s);
+            moved.direction = {std::cos(then.yaw), std::sin(then.yaw)};
+            // Beyond its ends a lane goes on straight.
+            const double beyond = s - std::clamp(s, 0.0, lane.length);
+            const Eigen::Vector2d offset = body.centre - here.position.head<2>();
+            const double before = now - std::clamp(now, 0.0, lane.length);
+            const double aside = cross(lane_direction, offset - before * lane_direction);
+            moved.centre = then.position.head<2>() + beyond * moved.direction +
+                           aside * Eigen::Vector2d(-moved.direction.y(), moved.direction.x());
+            return true;
+        }
+    }
+    moved.centre = body.centre + time * body.velocity;
+    return true;
+}
+
+double Hazards::coarse_distance(const Eigen::Vector2d& p_world) const {
+    double least = infinity;
+    for (const Eigen::Vector2d& point : coarse_)
+        least = std::min(least, (point - p_world).squaredNorm());
+    return std::sqrt(least);
+}
+
+/// Where along the path the corridor first touches the body, to 2 cm; infinity: nowhere.
+double Hazards::first_contact(const Body& body, const Path& path) const {
+    const double reach = body.radius() + half_width_ + 2.1;
+    const auto touches =
+        [&](std::size_t sample, const Eigen::Vector3d& p, const Eigen::Vector2d& direction) {
+            const SweptWidth width = corridor_at(sample);
+            const Eigen::Vector2d left(-direction.y(), direction.x());
+            const Eigen::Vector2d middle = p.head<2>() + (width.left - width.right) / 2 * left;
+            const Eigen::Vector2d half = (width.left + width.right) / 2 * left;
+            return std::abs(p.z() - body.z) < storey && body.meets(middle, half);
+        };
+    for (std::size_t k = 0; k < coarse_.size(); ++k) {
+        if ((coarse_[k] - body.centre).squaredNorm() > reach * reach)
+            continue;
+        const std::size_t from = coarse_index_[k == 0 ? 0 : k - 1];
+        const std::size_t to = coarse_index_[std::min(k + 1, coarse_.size() - 1)];
+        for (std::size_t i = from; i <= to; ++i) {
+            const PathPoint& point = path.points()[i];
+            if (!touches(i, point.position, point.direction))
+                continue;
+            if (i == coarse_index_.front())
+                return path.s_of(i);
+            // Between the last free sample and this one: halve.
+            const PathPoint& before = path.points()[i - 1];
+            double free = 0;
+            double met = 1;
+            for (int round = 0; round < 5; ++round) {
+                const double middle = (free + met) / 2;
+                const Eigen::Vector3d p =
+                    before.position + middle * (point.position - before.position);
+                const Eigen::Vector2d direction =
+                    before.direction + middle * (point.direction - before.direction);
+                (touches(i, p, direction) ? met : free) = middle;
+            }
+            return path.s_of(i - 1) + met * Path::spacing;
+        }
+    }
+    return infinity;
+}
+
+}  // namespace reprise::kernel

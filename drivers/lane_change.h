@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+
+#include "drivers/ego.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::kernel {
+
+/// Is there room for us on a neighbouring lane: nobody beside us, nobody so near or so fast behind
+/// that he had to brake hard, nobody so near ahead that we had to?
+bool is_clear(const world::TickView& last,
+              const Ego& ego,
+              const world::TownT& town,
+              std::uint32_t lane);
+
+}  // namespace reprise::kernel

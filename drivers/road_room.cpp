@@ -1,0 +1,94 @@
+#include "drivers/road_room.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/physics/obstacle.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+constexpr double step = 0.2;           // [m] of the search for kerbs
+constexpr double aside = 0.35;         // [m] things count this far beside the line
+constexpr double storey = 3;           // [m] higher or lower is another road
+constexpr double lowest_thing = -0.3;  // [m] below the road
+
+/// A box or a prism as its outline, a cylinder as a point.
+world::Loop outline_of(const Obstacle& obstacle) {
+    const Eigen::Vector2d middle(obstacle.position.x(), obstacle.position.y());
+    if (obstacle.shape == Obstacle::Shape::cylinder)
+        return {middle};
+    world::Loop outline;
+    for (const btVector3& corner : obstacle.corners)
+        outline.push_back(middle + Eigen::Vector2d(corner.x(), corner.y()));
+    if (!outline.empty())
+        return outline;
+    const Eigen::Vector2d along(std::cos(obstacle.yaw), std::sin(obstacle.yaw));
+    const Eigen::Vector2d left(-along.y(), along.x());
+    for (const auto& [x, y] : {std::pair(1, 1), {-1, 1}, {-1, -1}, {1, -1}})
+        outline.push_back(middle + x * obstacle.half.x() * along + y * obstacle.half.y() * left);
+    return outline;
+}
+
+}  // namespace
+
+RoadRooms::RoadRooms(const world::TownT& town, const world::LaneMap& lanes)
+    : town_(&town),
+      lanes_(&lanes) {
+    std::vector<world::BoxGrid::Entry> entries;
+    for (const Obstacle& obstacle : obstacles_of(town)) {
+        const bool round = obstacle.shape == Obstacle::Shape::cylinder;
+        Thing thing{outline_of(obstacle), round ? obstacle.radius : 0, obstacle.position.z()};
+        entries.push_back({world::box_around(thing.outline, thing.radius + aside),
+                           static_cast<std::uint32_t>(things_.size())});
+        things_.push_back(std::move(thing));
+    }
+    things_by_place_ = world::BoxGrid(entries);
+}
+
+/// As physics has it: slabs are cut clear of lanes.
+bool RoadRooms::is_sidewalk(const Eigen::Vector3d& p_world) const {
+    const auto found = lanes_->walkable_at(p_world);
+    const bool slab = std::any_of(found.begin(), found.end(), [this](const auto& walkable) {
+        return town_->lanes[walkable.lane].kind != world::LaneKind::crossing;
+    });
+    return slab && lanes_->at(p_world).empty();
+}
+
+RoadRoom RoadRooms::look(const Eigen::Vector3d& p_world, const Eigen::Vector2d& side) const {
+    const Eigen::Vector3d across(side.x(), side.y(), 0);
+    RoadRoom room{sight, sight};
+    for (double far = step; far < sight; far += step)
+        if (is_sidewalk(p_world + far * across)) {
+            room.to_kerb = far - step / 2;
+            break;
+        }
+    const Eigen::Vector2d from = p_world.head<2>();
+    world::Box box;
+    box.take(from, aside);
+    box.take(from + sight * side, aside);
+    for (const std::uint32_t index : things_by_place_.near(box)) {
+        const Thing& thing = things_[index];
+        const double above = thing.z - p_world.z();
+        if (above < lowest_thing - storey || above > storey)
+            continue;
+        // Halve: how far can one go?
+        double free = 0;
+        double met = room.to_thing;
+        const auto touches = [&](double far) {
+            return world::distance_to(thing.outline, from, from + far * side) <
+                   thing.radius + aside;
+        };
+        if (!touches(met))
+            continue;
+        while (met - free > 0.02) {
+            const double middle = (free + met) / 2;
+            (touches(middle) ? met : free) = middle;
+        }
+        room.to_thing = free;
+    }
+    return room;
+}
+
+}  // namespace reprise::kernel

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "world/geometry2d.h"
+#include "world/town.h"
+
+namespace reprise::kernel {
+
+/// How far the road reaches to one side of a place, across it. [m], at most RoadRooms::sight.
+struct RoadRoom {
+    double to_kerb = 0;   ///< to the first sidewalk
+    double to_thing = 0;  ///< to the first thing that stands: pole, trunk, wall, building
+};
+
+/// Looks across the road for kerbs, and for what stands behind them.
+class RoadRooms {
+  public:
+    static constexpr double sight = 6;  ///< [m]
+
+    /// Looks into `town` and `lanes`, which must outlive this. O(things in the town).
+    RoadRooms(const world::TownT& town, const world::LaneMap& lanes);
+
+    /// From p_world towards `side` (unit, in plan). About 20 us.
+    /// Things count from half a metre beside the line on: lines half a metre apart miss none.
+    RoadRoom look(const Eigen::Vector3d& p_world, const Eigen::Vector2d& side) const;
+
+  private:
+    /// Seen from above: an outline, a line or a point, and how far it reaches beyond.
+    struct Thing {
+        world::Loop outline;
+        double radius = 0;
+        double z = 0;
+    };
+
+    bool is_sidewalk(const Eigen::Vector3d& p_world) const;
+
+    const world::TownT* town_;
+    const world::LaneMap* lanes_;
+    std::vector<Thing> things_;
+    world::BoxGrid things_by_place_;
+};
+
+}  // namespace reprise::kernel

@@ -1,0 +1,71 @@
+#include "drivers/steering.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reprise::kernel {
+
+namespace {
+
+constexpr double tracked_share = 0.5;     // of the wheelbase, ahead of the rear axle
+constexpr double offset_gain = 2.0;       // [1/s]
+constexpr double offset_softening = 1.5;  // [m/s]
+constexpr double steepest_return = 0.5;   // [rad] towards the path
+constexpr double preview = 0.08;          // [s] a tick's delay and the wheels' turning
+constexpr double yaw_damping = 0.05;      // [s]
+
+/// What the car should do there.
+struct Aim {
+    Eigen::Vector2d position;   ///< world, of the tracked point
+    Eigen::Vector2d direction;  ///< unit, of the track there
+    double yaw = 0;             ///< [rad] of the body
+    double curvature = 0;       ///< [1/m] of the track
+    double curvature_soon = 0;  ///< [1/m] when the wheels will have turned
+};
+
+double steer_to(const Ego& ego, const Aim& aim, double ahead) {
+    const double wheelbase = ego.model->wheelbase;
+    const double speed = std::max(ego.speed, 0.0);
+    const Eigen::Vector2d tracked = ego.position.head<2>() + ahead * ego.direction;
+    const Eigen::Vector2d offset = tracked - aim.position;
+    const double left = aim.direction.x() * offset.y() - aim.direction.y() * offset.x();
+    const double heading = world::wrap_angle(aim.yaw - ego.yaw);
+
+    const double turn = std::atan(wheelbase * aim.curvature_soon);
+    const double back = std::clamp(std::atan2(-offset_gain * left, offset_softening + speed),
+                                   -steepest_return,
+                                   steepest_return);
+    const double damping = yaw_damping * (speed * aim.curvature - ego.yaw_rate);
+    const double angle = turn + heading + back + damping;
+    return std::clamp(angle / ego.model->max_steering_angle, -1.0, 1.0);
+}
+
+}  // namespace
+
+double steer(const Ego& ego, const Path& path) {
+    const double ahead = tracked_share * ego.model->wheelbase;
+    const double s = ego.rear_axle_s + ahead;
+    const PathPoint here = path.at(s);
+    Aim aim{here.position.head<2>(), here.direction};
+    aim.curvature_soon = path.curvature(s + preview * std::max(ego.speed, 0.0), 1.0);
+    aim.curvature = path.curvature(s, 1.0);
+    // In a steady turn the body points by asin(ahead * curvature) away from the track's tangent.
+    const double slip = std::asin(std::clamp(ahead * aim.curvature, -0.9, 0.9));
+    aim.yaw = here.yaw - slip;
+    return steer_to(ego, aim, ahead);
+}
+
+double steer(const Ego& ego, const Swing& swing) {
+    const double ahead = tracked_share * ego.model->wheelbase;
+    const SwingPoint here = swing.at(ego.rear_axle_s);
+    const Eigen::Vector2d direction(std::cos(here.yaw), std::sin(here.yaw));
+    const double soon = ego.rear_axle_s + preview * std::max(ego.speed, 0.0);
+    const Aim aim{here.position + ahead * direction,
+                  direction,
+                  here.yaw,
+                  here.curvature,
+                  swing.at(soon).curvature};
+    return steer_to(ego, aim, ahead);
+}
+
+}  // namespace reprise::kernel

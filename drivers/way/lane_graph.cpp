@@ -1,0 +1,192 @@
+#include "drivers/way/lane_graph.h"
+
+#include <algorithm>
+
+#include "world/check.h"
+#include "world/lanes/planner.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+using world::LaneKind;
+using world::LaneT;
+using world::Link;
+
+bool leads_somewhere(const world::TownT& town, const Link& link) {
+    return link.to() < town.lanes.size() && world::is_for_cars(town.lanes[link.to()]);
+}
+
+}  // namespace
+
+LaneGraph::LaneGraph(const world::TownT& town)
+    : town_(&town),
+      exit_(town.lanes.size(), world::none),
+      incoming_(town.junctions.size()) {
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
+        const LaneT& lane = town.lanes[i];
+        if (lane.kind != LaneKind::driving)
+            continue;
+        if (lane.junction < incoming_.size())
+            incoming_[lane.junction].push_back(i);
+        for (const Link& link : lane.links)
+            if (leads_somewhere(town, link))
+                for (const std::uint32_t internal : inside(link))
+                    exit_[internal] = link.to();
+    }
+    find_dead_ends();
+}
+
+Outlook LaneGraph::outlook(const Link& link) const {
+    if (!leads_somewhere(*town_, link))
+        return Outlook::nowhere;
+    const Outlook behind = outlook_[link.to()];
+    return link.turn() == world::Turn::around ? std::min(behind, Outlook::turning) : behind;
+}
+
+Outlook LaneGraph::straight_outlook(std::uint32_t lane) const {
+    Outlook best = Outlook::nowhere;
+    for (const Link& link : town_->lanes[lane].links)
+        best = std::max(best, outlook(link));
+    return best;
+}
+
+void LaneGraph::find_dead_ends() {
+    const auto count = static_cast<std::uint32_t>(town_->lanes.size());
+    outlook_.assign(count, Outlook::free);
+    // Mark down what promises more than its links and neighbours hold until nothing changes; as
+    // many rounds as the longest blind alley.
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (town_->lanes[i].kind != LaneKind::driving)
+                continue;
+            Outlook best = straight_outlook(i);
+            if (best < outlook_[i])
+                for (const std::uint32_t to : reachable_sideways(i))
+                    best = std::max(best, straight_outlook(to));
+            changed = changed || best < outlook_[i];
+            outlook_[i] = std::min(outlook_[i], best);
+        }
+    }
+}
+
+std::vector<std::uint32_t> LaneGraph::choices(std::uint32_t lane) const {
+    const std::vector<Link>& links = town_->lanes[lane].links;
+    const Outlook best = straight_outlook(lane);
+    // To turn here is no better than to turn later, unless there is no later.
+    for (const bool around : {false, true}) {
+        std::vector<std::uint32_t> found;
+        for (std::uint32_t i = 0; i < links.size(); ++i)
+            if (leads_somewhere(*town_, links[i]) && outlook(links[i]) == best &&
+                (around || links[i].turn() != world::Turn::around))
+                found.push_back(i);
+        if (!found.empty())
+            return found;
+    }
+    return {};
+}
+
+std::vector<std::uint32_t> LaneGraph::reachable_sideways(std::uint32_t lane) const {
+    constexpr int most = 16;
+    std::vector<std::uint32_t> found;
+    std::uint32_t right = lane;
+    std::uint32_t left = lane;
+    for (int steps = 0; steps < most && (right != world::none || left != world::none); ++steps) {
+        for (std::uint32_t* side : {&right, &left}) {
+            if (*side == world::none)
+                continue;
+            *side = side == &right ? town_->lanes[*side].right : town_->lanes[*side].left;
+            if (*side < town_->lanes.size() && town_->lanes[*side].kind == LaneKind::driving)
+                found.push_back(*side);
+            else
+                *side = world::none;
+        }
+    }
+    return found;
+}
+
+std::uint32_t LaneGraph::better_neighbour(std::uint32_t lane) const {
+    const Outlook here = straight_outlook(lane);
+    const std::vector<std::uint32_t> sideways = reachable_sideways(lane);
+    const auto better = std::find_if(sideways.begin(), sideways.end(), [&](std::uint32_t to) {
+        return straight_outlook(to) > here;
+    });
+    if (better == sideways.end())
+        return world::none;
+    // The first step towards it.
+    for (std::uint32_t to = town_->lanes[lane].right; to != world::none;
+         to = town_->lanes[to].right)
+        if (to == *better)
+            return town_->lanes[lane].right;
+    return town_->lanes[lane].left;
+}
+
+std::vector<std::uint32_t> LaneGraph::inside(const Link& link) const {
+    std::vector<std::uint32_t> lanes;
+    std::uint32_t via = link.via();
+    while (via < town_->lanes.size() && lanes.size() < 16) {
+        lanes.push_back(via);
+        const std::vector<Link>& links = town_->lanes[via].links;
+        const auto on = std::find_if(links.begin(), links.end(), [&](const Link& next) {
+            return next.to() == link.to() || next.via() != world::none;
+        });
+        via = on == links.end() ? world::none : on->via();
+        // A network may also name the next internal lane as the target itself.
+        if (via == world::none && on == links.end() && !links.empty() &&
+            links.front().to() < town_->lanes.size() &&
+            town_->lanes[links.front().to()].kind == LaneKind::internal)
+            via = links.front().to();
+    }
+    return lanes;
+}
+
+std::span<const std::uint32_t> LaneGraph::incoming(std::uint32_t junction) const {
+    if (junction >= incoming_.size())
+        return {};
+    return incoming_[junction];
+}
+
+Plan LaneGraph::plan(world::LanePlace from,
+                     std::span<const std::uint32_t> stops,
+                     double last_s) const {
+    Plan plan;
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+        const std::uint32_t stop = stops[i];
+        REPRISE_CHECK(stop < town_->lanes.size(), "lane " + std::to_string(stop));
+        const LaneT& goal = town_->lanes[stop];
+        const bool last = i + 1 == stops.size();
+        const auto route =
+            goal.kind == LaneKind::driving
+                ? world::Planner(*town_).plan(from, {stop, last ? last_s : goal.length})
+                : std::nullopt;
+        if (!route) {
+            plan.unreachable = stop;
+            return plan;
+        }
+        const std::vector<std::uint32_t> leg = world::driving_lanes(*town_, *route);
+        // An internal lane, where it begins on one, is not among them.
+        const bool begins_here = !leg.empty() && leg.front() == from.lane;
+        plan.lanes.insert(plan.lanes.end(), leg.begin() + (begins_here ? 1 : 0), leg.end());
+        plan.length += route->length;
+        from = {stop, 0};
+    }
+    return plan;
+}
+
+std::optional<Detour> LaneGraph::detour(std::uint32_t lane,
+                                        std::span<const std::uint32_t> stops,
+                                        double last_s) const {
+    std::optional<Detour> best;
+    const std::vector<Link>& links = town_->lanes[lane].links;
+    for (std::uint32_t i = 0; i < links.size(); ++i) {
+        if (links[i].to() >= town_->lanes.size())
+            continue;
+        Plan way = plan({links[i].to(), 0}, stops, last_s);
+        if (way.unreachable == world::none && (!best || way.length < best->plan.length))
+            best = Detour{i, std::move(way)};
+    }
+    return best;
+}
+
+}  // namespace reprise::kernel

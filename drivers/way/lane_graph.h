@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "world/lanes/route.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::kernel {
+
+/// Where a way leads in the end.
+enum class Outlook : std::uint8_t {
+    nowhere,  ///< into a dead end
+    turning,  ///< on, but not without turning around
+    free
+};
+
+/// A way over driving lanes, each a link or a neighbour ahead of the one before.
+struct Plan {
+    std::vector<std::uint32_t> lanes;         ///< without the one where it begins
+    double length = 0;                        ///< [m]
+    std::uint32_t unreachable = world::none;  ///< the first stop that no way leads to
+};
+
+/// Where to go on for one who cannot go as planned.
+struct Detour {
+    std::uint32_t link = 0;  ///< index in lane.links
+    Plan plan;               ///< from the start of the lane behind it
+};
+
+/// The lanes as a graph for drivers: ahead through the links, sideways to the neighbours.
+/// Constant; built once from the town in O(lanes).
+class LaneGraph {
+  public:
+    explicit LaneGraph(const world::TownT& town);
+
+    const world::TownT& town() const { return *town_; }
+
+    /// Links of a lane that a wandering driver may take: those with the best outlook; to turn
+    /// around only where nothing else is left. Indices in lane.links.
+    std::vector<std::uint32_t> choices(std::uint32_t lane) const;
+
+    /// The neighbour towards the nearest lane in the same direction whose own links have a better
+    /// outlook; none when there is no such lane. Ties go to the right.
+    std::uint32_t better_neighbour(std::uint32_t lane) const;
+
+    /// The internal lanes of a link, in driving order.
+    std::vector<std::uint32_t> inside(const world::Link& link) const;
+
+    /// The lane behind the junction for one who is on this internal lane, or none.
+    std::uint32_t exit(std::uint32_t internal_lane) const { return exit_[internal_lane]; }
+
+    /// Driving lanes that end at a junction, ascending.
+    std::span<const std::uint32_t> incoming(std::uint32_t junction) const;
+
+    /// world::Planner's way from a place through all of `stops` in their order, the last one at
+    /// `last_s` of its lane, the others anywhere on theirs.
+    Plan plan(world::LanePlace from, std::span<const std::uint32_t> stops, double last_s) const;
+
+    /// Of the links of a lane the one behind which the shortest way through the stops begins, and
+    /// that way; none: no link leads there. Ties go to the first.
+    std::optional<Detour> detour(std::uint32_t lane,
+                                 std::span<const std::uint32_t> stops,
+                                 double last_s) const;
+
+  private:
+    Outlook outlook(const world::Link& link) const;
+    Outlook straight_outlook(std::uint32_t lane) const;  ///< without changing lanes
+    std::vector<std::uint32_t> reachable_sideways(std::uint32_t lane) const;  ///< nearest first
+    void find_dead_ends();
+
+    const world::TownT* town_;
+    std::vector<Outlook> outlook_;
+    std::vector<std::uint32_t> exit_;
+    std::vector<std::vector<std::uint32_t>> incoming_;
+};
+
+}  // namespace reprise::kernel

@@ -1,0 +1,84 @@
+#include "ground/mesh/ground_probe.h"
+
+#include <cmath>
+#include <limits>
+
+namespace reprise::world {
+
+namespace {
+
+constexpr double cell = 4.0;          ///< [m] about a lane: few triangles in each
+constexpr double least_area = 1e-9;   ///< [m2] twice that of a triangle from above
+constexpr double headroom = 2.0;      ///< [m] terrain closer below a road carries only the road
+constexpr double on_the_edge = 1e-9;  ///< [m2] a plumb line on a seam hits both sides
+
+Box box_of(const GroundMesh& mesh, std::size_t triangle) {
+    Box box;
+    for (const std::uint32_t vertex : mesh.triangles[triangle])
+        box.take(mesh.vertices[vertex].head<2>());
+    return box;
+}
+
+/// Height of a triangle at a place in plan, when it is over it.
+std::optional<double> height_at(const GroundMesh& mesh,
+                                std::size_t triangle,
+                                const Eigen::Vector2d& p) {
+    const auto& [first, second, third] = mesh.triangles[triangle];
+    const Eigen::Vector3d corners[] = {
+        mesh.vertices[first], mesh.vertices[second], mesh.vertices[third]};
+    double weights[3];
+    double whole = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Eigen::Vector2d from = corners[(i + 1) % 3].head<2>() - p;
+        const Eigen::Vector2d to = corners[(i + 2) % 3].head<2>() - p;
+        weights[i] = cross(from, to);
+        whole += weights[i];
+        if (weights[i] < -on_the_edge)
+            return std::nullopt;
+    }
+    if (whole < least_area)
+        return std::nullopt;
+    return (weights[0] * corners[0].z() + weights[1] * corners[1].z() +
+            weights[2] * corners[2].z()) /
+           whole;
+}
+
+}  // namespace
+
+GroundProbe::GroundProbe(const GroundMesh& mesh) : mesh_(&mesh) {
+    std::vector<BoxGrid::Entry> entries;
+    entries.reserve(mesh.triangles.size());
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+        entries.push_back({box_of(mesh, i), i});
+    by_place_ = BoxGrid(entries, cell);
+}
+
+std::optional<GroundProbe::Hit> GroundProbe::below(const Eigen::Vector3d& from_world) const {
+    const Eigen::Vector2d p = from_world.head<2>();
+    Box place;
+    place.take(p);
+    std::optional<Hit> highest;
+    for (const std::uint32_t triangle : by_place_.near(place)) {
+        const Surface surface = mesh_->surfaces[triangle];
+        if (surface == Surface::kerb || surface == Surface::marking || surface == Surface::deck)
+            continue;
+        const std::optional<double> z = height_at(*mesh_, triangle, p);
+        if (z && *z <= from_world.z() && (!highest || *z > highest->z))
+            highest = Hit{*z, surface};
+    }
+    return highest;
+}
+
+std::optional<GroundProbe::Hit> GroundProbe::nearest(const Eigen::Vector3d& near_world) const {
+    const double z = near_world.z();
+    std::optional<Hit> best;
+    double from = std::numeric_limits<double>::max();
+    while (const std::optional<Hit> hit = below({near_world.x(), near_world.y(), from})) {
+        if (!best || std::abs(hit->z - z) < std::abs(best->z - z))
+            best = hit;
+        from = hit->z - headroom;
+    }
+    return best;
+}
+
+}  // namespace reprise::world

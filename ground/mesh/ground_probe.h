@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ground/mesh/ground.h"
+#include "world/geometry2d.h"
+
+namespace reprise::world {
+
+/// Drops plumb lines on a ground mesh: where would a wheel rest? Built once, O(triangles near) for
+/// each question.
+class GroundProbe {
+  public:
+    /// Looks into `mesh`, which must outlive the probe.
+    explicit GroundProbe(const GroundMesh& mesh);
+
+    struct Hit {
+        double z = 0;  ///< [m]
+        Surface surface = Surface::terrain;
+    };
+
+    /// The highest ground at `from_world` or straight below it. Kerb faces, which have no area
+    /// from above, painted lines and what holds bridges up do not count. None: a hole, or beyond
+    /// the town's terrain.
+    std::optional<Hit> below(const Eigen::Vector3d& from_world) const;
+
+    /// The ground of the level that a thing at `near_world` is on: of the levels that have headroom
+    /// over them, the nearest one above or below. None: a hole, or beyond the town's terrain.
+    std::optional<Hit> nearest(const Eigen::Vector3d& near_world) const;
+
+    /// Triangles whose box in plan may touch `box`; some beside it, too. Ascending.
+    std::vector<std::uint32_t> near(const Box& box) const { return by_place_.near(box); }
+
+  private:
+    const GroundMesh* mesh_;
+    BoxGrid by_place_;
+};
+
+}  // namespace reprise::world

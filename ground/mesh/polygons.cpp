@@ -1,0 +1,169 @@
+#include "ground/mesh/polygons.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/polygon/polygon.hpp>
+
+#include "ground/mesh/triangulation.h"
+
+namespace reprise::world {
+
+namespace bp = boost::polygon;
+
+namespace {
+
+using Point = bp::point_data<int>;
+using Polygon = bp::polygon_data<int>;
+using PolygonWithHoles = bp::polygon_with_holes_data<int>;
+
+constexpr double units_per_metre = 1000;
+
+}  // namespace
+
+struct Area::Set {
+    Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+    bp::polygon_set_data<int> polygons;
+
+    Point inward(const Eigen::Vector2d& p) const {
+        const Eigen::Vector2d local = (p - origin) * units_per_metre;
+        return {static_cast<int>(std::lround(local.x())), static_cast<int>(std::lround(local.y()))};
+    }
+
+    Eigen::Vector2d outward(const Point& p) const {
+        return origin + Eigen::Vector2d(p.x(), p.y()) / units_per_metre;
+    }
+
+    template <typename Points>
+    Loop loop(const Points& polygon) const {
+        Loop result;
+        for (auto point = polygon.begin(); point != polygon.end(); ++point)
+            result.push_back(outward(*point));
+        if (result.size() > 1 && result.front() == result.back())
+            result.pop_back();
+        return result;
+    }
+};
+
+Area::Area() : Area(Eigen::Vector2d::Zero()) {}
+
+Area::Area(const Eigen::Vector2d& origin) : set_(std::make_unique<Set>()) {
+    set_->origin = origin;
+}
+
+Area::~Area() = default;
+Area::Area(Area&&) noexcept = default;
+Area& Area::operator=(Area&&) noexcept = default;
+
+Area Area::copy() const {
+    Area other(set_->origin);
+    other.set_->polygons = set_->polygons;
+    return other;
+}
+
+void Area::add(const Loop& loop) {
+    std::vector<Point> points;
+    for (const Eigen::Vector2d& p : loop) {
+        const Point point = set_->inward(p);
+        if (points.empty() || points.back() != point)
+            points.push_back(point);
+    }
+    while (points.size() > 1 && points.front() == points.back())
+        points.pop_back();
+    if (points.size() < 3)
+        return;
+    // On its own first: a lobe that turns the other way would cancel what is there already.
+    const Polygon polygon(points.begin(), points.end());
+    bp::polygon_set_data<int> turned_with;
+    turned_with.insert(polygon);
+    turned_with.clean();
+    set_->polygons.insert(turned_with);
+    // Where the lobes that turn with the whole are more than the whole, others turn against it.
+    const auto whole = std::abs(static_cast<double>(bp::area(polygon)));
+    constexpr double rounding = 1000;  // [mm2]
+    if (static_cast<double>(bp::area(turned_with)) <= whole + rounding)
+        return;
+    bp::polygon_set_data<int> turned_against;
+    turned_against.insert(polygon, true);
+    turned_against.clean();
+    set_->polygons.insert(turned_against);
+}
+
+void Area::merge(const Area& other) {
+    using namespace bp::operators;
+    set_->polygons |= other.set_->polygons;
+}
+
+void Area::subtract(const Area& other) {
+    using namespace bp::operators;
+    set_->polygons -= other.set_->polygons;
+}
+
+void Area::intersect(const Area& other) {
+    using namespace bp::operators;
+    set_->polygons &= other.set_->polygons;
+}
+
+void Area::shrink(double width) {
+    set_->polygons.resize(-static_cast<int>(std::lround(width * units_per_metre)));
+}
+
+double Area::size() const {
+    return static_cast<double>(bp::area(set_->polygons)) / (units_per_metre * units_per_metre);
+}
+
+std::vector<Loop> Area::pieces() const {
+    std::vector<PolygonWithHoles> polygons;
+    set_->polygons.get(polygons);
+    std::vector<Loop> borders;
+    const auto add = [&](const auto& polygon) {
+        borders.emplace_back();
+        for (auto point = polygon.begin(); point != polygon.end(); ++point)
+            borders.back().emplace_back(point->x(), point->y());
+    };
+    for (const PolygonWithHoles& polygon : polygons) {
+        add(polygon);
+        for (auto hole = polygon.begin_holes(); hole != polygon.end_holes(); ++hole)
+            add(*hole);
+    }
+    std::vector<Loop> loops;
+    for (const auto& triangle : triangulate(borders)) {
+        loops.emplace_back();
+        for (const Eigen::Vector2d& corner : triangle)
+            loops.back().push_back(set_->origin + corner / units_per_metre);
+    }
+    return loops;
+}
+
+std::vector<Loop> Area::borders() const {
+    std::vector<PolygonWithHoles> polygons;
+    set_->polygons.get(polygons);
+    std::vector<Loop> loops;
+    for (const PolygonWithHoles& polygon : polygons) {
+        loops.push_back(set_->loop(polygon));
+        if (signed_area(loops.back()) < 0)
+            std::reverse(loops.back().begin(), loops.back().end());
+        for (auto hole = polygon.begin_holes(); hole != polygon.end_holes(); ++hole) {
+            loops.push_back(set_->loop(*hole));
+            if (signed_area(loops.back()) > 0)
+                std::reverse(loops.back().begin(), loops.back().end());
+        }
+    }
+    return loops;
+}
+
+std::vector<Area> Area::parts() const {
+    std::vector<PolygonWithHoles> polygons;
+    set_->polygons.get(polygons);
+    std::vector<Area> parts;
+    for (const PolygonWithHoles& polygon : polygons) {
+        Area part(set_->origin);
+        part.set_->polygons.insert(polygon);
+        // Rounding to whole millimetres leaves nothing of some slivers.
+        if (part.size() > 0)
+            parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+}  // namespace reprise::world

@@ -1,0 +1,100 @@
+#include "kernel/physics/ground.h"
+
+#include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
+
+#include "world/check.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+class FirstTriangle : public btTriangleRaycastCallback {
+  public:
+    FirstTriangle(const btVector3& from, const btVector3& to)
+        : btTriangleRaycastCallback(from, to) {}
+
+    btScalar reportHit(const btVector3& normal, btScalar fraction, int, int triangle) override {
+        if (fraction < best || (fraction == best && triangle < index)) {
+            best = fraction;
+            index = triangle;
+            best_normal = normal;
+        }
+        // A hair behind the best hit, so that its equals are still reported.
+        return best * (1 + 1e-12);
+    }
+
+    btScalar best = 2;
+    int index = -1;
+    btVector3 best_normal;
+};
+
+}  // namespace
+
+Ground::Ground(const world::GroundMesh& mesh, btDynamicsWorld& world)
+    : surfaces_(mesh.surfaces),
+      world_(&world) {
+    REPRISE_CHECK(!mesh.triangles.empty(), "the town has no ground");
+    REPRISE_CHECK(mesh.surfaces.size() == mesh.triangles.size(),
+                  std::to_string(mesh.surfaces.size()) + " surfaces");
+    vertices_.reserve(mesh.vertices.size());
+    for (const Eigen::Vector3d& v : mesh.vertices)
+        vertices_.push_back({v.x(), v.y(), v.z()});
+    triangles_.reserve(mesh.triangles.size());
+    for (const auto& t : mesh.triangles)
+        triangles_.push_back(
+            {static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2])});
+
+    btIndexedMesh indexed;
+    indexed.m_numTriangles = static_cast<int>(triangles_.size());
+    indexed.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(triangles_.data());
+    indexed.m_triangleIndexStride = sizeof(triangles_[0]);
+    indexed.m_numVertices = static_cast<int>(vertices_.size());
+    indexed.m_vertexBase = reinterpret_cast<const unsigned char*>(vertices_.data());
+    indexed.m_vertexStride = sizeof(vertices_[0]);
+    indexed.m_vertexType = PHY_DOUBLE;
+    arrays_.addIndexedMesh(indexed, PHY_INTEGER);
+    shape_ = std::make_unique<btBvhTriangleMeshShape>(&arrays_, true);
+
+    btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape_.get());
+    info.m_friction = 0.6;
+    info.m_restitution = 0;
+    body_ = std::make_unique<btRigidBody>(info);
+    tag(*body_, ground_body, 0);
+    world.addRigidBody(body_.get());
+}
+
+Ground::~Ground() {
+    world_->removeRigidBody(body_.get());
+}
+
+bool Ground::cast(const btVector3& from, const btVector3& to, Hit& hit) const {
+    FirstTriangle first(from, to);
+    shape_->performRaycast(&first, from, to);
+    if (first.index < 0)
+        return false;
+    hit.fraction = first.best;
+    hit.normal = first.best_normal;
+    hit.surface = surfaces_[static_cast<std::size_t>(first.index)];
+    return true;
+}
+
+void* WheelRays::castRay(const btVector3& from,
+                         const btVector3& to,
+                         btVehicleRaycasterResult& result) {
+    world::Surface& surface = surfaces_[next_++ % surfaces_.size()];
+    surface = world::Surface::terrain;
+    Ground::Hit hit;
+    if (!ground_->cast(from, to, hit))
+        return nullptr;
+    surface = hit.surface;
+    result.m_distFraction = hit.fraction;
+    result.m_hitPointInWorld = from + (to - from) * hit.fraction;
+    // A round wheel rolls over a kerb's edge; a ray that meets the upright face would be thrown
+    // back by it. So faces steeper than 60 degrees count as steps: support against the ray.
+    const btVector3 against = (from - to).normalized();
+    const btVector3 normal = hit.normal.normalized();
+    result.m_hitNormalInWorld = normal.dot(against) > 0.5 ? normal : against;
+    return this;  // anything but null means "hit": btRaycastVehicle uses it as a fixed ground
+}
+
+}  // namespace reprise::kernel

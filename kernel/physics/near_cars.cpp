@@ -1,0 +1,147 @@
+#include "kernel/physics/near_cars.h"
+
+#include <algorithm>
+
+#include "world/frames.h"
+#include "world/models/catalogue.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+/// [m] A car that moves further in one tick was put elsewhere (SUMO teleports): no velocity then.
+constexpr double longest_move = 5;
+
+double nearest_squared(std::span<const btVector3> centres, const world::Vec3& p) {
+    double nearest = 1e300;
+    for (const btVector3& centre : centres)
+        nearest = std::min(nearest, centre.distance2(to_bullet(p)));
+    return nearest;
+}
+
+/// Middle of the box, for a car's frame (ground below the rear axle).
+btTransform box_pose(const world::CarState& car) {
+    const world::VehicleModel& m = world::vehicle_models()[car.model()];
+    const Eigen::Translation3d middle(m.length / 2 - m.rear_overhang,
+                                      0,
+                                      NearCars::clearance + (m.height - NearCars::clearance) / 2);
+    const double yaw = static_cast<double>(car.yaw());
+    const double pitch = static_cast<double>(car.pitch());
+    return to_bullet(world::pose(car.position(), yaw, pitch) * middle);
+}
+
+}  // namespace
+
+struct NearCars::Box {
+    std::uint32_t id = 0;
+    btVector3 from;
+    btVector3 way;  ///< in this tick
+    btQuaternion turn_from;
+    btQuaternion turn_way;  ///< added to turn_from, then normalised
+    bool moves = false;
+    bool wanted = false;  ///< stays in this tick
+    std::unique_ptr<btRigidBody> body;
+};
+
+NearCars::NearCars(btDynamicsWorld& world) : world_(&world) {
+    for (const world::VehicleModel& m : world::vehicle_models())
+        shapes_.push_back(std::make_unique<btBoxShape>(
+            btVector3(m.length / 2, m.width / 2, (m.height - clearance) / 2)));
+}
+
+NearCars::~NearCars() {
+    for (const auto& box : boxes_)
+        world_->removeRigidBody(box->body.get());
+}
+
+void NearCars::choose(std::span<const world::CarState> last,
+                      std::span<const world::CarState> next,
+                      std::span<const btVector3> centres) {
+    // Who stays: still there and not too far.
+    std::vector<const world::CarState*> entering;
+    auto old = boxes_.begin();
+    for (const auto& box : boxes_)
+        box->wanted = false;
+    for (const world::CarState& car : next) {
+        while (old != boxes_.end() && (*old)->id < car.id())
+            ++old;
+        const double d2 = nearest_squared(centres, car.position());
+        if (old != boxes_.end() && (*old)->id == car.id())
+            (*old)->wanted = d2 <= leave_distance * leave_distance;
+        else if (d2 <= enter_distance * enter_distance)
+            entering.push_back(&car);
+    }
+    // Leave, then enter.
+    std::erase_if(boxes_, [&](const auto& box) {
+        if (!box->wanted)
+            world_->removeRigidBody(box->body.get());
+        return !box->wanted;
+    });
+    for (const world::CarState* car : entering)
+        enter(*car);
+    std::sort(
+        boxes_.begin(), boxes_.end(), [](const auto& a, const auto& b) { return a->id < b->id; });
+    // Where to.
+    for (const auto& box : boxes_)
+        aim(*box, last, *world::find(next, box->id));
+}
+
+void NearCars::enter(const world::CarState& car) {
+    auto box = std::make_unique<Box>();
+    box->id = car.id();
+    btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shapes_[car.model()].get());
+    info.m_friction = 0.6;
+    info.m_restitution = 0.3;
+    info.m_startWorldTransform = box_pose(car);
+    box->body = std::make_unique<btRigidBody>(info);
+    btRigidBody& body = *box->body;
+    body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    body.setActivationState(DISABLE_DEACTIVATION);
+    tag(body, car_body, car.id());
+    world_->addRigidBody(&body);
+    boxes_.push_back(std::move(box));
+}
+
+void NearCars::aim(Box& box, std::span<const world::CarState> last, const world::CarState& next) {
+    const btTransform to = box_pose(next);
+    const world::CarState* before = world::find(last, box.id);
+    btTransform from = before != nullptr ? box_pose(*before) : to;
+    if (from.getOrigin().distance2(to.getOrigin()) > longest_move * longest_move)
+        from = to;
+    box.from = from.getOrigin();
+    box.way = to.getOrigin() - from.getOrigin();
+    box.turn_from = from.getRotation();
+    btQuaternion turn_to = to.getRotation();
+    if (turn_to.dot(box.turn_from) < 0)
+        turn_to = -turn_to;
+    box.turn_way = turn_to - box.turn_from;
+    const bool moves = box.way.length2() > 0 || box.turn_way.length2() > 0;
+    // A box that stands still needs its pose only once, and where Bullet believed it was, too: else
+    // a jump would count as a velocity.
+    if (!moves || box.body->getWorldTransform().getOrigin().distance2(box.from) > 1e-6) {
+        box.body->setWorldTransform(from);
+        box.body->setInterpolationWorldTransform(from);
+    }
+    box.moves = moves;
+}
+
+void NearCars::move(double share) {
+    for (const auto& box : boxes_) {
+        if (!box->moves)
+            continue;
+        const btQuaternion turn = box->turn_from + box->turn_way * share;
+        box->body->setWorldTransform(btTransform(turn.normalized(), box->from + box->way * share));
+    }
+}
+
+void NearCars::add_to(world::Hasher& hasher) const {
+    hasher.add(static_cast<std::uint64_t>(boxes_.size()));
+    for (const auto& box : boxes_) {
+        hasher.add(box->id);
+        add_transform(hasher, box->body->getWorldTransform());
+        add_vector(hasher, box->body->getLinearVelocity());
+        add_vector(hasher, box->body->getAngularVelocity());
+    }
+}
+
+}  // namespace reprise::kernel

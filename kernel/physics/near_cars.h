@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernel/physics/bullet.h"
+#include "world/digest.h"
+#include "world/tick.h"
+
+namespace reprise::kernel {
+
+/// The cars without mass (SUMO's, the scenario's, parked ones) as kinematic boxes: they move as
+/// told and push like walls. Boxes far from every vehicle with mass cannot be hit in this tick and
+/// are not in Bullet: 400 boxes would cost more than everything else together.
+///
+/// A box enters below 60 m and leaves above 80 m from the nearest vehicle (the gap keeps boxes from
+/// going in and out). Who is in is state: it depends on the past, so the digest covers it.
+class NearCars {
+  public:
+    static constexpr double enter_distance = 60;
+    static constexpr double leave_distance = 80;
+    static constexpr double clearance = 0.2;  ///< [m] under a box: it never rubs on the road
+
+    explicit NearCars(btDynamicsWorld& world);
+    ~NearCars();
+    NearCars(const NearCars&) = delete;
+    NearCars& operator=(const NearCars&) = delete;
+
+    /// Start of a tick: who is in, and from where to where they go. All in id order.
+    void choose(std::span<const world::CarState> last,
+                std::span<const world::CarState> next,
+                std::span<const btVector3> centres);
+
+    /// Puts every box where it is after `share` of the tick. Bullet takes the velocities, linear
+    /// and angular, from the difference to the pose before.
+    void move(double share);
+
+    std::size_t size() const { return boxes_.size(); }
+
+    void add_to(world::Hasher& hasher) const;
+
+  private:
+    struct Box;
+
+    void enter(const world::CarState& car);
+    void aim(Box& box, std::span<const world::CarState> last, const world::CarState& next);
+
+    btDynamicsWorld* world_;
+    std::vector<std::unique_ptr<btBoxShape>> shapes_;  ///< [i] of vehicle_models()[i]
+    std::vector<std::unique_ptr<Box>> boxes_;          ///< sorted by id
+};
+
+}  // namespace reprise::kernel

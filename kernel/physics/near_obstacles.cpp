@@ -1,0 +1,80 @@
+#include "kernel/physics/near_obstacles.h"
+
+#include <algorithm>
+
+namespace reprise::kernel {
+
+NearObstacles::NearObstacles(const world::TownT& town, btDynamicsWorld& world)
+    : world_(&world),
+      obstacles_(obstacles_of(town)) {
+    for (const Obstacle& obstacle : obstacles_)
+        largest_radius_ = std::max(largest_radius_, obstacle.radius);
+}
+
+NearObstacles::~NearObstacles() {
+    for (const Body& near : near_)
+        world_->removeRigidBody(near.body.get());
+}
+
+bool NearObstacles::within(std::size_t index,
+                           std::span<const btVector3> centres,
+                           double distance) const {
+    const Obstacle& obstacle = obstacles_[index];
+    const double reach = obstacle.radius + distance;
+    return std::any_of(centres.begin(), centres.end(), [&](const btVector3& centre) {
+        const btVector3 way = centre - obstacle.position;
+        return way.x() * way.x() + way.y() * way.y() <= reach * reach;
+    });
+}
+
+NearObstacles::Body NearObstacles::make(std::size_t index) const {
+    const Obstacle& obstacle = obstacles_[index];
+    Body near{index, make_shape(obstacle), nullptr};
+    btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, near.shape.get());
+    info.m_friction = 0.6;
+    info.m_restitution = 0.3;
+    info.m_startWorldTransform =
+        btTransform(btQuaternion(btVector3(0, 0, 1), obstacle.yaw),
+                    obstacle.position + btVector3(0, 0, obstacle.half.z() - obstacle.depth));
+    near.body = std::make_unique<btRigidBody>(info);
+    tag(*near.body, obstacle_body, 0);
+    return near;
+}
+
+void NearObstacles::choose(std::span<const btVector3> centres) {
+    std::erase_if(near_, [&](const Body& near) {
+        const bool leaves = !within(near.index, centres, leave_distance);
+        if (leaves)
+            world_->removeRigidBody(near.body.get());
+        return leaves;
+    });
+    const auto index_before = [](const Body& near, std::size_t index) {
+        return near.index < index;
+    };
+    for (const btVector3& centre : centres) {
+        const double reach = largest_radius_ + enter_distance;
+        auto at = std::lower_bound(
+            obstacles_.begin(),
+            obstacles_.end(),
+            centre.x() - reach,
+            [](const Obstacle& obstacle, double x) { return obstacle.position.x() < x; });
+        for (; at != obstacles_.end() && at->position.x() <= centre.x() + reach; ++at) {
+            const auto index = static_cast<std::size_t>(at - obstacles_.begin());
+            if (!within(index, {&centre, 1}, enter_distance))
+                continue;
+            const auto place = std::lower_bound(near_.begin(), near_.end(), index, index_before);
+            if (place != near_.end() && place->index == index)
+                continue;
+            const auto near = near_.insert(place, make(index));
+            world_->addRigidBody(near->body.get());
+        }
+    }
+}
+
+void NearObstacles::add_to(world::Hasher& hasher) const {
+    hasher.add(static_cast<std::uint64_t>(near_.size()));
+    for (const Body& near : near_)
+        hasher.add(static_cast<std::uint64_t>(near.index));
+}
+
+}  // namespace reprise::kernel

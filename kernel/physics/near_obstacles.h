@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernel/physics/bullet.h"
+#include "kernel/physics/obstacle.h"
+#include "world/digest.h"
+#include "world/town_generated.h"
+
+namespace reprise::kernel {
+
+/// What stands beside the road. Only that near a vehicle with mass is in Bullet, which walks over
+/// all its bodies several times in each substep.
+class NearObstacles {
+  public:
+    /// [m] from a vehicle's middle to the bounding circle: half a bus, and what it drives in a
+    /// tick.
+    static constexpr double enter_distance = 12;
+    static constexpr double leave_distance = 18;
+
+    NearObstacles(const world::TownT& town, btDynamicsWorld& world);
+    ~NearObstacles();
+    NearObstacles(const NearObstacles&) = delete;
+    NearObstacles& operator=(const NearObstacles&) = delete;
+
+    /// Start of a tick. O(log n + obstacles within reach) for each centre.
+    void choose(std::span<const btVector3> centres);
+
+    std::size_t size() const { return near_.size(); }
+
+    void add_to(world::Hasher& hasher) const;
+
+  private:
+    struct Body {
+        std::size_t index;  ///< in obstacles_
+        std::unique_ptr<btCollisionShape> shape;
+        std::unique_ptr<btRigidBody> body;
+    };
+
+    bool within(std::size_t index, std::span<const btVector3> centres, double distance) const;
+    Body make(std::size_t index) const;
+
+    btDynamicsWorld* world_;
+    std::vector<Obstacle> obstacles_;  ///< sorted by x, then by their order in the town
+    double largest_radius_ = 0;
+    std::vector<Body> near_;  ///< sorted by index
+};
+
+}  // namespace reprise::kernel

@@ -1,0 +1,138 @@
+#include "kernel/physics/obstacle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ground/mesh/polygons.h"
+#include "world/models/building_models.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+using world::PropKind;
+using Shape = Obstacle::Shape;
+
+constexpr double tall_enough = 3;  ///< [m] what is higher is out of reach
+constexpr double head_pole_radius = 0.1;
+constexpr double sign_pole_radius = 0.04;
+constexpr double bush_wood = 0.6;  ///< of its radius; outside of that there are twigs and leaves
+
+Obstacle box(const world::Vec3& foot, double yaw, double length, double width, double height) {
+    return {to_bullet(foot),
+            yaw,
+            btVector3(length, width, height) / 2,
+            std::hypot(length, width) / 2,
+            Shape::box};
+}
+
+Obstacle cylinder(const world::Vec3& foot, double radius, double height) {
+    const double seen = std::min(height, tall_enough);
+    return {to_bullet(foot), 0, btVector3(radius, radius, seen / 2), radius, Shape::cylinder};
+}
+
+bool is_bush(world::PlantKind kind) {
+    return kind == world::PlantKind::round_bush || kind == world::PlantKind::tall_bush ||
+           kind == world::PlantKind::flowering_bush;
+}
+
+Obstacle of_prop(const world::Prop& prop) {
+    switch (prop.kind()) {
+        case PropKind::speed_limit_sign:
+        case PropKind::stop_sign:
+        case PropKind::yield_sign:
+        case PropKind::crossing_sign:
+            return cylinder(prop.position(), sign_pole_radius, prop.height());
+        case PropKind::street_light:
+            return cylinder(prop.position(), prop.width() / 2, prop.height());
+        case PropKind::pole:
+        case PropKind::bin:
+        case PropKind::bollard:
+        case PropKind::hydrant:
+        case PropKind::fountain:
+            return cylinder(prop.position(), prop.length() / 2, prop.height());
+        default:
+            return box(prop.position(), prop.yaw(), prop.length(), prop.width(), prop.height());
+    }
+}
+
+/// On a slope a wall goes on below the floor: nobody drives under a house.
+Obstacle with_foundation(Obstacle building) {
+    building.depth = world::foundation_depth;
+    building.half += btVector3(0, 0, building.depth / 2);
+    return building;
+}
+
+/// A drawn building may be concave: prisms over the convex pieces of its outline.
+void add_drawn(const world::DrawnBuildingT& drawn, std::vector<Obstacle>& obstacles) {
+    const Eigen::Vector2d origin = world::in_plan(drawn.outline.front());
+    world::Area area(origin);
+    area.add(world::in_plan(drawn.outline));
+    const double z = drawn.outline.front().z();
+    for (const world::Loop& piece : area.pieces()) {
+        Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+        for (const Eigen::Vector2d& p : piece)
+            middle += p / static_cast<double>(piece.size());
+        Obstacle prism{btVector3(middle.x(), middle.y(), z),
+                       0,
+                       btVector3(0, 0, drawn.height / 2),
+                       0,
+                       Shape::prism};
+        for (const Eigen::Vector2d& p : piece) {
+            prism.corners.emplace_back(p.x() - middle.x(), p.y() - middle.y(), 0);
+            prism.radius = std::max(prism.radius, (p - middle).norm());
+        }
+        obstacles.push_back(with_foundation(std::move(prism)));
+    }
+}
+
+}  // namespace
+
+std::vector<Obstacle> obstacles_of(const world::TownT& town) {
+    std::vector<Obstacle> obstacles;
+    for (const world::Building& b : town.buildings)
+        obstacles.push_back(
+            with_foundation(box(b.centre(), b.yaw(), b.length(), b.width(), b.height())));
+    for (const world::DrawnBuildingT& drawn : town.drawn_buildings)
+        add_drawn(drawn, obstacles);
+    for (const world::Tree& tree : town.trees)
+        obstacles.push_back(cylinder(tree.position(),
+                                     is_bush(tree.kind())
+                                         ? bush_wood * tree.crown_radius()
+                                         : std::clamp(0.025 * tree.height(), 0.1, 0.35),
+                                     tree.height()));
+    for (const world::Prop& prop : town.props)
+        obstacles.push_back(of_prop(prop));
+    for (std::size_t i = 0; i < town.heads.size(); ++i) {
+        // Heads of neighbouring lanes share a pole.
+        const world::Vec3& foot = town.heads[i].foot;
+        const bool shared = std::any_of(town.heads.begin(),
+                                        town.heads.begin() + static_cast<std::ptrdiff_t>(i),
+                                        [&](const auto& head) { return head.foot == foot; });
+        if (!shared)
+            obstacles.push_back(cylinder(foot, head_pole_radius, tall_enough));
+    }
+    std::stable_sort(obstacles.begin(), obstacles.end(), [](const auto& p, const auto& q) {
+        return p.position.x() < q.position.x();
+    });
+    return obstacles;
+}
+
+std::unique_ptr<btCollisionShape> make_shape(const Obstacle& obstacle) {
+    switch (obstacle.shape) {
+        case Shape::cylinder:
+            return std::make_unique<btCylinderShapeZ>(obstacle.half);
+        case Shape::prism: {
+            auto hull = std::make_unique<btConvexHullShape>();
+            for (const btVector3& corner : obstacle.corners)
+                for (const double side : {-1.0, 1.0})
+                    hull->addPoint(corner + btVector3(0, 0, side * obstacle.half.z()), false);
+            hull->recalcLocalAabb();
+            return hull;
+        }
+        default:
+            return std::make_unique<btBoxShape>(obstacle.half);
+    }
+}
+
+}  // namespace reprise::kernel

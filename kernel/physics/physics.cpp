@@ -1,0 +1,230 @@
+#include "kernel/physics/physics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "kernel/physics/bullet.h"
+#include "kernel/physics/collisions.h"
+#include "kernel/physics/ground.h"
+#include "kernel/physics/near_cars.h"
+#include "kernel/physics/near_obstacles.h"
+#include "kernel/physics/vehicle.h"
+#include "kernel/physics/walker_hits.h"
+#include "world/check.h"
+#include "world/digest.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+/// Bullet with everything said that decides results; docs/determinism.md gives the reasons.
+struct Bullet {
+    Bullet() : dispatcher(&configuration), world(&dispatcher, &pairs, &solver, &configuration) {
+        // Process-wide values: set to Bullet's own defaults, whatever was there before.
+        gContactBreakingThreshold = 0.02;
+        gDeactivationTime = 2;
+        gDisableDeactivation = false;
+        world.setGravity(btVector3(0, 0, 0));  // vehicles bring their weight: see RaycastCar
+        world.setForceUpdateAllAabbs(false);   // same results, and static bodies cost nothing
+        btDispatcherInfo& dispatch = world.getDispatchInfo();
+        dispatch.m_deterministicOverlappingPairs = true;
+        dispatch.m_useContinuous = false;
+        btContactSolverInfo& info = world.getSolverInfo();
+        info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_SIMD;
+        info.m_numIterations = 10;
+        info.m_leastSquaresResidualThreshold = 0;
+        info.m_minimumSolverBatchSize = 1;
+        solver.reset();
+    }
+
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher;
+    btDbvtBroadphase pairs;
+    btSequentialImpulseConstraintSolver solver;
+    btDiscreteDynamicsWorld world;
+};
+
+/// The order in which Bullet walks over its bodies, and the numbers by which it sorts pairs of
+/// them: both tell who came and went before.
+void add_order(world::Hasher& hasher, const btDiscreteDynamicsWorld& world) {
+    const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+    std::vector<int> order;
+    for (int i = 0; i < objects.size(); ++i) {
+        order.push_back(objects[i]->getUserIndex());
+        order.push_back(objects[i]->getUserIndex2());
+        order.push_back(objects[i]->getBroadphaseHandle()->getUid());
+    }
+    hasher.add(std::span<const int>(order));
+}
+
+/// What the solver starts from in the next substep, in the order in which it will: points, normals
+/// (kept while a point lives) and impulses.
+void add_manifolds(world::Hasher& hasher, btCollisionDispatcher& dispatcher) {
+    const int count = dispatcher.getNumManifolds();
+    hasher.add(count);
+    for (int i = 0; i < count; ++i) {
+        const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+        for (const btCollisionObject* body : {manifold.getBody0(), manifold.getBody1()}) {
+            hasher.add(body->getUserIndex());
+            hasher.add(body->getUserIndex2());
+        }
+        hasher.add(manifold.getNumContacts());
+        for (int k = 0; k < manifold.getNumContacts(); ++k) {
+            const btManifoldPoint& point = manifold.getContactPoint(k);
+            add_vector(hasher, point.m_localPointA);
+            add_vector(hasher, point.m_localPointB);
+            add_vector(hasher, point.m_normalWorldOnB);
+            hasher.add(point.m_appliedImpulse);
+            hasher.add(point.m_appliedImpulseLateral1);
+            hasher.add(point.m_appliedImpulseLateral2);
+            hasher.add(point.m_lifeTime);
+        }
+    }
+}
+
+}  // namespace
+
+struct Physics::World {
+    World(const world::EpisodeT& episode, const world::TownT& town, const world::GroundMesh& mesh)
+        : seed(episode.seed),
+          substeps(static_cast<int>(episode.substeps)),
+          step(static_cast<double>(episode.step_ns) * 1e-9),
+          substep(step / substeps),
+          ground(mesh, bullet.world),
+          obstacles(town, bullet.world),
+          cars(bullet.world) {
+        REPRISE_CHECK(substeps >= 1, std::to_string(substeps) + " substeps");
+    }
+
+    std::vector<std::unique_ptr<Vehicle>>::iterator place(std::uint32_t id) {
+        return std::lower_bound(
+            vehicles.begin(), vehicles.end(), id, [](const auto& vehicle, std::uint32_t wanted) {
+                return vehicle->id() < wanted;
+            });
+    }
+
+    void choose_neighbours(const world::TickView& last, const world::TickDraft& next);
+    void make_substep(int index, double road_friction);
+    void write(world::TickT& tick);
+
+    std::uint64_t seed;
+    int substeps;
+    double step;     ///< [s] a tick
+    double substep;  ///< [s]
+    Bullet bullet;
+    Ground ground;
+    NearObstacles obstacles;
+    NearCars cars;
+    WalkerHits walkers;
+    Collisions collisions;
+    std::vector<std::unique_ptr<Vehicle>> vehicles;  ///< sorted by id
+    std::vector<btVector3> centres;                  ///< of the vehicles, at the start of the tick
+};
+
+Physics::Physics(const world::EpisodeT& episode, const world::TownT& town)
+    : Physics(episode, town, world::build_ground(town)) {}
+
+Physics::Physics(const world::EpisodeT& episode,
+                 const world::TownT& town,
+                 const world::GroundMesh& ground)
+    : world_(std::make_unique<World>(episode, town, ground)) {}
+
+Physics::~Physics() = default;
+
+void Physics::add_vehicle(std::uint32_t id,
+                          std::uint16_t model,
+                          const Eigen::Isometry3d& pose_world_vehicle,
+                          double speed) {
+    World& w = *world_;
+    const auto place = w.place(id);
+    REPRISE_CHECK(place == w.vehicles.end() || (*place)->id() != id,
+                  "vehicle " + std::to_string(id));
+    w.vehicles.insert(
+        place,
+        std::make_unique<Vehicle>(id, model, w.bullet.world, w.ground, pose_world_vehicle, speed));
+}
+
+world::Vec3 Physics::remove_vehicle(std::uint32_t id) {
+    World& w = *world_;
+    const auto place = w.place(id);
+    REPRISE_CHECK(place != w.vehicles.end() && (*place)->id() == id,
+                  "vehicle " + std::to_string(id));
+    const world::Vec3 position = (*place)->position();
+    w.vehicles.erase(place);
+    return position;
+}
+
+void Physics::advance(const world::TickView& last, world::TickDraft& next) {
+    World& w = *world_;
+    w.collisions.clear();
+    w.choose_neighbours(last, next);
+    for (const auto& vehicle : w.vehicles)
+        if (const world::Control* control = world::find(next.tick.controls, vehicle->id()))
+            vehicle->set_control(*control);
+    // Without a vehicle nothing has mass, and nothing can happen.
+    if (!w.vehicles.empty())
+        for (int i = 1; i <= w.substeps; ++i)
+            w.make_substep(i, next.tick.road_friction);
+    w.write(next.tick);
+}
+
+void Physics::World::choose_neighbours(const world::TickView& last, const world::TickDraft& next) {
+    centres.clear();
+    for (const auto& vehicle : vehicles)
+        centres.push_back(vehicle->body().getCenterOfMassPosition());
+    obstacles.choose(centres);
+    cars.choose(last.cars(), next.traffic.cars, centres);
+    walkers.choose(last.walkers(), next.traffic.walkers, centres, step);
+}
+
+void Physics::World::make_substep(int index, double road_friction) {
+    const double share = static_cast<double>(index) / substeps;
+    for (const auto& vehicle : vehicles)
+        vehicle->drive(road_friction, substep);
+    walkers.test(share, vehicles, collisions);
+    cars.move(share);
+    bullet.world.stepSimulation(substep, 0);  // 0: exactly one step of this length, no accumulator
+    collisions.gather(bullet.dispatcher);
+}
+
+void Physics::World::write(world::TickT& tick) {
+    tick.vehicles.clear();
+    tick.wheels.clear();
+    tick.looks.clear();
+    for (const auto& vehicle : vehicles) {
+        tick.vehicles.push_back(vehicle->state_after(step));
+        tick.looks.push_back(world::drawn_look(seed, vehicle->id()));
+        const world::Vec3& position = tick.vehicles.back().position();
+        REPRISE_CHECK(std::isfinite(position.x() + position.y() + position.z()),
+                      "tick " + std::to_string(tick.index) + ", vehicle " +
+                          std::to_string(vehicle->id()) + " is nowhere");
+        for (int i = 0; i < 4; ++i)
+            tick.wheels.push_back(vehicle->wheel(i));
+    }
+    collisions.write(tick.events);
+}
+
+void Physics::nudge(std::uint32_t id, std::string_view field, std::int64_t units) {
+    const auto place = world_->place(id);
+    REPRISE_CHECK(place != world_->vehicles.end() && (*place)->id() == id,
+                  "vehicle " + std::to_string(id));
+    (*place)->nudge(field, units);
+}
+
+std::uint64_t Physics::digest() const {
+    World& w = *world_;
+    world::Hasher hasher;
+    hasher.add(static_cast<std::uint64_t>(w.vehicles.size()));
+    for (const auto& vehicle : w.vehicles)
+        vehicle->add_to(hasher);
+    w.obstacles.add_to(hasher);
+    w.cars.add_to(hasher);
+    w.walkers.add_to(hasher);
+    add_order(hasher, w.bullet.world);
+    add_manifolds(hasher, w.bullet.dispatcher);
+    return hasher.digest64();
+}
+
+}  // namespace reprise::kernel

@@ -1,0 +1,305 @@
+#include "kernel/physics/vehicle.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "kernel/drill/nudge.h"
+#include "kernel/physics/bullet.h"
+#include "kernel/physics/ground.h"
+#include "kernel/physics/tyres.h"
+#include "world/frames.h"
+
+namespace reprise::kernel {
+
+namespace {
+
+// Springs. The dampers are softer in compression than in rebound, as real ones are.
+constexpr double compression_damping = 0.35;  // share of critical damping
+constexpr double rebound_damping = 0.45;
+constexpr double wheel_travel = 0.25;     // [m] from rest up to the stop
+constexpr double anti_roll_share = 0.55;  // of the springs' roll stiffness
+
+// Cornering stiffness of the tyres per load [1/rad]: Gillespie gives 0.12 to 0.2 per degree for
+// passenger cars. The softer front axle makes every model understeer: here 1.6 degrees for each g.
+constexpr double front_cornering = 9.0;
+constexpr double rear_cornering = 12.0;
+
+double wrap_turn(double angle) {
+    const double turn = 2 * std::numbers::pi;
+    const double wrapped = angle - turn * std::floor(angle / turn);
+    return wrapped < turn ? wrapped : 0;
+}
+
+}  // namespace
+
+struct Vehicle::Chassis {
+    Chassis(const CarModel& model, btDynamicsWorld& bullet, const Ground& ground);
+
+    ~Chassis() { world->removeRigidBody(&body); }
+
+    void hang_wheels(const CarModel& model);
+
+    btDynamicsWorld* world;
+    btBoxShape box;
+    btCompoundShape shape;
+    btRigidBody body;
+    WheelRays rays;
+    RaycastCar car;
+};
+
+namespace {
+
+btRigidBody::btRigidBodyConstructionInfo chassis_info(const CarModel& model,
+                                                      btCollisionShape& shape) {
+    btRigidBody::btRigidBodyConstructionInfo info(
+        model.catalogue->mass, nullptr, &shape, to_bullet(model.inertia));
+    // Sheet metal: little bounce (0.3 * 0.3), sliding friction 0.36 of two bodies.
+    info.m_friction = 0.6;
+    info.m_restitution = 0.3;
+    return info;
+}
+
+}  // namespace
+
+Vehicle::Chassis::Chassis(const CarModel& model, btDynamicsWorld& bullet, const Ground& ground)
+    : world(&bullet),
+      box(to_bullet(model.box_half)),
+      shape(false),
+      body((shape.addChildShape(
+                btTransform(btQuaternion::getIdentity(), to_bullet(model.box_centre)), &box),
+            chassis_info(model, shape))),
+      rays(ground),
+      car(&body, rays) {
+    body.setActivationState(DISABLE_DEACTIVATION);
+    hang_wheels(model);
+}
+
+void Vehicle::Chassis::hang_wheels(const CarModel& model) {
+    const world::VehicleModel& m = *model.catalogue;
+    const double omega = model.spring_frequency;
+    const double sag = gravity / (omega * omega);  // of the springs under the car's weight
+    const double height = m.wheel_radius + wheel_travel - model.com_height;
+    for (int i = 0; i < 4; ++i) {
+        const bool front = i < 2;
+        const bool left = i % 2 == 0;
+        const double x = (front ? m.wheelbase : 0) - model.com_ahead;
+        const double share = (front ? model.front_share : 1 - model.front_share) / 2;
+        btWheelInfo& wheel = car.addWheel(btVector3(x, (left ? 0.5 : -0.5) * m.track, height),
+                                          btVector3(0, 0, -1),
+                                          btVector3(0, -1, 0),
+                                          wheel_travel + sag,
+                                          m.wheel_radius,
+                                          btRaycastVehicle::btVehicleTuning(),
+                                          front);
+        // Bullet's unit for these: per mass of the whole car.
+        wheel.m_suspensionStiffness = share * omega * omega;
+        wheel.m_wheelsDampingCompression = 2 * compression_damping * omega * share;
+        wheel.m_wheelsDampingRelaxation = 2 * rebound_damping * omega * share;
+        wheel.m_maxSuspensionTravelCm = 100 * (wheel_travel + sag);
+        wheel.m_maxSuspensionForce = 6 * share * m.mass * gravity;
+        wheel.m_wheelsSuspensionForce = 0;
+        wheel.m_skidInfo = 1;
+        const auto index = static_cast<std::size_t>(i);
+        car.wheels[index].cornering_stiffness = front ? front_cornering : rear_cornering;
+        car.anti_roll[index / 2] = anti_roll_share * share * omega * omega * m.mass / 2;
+    }
+    car.gravity = gravity;
+    car.rolling_resistance = model.rolling_resistance;
+    car.resetSuspension();
+}
+
+Vehicle::Vehicle(std::uint32_t id,
+                 std::uint16_t model,
+                 btDynamicsWorld& bullet,
+                 const Ground& ground,
+                 const Eigen::Isometry3d& pose_world_vehicle,
+                 double speed)
+    : id_(id),
+      model_index_(model),
+      model_(car_model(world::vehicle_models()[model])),
+      chassis_(std::make_unique<Chassis>(model_, bullet, ground)),
+      last_position_(world::to_vec3(pose_world_vehicle.translation())) {
+    const Eigen::Isometry3d pose_world_body =
+        pose_world_vehicle * Eigen::Translation3d(model_.com_ahead, 0, model_.com_height);
+    const Eigen::Vector3d velocity = pose_world_vehicle.linear().col(0) * speed;
+    btRigidBody& body = chassis_->body;
+    body.setCenterOfMassTransform(to_bullet(pose_world_body));
+    body.setInterpolationWorldTransform(body.getCenterOfMassTransform());
+    body.setLinearVelocity(to_bullet(velocity));
+    tag(body, vehicle_body, id);
+    bullet.addRigidBody(&body);
+    last_velocity_ = world::to_vec3(velocity);
+}
+
+Vehicle::~Vehicle() = default;
+
+btRigidBody& Vehicle::body() const {
+    return chassis_->body;
+}
+
+void Vehicle::set_control(const world::Control& control) {
+    control_ = control;
+}
+
+void Vehicle::steer(double step) {
+    const world::VehicleModel& m = *model_.catalogue;
+    const double wanted = std::clamp(control_.steer(), -1.0, 1.0) * m.max_steering_angle;
+    const double turn =
+        std::clamp(wanted - steering_angle_, -steering_rate * step, steering_rate * step);
+    if (turn == 0)
+        return;
+    steering_angle_ += turn;
+    const AckermannAngles angles = ackermann(steering_angle_, m.wheelbase, m.track);
+    chassis_->car.setSteeringValue(angles.left, 0);
+    chassis_->car.setSteeringValue(angles.right, 1);
+}
+
+void Vehicle::press_pedals(double road_friction) {
+    const world::VehicleModel& m = *model_.catalogue;
+    RaycastCar& car = chassis_->car;
+    car.grip = model_.grip * road_friction;
+
+    const btVector3 x_ahead = body().getCenterOfMassTransform().getBasis().getColumn(0);
+    const double speed = x_ahead.dot(body().getLinearVelocity());
+    const double throttle = std::clamp(control_.throttle(), 0.0, 1.0);
+    const double force = drive_force(m, throttle, control_.reverse(), speed);
+    // The hand brake is strong enough to lock the rear wheels under any load.
+    const double hand_brake = control_.hand_brake() ? model_.grip * m.mass * gravity : 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const bool front = i < 2;
+        car.wheels[i].engine = front == model_.front_driven ? force / 2 : 0;
+        car.wheels[i].brake = front ? 0 : hand_brake;
+    }
+    car.total_brake = std::clamp(control_.brake(), 0.0, 1.0) * model_.brake_deceleration * m.mass;
+}
+
+void Vehicle::drive(double road_friction, double step) {
+    const btVector3 velocity = body().getLinearVelocity();
+    const double drag = 0.5 * air_density * model_.catalogue->drag_area * velocity.length();
+    body().setLinearVelocity(velocity * (1 - drag * step / model_.catalogue->mass));
+
+    steer(step);
+    press_pedals(road_friction);
+    RaycastCar& car = chassis_->car;
+    car.updateVehicle(step);
+    for (int i = 0; i < 4; ++i) {
+        btWheelInfo& wheel = car.m_wheelInfo[i];
+        if (i >= 2 && control_.hand_brake())
+            wheel.m_rotation -= wheel.m_deltaRotation / 0.99;  // locked; Bullet has damped it since
+        wheel.m_rotation = wrap_turn(wheel.m_rotation);
+    }
+}
+
+world::VehicleState Vehicle::state_after(double step) {
+    const btTransform& pose = body().getCenterOfMassTransform();
+    const btVector3 arm = pose.getBasis() * btVector3(-model_.com_ahead, 0, -model_.com_height);
+    const btVector3 position = pose.getOrigin() + arm;
+    const btVector3 velocity = body().getVelocityInLocalPoint(arm);
+    const btVector3 acceleration = (velocity - to_bullet(last_velocity_)) / step;
+    odometer_ += (position - to_bullet(last_position_)).length();
+    last_position_ = to_vec3(position);
+    last_velocity_ = to_vec3(velocity);
+
+    std::uint16_t lamps = control_.lamps();
+    if (control_.brake() > 0)
+        lamps |= world::lamp_brake;
+    if (control_.reverse())
+        lamps |= world::lamp_reverse;
+    return {last_position_,
+            to_quat(pose.getRotation()),
+            last_velocity_,
+            to_vec3(body().getAngularVelocity()),
+            to_vec3(acceleration),
+            steering_angle_,
+            odometer_,
+            id_,
+            model_index_,
+            lamps};
+}
+
+world::WheelState Vehicle::wheel(int index) const {
+    const btWheelInfo& wheel = chassis_->car.getWheelInfo(index);
+    const world::Surface surface = chassis_->rays.surface(index);
+    return {wheel.m_raycastInfo.m_suspensionLength,
+            wheel.m_rotation,
+            wheel.m_steering,
+            wheel.m_wheelsSuspensionForce,
+            static_cast<float>(wheel.m_skidInfo),
+            id_,
+            static_cast<std::uint8_t>(index),
+            wheel.m_raycastInfo.m_isInContact,
+            static_cast<std::uint8_t>(surface),
+            0,
+            0};
+}
+
+void Vehicle::nudge(std::string_view field, std::int64_t units) {
+    constexpr std::string_view wheels = "wheels[";
+    if (field.starts_with(wheels)) {
+        const int index = field[wheels.size()] - '0';
+        nudge_wheel(index, field.substr(field.find('.') + 1), units);
+        return;
+    }
+    const auto move = [units](btScalar& number) { number = moved_by_units(number, units); };
+    if (field == "steering_angle")
+        move(steering_angle_);
+    if (field == "odometer")
+        move(odometer_);
+    btTransform pose = body().getCenterOfMassTransform();
+    btQuaternion turn = pose.getRotation();
+    btVector3 velocity = body().getLinearVelocity();
+    btVector3 spin = body().getAngularVelocity();
+    if (field == "orientation.w")
+        move(turn[3]);
+    constexpr std::array axes{"x", "y", "z"};
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string end = std::string(".") + axes[static_cast<std::size_t>(axis)];
+        if (field == "position" + end)
+            move(pose.getOrigin()[axis]);
+        if (field == "orientation" + end)
+            move(turn[axis]);
+        if (field == "velocity" + end)
+            move(velocity[axis]);
+        if (field == "angular_velocity" + end)
+            move(spin[axis]);
+    }
+    if (field.starts_with("orientation"))
+        pose.setRotation(turn);
+    body().setCenterOfMassTransform(pose);
+    body().setLinearVelocity(velocity);
+    body().setAngularVelocity(spin);
+}
+
+void Vehicle::nudge_wheel(int index, std::string_view field, std::int64_t units) {
+    btWheelInfo& wheel = chassis_->car.m_wheelInfo[index];
+    const auto move = [units](btScalar& number) { number = moved_by_units(number, units); };
+    if (field == "suspension_length")
+        move(wheel.m_raycastInfo.m_suspensionLength);
+    if (field == "rotation")
+        move(wheel.m_rotation);
+    if (field == "steering_angle")
+        move(wheel.m_steering);
+    if (field == "suspension_force")
+        move(wheel.m_wheelsSuspensionForce);
+}
+
+void Vehicle::add_to(world::Hasher& hasher) const {
+    hasher.add(id_);
+    hasher.add(model_index_);
+    add_transform(hasher, body().getCenterOfMassTransform());
+    add_vector(hasher, body().getLinearVelocity());
+    add_vector(hasher, body().getAngularVelocity());
+    hasher.add(control_);
+    hasher.add(steering_angle_);
+    hasher.add(odometer_);
+    hasher.add(last_position_);
+    hasher.add(last_velocity_);
+    for (int i = 0; i < 4; ++i) {
+        hasher.add(wheel(i));
+        hasher.add(chassis_->car.getWheelInfo(i).m_deltaRotation);
+    }
+}
+
+}  // namespace reprise::kernel

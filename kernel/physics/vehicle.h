@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include <Eigen/Geometry>
+
+#include "world/digest.h"
+#include "world/models/car_model.h"
+#include "world/tick_generated.h"
+
+class btDynamicsWorld;
+class btRigidBody;
+
+namespace reprise::kernel {
+
+class Ground;
+
+/// The car model. A rigid body on four massless wheels, each a ray downwards with spring and damper
+/// (Bullet's btRaycastVehicle), on tyres of our own (kernel/physics/tyres.h); its numbers are in
+/// world/models/car_model.h. In a substep of h seconds:
+///
+///  steering     the wheel angle follows the control at most at `steering_rate`; the two front
+///               wheels stand at Ackermann angles, so that all axles meet in the turning centre.
+///  engine       F = throttle * min(max_drive_force, power / v) on the driven axle: the envelope of
+///               a gearbox that is always in the right gear. Backwards the same at low speed,
+///               fading out towards `reverse_speed`. A throttle at zero rolls freely: no engine
+///               brake.
+///  brakes       up to `brake_deceleration * mass`, shared out by the loads that the wheels carry
+///               just then (electronic brake-force distribution); wheels do not lock (ideal ABS).
+///               The hand brake acts on the rear wheels alone and locks them.
+///  resistance   air 0.5 rho cdA v^2 against the velocity; rolling `rolling_resistance` * load.
+///  suspension   spring and damper for each wheel from a natural frequency and damping ratios, in
+///               proportion to the load that the wheel carries at rest, so that the body stands
+///               level; an anti-roll bar on each axle.
+///  tyres        lateral force by the brush model, all force within a friction circle of
+///               grip * road_friction * load.
+///
+/// Left out: wheel spin (traction control and ABS are taken as ideal), engine and gearbox inertia,
+/// suspension kinematics, aerodynamic lift, tyre relaxation length.
+/// Sources: T. D. Gillespie, "Fundamentals of Vehicle Dynamics", SAE 1992, ch. 2 (power-limited
+/// acceleration), 3 (braking), 4 (road loads), 5 (ride), 6 (cornering);
+/// M. Mitschke and H. Wallentowitz, "Dynamik der Kraftfahrzeuge", 5th ed., parts I and III.
+///
+/// A vehicle with mass in a Bullet world. Costs about 2 us for each substep.
+class Vehicle {
+  public:
+    /// At rest on its wheels at this pose (ground below the rear axle), rolling ahead with `speed`.
+    /// `world` and `ground` must outlive the vehicle.
+    Vehicle(std::uint32_t id,
+            std::uint16_t model,
+            btDynamicsWorld& world,
+            const Ground& ground,
+            const Eigen::Isometry3d& pose_world_vehicle,
+            double speed);
+    ~Vehicle();
+    Vehicle(const Vehicle&) = delete;
+    Vehicle& operator=(const Vehicle&) = delete;
+
+    std::uint32_t id() const { return id_; }
+
+    const CarModel& model() const { return model_; }
+
+    btRigidBody& body() const;
+
+    /// World, of the origin, after the last tick.
+    const world::Vec3& position() const { return last_position_; }
+
+    /// Holds until the next one.
+    void set_control(const world::Control& control);
+
+    /// Changes the body's velocity by all that acts within `step` seconds: weight, engine, brakes,
+    /// air, suspension, tyres. Called before each Bullet substep.
+    void drive(double road_friction, double step);
+
+    /// Called once a tick of `step` seconds, after the last substep.
+    world::VehicleState state_after(double step);
+
+    /// The wheel with this index: front left, front right, rear left, rear right.
+    world::WheelState wheel(int index) const;
+
+    /// See Physics::nudge.
+    void nudge(std::string_view field, std::int64_t units);
+
+    void add_to(world::Hasher& hasher) const;
+
+  private:
+    struct Chassis;
+
+    void nudge_wheel(int index, std::string_view field, std::int64_t units);
+
+    void steer(double step);
+    void press_pedals(double road_friction);
+
+    std::uint32_t id_;
+    std::uint16_t model_index_;
+    CarModel model_;
+    std::unique_ptr<Chassis> chassis_;
+    world::Control control_;
+    double steering_angle_ = 0;
+    double odometer_ = 0;
+    world::Vec3 last_position_;
+    world::Vec3 last_velocity_;
+};
+
+}  // namespace reprise::kernel

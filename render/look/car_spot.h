@@ -1,0 +1,61 @@
+#pragma once
+
+#include "render/look/look.h"
+#include "render/shapes/noise.h"
+
+namespace reprise::render {
+
+/// A hit on a car's body, with what is asked about it again and again.
+struct CarSpot {
+    const CarShape& shape;
+    float x, y, z;
+    float side;              ///< |y|
+    float half;              ///< half of the car's width
+    float height;            ///< of the car
+    float belt;              ///< height of the lower edge of the windows here
+    float from_front;        ///< [m]
+    float from_rear;         ///< [m]
+    Eigen::Vector3f normal;  ///< local
+    float fine;              ///< can a line of 2 cm be seen?
+    std::uint16_t lamps;
+    std::uint64_t tick;
+};
+
+inline bool is_long(const CarSpot& at) {
+    return at.shape.style == world::BodyStyle::bus || at.shape.style == world::BodyStyle::lorry;
+}
+
+inline const Color black = Color::Constant(0.018F);
+
+inline void as_trim(Look& look, const Color& color = black) {
+    look.albedo = color;
+    look.gloss = 0;
+    look.f0 = 0.04F;
+    look.roughness = 0.45F;
+}
+
+bool is_glass(const CarSpot& at);
+
+/// x of the pillar behind the front doors.
+inline float middle_pillar(const CarSpot& at) {
+    switch (at.shape.style) {
+        case world::BodyStyle::coupe:
+            return 0.26F * at.shape.wheelbase();
+        case world::BodyStyle::minibus:
+            return 0.70F * at.shape.wheelbase();
+        case world::BodyStyle::pickup:
+            return 0.53F * at.shape.wheelbase();
+        default:
+            return 0.47F * at.shape.wheelbase();
+    }
+}
+
+// Each paints its thing and says so, when the spot lies on it. `low` and `high` are heights,
+// `inner` the distance from the middle where a lamp begins.
+bool front_lamp(
+    Look& look, const Stage& stage, const CarSpot& at, float low, float high, float inner);
+bool rear_lamp(
+    Look& look, const Stage& stage, const CarSpot& at, float low, float high, float inner);
+bool number_plate(Look& look, const CarSpot& at, float low, std::uint32_t actor);
+
+}  // namespace reprise::render

@@ -1,0 +1,220 @@
+#include "render/look/look.h"
+#include "render/shapes/noise.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector3f;
+
+/// Small, repaired and cracked places: all from noise that is fixed to the world.
+Look asphalt(const Surface& at, float lane_distance) {
+    const float x = at.position.x();
+    const float y = at.position.y();
+    float tone = 0.082F;
+    tone *= 0.80F + 0.40F * fractal_noise(x * 0.22F, y * 0.22F, 3, 1);
+    const float coarse = detail(at, 0.5F);
+    if (coarse > 0)
+        tone *= 1 + coarse * 0.28F * (fractal_noise(x * 2.3F, y * 2.3F, 2, 5) - 0.5F);
+    const float middle = detail(at, 0.16F);
+    if (middle > 0)
+        tone *= 1 + middle * 0.34F * (fractal_noise(x * 9, y * 9, 2, 7) - 0.5F);
+    const float fine = detail(at, 0.035F);
+    if (fine > 0) {
+        // Stones in the binder.
+        const float stone =
+            value_noise(x * 62, y * 62, 9) * 0.6F + value_noise(x * 130, y * 130, 10) * 0.4F;
+        tone *= 1 + fine * 0.7F * (stone - 0.5F);
+        tone += fine * 0.045F * smooth_step(0.80F, 0.92F, stone);
+    }
+    // Tyres polish two tracks, oil drips between them, dust lies at the side.
+    const float track = smooth_step(0.5F, 0.1F, std::abs(lane_distance - 0.78F));
+    const float oil = smooth_step(0.45F, 0.1F, lane_distance);
+    const float wear = 0.5F + fractal_noise(x * 0.11F, y * 0.11F, 2, 12);
+    tone *= 1 - 0.17F * track * wear - 0.14F * oil * wear;
+    tone *= 1 + 0.16F * smooth_step(1.2F, 1.75F, lane_distance);
+    // Cracks run where a noise crosses its mean, in some places only.
+    const float crack_detail = detail(at, 0.06F);
+    if (crack_detail > 0) {
+        const float line = std::abs(fractal_noise(x * 1.3F, y * 1.3F, 4, 20) - 0.5F);
+        const float place = smooth_step(0.58F, 0.70F, fractal_noise(x * 0.13F, y * 0.13F, 2, 30));
+        tone *= 1 - 0.5F * crack_detail * place * smooth_step(0.010F, 0.003F, line);
+    }
+    Look look;
+    look.albedo = Color(tone * 1.03F, tone, tone * 0.96F);
+    look.roughness = 0.75F - 0.15F * track;
+    return look;
+}
+
+Look paint(const Surface& at, float lane_distance) {
+    Look look = asphalt(at, lane_distance);
+    const float x = at.position.x();
+    const float y = at.position.y();
+    const float wear =
+        fractal_noise(x * 1.7F, y * 1.7F, 3, 60) + 0.25F * fractal_noise(x * 0.2F, y * 0.2F, 2, 61);
+    const float fine = value_noise(x * 45, y * 45, 62) * detail(at, 0.05F);
+    const float left = smooth_step(0.86F, 0.66F, wear + 0.18F * fine);
+    look.albedo =
+        mix(look.albedo, Color(.60F, .595F, .57F) * (0.86F + 0.14F * fine), 0.12F + 0.82F * left);
+    look.roughness = 0.6F;
+    return look;
+}
+
+Look pavement(const Surface& at) {
+    const float x = at.position.x();
+    const float y = at.position.y();
+    constexpr float slab = 0.5F;
+    const int column = floor_int(x / slab);
+    const int row = floor_int(y / slab);
+    const float fx = fraction(x / slab);
+    const float fy = fraction(y / slab);
+    const float edge = std::min(std::min(fx, 1 - fx), std::min(fy, 1 - fy)) * slab;
+    const float slabs = detail(at, 0.5F);
+    const float joints = detail(at, 0.06F);
+    float tone = 0.285F + 0.07F * slabs * (cell_noise(column, row, 3) - 0.5F);
+    tone *= 0.86F + 0.28F * fractal_noise(x * 0.35F, y * 0.35F, 3, 70);
+    const float fine = detail(at, 0.04F);
+    if (fine > 0)
+        tone *= 1 + 0.22F * fine * (value_noise(x * 70, y * 70, 71) - 0.5F);
+    tone *= 1 - 0.5F * joints * smooth_step(0.010F, 0.004F, edge) - 0.02F * slabs * (1 - joints);
+    Look look;
+    look.albedo = Color(tone * 1.03F, tone, tone * 0.94F);
+    return look;
+}
+
+Look kerb(const Surface& at) {
+    const float along =
+        at.position.x() * std::abs(at.flat.y()) + at.position.y() * std::abs(at.flat.x());
+    const float joint = std::min(fraction(along), 1 - fraction(along));
+    Look look;
+    const float tone = 0.36F * (0.85F + 0.3F * value_noise(along * 3, at.position.z() * 9, 80)) *
+                       (1 - 0.45F * detail(at, 0.05F) * smooth_step(0.012F, 0.005F, joint));
+    look.albedo = Color(tone, tone * 0.99F, tone * 0.95F);
+    return look;
+}
+
+Look grass(const Surface& at) {
+    const float x = at.position.x();
+    const float y = at.position.y();
+    const float wide = fractal_noise(x * 0.045F, y * 0.045F, 3, 90);
+    const float patch = fractal_noise(x * 0.6F, y * 0.6F, 3, 91);
+    Color color = mix(Color(.066F, .108F, .026F),
+                      Color(.150F, .150F, .050F),
+                      smooth_step(.25F, .8F, 0.6F * wide + 0.4F * patch));
+    const float blades = detail(at, 0.12F);
+    float tone = 0.75F + 0.5F * patch;
+    Look look;
+    look.normal = at.normal;
+    if (blades > 0) {
+        const float blade =
+            value_noise(x * 26, y * 26, 92) * 0.55F + value_noise(x * 61, y * 61, 93) * 0.45F;
+        tone *= 1 + blades * 1.25F * (blade - 0.5F);
+    }
+    const float earth = smooth_step(0.63F, 0.74F, fractal_noise(x * 0.3F, y * 0.3F, 3, 95));
+    color = mix(color, Color(.17F, .13F, .085F), 0.7F * earth);
+    look.albedo = color * tone;
+    look.translucency = 0.12F;
+    return look;
+}
+
+/// Rings around the places where drops fell on water; tilts the normal.
+Vector3f ripples(const Surface& at, std::uint64_t tick) {
+    constexpr float cell = 0.16F;
+    const int column = floor_int(at.position.x() / cell);
+    const int row = floor_int(at.position.y() / cell);
+    Vector3f tilt = Vector3f::Zero();
+    // A ring lives for 8 ticks; each cell starts its own at its own time and place.
+    constexpr std::uint32_t life = 8;
+    for (int i = 0; i < 9; ++i) {
+        const int cx = column + i % 3 - 1;
+        const int cy = row + i / 3 - 1;
+        const auto start = static_cast<std::uint32_t>(cell_noise(cx, cy, 101) * life);
+        const auto now = static_cast<std::uint32_t>(tick & 0xffffffffu) + start;
+        const std::uint32_t turn = now / life;
+        const float age = static_cast<float>(now % life) / life;
+        const float px = (static_cast<float>(cx) + cell_noise(cx, cy, 200 + turn)) * cell;
+        const float py = (static_cast<float>(cy) + cell_noise(cx, cy, 300 + turn)) * cell;
+        const float dx = at.position.x() - px;
+        const float dy = at.position.y() - py;
+        const float distance = std::sqrt(dx * dx + dy * dy) + 1e-4F;
+        const float ring = (distance - 0.14F * age) / 0.014F;
+        if (std::abs(ring) < 2) {
+            const float height =
+                (ring < 0 ? ring + 1 : 1 - ring) * (1 - 0.25F * ring * ring) * (1 - age);
+            tilt += Vector3f(dx, dy, 0) * (0.22F * height / distance);
+        }
+    }
+    return tilt;
+}
+
+/// Water darkens, fills pores, and stands in puddles.
+void soak(Look& look, const Stage& stage, const Surface& at, float lane_distance) {
+    const world::Weather& weather = stage.sky.weather();
+    const float wetness = weather.wetness();
+    if (wetness <= 0 || at.flat.z() < 0.7F || at.material == Material::grass) {
+        look.albedo *= 1 - 0.42F * wetness;
+        return;
+    }
+    const float x = at.position.x();
+    const float y = at.position.y();
+    // Lekner and Dorf, 1988: wet asphalt of albedo 0.1 sends back 0.52 of what dry asphalt does.
+    look.albedo *= mix(1.0F, at.material == Material::marking ? 0.72F : 0.50F, wetness);
+    float puddle = 0;
+    if (at.material != Material::kerb && weather.puddles() > 0) {
+        const float gutter = 0.10F * smooth_step(1.1F, 1.8F, lane_distance);
+        const float rut = 0.06F * smooth_step(0.45F, 0.1F, std::abs(lane_distance - 0.78F));
+        const float low = fractal_noise(x * 0.28F, y * 0.28F, 3, 110) + gutter + rut -
+                          (at.material == Material::pavement ? 0.07F : 0.0F);
+        const float level = 0.72F - 0.26F * weather.puddles();
+        puddle = smooth_step(level, level + 0.07F, low) * wetness;
+    }
+    const float water = std::max(puddle, 0.0F);
+    look.f0 = mix(0.04F, 0.022F, wetness);
+    look.roughness = mix(0.30F, 0.03F, water);
+    look.gloss = wetness * mix(0.62F, 1.0F, water);
+    look.albedo *= 1 - 0.35F * water;
+    // The film follows the stones; standing water is level, but for rings.
+    const float rough = (1 - water) * detail(at, 0.4F);
+    Vector3f tilt((value_noise(x * 19, y * 19, 120) - 0.5F +
+                   0.6F * (value_noise(x * 47, y * 47, 122) - 0.5F)) *
+                      0.10F * rough,
+                  (value_noise(x * 19, y * 19, 121) - 0.5F +
+                   0.6F * (value_noise(x * 47, y * 47, 123) - 0.5F)) *
+                      0.10F * rough,
+                  0);
+    const float near = detail(at, 0.12F);
+    if (weather.rain() > 0 && near > 0)
+        tilt += ripples(at, stage.tick) * (near * (0.25F + 0.75F * water));
+    look.normal = (look.normal + tilt).normalized();
+}
+
+}  // namespace
+
+Look ground_look(const Stage& stage, const Surface& at) {
+    const bool road = at.material == Material::asphalt || at.material == Material::marking;
+    const float lane_distance =
+        road ? stage.scene.lanes().distance(at.position.x(), at.position.y()) : 4;
+    Look look;
+    switch (at.material) {
+        case Material::asphalt:
+            look = asphalt(at, lane_distance);
+            break;
+        case Material::marking:
+            look = paint(at, lane_distance);
+            break;
+        case Material::pavement:
+            look = pavement(at);
+            break;
+        case Material::kerb:
+            look = kerb(at);
+            break;
+        default:
+            look = grass(at);
+    }
+    look.normal = at.normal;
+    if (stage.sky.weather().wetness() > 0)
+        soak(look, stage, at, lane_distance);
+    return look;
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,251 @@
+#include "render/look/look.h"
+
+#include <cmath>
+
+#include "render/shapes/cars/car_parts.h"
+#include "render/shapes/noise.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector3f;
+using world::SemanticClass;
+
+Look leaf_look(const Surface& at) {
+    Look look;
+    const std::uint32_t kind = at.instance->model;
+    const float hue = unit(hash(kind, 5));
+    const float own = unit(hash(at.tag, 6));
+    const Color green = mix(Color(.060F, .115F, .024F), Color(.115F, .135F, .028F), hue);
+    const float patch =
+        value_noise(at.position.x() * 0.9F, at.position.y() * 0.9F + at.position.z(), 8);
+    look.albedo = green * (0.65F + 0.5F * own + 0.35F * patch);
+    if (at.tag == 0)
+        look.albedo *= 0.42F;
+    look.translucency = at.tag == 0 ? 0 : 0.45F;
+    look.f0 = 0.02F;
+    return look;
+}
+
+Look bark_look(const Surface& at) {
+    Look look;
+    const float grain =
+        value_noise(at.position.x() * 14 + at.position.y() * 11, at.position.z() * 3);
+    look.albedo = Color(.13F, .10F, .075F) * (0.6F + 0.7F * grain * detail(at, 0.1F));
+    return look;
+}
+
+Look signal_lamp_look(const Stage& stage, const Surface& at) {
+    using world::SignalColor;
+    const std::uint32_t index = at.tag / 4;
+    const auto lamp = static_cast<SignalLamp>(at.tag % 4);
+    const auto signals = stage.scene.signals();
+    const SignalColor color = index < signals.size() ? signals[index] : SignalColor::off;
+    bool lit = false;
+    Color light = Color::Zero();
+    switch (lamp) {
+        case SignalLamp::red:
+            lit = color == SignalColor::red || color == SignalColor::red_yellow ||
+                  color == SignalColor::stop;
+            light = Color(1.0F, .02F, .012F);
+            break;
+        case SignalLamp::yellow:
+            lit = color == SignalColor::yellow || color == SignalColor::red_yellow;
+            light = Color(1.0F, .42F, .02F);
+            break;
+        case SignalLamp::turn:
+            lit = color == SignalColor::green;
+            light = Color(.02F, .95F, .24F);
+            break;
+        case SignalLamp::green:
+            lit = color == SignalColor::green || color == SignalColor::green_minor;
+            light = Color(.02F, .95F, .24F);
+            break;
+    }
+    Look look;
+    look.albedo = light * 0.05F + 0.01F;
+    look.f0 = 0.05F;
+    look.roughness = 0.15F;
+    if (lit)
+        // Lamps outshine what is lit by day: set against the exposure, not the sun.
+        look.emission = light * (5.5F / stage.sky.exposure());
+    return look;
+}
+
+/// Nobody has switched a parked car's lamps on, and its number plate comes from its look.
+Look parked_look(const Stage& stage, const Surface& at) {
+    Instance named = *at.instance;
+    named.actor = at.instance->look;
+    Surface own = at;
+    own.instance = &named;
+    Look look = car_look(stage, own);
+    look.emission = Color::Zero();
+    return look;
+}
+
+Look metal_look(const Stage& stage, const Surface& at) {
+    static_cast<void>(stage);
+    Look look;
+    look.albedo =
+        at.material == Material::pole ? Color(.16F, .17F, .17F) : Color(.022F, .024F, .023F);
+    look.roughness = 0.35F;
+    look.f0 = 0.05F;
+    return look;
+}
+
+}  // namespace
+
+Surface surface_at(const Scene& scene,
+                   const Hit& hit,
+                   const Vector3f& eye,
+                   const Vector3f& direction,
+                   float pixel) {
+    const Instance& instance = scene.instances()[hit.instance];
+    const Mesh& mesh = instance.prototype->mesh;
+    const std::array<std::uint32_t, 3>& corners = mesh.triangles[hit.triangle];
+    const Vector3f& a = mesh.vertices[corners[0]];
+    const Vector3f& b = mesh.vertices[corners[1]];
+    const Vector3f& c = mesh.vertices[corners[2]];
+    Surface at;
+    at.instance = &instance;
+    at.material = mesh.materials[hit.triangle];
+    if (at.material == Material::limb)
+        at.material = instance.material;
+    at.tag = mesh.tags[hit.triangle];
+    at.position = eye + hit.distance * direction;
+    at.local = (1 - hit.u - hit.v) * a + hit.u * b + hit.v * c;
+    const Vector3f flat = (b - a).cross(c - a);
+    at.local_normal = flat.normalized();
+    if (!mesh.normals.empty()) {
+        const std::array<Vector3f, 3>& normals = mesh.normals[hit.triangle];
+        at.local_normal =
+            ((1 - hit.u - hit.v) * normals[0] + hit.u * normals[1] + hit.v * normals[2])
+                .normalized();
+    }
+    const float length = direction.norm();
+    at.view = direction / length;
+    at.distance = hit.distance * length;
+    at.flat = (instance.normal_to_scene * flat).normalized();
+    at.normal = (instance.normal_to_scene * at.local_normal).normalized();
+    if (at.flat.dot(at.view) > 0)
+        at.flat = -at.flat;
+    if (at.normal.dot(at.flat) < 0)
+        at.normal = -at.normal;
+    at.footprint = at.distance * pixel / std::max(0.03F, -at.flat.dot(at.view));
+    return at;
+}
+
+Look look_of(const Stage& stage, const Surface& at) {
+    Look look;
+    switch (at.material) {
+        case Material::grass:
+        case Material::asphalt:
+        case Material::pavement:
+        case Material::kerb:
+        case Material::marking:
+            return ground_look(stage, at);
+        case Material::facade:
+        case Material::roof:
+            return building_look(stage, at);
+        case Material::car_body:
+        case Material::car_cargo:
+        case Material::car_under:
+            return at.instance->kind == Kind::parked ? parked_look(stage, at) : car_look(stage, at);
+        case Material::wheel:
+            return wheel_look(stage, at);
+        case Material::wall:
+        case Material::building:
+            return model_building_look(stage, at);
+        case Material::prop:
+            return prop_look(stage, at);
+        case Material::plot:
+            return plot_look(stage, at);
+        case Material::car_part:
+            look = car_part_look(stage, at);
+            break;
+        case Material::bark:
+            look = at.instance->kind == Kind::plant ? plant_bark_look(at) : bark_look(at);
+            break;
+        case Material::leaf:
+            look = at.instance->kind == Kind::plant ? plant_leaf_look(at) : leaf_look(at);
+            break;
+        case Material::signal_lamp:
+            look = signal_lamp_look(stage, at);
+            break;
+        case Material::pole:
+        case Material::signal_case:
+            look = metal_look(stage, at);
+            break;
+        default:
+            look = walker_look(stage, at);
+    }
+    look.normal = at.normal;
+    // Soaked cloth, bark and leaves are darker.
+    look.albedo *= 1 - 0.3F * stage.sky.weather().wetness();
+    return look;
+}
+
+world::SemanticClass semantic_class(const Scene& scene, const Hit& hit) {
+    if (hit.instance == no_instance)
+        return SemanticClass::sky;
+    const Instance& instance = scene.instances()[hit.instance];
+    switch (instance.kind) {
+        case Kind::tree:
+        case Kind::plant:
+            return SemanticClass::vegetation;
+        case Kind::limb:
+            return SemanticClass::pedestrian;
+        case Kind::rider:
+            return SemanticClass::rider;
+        case Kind::marking:
+            return SemanticClass::road_line;
+        case Kind::car_body:
+        case Kind::parked:
+        case Kind::wheel:
+            switch (scene.car_shape(instance.model).style) {
+                case world::BodyStyle::lorry:
+                    return SemanticClass::truck;
+                case world::BodyStyle::bus:
+                    return SemanticClass::bus;
+                case world::BodyStyle::motorcycle:
+                    return SemanticClass::motorcycle;
+                case world::BodyStyle::bicycle:
+                    return SemanticClass::bicycle;
+                default:
+                    return SemanticClass::car;
+            }
+        case Kind::ground:
+        case Kind::town:
+        case Kind::prop:
+            break;
+    }
+    const std::uint32_t tag = instance.prototype->mesh.tags[hit.triangle];
+    switch (instance.prototype->mesh.materials[hit.triangle]) {
+        case Material::prop:
+            return prop_class(tag);
+        case Material::plot:
+            return plot_class(scene.plots()[tag].kind);
+        case Material::grass:
+            return SemanticClass::terrain;
+        case Material::pavement:
+        case Material::kerb:
+            return SemanticClass::sidewalk;
+        case Material::marking:
+            return SemanticClass::road_line;
+        case Material::facade:
+        case Material::roof:
+        case Material::wall:
+        case Material::building:
+            return SemanticClass::building;
+        case Material::pole:
+            return SemanticClass::pole;
+        case Material::signal_case:
+        case Material::signal_lamp:
+            return SemanticClass::traffic_light;
+        default:
+            return SemanticClass::road;
+    }
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "render/look/sky.h"
+#include "render/scene/scene.h"
+#include "render/scene/tracer.h"
+
+namespace reprise::render {
+
+/// A place on a surface where a ray ended.
+struct Surface {
+    Eigen::Vector3f position;  ///< scene
+    Eigen::Vector3f local;     ///< in the prototype's frame (a car's, a wheel's)
+    Eigen::Vector3f flat;      ///< the triangle's normal, towards the viewer
+    Eigen::Vector3f normal;    ///< smoothed, towards the viewer
+    Eigen::Vector3f local_normal;
+    Eigen::Vector3f view;  ///< unit vector from the eye to the place
+    float distance;        ///< [m] from the eye
+    float footprint;       ///< [m] how much of the surface a pixel covers, the longer way
+    Material material;
+    std::uint32_t tag;
+    const Instance* instance;
+};
+
+/// What a surface does with light at one place.
+struct Look {
+    Color albedo = Color::Constant(0.5F);
+    Color emission = Color::Zero();
+    Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
+    float f0 = 0.04F;        ///< mirrors this share of what comes straight on
+    float gloss = 0;         ///< how much of the mirrored world is seen as a picture, [0, 1]
+    float roughness = 0.8F;  ///< spread of the sun's highlight
+    float translucency = 0;  ///< share of light that passes through, for leaves
+};
+
+/// All that looks depend on beside the place.
+struct Stage {
+    const Scene& scene;
+    const Sky& sky;
+    std::uint64_t tick;
+};
+
+/// `pixel`: size of a pixel one metre ahead [m].
+Surface surface_at(const Scene& scene,
+                   const Hit& hit,
+                   const Eigen::Vector3f& eye,
+                   const Eigen::Vector3f& direction,
+                   float pixel);
+
+Look look_of(const Stage& stage, const Surface& surface);
+
+/// As given by the class of what was hit; `sky` for none. Depends on ids only.
+world::SemanticClass semantic_class(const Scene& scene, const Hit& hit);
+
+// One for each kind of surface, in files of their own.
+Look ground_look(const Stage& stage, const Surface& surface);
+Look building_look(const Stage& stage, const Surface& surface);
+Look model_building_look(const Stage& stage, const Surface& surface);
+Look prop_look(const Stage& stage, const Surface& surface);
+Look plot_look(const Stage& stage, const Surface& surface);
+Look plant_leaf_look(const Surface& surface);
+Look plant_bark_look(const Surface& surface);
+Look car_look(const Stage& stage, const Surface& surface);
+Look wheel_look(const Stage& stage, const Surface& surface);
+Look walker_look(const Stage& stage, const Surface& surface);
+
+// Likewise: what class a prop's or plot's triangle has.
+world::SemanticClass prop_class(std::uint32_t tag);
+world::SemanticClass plot_class(world::PlotKind kind);
+
+/// How much detail of this size [m] a pixel can show: 1 all, 0 none. Fading what is smaller than a
+/// pixel to its mean is what keeps textures from flickering.
+inline float detail(const Surface& surface, float size) {
+    return 1 - smooth_step(0.25F * size, 0.9F * size, surface.footprint);
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,294 @@
+#include "render/look/sky.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <tbb/parallel_for.h>
+
+#include "render/shapes/noise.h"
+#include "render/trace/plain_floats.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr int table_size = 160;
+constexpr float earth = 6360e3F;
+constexpr float rayleigh_height = 8000;
+constexpr float haze_height = 1200;
+constexpr float ground_albedo = 0.16F;
+
+// At 680, 550 and 440 nm: Bruneton and Neyret, "Precomputed Atmospheric Scattering", 2008, with the
+// ozone of Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering", 2020.
+const Color rayleigh(5.802e-6F, 13.558e-6F, 33.1e-6F);
+const Color ozone_depth(0.0097F, 0.0282F, 0.0013F);  // vertical optical depth
+const Color solar(1.474F, 1.8504F, 1.91198F);
+
+/// Air mass relative to the zenith for a sine of the altitude (Kasten and Young, 1989, with the
+/// angle in radians); flattens below the horizon.
+float air_mass(float sine) {
+    const float altitude_deg = std::max(-1.0F, 57.29578F * sine * (1 + 0.1667F * sine * sine));
+    const float base = altitude_deg + 6.07995F;
+    return 1 / (std::max(sine, 0.0F) + 0.50572F / (base * std::sqrt(base) * 1.18F));
+}
+
+/// How much of the sunlight arrives at a height.
+Color sunlight(float sine, float height, float haze) {
+    const float mass = air_mass(sine);
+    const Color depth = rayleigh * rayleigh_height * fast_exp(-height / rayleigh_height) +
+                        haze * 1.1F * haze_height * fast_exp(-height / haze_height) + ozone_depth;
+    return solar * fast_exp(Color(-depth * mass));
+}
+
+float rayleigh_phase(float cosine) {
+    return 3 / (16 * pi) * (1 + cosine * cosine);
+}
+
+float forward_phase(float cosine, float g) {
+    const float base = std::max(1e-4F, 1 + g * g - 2 * g * cosine);
+    return (1 - g * g) / (4 * pi * base * std::sqrt(base));
+}
+
+/// The upper half sphere on a square: an octahedron, unfolded.
+Vector3f direction_at(float x, float y) {
+    const float u = 0.5F * (x + y);
+    const float v = 0.5F * (x - y);
+    return Vector3f(u, v, std::max(0.0F, 1 - std::abs(u) - std::abs(v))).normalized();
+}
+
+}  // namespace
+
+Sky::Sky(const world::Weather& weather) : weather_(weather) {
+    const auto azimuth = static_cast<double>(weather.sun_azimuth());
+    const auto altitude = static_cast<double>(weather.sun_altitude());
+    to_sun_ = Eigen::Vector3d(std::cos(altitude) * std::cos(azimuth),
+                              std::cos(altitude) * std::sin(azimuth),
+                              std::sin(altitude))
+                  .cast<float>();
+    haze_scattering_ = 4e-6F * std::max(0.3F, weather.turbidity() - 1);
+    const float cover = weather.cloud_cover();
+    // Kasten and Czeplak, 1980: global radiation under N oktas of cloud.
+    const float squared = cover * cover;
+    overcast_ = 1 - 0.75F * squared * cover * std::sqrt(std::sqrt(std::sqrt(cover)));
+    sun_above_clouds_ = sunlight(to_sun_.z(), 0, haze_scattering_);
+    if (to_sun_.z() < 0)
+        sun_above_clouds_ *= std::max(0.0F, 1 + to_sun_.z() * 12);
+    sun_ = sun_above_clouds_ * (1 - squared) * (to_sun_.z() > -0.02F ? 1.0F : 0.0F);
+    sun_radius_ = mix(0.006F, 0.06F, squared);
+    // Rain: Weber et al., 2015, as extinction per kilometre; fog as given.
+    const auto rain = static_cast<double>(weather.rain());
+    extinction_ = weather.fog_extinction() + static_cast<float>(0.312e-3 * std::pow(rain, 0.67));
+    lamps_on_ = weather.rain() > 0 || weather.sun_altitude() < 0.17F;
+    fill_table();
+    project_ambient();
+    choose_exposure();
+}
+
+Color Sky::clear_radiance(const Vector3f& direction) const {
+    const float cosine = direction.dot(to_sun_);
+    const float up = std::max(direction.z(), 0.0F);
+    // To the top of the air, at most as far as the earth's curve lets one see into it.
+    const float top = 60e3F;
+    const float far = -earth * up + std::sqrt(earth * earth * up * up + 2 * earth * top);
+    const float phase_air = rayleigh_phase(cosine);
+    const float phase_haze = forward_phase(cosine, 0.76F);
+    Color sum = Color::Zero();
+    Color depth = Color::Zero();
+    constexpr int steps = 20;
+    float last = 0;
+    for (int i = 0; i < steps; ++i) {
+        // Steps grow with the distance, since the air is densest here.
+        const float share = static_cast<float>(i + 1) / steps;
+        const float next = far * share * share;
+        const float middle = 0.5F * (last + next);
+        const float height = middle * up + middle * middle * (1 - up * up) / (2 * earth);
+        const Color air = rayleigh * fast_exp(-height / rayleigh_height);
+        const float haze = haze_scattering_ * fast_exp(-height / haze_height);
+        const Color step_depth = (air + 1.1F * haze) * (next - last);
+        const Color light = sunlight(to_sun_.z(), height, haze_scattering_);
+        const Color through = fast_exp(Color(-(depth + 0.5F * step_depth)));
+        // Light scattered more than once is about as strong again, from everywhere.
+        const Color twice = 0.16F * light.mean() * Color(1.0F, 1.02F, 1.06F) * (0.35F + up);
+        sum += through * (next - last) *
+               (light * (air * phase_air + haze * phase_haze) + twice * (air + haze) * 0.6F);
+        depth += step_depth;
+        last = next;
+    }
+    return sum;
+}
+
+Color Sky::cloud_radiance(const Vector3f& direction) const {
+    // Moon and Spencer's overcast dome, lit by what comes from above, with a warm glow where the
+    // sun stands behind it.
+    const float light =
+        sun_above_clouds_.mean() * std::max(to_sun_.z(), 0.02F) + 0.12F * to_sun_.z() + .02F;
+    const float dome = (1 + 2 * std::max(direction.z(), 0.0F)) / 3;
+    const Color grey(0.93F, 0.98F, 1.06F);
+    const Color tint = mix(grey, Color(sun_above_clouds_ / sun_above_clouds_.mean()), 0.25F);
+    const float cosine = direction.dot(to_sun_);
+    const Color glow = sun_above_clouds_ *
+                       (0.30F * forward_phase(cosine, 0.72F) * (1 - 0.8F * weather_.cloud_cover()) +
+                        0.05F * forward_phase(cosine, 0.4F));
+    return tint * (light * overcast_ * dome * 9 / (7 * pi) * 1.15F) + glow;
+}
+
+float Sky::cloudiness(const Vector3f& direction) const {
+    const float cover = weather_.cloud_cover();
+    const float away = 1 / (std::max(direction.z(), 0.0F) + 0.12F);
+    const float x = direction.x() * away * 1.3F;
+    const float y = direction.y() * away * 1.3F;
+    const float bend = fractal_noise(x * 0.7F + 9, y * 0.7F, 2, 40);
+    const float noise = fractal_noise(x + 1.1F * bend, y - 0.8F * bend, 5, 50);
+    // The quantiles of the noise, roughly: half the cover at 0.5.
+    const float level = mix(0.70F, 0.26F, cover);
+    return smooth_step(level, level + 0.22F, noise);
+}
+
+Color Sky::radiance(const Vector3f& direction, bool detailed) const {
+    const Color plain = stored(direction);
+    if (!detailed || direction.z() < 0)
+        return plain;
+    const float cover = cloudiness(direction);
+    const Color clear = look_up(clear_table_, direction);
+    const Color cloud = cloud_radiance(direction);
+    const float light = sun_above_clouds_.mean() * (0.10F + 0.35F * (1 - weather_.cloud_cover()));
+    // Thin clouds shine white in the sun, thick ones are grey below.
+    const float thickness = smooth_step(0.2F, 1.0F, cover);
+    const Color white = clear * 0.5F + light * 0.55F * Color(1, 0.985F, 0.965F) *
+                                           sun_above_clouds_ / sun_above_clouds_.mean();
+    const Color body = mix(white,
+                           Color(cloud * mix(1.25F, 0.72F, thickness)),
+                           std::max(thickness * 0.6F, weather_.cloud_cover()));
+    Color seen = mix(clear, body, cover * 0.94F);
+    // Far clouds drown in the haze.
+    seen = mix(seen, plain, smooth_step(0.16F, 0.01F, direction.z()));
+    const float cosine = direction.dot(to_sun_);
+    const float disc = smooth_step(0.999965F, 0.99998F, cosine);
+    return seen + sun_ * disc * (1 - cover) * 400;
+}
+
+Color Sky::stored(const Vector3f& direction) const {
+    return look_up(table_, direction);
+}
+
+Color Sky::look_up(const std::vector<Color>& table, const Vector3f& direction) {
+    const Vector3f up(direction.x(), direction.y(), std::max(direction.z(), 0.0F));
+    const float sum = std::abs(up.x()) + std::abs(up.y()) + up.z();
+    const float u = up.x() / std::max(sum, 1e-6F);
+    const float v = up.y() / std::max(sum, 1e-6F);
+    constexpr float scale = 0.5F * (table_size - 1);
+    const float x = std::min(std::max((u + v + 1) * scale, 0.0F), table_size - 1.001F);
+    const float y = std::min(std::max((u - v + 1) * scale, 0.0F), table_size - 1.001F);
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(y);
+    const float fx = x - static_cast<float>(column);
+    const float fy = y - static_cast<float>(row);
+    const Color* at = &table[static_cast<std::size_t>(row * table_size + column)];
+    return (at[0] * (1 - fx) + at[1] * fx) * (1 - fy) +
+           (at[table_size] * (1 - fx) + at[table_size + 1] * fx) * fy;
+}
+
+void Sky::fill_table() {
+    const std::size_t size = static_cast<std::size_t>(table_size) * table_size;
+    clear_table_.resize(size);
+    table_.resize(size);
+    tbb::parallel_for(0, table_size, [&](int row) {
+        const PlainFloats plain;
+        for (int column = 0; column < table_size; ++column) {
+            const Vector3f direction =
+                direction_at(static_cast<float>(column) * 2 / (table_size - 1) - 1,
+                             static_cast<float>(row) * 2 / (table_size - 1) - 1);
+            const auto index = static_cast<std::size_t>(row * table_size + column);
+            clear_table_[index] = clear_radiance(direction);
+            table_[index] =
+                mix(clear_table_[index], cloud_radiance(direction), weather_.cloud_cover());
+        }
+    });
+}
+
+void Sky::project_ambient() {
+    // Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance Environment Maps",
+    // 2001: nine coefficients, already multiplied by the cosine lobe's. Over pi: a white surface's
+    // light.
+    harmonics_.fill(Color::Zero());
+    horizon_ = Color::Zero();
+    Color down = Color::Zero();
+    constexpr int rows = 24;
+    constexpr int columns = 48;
+    for (int half = 0; half < 2; ++half) {
+        for (int i = 0; i < rows * columns; ++i) {
+            const float z = (static_cast<float>(i / columns) + 0.5F) / rows;
+            const double angle = 2 * std::numbers::pi * (i % columns) / columns;
+            const float wide = std::sqrt(1 - z * z);
+            const Vector3f d(wide * static_cast<float>(std::cos(angle)),
+                             wide * static_cast<float>(std::sin(angle)),
+                             half == 0 ? z : -z);
+            const float solid = 2 * pi / (rows * columns);
+            // The lower half is ground, lit by sun and sky.
+            const Color light = half == 0 ? stored(d) : down;
+            const std::array<float, 9> basis{0.282095F,
+                                             0.488603F * d.y(),
+                                             0.488603F * d.z(),
+                                             0.488603F * d.x(),
+                                             1.092548F * d.x() * d.y(),
+                                             1.092548F * d.y() * d.z(),
+                                             0.315392F * (3 * d.z() * d.z() - 1),
+                                             1.092548F * d.x() * d.z(),
+                                             0.546274F * (d.x() * d.x() - d.y() * d.y())};
+            for (std::size_t k = 0; k < 9; ++k)
+                harmonics_[k] += light * (basis[k] * solid);
+            if (half == 0 && z < 0.1F)
+                horizon_ += light / (2 * columns);  // two rows lie below 0.1
+        }
+        if (half == 0) {
+            Color sum = Color::Zero();
+            for (int i = 0; i < rows * columns; ++i) {
+                const float z = (static_cast<float>(i / columns) + 0.5F) / rows;
+                const double angle = 2 * std::numbers::pi * (i % columns) / columns;
+                const float wide = std::sqrt(1 - z * z);
+                sum += stored({wide * static_cast<float>(std::cos(angle)),
+                               wide * static_cast<float>(std::sin(angle)),
+                               z}) *
+                       (z * 2 * pi / (rows * columns));
+            }
+            const Color arriving = sum + sun_ * std::max(to_sun_.z(), 0.0F);
+            down = arriving * (ground_albedo / pi) * Color(1.0F, 0.98F, 0.9F);
+        }
+    }
+    const std::array<float, 9> lobe{1, .666667F, .666667F, .666667F, .25F, .25F, .25F, .25F, .25F};
+    for (std::size_t k = 0; k < 9; ++k)
+        // Cameras balance white between sun and shade; ours has no other place to do it.
+        harmonics_[k] =
+            mix(harmonics_[k], Color(luminance(harmonics_[k]) * Color(1.03F, 1.0F, 0.96F)), 0.45F) *
+            lobe[k];
+}
+
+Color Sky::ambient(const Vector3f& n) const {
+    const Color sum = harmonics_[0] * 0.282095F + harmonics_[1] * (0.488603F * n.y()) +
+                      harmonics_[2] * (0.488603F * n.z()) + harmonics_[3] * (0.488603F * n.x()) +
+                      harmonics_[4] * (1.092548F * n.x() * n.y()) +
+                      harmonics_[5] * (1.092548F * n.y() * n.z()) +
+                      harmonics_[6] * (0.315392F * (3 * n.z() * n.z() - 1)) +
+                      harmonics_[7] * (1.092548F * n.x() * n.z()) +
+                      harmonics_[8] * (0.546274F * (n.x() * n.x() - n.y() * n.y()));
+    return sum.max(0.0F);
+}
+
+Color Sky::haze(const Vector3f& direction) const {
+    const Vector3f level = Vector3f(direction.x(), direction.y(), 0.04F).normalized();
+    return 0.55F * stored(level) + 0.45F * horizon_;
+}
+
+void Sky::choose_exposure() {
+    // A fixed exposure for each weather - no adaptation, so that every frame stands alone. Dusk is
+    // let to look darker than noon.
+    const Color ground = sun_ * std::max(to_sun_.z(), 0.0F) / pi + ambient(Vector3f::UnitZ());
+    const float light = luminance(ground);
+    dim_ = light < 0.15F;
+    const float wish = dim_ ? 0.42F : 1.05F;
+    exposure_ = wish / std::max(light, 1e-4F);
+}
+
+}  // namespace reprise::render

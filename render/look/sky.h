@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "render/shapes/fast_math.h"
+#include "world/common_generated.h"
+
+namespace reprise::render {
+
+/// The light of a weather: sun, sky, clouds, haze. Radiances are relative to the sun's irradiance
+/// above the atmosphere (about 1.8).
+class Sky {
+  public:
+    /// 20 ms: single scattering by air and haze for every direction (Nishita et al., "Display of
+    /// the Earth Taking into Account Atmospheric Scattering", 1993), clouds after Kasten and
+    /// Czeplak.
+    explicit Sky(const world::Weather& weather);
+
+    /// Radiance from a direction (unit vector). `detailed` draws the clouds' shapes and the sun's
+    /// disc.
+    Color radiance(const Eigen::Vector3f& direction, bool detailed) const;
+
+    /// Sky light that a surface gets, over pi: what a white surface would send back.
+    Color ambient(const Eigen::Vector3f& normal) const;
+
+    /// What distance turns everything into, in this direction.
+    Color haze(const Eigen::Vector3f& direction) const;
+
+    const Eigen::Vector3f& to_sun() const { return to_sun_; }
+
+    const Color& sun() const { return sun_; }  ///< irradiance on a surface that faces the sun
+
+    float sun_radius() const {
+        return sun_radius_;
+    }  ///< of the disc or the glow through clouds [rad]
+
+    float extinction() const { return extinction_; }  ///< [1/m] of fog, haze and rain
+
+    float exposure() const { return exposure_; }  ///< factor from radiance to picture
+
+    bool lamps_on() const { return lamps_on_; }  ///< would drivers switch their lamps on?
+
+    bool dim() const { return dim_; }  ///< dusk: windows are lit
+
+    const world::Weather& weather() const { return weather_; }
+
+  private:
+    Color clear_radiance(const Eigen::Vector3f& direction) const;
+    Color cloud_radiance(const Eigen::Vector3f& direction) const;
+    float cloudiness(const Eigen::Vector3f& direction) const;
+    Color stored(const Eigen::Vector3f& direction) const;
+    static Color look_up(const std::vector<Color>& table, const Eigen::Vector3f& direction);
+    void fill_table();
+    void project_ambient();
+    void choose_exposure();
+
+    world::Weather weather_;
+    Eigen::Vector3f to_sun_;
+    Color sun_;
+    Color sun_above_clouds_;
+    float sun_radius_;
+    float haze_scattering_;  // [1/m] at the ground
+    float overcast_;         // share of the light that comes through a closed cover
+    float extinction_;
+    float exposure_;
+    bool lamps_on_;
+    bool dim_;
+    std::vector<Color> clear_table_;  // upper half sphere without clouds
+    std::vector<Color> table_;        // with their mean
+    std::array<Color, 9> harmonics_;  // of the whole sphere, the ground included
+    Color horizon_;                   // mean just above it
+};
+
+}  // namespace reprise::render

@@ -1,0 +1,160 @@
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "render/scene/scene.h"
+#include "render/shapes/cars/two_wheeler.h"
+#include "render/shapes/noise.h"
+#include "render/shapes/paint.h"
+#include "world/check.h"
+#include "world/frames.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector3d;
+
+double mean_length(std::span<const world::WheelState> wheels) {
+    double sum = 0;
+    for (const world::WheelState& wheel : wheels)
+        sum += wheel.suspension_length();
+    return sum / static_cast<double>(wheels.size());
+}
+
+}  // namespace
+
+void Scene::build_models() {
+    for (const world::VehicleModel& model : world::vehicle_models()) {
+        const CarShape& shape = car_shapes_.emplace_back(model);
+        const bool thin = world::is_two_wheeler(model.body);
+        const bool pedalled = thin && seat_of(shape).crank > 0;
+        car_bodies_.push_back(add_prototype(thin ? two_wheeler_mesh(shape) : car_body_mesh(shape)));
+        wheels_.push_back(add_prototype(thin ? thin_wheel_mesh(shape) : wheel_mesh(shape)));
+        forks_.push_back(thin ? add_prototype(fork_mesh(shape)) : nullptr);
+        cranks_.push_back(pedalled ? add_prototype(crank_mesh(shape)) : nullptr);
+    }
+    build_people();
+}
+
+void Scene::place_car(const Eigen::Isometry3d& pose_world_car,
+                      const Instance& body,
+                      double steering,
+                      std::span<const world::WheelState> wheels,
+                      double roll) {
+    const world::VehicleModel& model = *car_shape(body.model).model;
+    Instance part = body;
+    part.kind = Kind::car_body;
+    part.prototype = car_bodies_[body.model];
+    add_instance(part, pose_world_car);
+    part.kind = Kind::wheel;
+    part.prototype = wheels_[body.model];
+    for (std::size_t i = 0; i < 4; ++i) {
+        const bool ahead = i < 2;
+        const double side = i % 2 == 0 ? 1 : -1;
+        Vector3d centre(ahead ? model.wheelbase : 0, side * model.track / 2, model.wheel_radius);
+        double turn = ahead ? steering : 0;
+        double rotation = roll;
+        if (wheels.size() == 4) {
+            turn = wheels[i].steering_angle();
+            rotation = wheels[i].rotation();
+            // A wheel that is pressed in more than the others sits higher in the body.
+            centre.z() += mean_length(wheels) - wheels[i].suspension_length();
+        }
+        Eigen::Affine3d pose(pose_world_car * Eigen::Translation3d(centre));
+        pose.rotate(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
+        pose.rotate(Eigen::AngleAxisd(rotation, Vector3d::UnitY()));
+        if (side < 0)
+            pose.rotate(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitZ()));
+        add_instance(part, pose);
+    }
+}
+
+/// What an actor's own triangles have in common. Traces from before looks were recorded: by id.
+Instance Scene::body_of(std::uint32_t id,
+                        std::uint16_t model,
+                        std::uint16_t lamps,
+                        std::span<const world::Look> looks) const {
+    REPRISE_CHECK(model < car_bodies_.size(), "vehicle " + std::to_string(id));
+    const world::Look* look = world::find(looks, id);
+    Instance body;
+    body.actor = id;
+    body.model = model;
+    body.lamps = lamps;
+    body.look = look != nullptr ? look->look() : hash(id);
+    body.color = paint_of(world::vehicle_models()[model], body.look).body;
+    return body;
+}
+
+void Scene::place_vehicles(const world::TickView& tick) {
+    std::span<const world::WheelState> wheels = tick.wheels();
+    for (const world::VehicleState& vehicle : tick.vehicles()) {
+        while (!wheels.empty() && wheels.front().vehicle() < vehicle.id())
+            wheels = wheels.subspan(1);
+        std::size_t own = 0;
+        while (own < wheels.size() && wheels[own].vehicle() == vehicle.id())
+            ++own;
+        const Instance body =
+            body_of(vehicle.id(), vehicle.model(), vehicle.lamps(), tick.vehicle_looks());
+        const Eigen::Isometry3d pose = world::pose(vehicle.position(), vehicle.orientation());
+        if (!world::is_two_wheeler(world::vehicle_models()[vehicle.model()].body)) {
+            place_car(pose, body, vehicle.steering_angle(), wheels.first(own), 0);
+            continue;
+        }
+        // Its four-wheeled body stands upright: it is drawn leaning as much as the bend asks for.
+        const Vector3d ahead = pose.linear().col(0);
+        const double yaw = std::atan2(ahead.y(), ahead.x());
+        const double pitch = std::atan2(ahead.z(), ahead.head<2>().norm());
+        const double lean = lean_angle(world::to_eigen(vehicle.velocity()).dot(ahead),
+                                       vehicle.angular_velocity().z());
+        const bool fell = pose.linear()(2, 2) < 0.7;
+        place_two_wheeler(fell ? pose
+                               : world::pose(vehicle.position(), yaw, pitch) *
+                                     Eigen::AngleAxisd(-lean, Vector3d::UnitX()),
+                          body,
+                          vehicle.steering_angle(),
+                          vehicle.odometer());
+    }
+}
+
+void Scene::place_cars(const world::TickView& tick) {
+    for (const world::CarState& car : tick.cars()) {
+        const Instance body = body_of(car.id(), car.model(), car.lamps(), tick.car_looks());
+        const Eigen::Isometry3d pose = world::pose(
+            car.position(), static_cast<double>(car.yaw()), static_cast<double>(car.pitch()));
+        const world::VehicleModel& model = *car_shape(car.model()).model;
+        const auto rolled = static_cast<double>(car.lane_s());
+        if (world::is_two_wheeler(model.body))
+            place_two_wheeler(pose, body, 0, rolled);
+        else
+            place_car(pose, body, 0, {}, rolled / model.wheel_radius);
+    }
+}
+
+void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mounts) {
+    mounts_.assign(mounts.begin(), mounts.end());
+    signals_.assign(tick.signals().begin(), tick.signals().end());
+    instances_ = town_;
+    outfits_.clear();
+    place_vehicles(tick);
+    place_cars(tick);
+    const world::Weather* weather = tick.tick->weather();
+    const bool rains = weather != nullptr && weather->rain() > 0;
+    for (const world::WalkerState& walker : tick.walkers())
+        place_walker(walker, rains);
+    commit();
+}
+
+std::optional<Eigen::Isometry3d> Scene::find_actor(const world::TickView& tick,
+                                                   std::uint32_t actor) {
+    if (const world::VehicleState* vehicle = world::find(tick.vehicles(), actor))
+        return world::pose(vehicle->position(), vehicle->orientation());
+    if (const world::CarState* car = world::find(tick.cars(), actor))
+        return world::pose(
+            car->position(), static_cast<double>(car->yaw()), static_cast<double>(car->pitch()));
+    if (const world::WalkerState* walker = world::find(tick.walkers(), actor))
+        return world::pose(walker->position(), static_cast<double>(walker->yaw()), 0);
+    return std::nullopt;
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,104 @@
+#include <numbers>
+#include <string>
+
+#include "render/scene/scene.h"
+#include "render/shapes/people/figure.h"
+#include "world/check.h"
+#include "world/frames.h"
+
+namespace reprise::render {
+
+void Scene::build_people() {
+    const auto add = [&](const world::WalkerModel& model) {
+        trunks_.push_back(add_prototype(limb_mesh(Limb::Shape::trunk, model)));
+        hems_.push_back(add_prototype(limb_mesh(Limb::Shape::hem, model)));
+    };
+    for (const world::WalkerModel& model : world::walker_models())
+        add(model);
+    add(rider_of(world::BodyStyle::motorcycle));
+    add(rider_of(world::BodyStyle::bicycle));
+    const world::WalkerModel& any = world::walker_models().front();
+    for (auto shape = static_cast<std::size_t>(Limb::Shape::ball); shape < limb_shapes; ++shape)
+        limbs_.at(shape) = add_prototype(limb_mesh(static_cast<Limb::Shape>(shape), any));
+}
+
+/// `person`: whose trunk it is, index in trunks_.
+void Scene::place_limbs(std::span<const Limb> limbs,
+                        std::size_t person,
+                        const Eigen::Isometry3d& pose,
+                        Instance part) {
+    part.outfit = static_cast<std::uint16_t>(outfits_.size() - 1);
+    for (const Limb& limb : limbs) {
+        part.material = limb.material;
+        part.prototype = limb.shape == Limb::Shape::trunk ? trunks_[person]
+                         : limb.shape == Limb::Shape::hem
+                             ? hems_[person]
+                             : limbs_.at(static_cast<std::size_t>(limb.shape));
+        add_instance(part, pose * limb.pose);
+    }
+}
+
+void Scene::place_walker(const world::WalkerState& walker, bool rains) {
+    const auto models = world::walker_models();
+    REPRISE_CHECK(walker.model() < models.size(), "walker " + std::to_string(walker.id()));
+    const world::WalkerModel& model = models[walker.model()];
+    outfits_.push_back(outfit_of(model, look_of(walker)));
+    Instance part;
+    part.kind = Kind::limb;
+    part.actor = walker.id();
+    place_limbs(figure(model, walker, rains),
+                walker.model(),
+                world::pose(walker.position(), static_cast<double>(walker.yaw()), 0),
+                part);
+}
+
+void Scene::place_two_wheeler(const Eigen::Isometry3d& pose_world_vehicle,
+                              const Instance& body,
+                              double steering,
+                              double rolled) {
+    const CarShape& shape = car_shape(body.model);
+    const world::VehicleModel& model = *shape.model;
+    Instance part = body;
+    part.kind = Kind::car_body;
+    part.prototype = car_bodies_[body.model];
+    add_instance(part, pose_world_vehicle);
+    const Eigen::Isometry3d pose_world_fork = pose_world_vehicle *
+                                              Eigen::Translation3d(model.wheelbase, 0, 0) *
+                                              Eigen::AngleAxisd(steering, Eigen::Vector3d::UnitZ());
+    part.prototype = forks_[body.model];
+    add_instance(part, pose_world_fork);
+
+    part.kind = Kind::wheel;
+    part.prototype = wheels_[body.model];
+    const Eigen::Isometry3d turned =
+        Eigen::Translation3d(0, 0, model.wheel_radius) *
+        Eigen::AngleAxisd(rolled / model.wheel_radius, Eigen::Vector3d::UnitY()) *
+        Eigen::Isometry3d::Identity();
+    add_instance(part, pose_world_vehicle * turned);
+    add_instance(part, pose_world_fork * turned);
+
+    constexpr double development = 5.0;  // [m] that a bicycle rolls in a turn of its cranks
+    const Seat seat = seat_of(shape);
+    const double crank = seat.crank > 0 ? 2 * std::numbers::pi * rolled / development : 0;
+    if (seat.crank > 0) {
+        part.kind = Kind::car_body;
+        part.prototype = cranks_[body.model];
+        for (const double side : {1.0, -1.0}) {
+            const Eigen::Vector3d middle(seat.foot.x(), side * 0.05, seat.foot.z());
+            const double angle = crank + (side > 0 ? 0 : std::numbers::pi);
+            Eigen::Affine3d pose(pose_world_vehicle * Eigen::Translation3d(middle) *
+                                 Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()));
+            if (side < 0)
+                pose.rotate(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
+            add_instance(part, pose);
+        }
+    }
+
+    outfits_.push_back(outfit_of(rider_of(shape.style), body.look));
+    part.kind = Kind::rider;
+    const std::size_t person =
+        world::walker_models().size() + (shape.style == world::BodyStyle::bicycle ? 1 : 0);
+    place_limbs(rider(shape, outfits_.back(), steering, crank), person, pose_world_vehicle, part);
+}
+
+}  // namespace reprise::render

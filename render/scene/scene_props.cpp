@@ -1,0 +1,90 @@
+#include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "render/scene/scene.h"
+#include "render/shapes/noise.h"
+#include "render/shapes/paint.h"
+#include "render/shapes/street/prop_mesh.h"
+#include "world/check.h"
+#include "world/frames.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Props of one kind share a mesh when they are about of one size; the rest is stretched.
+struct Mould {
+    explicit Mould(const PropSize& size)
+        : length(size.length > 4 ? steps(size.length, 0.5F) * 5 : steps(size.length, 0.1F)),
+          width(steps(size.width, 0.1F)),
+          height(steps(size.height, 0.1F)) {}
+
+    static int steps(float value, float step) {
+        return std::max(1, static_cast<int>(value / step + 0.5F));
+    }
+
+    PropSize size() const {
+        return {0.1F * static_cast<float>(length),
+                0.1F * static_cast<float>(width),
+                0.1F * static_cast<float>(height)};
+    }
+
+    auto operator<=>(const Mould&) const = default;
+
+    int length;  ///< [dm]
+    int width;   ///< [dm]
+    int height;  ///< [dm]
+};
+
+}  // namespace
+
+void Scene::place_props(const world::TownT& town) {
+    std::map<std::pair<world::PropKind, Mould>, const Prototype*> moulds;
+    for (const world::Prop& prop : town.props) {
+        if (prop.kind() == world::PropKind::parked_vehicle) {
+            park(prop);
+            continue;
+        }
+        const PropSize size = size_of(prop);
+        const Mould mould(size);
+        const Prototype*& prototype = moulds[{prop.kind(), mould}];
+        if (prototype == nullptr)
+            prototype = add_prototype(prop_mesh(prop.kind(), mould.size()));
+        Instance instance;
+        instance.kind = Kind::prop;
+        instance.prototype = prototype;
+        instance.model = prop.value();
+        instance.style = prop.style();
+        Eigen::Affine3d pose(world::pose(prop.position(), prop.yaw(), 0));
+        const PropSize made = mould.size();
+        pose.scale(Vector3d(static_cast<double>(size.length / made.length),
+                            static_cast<double>(size.width / made.width),
+                            static_cast<double>(size.height / made.height)));
+        add_instance(instance, pose);
+    }
+}
+
+void Scene::park(const world::Prop& prop) {
+    REPRISE_CHECK(prop.value() < car_bodies_.size(),
+                  "parked vehicle of model " + std::to_string(prop.value()));
+    const world::VehicleModel& model = *car_shape(prop.value()).model;
+    Instance body;
+    body.model = prop.value();
+    body.look = hash(prop.style());
+    body.color = paint_of(model, body.look).body;
+    // A prop stands on its middle, a car's frame on its rear axle.
+    const Eigen::Isometry3d pose =
+        world::pose(prop.position(), prop.yaw(), 0) *
+        Eigen::Translation3d(model.rear_overhang - model.length / 2, 0, 0);
+    const std::size_t first = instances_.size();
+    place_car(pose, body, 0, {}, 0);
+    for (std::size_t i = first; i < instances_.size(); ++i)
+        if (instances_[i].kind == Kind::car_body)
+            instances_[i].kind = Kind::parked;
+}
+
+}  // namespace reprise::render

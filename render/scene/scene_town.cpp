@@ -1,0 +1,149 @@
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "ground/mesh/ground.h"
+#include "render/scene/scene.h"
+#include "render/shapes/street/signal_parts.h"
+#include "world/frames.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double skirt = 2000;  // [m] of grass around the town, up to the horizon
+
+Material ground_material(world::Surface surface) {
+    switch (surface) {
+        case world::Surface::terrain:
+            return Material::grass;
+        case world::Surface::sidewalk:
+            return Material::pavement;
+        case world::Surface::kerb:
+        case world::Surface::deck:
+            return Material::kerb;
+        case world::Surface::marking:
+            return Material::marking;
+        default:
+            return Material::asphalt;
+    }
+}
+
+Mesh mesh_of(const world::GroundMesh& ground, const Vector3d& origin) {
+    Mesh mesh;
+    for (const Vector3d& vertex : ground.vertices)
+        mesh.vertices.emplace_back((vertex - origin).cast<float>());
+    mesh.triangles = ground.triangles;
+    for (const world::Surface surface : ground.surfaces)
+        mesh.materials.push_back(ground_material(surface));
+    mesh.tags.assign(mesh.triangles.size(), 0);
+    drop_degenerate(mesh);
+    return mesh;
+}
+
+/// Grass from the town's border to the horizon, below everything else.
+void add_skirt(Mesh& mesh, const world::TownT& town, const Vector3d& origin) {
+    const auto z = static_cast<float>(town.low.z() - origin.z() - 0.35);
+    const auto west = static_cast<float>(town.low.x() - origin.x() - skirt);
+    const auto east = static_cast<float>(town.high.x() - origin.x() + skirt);
+    const auto south = static_cast<float>(town.low.y() - origin.y() - skirt);
+    const auto north = static_cast<float>(town.high.y() - origin.y() + skirt);
+    add_quad(mesh,
+             {Eigen::Vector3f(west, south, z),
+              Eigen::Vector3f(east, south, z),
+              Eigen::Vector3f(east, north, z),
+              Eigen::Vector3f(west, north, z)},
+             {Material::grass});
+}
+
+BuildingFrame frame_of(const world::Building& building, const Vector3d& origin) {
+    return {(world::to_eigen(building.centre()) - origin).cast<float>(),
+            static_cast<float>(std::cos(building.yaw())),
+            static_cast<float>(std::sin(building.yaw())),
+            {static_cast<float>(building.length() / 2), static_cast<float>(building.width() / 2)},
+            Facade(building)};
+}
+
+}  // namespace
+
+void Scene::build_town(const world::TownT& town) {
+    const auto add = [&](Mesh mesh, Kind kind, std::uint32_t mask) {
+        Instance& instance = town_.emplace_back();
+        instance.prototype = add_prototype(std::move(mesh));
+        instance.kind = kind;
+        instance.mask = mask;
+    };
+    const world::GroundMesh levels = world::build_ground(town);
+    Mesh ground = mesh_of(levels, origin_);
+    add_skirt(ground, town, origin_);
+    add(std::move(ground), Kind::ground, solid_bit);
+    Mesh markings = mesh_of(world::build_markings(town), origin_);
+    if (!markings.triangles.empty())
+        add(std::move(markings), Kind::marking, marking_bit);
+
+    Mesh plots = plot_mesh(town, levels, origin_);
+    for (const world::PlotT& plot : town.plots)
+        plots_.emplace_back(plot, origin_);
+    if (!plots.triangles.empty())
+        add(std::move(plots), Kind::ground, solid_bit);
+
+    Mesh houses;
+    for (std::uint32_t i = 0; i < town.buildings.size(); ++i) {
+        // Frames are found by the building's index, whether it has a model or not.
+        buildings_.push_back(frame_of(town.buildings[i], origin_));
+        if (town.buildings[i].model() == 0)
+            add_building(houses, town.buildings[i], i, origin_);
+        else
+            add_model_building(houses, facades_, town.buildings[i], origin_);
+    }
+    for (const world::DrawnBuildingT& building : town.drawn_buildings)
+        add_drawn_building(houses, facades_, building, origin_);
+    if (town.heads.empty())
+        add_signals(houses, town, origin_);
+    else
+        add_signal_heads(houses, town, origin_);
+    drop_degenerate(houses);
+    if (!houses.triangles.empty())
+        add(std::move(houses), Kind::town, solid_bit);
+    place_trees(town);
+    place_props(town);
+    town_.insert(town_.end(), instances_.begin(), instances_.end());
+    instances_.clear();
+}
+
+void Scene::place_trees(const world::TownT& town) {
+    // Prototypes are made when the first of their kind is met.
+    std::array<const Prototype*, tree_kinds> trees{};
+    std::map<world::PlantKind, const Prototype*> plants;
+    for (const world::Tree& tree : town.trees) {
+        // Flat ones have no inside that rays could be taken into: Embree would end the process.
+        if (!(tree.height() > 0.01) || !(tree.crown_radius() > 0.01))
+            continue;
+        Instance instance;
+        if (tree.kind() == world::PlantKind::any) {
+            const Prototype*& prototype = trees[tree.style() % tree_kinds];
+            if (prototype == nullptr)
+                prototype = add_prototype(tree_mesh(tree.style() % tree_kinds));
+            instance.kind = Kind::tree;
+            instance.prototype = prototype;
+            instance.model = static_cast<std::uint16_t>(tree.style() & 0xffffu);
+        } else {
+            const Prototype*& prototype = plants[tree.kind()];
+            if (prototype == nullptr)
+                prototype = add_prototype(plant_mesh(tree.kind()));
+            instance.kind = Kind::plant;
+            instance.prototype = prototype;
+            instance.model = static_cast<std::uint16_t>(tree.kind());
+            instance.style = tree.style();
+        }
+        const double turn = static_cast<double>(tree.style() % 360) * 0.0174533;
+        Eigen::Affine3d pose(Eigen::Translation3d(world::to_eigen(tree.position())));
+        pose.rotate(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
+        pose.scale(Vector3d(tree.crown_radius(), tree.crown_radius(), tree.height()));
+        add_instance(instance, pose);
+    }
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,160 @@
+#include "render/scene/tracer.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <embree3/rtcore.h>
+#include <tbb/parallel_for.h>
+
+#include "world/check.h"
+
+namespace reprise::render {
+
+namespace {
+
+constexpr std::size_t lanes = 8;  // packets of 16 with instances hang on AVX-512: never use them
+
+template <typename Packet>
+void fill(Packet& packet, std::size_t lane, const Ray& ray) {
+    packet.org_x[lane] = ray.origin.x();
+    packet.org_y[lane] = ray.origin.y();
+    packet.org_z[lane] = ray.origin.z();
+    packet.dir_x[lane] = ray.direction.x();
+    packet.dir_y[lane] = ray.direction.y();
+    packet.dir_z[lane] = ray.direction.z();
+    packet.tnear[lane] = 0;
+    packet.tfar[lane] = ray.far;
+    packet.time[lane] = 0;
+    packet.mask[lane] = ray.mask;
+    packet.id[lane] = 0;
+    packet.flags[lane] = 0;
+}
+
+RTCIntersectContext context_of(bool coherent) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags =
+        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    return context;
+}
+
+}  // namespace
+
+bool is_valid(const Ray& ray) {
+    constexpr float most = 1e18F;
+    return ray.origin.cwiseAbs().maxCoeff() < most && ray.direction.cwiseAbs().maxCoeff() < most &&
+           ray.direction.squaredNorm() > 1e-12F && ray.far >= 0;
+}
+
+void find_nearest(const Scene& scene,
+                  std::span<const Ray> rays,
+                  bool coherent,
+                  std::span<Hit> hits) {
+    if (scene.plain_tracer() != nullptr)
+        return scene.plain_tracer()->find_nearest(rays, hits);
+    RTCIntersectContext context = context_of(coherent);
+    for (std::size_t first = 0; first < rays.size(); first += lanes) {
+        alignas(32) RTCRayHit8 packet;
+        alignas(32) std::array<int, lanes> valid{};
+        bool any = false;
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const Ray& ray = rays[std::min(first + lane, rays.size() - 1)];
+            valid[lane] = first + lane < rays.size() && is_valid(ray) ? -1 : 0;
+            any |= valid[lane] != 0;
+            fill(packet.ray, lane, ray);
+            packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+            packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+        }
+        if (any)
+            rtcIntersect8(valid.data(), scene.tree(), &context, &packet);
+        for (std::size_t lane = 0; lane < lanes && first + lane < rays.size(); ++lane) {
+            Hit& hit = hits[first + lane];
+            hit = Hit{};
+            if (valid[lane] == 0 || packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID)
+                continue;
+            hit = {packet.ray.tfar[lane],
+                   packet.hit.instID[0][lane],
+                   packet.hit.primID[lane],
+                   packet.hit.u[lane],
+                   packet.hit.v[lane]};
+        }
+    }
+}
+
+void find_free(const Scene& scene, std::span<const Ray> rays, std::span<std::uint8_t> free) {
+    if (scene.plain_tracer() != nullptr)
+        return scene.plain_tracer()->find_free(rays, free);
+    RTCIntersectContext context = context_of(true);
+    for (std::size_t first = 0; first < rays.size(); first += lanes) {
+        alignas(32) RTCRay8 packet;
+        alignas(32) std::array<int, lanes> valid{};
+        bool any = false;
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const Ray& ray = rays[std::min(first + lane, rays.size() - 1)];
+            valid[lane] = first + lane < rays.size() && is_valid(ray) ? -1 : 0;
+            any |= valid[lane] != 0;
+            fill(packet, lane, ray);
+        }
+        if (any)
+            rtcOccluded8(valid.data(), scene.tree(), &context, &packet);
+        // Embree sets tfar to minus infinity where the way is blocked.
+        for (std::size_t lane = 0; lane < lanes && first + lane < rays.size(); ++lane)
+            free[first + lane] = static_cast<std::uint8_t>(packet.tfar[lane] >= 0);
+    }
+}
+
+double refined_distance(const Instance& instance,
+                        std::uint32_t triangle,
+                        const Eigen::Vector3d& origin,
+                        const Eigen::Vector3d& direction,
+                        double found) {
+    const Mesh& mesh = instance.prototype->mesh;
+    const std::array<std::uint32_t, 3>& corners = mesh.triangles[triangle];
+    const Eigen::Vector3d a = mesh.vertices[corners[0]].cast<double>();
+    const Eigen::Vector3d to_b = mesh.vertices[corners[1]].cast<double>() - a;
+    const Eigen::Vector3d to_c = mesh.vertices[corners[2]].cast<double>() - a;
+    const Eigen::Vector3d normal =
+        (instance.pose.linear() * to_b).cross(instance.pose.linear() * to_c);
+    const double distance = normal.dot(instance.pose * a - origin) / normal.dot(direction);
+    // Along the surface the plane says nothing; Embree's answer stands.
+    return std::abs(distance - found) <= 1e-3 + 1e-2 * found ? distance : found;
+}
+
+void see(const Scene& scene, const Camera& camera, std::uint32_t mask, std::vector<Hit>& hits) {
+    const int width = camera.width();
+    const int height = camera.height();
+    hits.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    const int columns = (width + tile - 1) / tile;
+    const int rows = (height + tile - 1) / tile;
+    tbb::parallel_for(0, columns * rows, [&](int index) {
+        const PlainFloats plain;
+        std::array<Ray, tile * tile> rays;
+        std::array<Hit, tile * tile> found;
+        const Eigen::Vector2i corner(index % columns * tile, index / columns * tile);
+        const Eigen::Vector3f origin = camera.position().cast<float>();
+        for (int i = 0; i < tile * tile; ++i) {
+            const Eigen::Vector2i pixel = corner + tile_pixel(i);
+            const Eigen::Vector3d direction = camera.ray(pixel.x() + 0.5, pixel.y() + 0.5);
+            rays[static_cast<std::size_t>(i)] = {
+                origin, direction.cast<float>(), std::numeric_limits<float>::infinity(), mask};
+        }
+        find_nearest(scene, rays, true, found);
+        for (int i = 0; i < tile * tile; ++i) {
+            const Eigen::Vector2i pixel = corner + tile_pixel(i);
+            if (pixel.x() >= width || pixel.y() >= height)
+                continue;
+            Hit hit = found[static_cast<std::size_t>(i)];
+            if (hit.instance != no_instance)
+                hit.distance = static_cast<float>(
+                    refined_distance(scene.instances()[hit.instance],
+                                     hit.triangle,
+                                     camera.position(),
+                                     camera.ray(pixel.x() + 0.5, pixel.y() + 0.5),
+                                     static_cast<double>(hit.distance)));
+            hits[static_cast<std::size_t>(pixel.y() * width + pixel.x())] = hit;
+        }
+    });
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "render/scene/scene.h"
+#include "render/trace/camera.h"
+#include "render/trace/plain_floats.h"
+
+namespace reprise::render {
+
+/// Directions need not be unit vectors; distances count in their lengths.
+struct Ray {
+    Eigen::Vector3f origin;
+    Eigen::Vector3f direction;
+    float far;
+    std::uint32_t mask;
+};
+
+inline constexpr std::uint32_t no_instance = 0xffffffffu;
+
+/// What a ray met first.
+struct Hit {
+    float distance = 0;                    ///< in lengths of the ray's direction
+    std::uint32_t instance = no_instance;  ///< index in Scene.instances(), or none: sky
+    std::uint32_t triangle = 0;
+    float u = 0;  ///< weight of the triangle's second corner
+    float v = 0;  ///< of its third
+};
+
+/// Embree asserts that rays are numbers, and would end the process: others are not looked up.
+bool is_valid(const Ray& ray);
+
+/// Nearest hits, in packets of 8. `hits` has the size of `rays`.
+void find_nearest(const Scene& scene,
+                  std::span<const Ray> rays,
+                  bool coherent,
+                  std::span<Hit> hits);
+
+/// Is anything solid in the way? 1 where the way is free.
+void find_free(const Scene& scene, std::span<const Ray> rays, std::span<std::uint8_t> free);
+
+/// The same hit in double precision from the triangle's own corners: equal ids give equal bits,
+/// whatever Embree's arithmetic was. Distances count in lengths of `direction`.
+double refined_distance(const Instance& instance,
+                        std::uint32_t triangle,
+                        const Eigen::Vector3d& origin,
+                        const Eigen::Vector3d& direction,
+                        double found);
+
+/// What each pixel of the camera sees, by rows; distances are depths. Runs on TBB.
+void see(const Scene& scene, const Camera& camera, std::uint32_t mask, std::vector<Hit>& hits);
+
+/// Side of the square tiles that tasks work on. [px]
+inline constexpr int tile = 16;
+
+/// The i-th pixel of a tile, in blocks of 4 x 2 pixels: a packet of rays close together.
+inline Eigen::Vector2i tile_pixel(int i) {
+    const int block = i / 8;
+    const int inside = i % 8;
+    return {(block % (tile / 4)) * 4 + inside % 4, (block / (tile / 4)) * 2 + inside / 4};
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,60 @@
+#include <array>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "render/shade/frame.h"
+#include "world/random.h"
+
+namespace reprise::render {
+
+namespace {
+
+constexpr int table_size = 4096;
+
+/// sRGB's curve over the root of the light: dark tones get their share of the entries.
+struct SrgbTable {
+    SrgbTable() {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const double root = static_cast<double>(i) / (table_size - 1);
+            const double light = root * root;
+            const double value =
+                light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+            values[i] = static_cast<float>(255 * value);
+        }
+    }
+
+    std::array<float, table_size> values;
+};
+
+const SrgbTable srgb;
+
+/// Narkowicz's fit of the ACES film curve, 2015, with a flatter toe: shadows stay readable.
+float film(float x) {
+    return clamp01(x * (2.51F * x + 0.10F) / (x * (2.43F * x + 0.55F) + 0.16F));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> develop(const Frame& frame, std::uint64_t tick) {
+    std::vector<std::uint8_t> bytes(frame.colors.size() * 3);
+    tbb::parallel_for(0, frame.height, [&](int y) {
+        const PlainFloats plain;
+        for (int x = 0; x < frame.width; ++x) {
+            const std::size_t index = frame.index(x, y);
+            // Half a step of noise hides the steps of smooth skies.
+            const auto grain = static_cast<float>(world::draw(
+                0, tick, world::Purpose::camera_noise, static_cast<std::uint64_t>(index)));
+            for (int channel = 0; channel < 3; ++channel) {
+                const float light = film(std::max(0.0F, frame.colors[index][channel]));
+                const float entry = std::sqrt(light) * (table_size - 1);
+                const float value = srgb.values[static_cast<std::size_t>(entry + 0.5F)] + grain;
+                bytes[3 * index + static_cast<std::size_t>(channel)] =
+                    static_cast<std::uint8_t>(std::min(255.0F, value));
+            }
+        }
+    });
+    return bytes;
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/look/look.h"
+#include "render/shade/light.h"
+#include "render/trace/camera.h"
+
+namespace reprise::render {
+
+/// A pixel's surface, in two parts: what it is like, and the light that was found there.
+struct Sample {
+    Look look;
+    Light light;               ///< filtered
+    Eigen::Vector3f position;  ///< scene
+    float distance = 0;        ///< [m] from the eye
+};
+
+/// What the filter between neighbouring pixels looks at.
+struct RawLight {
+    Eigen::Vector3f position;
+    Eigen::Vector3f flat;  ///< the triangle's normal
+    float tolerance = 0;   ///< [m] off the plane that still counts as the same surface
+    std::uint32_t instance = no_instance;
+    Light light;
+};
+
+/// A picture in the making. Kept between frames for its memory only: nothing of an old frame is
+/// read.
+struct Frame {
+    int width = 0;
+    int height = 0;
+    std::vector<Sample> samples;
+    std::vector<RawLight> lights;
+    std::vector<Color> colors;  ///< radiance times exposure
+
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
+};
+
+/// Shades what `hits` (from see()) found into frame.colors. Each pixel is a function of the scene
+/// and its neighbours' hits, so that the number of threads does not matter.
+void shade(const Stage& stage,
+           const Camera& camera,
+           std::uint32_t mask,
+           const std::vector<Hit>& hits,
+           Frame& frame);
+
+/// Draws falling drops over the colours: streaks, each a function of (tick, number).
+void draw_rain(const Stage& stage,
+               const Camera& camera,
+               const std::vector<Hit>& hits,
+               Frame& frame);
+
+/// Tone curve and sRGB: 3 bytes a pixel.
+std::vector<std::uint8_t> develop(const Frame& frame, std::uint64_t tick);
+
+}  // namespace reprise::render

@@ -1,0 +1,83 @@
+#include "render/shade/job.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <tbb/parallel_for.h>
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector2f;
+using Eigen::Vector3f;
+
+/// Roberts' R2 sequence: evenly spread points of the unit square.
+Vector2f spread(int i) {
+    const auto n = static_cast<float>(i) + 0.5F;
+    return {fraction(n * 0.7548777F), fraction(n * 0.5698403F)};
+}
+
+struct Tables {
+    Tables() {
+        for (int i = 0; i < 32; ++i) {
+            const Vector2f at = spread(i);
+            const double angle = 2 * std::numbers::pi * static_cast<double>(at.x());
+            const Vector2f way(static_cast<float>(std::cos(angle)),
+                               static_cast<float>(std::sin(angle)));
+            const float wide = std::sqrt(at.y());
+            sky[static_cast<std::size_t>(i)] = {
+                wide * way.x(), wide * way.y(), std::sqrt(1 - at.y())};
+            disc[static_cast<std::size_t>(i)] = wide * way;
+        }
+    }
+
+    std::array<Vector3f, 32> sky;   // cosine-weighted over the half sphere
+    std::array<Vector2f, 32> disc;  // evenly over the unit disc
+};
+
+const Tables tables;
+
+}  // namespace
+
+void for_tiles(const Camera& camera,
+               const std::function<void(const Eigen::Vector2i& corner)>& work) {
+    const int columns = (camera.width() + tile - 1) / tile;
+    const int rows = (camera.height() + tile - 1) / tile;
+    tbb::parallel_for(0, columns * rows, [&](int index) {
+        const PlainFloats plain;
+        work({index % columns * tile, index / columns * tile});
+    });
+}
+
+const Vector2f& disc_point(int place) {
+    return tables.disc[static_cast<std::size_t>(place)];
+}
+
+const Vector3f& sky_direction(int place) {
+    return tables.sky[static_cast<std::size_t>(place)];
+}
+
+Vector3f lifted(const Vector3f& position, const Vector3f& flat, float distance) {
+    return position + flat * (2e-3F + 1e-4F * distance);
+}
+
+Ray sun_ray(const Job& job, const Vector3f& origin, int place) {
+    const Vector2f spot = disc_point(place) * job.stage.sky.sun_radius();
+    return {origin,
+            job.sun_axes.apply({spot.x(), spot.y(), 1}),
+            std::numeric_limits<float>::infinity(),
+            job.mask & ~marking_bit};
+}
+
+Color sky_color(const Job& job, const Vector3f& direction) {
+    const Vector3f view = direction.normalized();
+    // Fog reaches about as far as the clouds' base is seen: thicker towards the horizon.
+    const Color sky = job.stage.sky.radiance(view, true);
+    const float far = 120 / (std::max(view.z(), 0.0F) + 0.06F);
+    return through_air(job.stage.sky, sky, view, job.stage.sky.extinction() > 1e-3F ? far : 0.0F);
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,116 @@
+#include <array>
+
+#include "render/shade/job.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector2f;
+using Eigen::Vector3f;
+
+constexpr float near_things = 2.4F;  // [m] how far things hide the sky from each other
+constexpr float far_corners = 90;    // [m]
+constexpr float mirror_reach = 150;  // [m]
+
+/// One of 16 places in the pattern; 4 x 4 neighbours have all of them (Bayer's order).
+int pattern(int x, int y) {
+    static constexpr std::array<int, 16> order{
+        0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+    return order[static_cast<std::size_t>((y & 3) * 4 + (x & 3))];
+}
+
+/// What a mirror ray met, lit without rays of its own.
+Color mirrored_radiance(const Job& job, const Ray& ray, const Hit& hit, float footprint_scale) {
+    const Stage& stage = job.stage;
+    if (hit.instance == no_instance)
+        return stage.sky.radiance(ray.direction, false);
+    const Surface at = surface_at(stage.scene, hit, ray.origin, ray.direction, footprint_scale);
+    const Look look = look_of(stage, at);
+    Light light{job.sun_matters ? 0.6F : 1.0F, 0.75F, Color::Zero()};
+    if (look.gloss > 0)
+        light.mirrored =
+            stage.sky.radiance(mirror_direction(at.view, look.normal, at.flat), false) * 0.8F;
+    const Color color = outgoing(stage, job.beams, look, light, at.position, at.view);
+    // Lamps would leave single dots: what one ray finds stands for 16 pixels.
+    const Color seen = color.min(2.2F / stage.sky.exposure());
+    return through_air(stage.sky, seen, at.view, at.distance);
+}
+
+/// Rays among leaves are the dearest and change the least; from far, corners are too small to see.
+bool asks_for_sky(const Surface& at) {
+    return at.material != Material::leaf && at.distance < far_corners;
+}
+
+void request_light(const Job& job,
+                   const Surface& at,
+                   const Look& look,
+                   int place,
+                   std::size_t owner,
+                   Batches& batches) {
+    const Vector3f origin = lifted(at.position, at.flat, at.distance);
+    const float facing = look.normal.dot(job.stage.sky.to_sun());
+    if (job.sun_matters && (facing > 0 || look.translucency > 0))
+        batches.sun.add(sun_ray(job, origin, place), owner);
+    const Axes axes(at.normal);
+    for (int i = 0; i < 2 && asks_for_sky(at); ++i) {
+        Vector3f direction = axes.apply(sky_direction(place + 16 * i));
+        const float up = direction.dot(at.flat);
+        if (up < 0.02F)
+            direction += (0.04F - up) * at.flat;
+        batches.sky.add({origin, direction, near_things, job.mask & ~marking_bit}, owner);
+    }
+    if (look.gloss > 0) {
+        const Vector2f spot = disc_point(place) * (look.roughness * look.roughness * 0.55F);
+        const Vector3f tilted = (look.normal + spot.x() * axes.x + spot.y() * axes.y).normalized();
+        batches.mirror.add(
+            {origin, mirror_direction(at.view, tilted, at.flat), mirror_reach, job.mask}, owner);
+    }
+}
+
+}  // namespace
+
+void light_tile(Job& job, const Eigen::Vector2i& corner) {
+    thread_local Batches batches;
+    batches.sun.clear();
+    batches.sky.clear();
+    batches.mirror.clear();
+    for (int i = 0; i < tile * tile; ++i) {
+        const Eigen::Vector2i pixel = corner + tile_pixel(i);
+        if (!job.holds(pixel))
+            continue;
+        const std::size_t index = job.frame.index(pixel.x(), pixel.y());
+        RawLight& raw = job.frame.lights[index];
+        const Hit& hit = job.hits[index];
+        raw.instance = hit.instance;
+        if (hit.instance == no_instance)
+            continue;
+        const Vector3f direction = job.camera.ray(pixel.x() + 0.5, pixel.y() + 0.5).cast<float>();
+        const Surface at = surface_at(job.stage.scene, hit, job.eye, direction, job.pixel);
+        Sample& sample = job.frame.samples[index];
+        sample.look = look_of(job.stage, at);
+        sample.position = at.position;
+        sample.distance = at.distance;
+        raw.position = at.position;
+        raw.flat = at.flat;
+        raw.tolerance = 0.01F + 4 * at.distance * job.pixel;
+        raw.light = {job.sun_matters ? 0.0F : 1.0F, 0.0F, Color::Zero()};
+        if (!asks_for_sky(at))
+            raw.light.open = at.material == Material::leaf ? 0.7F : 0.95F;
+        request_light(job, at, sample.look, pattern(pixel.x(), pixel.y()), index, batches);
+    }
+    std::vector<RawLight>& lights = job.frame.lights;
+    answer_free(job, batches, batches.sun, [&](std::size_t owner, bool free) {
+        lights[owner].light.sunlit = free ? 1.0F : 0.0F;
+    });
+    answer_free(job, batches, batches.sky, [&](std::size_t owner, bool free) {
+        lights[owner].light.open += free ? 0.5F : 0.0F;
+    });
+    batches.hits.resize(batches.mirror.rays.size());
+    find_nearest(job.stage.scene, batches.mirror.rays, false, batches.hits);
+    for (std::size_t i = 0; i < batches.hits.size(); ++i)
+        lights[batches.mirror.owners[i]].light.mirrored =
+            mirrored_radiance(job, batches.mirror.rays[i], batches.hits[i], job.pixel * 2);
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "render/shade/job.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr std::size_t places = 4;  // in a pixel, no two in one row or column
+constexpr std::array<std::array<double, 2>, places> place{
+    {{.375, .125}, {.875, .375}, {.625, .875}, {.125, .625}}};
+
+float brightness(const Color& color) {
+    const float light = luminance(color);
+    return light / (light + 0.5F);
+}
+
+bool is_edge(const Frame& frame, int x, int y) {
+    const std::size_t index = frame.index(x, y);
+    const RawLight& own = frame.lights[index];
+    const float light = brightness(frame.colors[index]);
+    constexpr std::array<std::array<int, 2>, 4> sides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    for (const auto& side : sides) {
+        const int i = std::clamp(x + side[0], 0, frame.width - 1);
+        const int j = std::clamp(y + side[1], 0, frame.height - 1);
+        const std::size_t next = frame.index(i, j);
+        const RawLight& other = frame.lights[next];
+        if (std::abs(brightness(frame.colors[next]) - light) > 0.045F)
+            return true;
+        if (own.instance != other.instance && own.instance != no_instance &&
+            std::abs(brightness(frame.colors[next]) - light) > 0.01F)
+            return true;
+    }
+    return false;
+}
+
+/// The light of the neighbour that lies on the same surface, or of the pixel itself.
+Light borrowed(const Frame& frame,
+               const Eigen::Vector2i& pixel,
+               const Hit& hit,
+               const Surface& at) {
+    Light best{0, 0.8F, Color::Zero()};
+    float least = infinite;
+    for (int i = 0; i < 9; ++i) {
+        const int x = std::clamp(pixel.x() + i % 3 - 1, 0, frame.width - 1);
+        const int y = std::clamp(pixel.y() + i / 3 - 1, 0, frame.height - 1);
+        const std::size_t index = frame.index(x, y);
+        const RawLight& raw = frame.lights[index];
+        if (raw.instance != hit.instance)
+            continue;
+        const float away =
+            (raw.position - at.position).norm() + (1 - raw.flat.dot(at.flat)) * at.distance * 0.01F;
+        if (away < least) {
+            least = away;
+            best = frame.samples[index].light;
+        }
+    }
+    return best;
+}
+
+/// A place inside a pixel: what is seen there, and how it is lit.
+struct Spot {
+    Hit hit;
+    Surface surface;
+    Look look;
+    Light light;
+};
+
+Batch rays_into(const Job& job,
+                const Eigen::Vector2i& corner,
+                const std::vector<std::uint8_t>& edges) {
+    Batch batch;
+    for (int i = 0; i < tile * tile; ++i) {
+        const Eigen::Vector2i pixel = corner + tile_pixel(i);
+        if (!job.holds(pixel) || edges[job.frame.index(pixel.x(), pixel.y())] == 0)
+            continue;
+        for (const auto& at : place)
+            batch.add({job.eye,
+                       job.camera.ray(pixel.x() + at[0], pixel.y() + at[1]).cast<float>(),
+                       infinite,
+                       job.mask},
+                      job.frame.index(pixel.x(), pixel.y()));
+    }
+    return batch;
+}
+
+Color color_of(const Job& job, const Ray& ray, const Spot& spot) {
+    Color color;
+    if (spot.hit.instance == no_instance) {
+        color = sky_color(job, ray.direction);
+    } else {
+        color = outgoing(
+            job.stage, job.beams, spot.look, spot.light, spot.surface.position, spot.surface.view);
+        color = through_air(job.stage.sky, color, spot.surface.view, spot.surface.distance);
+    }
+    return color * job.stage.sky.exposure();
+}
+
+}  // namespace
+
+void mark_edges(const Job& job, const Eigen::Vector2i& corner, std::vector<std::uint8_t>& edges) {
+    for (int i = 0; i < tile * tile; ++i) {
+        const Eigen::Vector2i pixel = corner + tile_pixel(i);
+        if (job.holds(pixel))
+            edges[job.frame.index(pixel.x(), pixel.y())] =
+                static_cast<std::uint8_t>(is_edge(job.frame, pixel.x(), pixel.y()));
+    }
+}
+
+void refine_tile(Job& job, const Eigen::Vector2i& corner, const std::vector<std::uint8_t>& edges) {
+    Frame& frame = job.frame;
+    const Batch primary = rays_into(job, corner, edges);
+    if (primary.rays.empty())
+        return;
+    Batches batches;
+    batches.hits.resize(primary.rays.size());
+    find_nearest(job.stage.scene, primary.rays, true, batches.hits);
+    std::vector<Spot> spots(primary.rays.size());
+    for (std::size_t i = 0; i < spots.size(); ++i) {
+        Spot& spot = spots[i];
+        spot.hit = batches.hits[i];
+        if (spot.hit.instance == no_instance)
+            continue;
+        spot.surface = surface_at(
+            job.stage.scene, spot.hit, job.eye, primary.rays[i].direction, job.pixel * 0.6F);
+        spot.look = look_of(job.stage, spot.surface);
+        const auto owner = static_cast<int>(primary.owners[i]);
+        spot.light =
+            borrowed(frame, {owner % frame.width, owner / frame.width}, spot.hit, spot.surface);
+        if (!job.sun_matters)
+            continue;
+        const Vector3f origin =
+            lifted(spot.surface.position, spot.surface.flat, spot.surface.distance);
+        batches.sun.add(sun_ray(job, origin, static_cast<int>(i % 16)), i);
+    }
+    answer_free(job, batches, batches.sun, [&](std::size_t owner, bool free) {
+        spots[owner].light.sunlit = free ? 1.0F : 0.0F;
+    });
+    for (std::size_t i = 0; i < spots.size(); i += places) {
+        Color sum = Color::Zero();
+        float weights = 0;
+        for (std::size_t k = i; k < i + places; ++k) {
+            const Color color = color_of(job, primary.rays[k], spots[k]);
+            // Weighted against the brightness, so that one bright place does not bring back stairs.
+            const float weight = 1 / (1 + luminance(color));
+            sum += color * weight;
+            weights += weight;
+        }
+        frame.colors[primary.owners[i]] = sum / weights;
+    }
+}
+
+}  // namespace reprise::render

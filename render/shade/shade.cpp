@@ -1,0 +1,102 @@
+// What it must do: turn the primary hits into light, in about 0.2 s for 800 x 600 on two cores.
+// What it assumes: hits are final; Scene, Sky and beams do not change meanwhile.
+// How it goes, each stage over all tiles in parallel:
+//   1. light: at each hit the look, one ray to the sun, two short ones into the sky's half sphere,
+//   and
+//      a mirror ray where the surface is glossy. Directions change in a fixed pattern of 4 x 4
+//      pixels.
+//   2. combine: the mean over 4 x 4 neighbours on the same surface has seen all the pattern's
+//      directions, so that little noise is left (interleaved sampling: Keller and Heidrich, 2001).
+//   3. refine: pixels on edges are taken again as the mean of four places inside the pixel.
+// What it keeps: nothing.
+#include <algorithm>
+#include <cmath>
+
+#include "render/shade/job.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector3f;
+
+Light filtered(const Job& job, const Eigen::Vector2i& pixel) {
+    const Frame& frame = job.frame;
+    const RawLight& own = frame.lights[frame.index(pixel.x(), pixel.y())];
+    Light sum{0, 0, Color::Zero()};
+    float count = 0;
+    const int left = std::max(0, pixel.x() - 2);
+    const int right = std::min(frame.width - 1, pixel.x() + 1);
+    const int low = std::max(0, pixel.y() - 2);
+    const int high = std::min(frame.height - 1, pixel.y() + 1);
+    for (int y = low; y <= high; ++y) {
+        for (int x = left; x <= right; ++x) {
+            const RawLight& other = frame.lights[frame.index(x, y)];
+            if (other.instance != own.instance || other.flat.dot(own.flat) < 0.9F ||
+                std::abs((other.position - own.position).dot(own.flat)) > own.tolerance)
+                continue;
+            sum.sunlit += other.light.sunlit;
+            sum.open += other.light.open;
+            // Single bright spots would leave squares.
+            sum.mirrored += other.light.mirrored;
+            count += 1;
+        }
+    }
+    return {sum.sunlit / count, sum.open / count, sum.mirrored / count};
+}
+
+}  // namespace
+
+void combine_tile(Job& job, const Eigen::Vector2i& corner) {
+    Frame& frame = job.frame;
+    for (int i = 0; i < tile * tile; ++i) {
+        const Eigen::Vector2i pixel = corner + tile_pixel(i);
+        if (!job.holds(pixel))
+            continue;
+        const std::size_t index = frame.index(pixel.x(), pixel.y());
+        const Vector3f direction = job.camera.ray(pixel.x() + 0.5, pixel.y() + 0.5).cast<float>();
+        Color color;
+        if (frame.lights[index].instance == no_instance) {
+            color = sky_color(job, direction);
+        } else {
+            Sample& sample = frame.samples[index];
+            sample.light = filtered(job, pixel);
+            const Vector3f view = direction.normalized();
+            color =
+                outgoing(job.stage, job.beams, sample.look, sample.light, sample.position, view);
+            color = through_air(job.stage.sky, color, view, sample.distance);
+        }
+        frame.colors[index] = color * job.stage.sky.exposure();
+    }
+}
+
+void shade(const Stage& stage,
+           const Camera& camera,
+           std::uint32_t mask,
+           const std::vector<Hit>& hits,
+           Frame& frame) {
+    frame.width = camera.width();
+    frame.height = camera.height();
+    frame.samples.resize(hits.size());
+    frame.lights.resize(hits.size());
+    frame.colors.resize(hits.size());
+    const Vector3f eye = camera.position().cast<float>();
+    const float ambient = luminance(stage.sky.ambient(Vector3f::UnitZ()));
+    Job job{stage,
+            camera,
+            mask,
+            hits,
+            frame,
+            find_beams(stage, eye),
+            eye,
+            static_cast<float>(camera.pixel()),
+            Axes(stage.sky.to_sun()),
+            luminance(stage.sky.sun()) / pi > 0.01F * ambient};
+    for_tiles(camera, [&](const Eigen::Vector2i& corner) { light_tile(job, corner); });
+    for_tiles(camera, [&](const Eigen::Vector2i& corner) { combine_tile(job, corner); });
+    std::vector<std::uint8_t> edges(hits.size());
+    for_tiles(camera, [&](const Eigen::Vector2i& corner) { mark_edges(job, corner, edges); });
+    for_tiles(camera, [&](const Eigen::Vector2i& corner) { refine_tile(job, corner, edges); });
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "render/shapes/limb.h"
+#include "render/shapes/mesh.h"
+#include "render/shapes/people/posture.h"
+#include "render/shapes/people/wardrobe.h"
+
+namespace reprise::render {
+
+/// Moves the hands to where they hold what is carried.
+void hold(Posture& posture, const Build& build, const Carried& carried, bool rains);
+
+/// The things themselves. The posture must be one that holds them.
+void add_carried(std::vector<Limb>& limbs,
+                 const Posture& posture,
+                 const Build& build,
+                 const Carried& carried,
+                 bool rains);
+
+/// The mesh of a thing, in metres. Frame: what hangs hangs from the origin, what stands on the
+/// ground or on a back has its x ahead.
+Mesh thing_mesh(Limb::Shape shape);
+
+}  // namespace reprise::render

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/trace/mesh_tree.h"
+
+namespace reprise::render {
+
+struct Hit;
+struct Instance;
+struct Ray;
+
+/// Finds what rays meet, like Embree, but with the same bits on every x86-64 CPU: nothing here asks
+/// which CPU it runs on. What a ray meets is defined without the tree: of all triangles in its way
+/// the one with the least (distance, instance, triangle), in double precision. Twice
+/// Embree's time.
+class PlainTracer {
+  public:
+    /// Keeps nothing of earlier instances; borrows these ones' prototypes.
+    explicit PlainTracer(std::span<const Instance> instances);
+
+    /// As the functions of these names in render/scene/tracer.h.
+    void find_nearest(std::span<const Ray> rays, std::span<Hit> hits) const;
+    void find_free(std::span<const Ray> rays, std::span<std::uint8_t> free) const;
+
+    /// An instance, as rays need it.
+    struct Placed {
+        const MeshTree* mesh;
+        std::uint32_t mask;
+        bool moved;  ///< false: the mesh is in the scene's frame already
+        std::array<std::array<double, 4>, 3> to_mesh;
+    };
+
+  private:
+    std::vector<Placed> placed_;
+    BoxTree tree_;
+};
+
+}  // namespace reprise::render

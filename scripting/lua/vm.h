@@ -1,0 +1,147 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "scripting/lua/memory.h"
+
+struct lua_State;
+struct lua_Debug;
+
+namespace reprise::scripting {
+
+struct Run;
+struct Header;
+
+/// The part of the vocabulary that is written in Lua: scripting/lua/prelude.lua.
+extern const std::string_view prelude_source;
+
+/// VM instructions that a scenario may use in one tick, all of its tasks and checks together. Work
+/// that is not seen in instructions is charged as such: Memory, `charge`.
+inline constexpr std::uint64_t budget_per_tick = 10'000'000;
+
+/// One Lua machine: its memory, its budget, and how its mistakes become world::Error.
+///
+/// What must it do?   Run a stranger's code so that it answers the same in every run, always comes
+///                    back, and cannot swallow the news that its budget is spent.
+/// What does it assume? Lua's errors are C++ exceptions (the package lua5.4-c++): destructors run.
+///                    Lua catches every exception that reaches it, so ours stop at the binding.
+/// How?               A hook every 1000 instructions takes from one account that all coroutines
+///                    share, as do the allocator and every function of ours; once it is empty,
+///                    `latch` holds the reason and every pcall throws on. Addresses and the seed of
+///                    Lua's hash are the same in every process, so that memory is collected, and
+///                    runs out, at the same instruction.
+/// What does it keep? The account, the latch, and our own exceptions on their way out.
+class Vm {
+  public:
+    /// `script` is the file's name as messages show it.
+    explicit Vm(std::string script);
+    ~Vm();
+    Vm(const Vm&) = delete;
+    Vm& operator=(const Vm&) = delete;
+
+    static Vm& of(lua_State* L);
+
+    lua_State* main() const { return main_; }
+
+    const std::string& script() const { return script_; }
+
+    /// Compiles the text and calls it with the sandbox as its environment; leaves one result on the
+    /// main stack. `chunk` is Lua's chunk name: "@cut_in.lua" or "=prelude".
+    void execute(std::string_view source, const std::string& chunk, int environment);
+
+    /// As lua_pcall on the main stack, but failures are thrown as world::Error with file and line.
+    void call(int arguments, int results);
+
+    /// Calls a check's predicate, which lies at the top of the main stack, and leaves its answer
+    /// there. False, and nothing left, when it asks about an actor that is not there.
+    bool ask();
+
+    /// Resumes a coroutine; true while it lives on. Failures are thrown as by `call`.
+    bool resume(lua_State* coroutine, int arguments);
+
+    /// Fills the account for the next tick.
+    void refill() {
+        account_.in_tick = 0;
+        collections_ = 0;
+    }
+
+    /// Takes from the account for work that Lua's instructions do not show; throws a Lua error when
+    /// it is empty.
+    void charge(lua_State* L, std::uint64_t instructions);
+
+    /// As above, without an error: for callers that must not throw. The next hook sees it.
+    void charge_later(std::uint64_t instructions) { account_.take(instructions); }
+
+    /// Charges a walk over a table with so many entries. How many empty ones it passed Lua does not
+    /// say: as many as the largest table has.
+    void charge_walk(lua_State* L, std::size_t entries);
+
+    /// Since the start: a witness of what the script did, equal in equal runs.
+    std::uint64_t instructions() const { return account_.all; }
+
+    const Memory& memory() const { return memory_; }
+
+    /// Lua writes numbers and tells letters as the C library's locale does: throws unless that is
+    /// plain C, or agrees with it in all that Lua asks.
+    static void check_locale();
+
+    /// The machine whose script runs at this moment; null when none does.
+    static Vm* running();
+
+    /// The run is over whatever the script tries: raised again at every pcall.
+    void latch(std::string reason);
+    void latch(std::exception_ptr ours);
+
+    bool is_latched() const { return latched_.has_value(); }
+
+    /// Raises the latched reason, or `message`, as a Lua error. Does not return.
+    [[noreturn]] void raise(lua_State* L, const std::string& message);
+
+    /// "cut_in.lua:12: " of the innermost function of the script on this stack; "cut_in.lua: " when
+    /// there is none.
+    std::string position(lua_State* L) const;
+
+    /// The line of it; 0 when there is none.
+    std::uint32_t line(lua_State* L) const;
+
+    Run* run = nullptr;        ///< none while only the header is read
+    Header* header = nullptr;  ///< where `scenario` puts what it is given
+
+    bool in_branch = false;  ///< the script takes over from another: set before it is read
+
+    /// Set while a check's predicate runs: it may look and must not act.
+    bool in_check = false;
+    /// Set when a predicate asked about an actor that is not there yet.
+    bool not_ready = false;
+
+  private:
+    /// Notes which stack runs; Lua's allocator and strcoll are not told.
+    class Running;
+
+    static void* allocate(void* self, void* block, std::size_t old_size, std::size_t new_size);
+    void latch_refusal(Memory::Refusal refusal);
+    void make_room(lua_State* L);
+    static void hook(lua_State* L, lua_Debug* where);
+    static int add_position(lua_State* L);
+    int call_protected(int arguments, int results);
+    [[noreturn]] void fail(lua_State* L, int status);
+    std::string message_at_top(lua_State* L) const;
+    std::string with_position(lua_State* L, const std::string& message) const;
+
+    std::string script_;
+    lua_State* main_ = nullptr;
+    lua_State* current_ = nullptr;  ///< the stack that runs now
+    Account account_;
+    Memory memory_{account_};
+    int collections_ = 0;          ///< of memory, in this tick
+    void* first_block_ = nullptr;  ///< of lua_newstate, until the seed is set
+    std::optional<std::string> latched_;
+    std::exception_ptr ours_;
+};
+
+}  // namespace reprise::scripting

@@ -1,0 +1,171 @@
+#include "scripting/words/actors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "world/digest.h"
+#include "world/frames.h"
+#include "world/models/catalogue.h"
+
+namespace reprise::scripting {
+
+namespace {
+
+using world::to_eigen;
+
+void set_size(Body& body, std::uint16_t model) {
+    const world::VehicleModel& vehicle = world::vehicle_models()[model];
+    body.front = vehicle.length - vehicle.rear_overhang;
+    body.rear = vehicle.rear_overhang;
+    body.half_width = vehicle.width / 2;
+}
+
+Body body_of_vehicle(const world::TickView& tick, const world::VehicleState& vehicle) {
+    Body body;
+    const Eigen::Vector3d ahead = to_eigen(vehicle.orientation()) * Eigen::Vector3d::UnitX();
+    body.position = to_eigen(vehicle.position());
+    body.yaw = std::atan2(ahead.y(), ahead.x());
+    body.speed = to_eigen(vehicle.velocity()).dot(ahead);
+    body.acceleration = to_eigen(vehicle.acceleration()).dot(ahead);
+    body.odometer = vehicle.odometer();
+    set_size(body, vehicle.model());
+    if (const auto* measured = world::find(tick.measurements(), vehicle.id())) {
+        body.speed = measured->speed();
+        body.acceleration = measured->acceleration();
+        body.lane = measured->lane();
+    }
+    return body;
+}
+
+Body body_of_car(const world::CarState& car) {
+    Body body;
+    body.position = to_eigen(car.position());
+    body.yaw = static_cast<double>(car.yaw());
+    body.speed = static_cast<double>(car.speed());
+    body.acceleration = static_cast<double>(car.acceleration());
+    body.lane = car.lane();
+    set_size(body, car.model());
+    return body;
+}
+
+Body body_of_walker(const world::WalkerState& walker) {
+    Body body;
+    body.position = to_eigen(walker.position());
+    body.yaw = static_cast<double>(walker.yaw());
+    body.speed = static_cast<double>(walker.speed());
+    body.half_width = world::walker_models()[walker.model()].shoulder_width / 2;
+    body.front = body.rear = body.half_width;
+    return body;
+}
+
+}  // namespace
+
+Eigen::Vector3d Body::ahead() const {
+    return {std::cos(yaw), std::sin(yaw), 0};
+}
+
+Eigen::Vector3d Body::centre() const {
+    return position + ahead() * ((front - rear) / 2);
+}
+
+std::optional<Body> body_of(const world::TickView& tick, const Actor& actor) {
+    if (actor.is_walker()) {
+        const auto* walker = world::find(tick.walkers(), actor.id);
+        return walker == nullptr ? std::nullopt : std::optional(body_of_walker(*walker));
+    }
+    if (const auto* vehicle = world::find(tick.vehicles(), actor.id))
+        return body_of_vehicle(tick, *vehicle);
+    if (const auto* car = world::find(tick.cars(), actor.id))
+        return body_of_car(*car);
+    return std::nullopt;
+}
+
+Actor& Actors::add(Actor actor) {
+    names_.insert(actor.name);
+    actors_.push_back(std::move(actor));
+    return actors_.back();
+}
+
+const Actor* Actors::find(const std::string& name) const {
+    const auto found = std::find_if(
+        actors_.begin(), actors_.end(), [&](const Actor& actor) { return actor.name == name; });
+    return found == actors_.end() ? nullptr : &*found;
+}
+
+std::string Actors::free_name(const std::string& model) {
+    std::string name = model;
+    int& number = next_number_.try_emplace(model, 2).first->second;
+    for (; has_name(name); ++number)
+        name = model + "_" + std::to_string(number);
+    return name;
+}
+
+void Actors::observe(const world::TickView& tick, double step) {
+    for (Actor& actor : actors_) {
+        if (actor.presence == Actor::Presence::gone)
+            continue;
+        const auto body = body_of(tick, actor);
+        if (!body) {
+            if (actor.presence == Actor::Presence::here) {
+                actor.presence = Actor::Presence::gone;
+                actor.gone_at = tick.index();
+            }
+            continue;
+        }
+        if (actor.presence == Actor::Presence::here)
+            actor.travelled += std::abs(body->speed) * step;
+        if (body->odometer)
+            actor.travelled = *body->odometer;
+        actor.presence = Actor::Presence::here;
+        actor.position = body->position;
+    }
+    observe_contacts(tick);
+}
+
+void Actors::observe_contacts(const world::TickView& tick) {
+    const auto* events = tick.tick->events();
+    if (events == nullptr)
+        return;
+    for (const world::Event* event : *events) {
+        if (event->kind() != world::EventKind::collision)
+            continue;
+        touch(tick, event->actor(), event->other());
+        touch(tick, event->other(), event->actor());
+    }
+}
+
+void Actors::touch(const world::TickView& tick, std::uint32_t actor, std::uint32_t other) {
+    if (actor == 0 || actor > actors_.size())
+        return;
+    Contacts& contacts = at(actor).contacts;
+    if (other == 0) {
+        contacts.fixed = true;
+        return;
+    }
+    const bool walker = other <= actors_.size() ? at(other).is_walker()
+                                                : world::find(tick.walkers(), other) != nullptr;
+    (walker ? contacts.walker : contacts.vehicle) = true;
+    contacts.others.insert(other);
+}
+
+void Actors::digest(world::Hasher& hasher) const {
+    hasher.add(next_id());
+    for (const Actor& actor : actors_) {
+        hasher.add_text(actor.name);
+        hasher.add(actor.driver);
+        hasher.add(actor.model);
+        hasher.add(actor.asked_at);
+        hasher.add(actor.presence);
+        hasher.add(actor.gone_at);
+        hasher.add(actor.travelled);
+        hasher.add(world::to_vec3(actor.position));
+        hasher.add(static_cast<std::uint8_t>(actor.contacts.vehicle));
+        hasher.add(static_cast<std::uint8_t>(actor.contacts.walker));
+        hasher.add(static_cast<std::uint8_t>(actor.contacts.fixed));
+        hasher.add(static_cast<std::uint64_t>(actor.contacts.others.size()));
+        for (const std::uint32_t other : actor.contacts.others)
+            hasher.add(other);
+    }
+}
+
+}  // namespace reprise::scripting

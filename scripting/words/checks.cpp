@@ -1,0 +1,237 @@
+#include "scripting/words/checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "scripting/lua/arguments.h"
+#include "scripting/lua/binding.h"
+#include "scripting/lua/sandbox.h"
+#include "scripting/lua/text.h"
+#include "scripting/words/run.h"
+#include "world/digest.h"
+
+namespace reprise::scripting {
+
+namespace {
+
+using Kind = Checks::Kind;
+using Status = Scenario::Check::Status;
+
+constexpr const char* names[] = {
+    "check.never", "check.always", "check.max", "check.min", "check.eventually", "check.at_end"};
+
+bool has_limit(Kind kind) {
+    return kind == Kind::max || kind == Kind::min;
+}
+
+world::EventT event(world::EventKind kind, const std::string& text, double value, unsigned line) {
+    world::EventT event;
+    event.kind = kind;
+    event.text = text;
+    event.value = value;
+    event.line = line;
+    return event;
+}
+
+template <Checks::Kind kind>
+int add_check(Run& run, lua_State* L) {
+    run.checks.add(run, L, kind);
+    return 0;
+}
+
+}  // namespace
+
+void Checks::add(Run& run, lua_State* L, Kind kind) {
+    const std::string who = names[static_cast<std::size_t>(kind)];
+    Entry entry;
+    entry.kind = kind;
+    entry.name = name_at(L, 1, who, "the name");
+    want_function(L, 2, who, "the second argument");
+    run.vm.charge(L, entries_.size() + 100);
+    for (const Entry& other : entries_)
+        if (other.name == entry.name)
+            refuse(who, fmt::format("the name '{}' is taken in line {}", entry.name, other.line));
+    int options_index = 3;
+    if (has_limit(kind))
+        entry.limit = number_at(L, options_index++, who, "the limit");
+    std::vector<std::string> keys{"stop", "optional"};
+    if (kind == Kind::eventually)
+        keys.emplace_back("within");
+    const Fields options(L, options_index, who, keys, true);
+    entry.stop = options.flag("stop").value_or(false);
+    entry.optional = options.flag("optional").value_or(false);
+    entry.since = run.now();
+    if (kind == Kind::eventually && options.has("within")) {
+        entry.within = *options.number("within");
+        if (entry.within <= 0 || entry.within > 1e9)
+            refuse(who, "'within' must be in (0, 1e9] s");
+        entry.deadline = run.now() + ticks_of(entry.within, run.episode.step_ns);
+    }
+    entry.line = run.vm.line(L);
+    lua_pushvalue(L, 2);
+    entry.reference = luaL_ref(L, LUA_REGISTRYINDEX);
+    entries_.push_back(std::move(entry));
+}
+
+void Checks::evaluate(Run& run) {
+    for (Entry& entry : entries_)
+        if (!entry.decided && entry.since < run.now() && entry.kind != Kind::at_end)
+            look(run, entry);
+}
+
+/// Asks the predicate about run.last.
+void Checks::look(Run& run, Entry& entry) {
+    lua_State* L = run.vm.main();
+    lua_rawgeti(L, LUA_REGISTRYINDEX, entry.reference);
+    if (!run.vm.ask())
+        return;
+    const int type = lua_type(L, -1);
+    const double value = lua_tonumber(L, -1);
+    const bool holds = lua_toboolean(L, -1) != 0;
+    const std::string got = type == LUA_TNUMBER ? text_of(L, -1) : lua_typename(L, type);
+    lua_pop(L, 1);
+    if (!has_limit(entry.kind)) {
+        entry.evaluated = true;
+        judge(run, entry, holds);
+        return;
+    }
+    if (type == LUA_TNIL)
+        return;  // nothing to measure in this tick
+    if (type != LUA_TNUMBER || std::isnan(value))
+        throw world::Error(
+            fmt::format("{}:{}: check '{}': the function must return a number, got {}",
+                        run.vm.script(),
+                        entry.line,
+                        entry.name,
+                        got));
+    entry.evaluated = true;
+    judge(run, entry, value);
+}
+
+void Checks::judge(Run& run, Entry& entry, bool holds) {
+    switch (entry.kind) {
+        case Kind::never:
+            if (holds)
+                fail(run, entry, 1, "it happened");
+            break;
+        case Kind::always:
+            if (!holds)
+                fail(run, entry, 0, "it did not hold");
+            break;
+        case Kind::at_end:
+            if (!holds)
+                fail(run, entry, 0, "it did not hold at the end");
+            break;
+        default:
+            if (holds) {
+                entry.decided = true;
+                entry.status = Status::pass;
+            } else if (entry.deadline && run.now() >= *entry.deadline) {
+                fail(run, entry, 0, fmt::format("not within {} s", entry.within));
+            }
+    }
+}
+
+void Checks::judge(Run& run, Entry& entry, double value) {
+    const bool max = entry.kind == Kind::max;
+    if (!entry.extreme || (max ? value > *entry.extreme : value < *entry.extreme))
+        entry.extreme = value;
+    if (max ? value > entry.limit : value < entry.limit)
+        fail(run,
+             entry,
+             value,
+             fmt::format("{:.6g} is {} than {}", value, max ? "more" : "less", entry.limit));
+}
+
+void Checks::fail(Run& run, Entry& entry, double value, const std::string& detail) {
+    entry.decided = true;
+    entry.status = Status::fail;
+    entry.tick = run.now();
+    entry.detail = detail;
+    run.next->tick.events.push_back(
+        event(world::EventKind::check_failed, entry.name + ": " + detail, value, entry.line));
+    if (entry.stop && !run.finished)
+        run.finish("check failed: " + entry.name, entry.line);
+}
+
+void Checks::conclude(Run& run) {
+    if (concluded_)
+        return;
+    concluded_ = true;
+    for (Entry& entry : entries_) {
+        if (!entry.decided)
+            look(run, entry);
+        settle(run, entry);
+    }
+}
+
+/// Turns what is left open into a verdict and says it as an event.
+void Checks::settle(Run& run, Entry& entry) {
+    if (entry.status == Status::fail)
+        return;
+    if (!entry.decided && entry.evaluated && entry.kind == Kind::eventually) {
+        fail(run, entry, 0, "not until the end");
+        return;
+    }
+    entry.decided = true;
+    if (entry.evaluated || entry.optional)
+        entry.status = Status::pass;
+    if (!entry.evaluated)
+        entry.detail = "nothing to look at";
+    else if (entry.extreme)
+        entry.detail = fmt::format("{} {:.6g}, allowed {}",
+                                   entry.kind == Kind::max ? "at most" : "at least",
+                                   *entry.extreme,
+                                   entry.limit);
+    const auto kind = entry.status == Status::pass ? world::EventKind::check_passed
+                                                   : world::EventKind::not_evaluated;
+    const std::string text = entry.detail.empty() ? entry.name : entry.name + ": " + entry.detail;
+    run.next->tick.events.push_back(event(kind, text, entry.extreme.value_or(0), entry.line));
+}
+
+std::vector<Scenario::Check> Checks::results() const {
+    std::vector<Scenario::Check> results;
+    for (const Entry& entry : entries_)
+        results.push_back({entry.name, entry.status, entry.tick, entry.detail, entry.line});
+    return results;
+}
+
+void Checks::digest(world::Hasher& hasher) const {
+    const auto add_flag = [&](bool flag) { hasher.add(static_cast<std::uint8_t>(flag)); };
+    hasher.add(static_cast<std::uint64_t>(entries_.size()));
+    add_flag(concluded_);
+    for (const Entry& entry : entries_) {
+        hasher.add(entry.kind);
+        hasher.add_text(entry.name);
+        hasher.add(entry.limit);
+        hasher.add(entry.since);
+        add_flag(entry.deadline.has_value());
+        hasher.add(entry.deadline.value_or(0));
+        add_flag(entry.stop);
+        add_flag(entry.optional);
+        add_flag(entry.evaluated);
+        add_flag(entry.extreme.has_value());
+        hasher.add(entry.extreme.value_or(0));
+        add_flag(entry.decided);
+        hasher.add(entry.status);
+        hasher.add(entry.tick);
+        hasher.add_text(entry.detail);
+    }
+}
+
+void add_check_words(lua_State* L) {
+    lua_newtable(L);
+    add_function(L, "never", acting<add_check<Kind::never>>);
+    add_function(L, "always", acting<add_check<Kind::always>>);
+    add_function(L, "max", acting<add_check<Kind::max>>);
+    add_function(L, "min", acting<add_check<Kind::min>>);
+    add_function(L, "eventually", acting<add_check<Kind::eventually>>);
+    add_function(L, "at_end", acting<add_check<Kind::at_end>>);
+    refuse_unknown(L, "check");
+    lua_setfield(L, -2, "check");
+}
+
+}  // namespace reprise::scripting

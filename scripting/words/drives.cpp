@@ -1,0 +1,265 @@
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "scripting/lua/arguments.h"
+#include "scripting/lua/text.h"
+#include "scripting/words/handles.h"
+#include "scripting/words/places.h"
+#include "scripting/words/vocabulary.h"
+#include "world/frames.h"
+#include "world/lanes/planner.h"
+
+// What an actor can be told. Every word becomes one command in the tick.
+namespace reprise::scripting {
+
+namespace {
+
+using world::CommandKind;
+using world::Driver;
+
+Actor& driven(Run& run, lua_State* L, const char* who) {
+    Actor& actor = actor_at(run, L, 1, who);
+    if (actor.driver == Driver::parked || actor.driver == Driver::manual)
+        refuse(who,
+               fmt::format("'{}' is {}: only 'autopilot', 'traffic' and walkers obey",
+                           actor.name,
+                           actor.driver == Driver::parked ? "parked" : "driven by hand"));
+    return actor;
+}
+
+Actor& driver_of_car(Run& run, lua_State* L, const char* who) {
+    Actor& actor = driven(run, L, who);
+    if (actor.is_walker())
+        refuse(who, "'" + actor.name + "' is a walker");
+    return actor;
+}
+
+double over(lua_State* L, int index, const char* who) {
+    const Fields options(L, index, who, {"over"}, true);
+    const double duration = options.number("over").value_or(0);
+    if (duration < 0 || duration > 3600)
+        refuse(who, "'over' must be in [0, 3600] s");
+    return duration;
+}
+
+int change_speed(Run& run, lua_State* L, const char* who, double unit) {
+    const Actor& actor = driven(run, L, who);
+    const double speed = number_at(L, 2, who, "the speed") * unit;
+    if (speed < 0 || speed > 150)
+        refuse(who, fmt::format("the speed must be in [0, 150] m/s, got {}", number_text(speed)));
+    const double duration = over(L, 3, who);
+    world::CommandT& command = run.say(L, CommandKind::set_speed, actor.id);
+    command.speed = speed;
+    command.duration = duration;
+    return 0;
+}
+
+int set_speed(Run& run, lua_State* L) {
+    return change_speed(run, L, "set_speed", 1);
+}
+
+int set_speed_kmh(Run& run, lua_State* L) {
+    return change_speed(run, L, "set_speed_kmh", 1 / 3.6);
+}
+
+int free_speed(Run& run, lua_State* L) {
+    run.say(L, CommandKind::free_speed, driven(run, L, "free_speed").id);
+    return 0;
+}
+
+/// 'left' and 'right' are of the lane that the actor is on now.
+std::uint32_t target_lane(Run& run, lua_State* L, const Actor& actor, const std::string& target) {
+    if (target != "left" && target != "right") {
+        const std::uint32_t lane = run.lane_named(L, target);
+        if (run.town.lanes[lane].kind != world::LaneKind::driving)
+            refuse("change_lane", "'" + target + "' is not a lane for cars");
+        return lane;
+    }
+    const Body body = run.look_at(actor);
+    if (body.lane == world::none)
+        refuse("change_lane", "'" + actor.name + "' is on no lane");
+    const world::LaneT& here = run.town.lanes[body.lane];
+    const std::uint32_t lane = target == "left" ? here.left : here.right;
+    if (lane == world::none || run.town.lanes[lane].kind != world::LaneKind::driving)
+        refuse("change_lane", fmt::format("no lane to the {} of '{}'", target, here.name));
+    return lane;
+}
+
+int change_lane(Run& run, lua_State* L) {
+    const Actor& actor = driver_of_car(run, L, "change_lane");
+    const std::string target = text_at(L, 2, "change_lane", "the target");
+    const double duration = over(L, 3, "change_lane");
+    const std::uint32_t lane = target_lane(run, L, actor, target);
+    world::CommandT& command = run.say(L, CommandKind::change_lane, actor.id);
+    command.lanes.push_back(lane);
+    command.duration = duration;
+    return 0;
+}
+
+int set_route(Run& run, lua_State* L) {
+    const Actor& actor = driver_of_car(run, L, "set_route");
+    if (lua_type(L, 2) != LUA_TTABLE || lua_rawlen(L, 2) == 0)
+        refuse("set_route", "needs a list of lanes or edges: ego:set_route{ 'a1_b1', 'b1_b2' }");
+    std::vector<std::uint32_t> lanes;
+    const auto count = static_cast<lua_Integer>(lua_rawlen(L, 2));
+    for (lua_Integer i = 1; i <= count; ++i) {
+        lua_rawgeti(L, 2, i);
+        // An edge is looked for among all lanes.
+        run.vm.charge(L, 50 + run.town.lanes.size());
+        lanes.push_back(
+            lane_or_edge_named(run.town, text_at(L, -1, "set_route", fmt::format("entry {}", i))));
+        lua_pop(L, 1);
+    }
+    world::CommandT& command = run.say(L, CommandKind::set_route, actor.id);
+    command.s = run.town.lanes[lanes.back()].length;
+    command.lanes = std::move(lanes);
+    return 0;
+}
+
+std::string wanted_lane(const Fields& fields) {
+    const auto lane = fields.text("lane");
+    if (!lane)
+        refuse("route_to", "needs a lane: ego:route_to{ lane = 'b1_b2_1', s = 30 }");
+    return *lane;
+}
+
+int route_to(Run& run, lua_State* L) {
+    const Actor& actor = driver_of_car(run, L, "route_to");
+    const Fields fields(L, 2, "route_to", {"lane", "s"});
+    const std::uint32_t lane = run.lane_named(L, wanted_lane(fields));
+    const world::LaneT& goal = run.town.lanes[lane];
+    if (goal.kind != world::LaneKind::driving)
+        refuse("route_to", "'" + goal.name + "' is not a lane for cars");
+    const double s = fields.number("s").value_or(goal.length);
+    if (!(s >= 0 && s <= goal.length))
+        refuse("route_to", fmt::format("'s' must be in [0, {:.1f}] m, got {}", goal.length, s));
+    const Body body = run.look_at(actor);
+    if (body.lane == world::none || !world::is_for_cars(run.town.lanes[body.lane]))
+        refuse("route_to", "'" + actor.name + "' is on no lane");
+    run.vm.charge(L, run.town.lanes.size() * 20);
+    const world::LaneT& here = run.town.lanes[body.lane];
+    const auto route = world::Planner(run.town).plan(
+        {body.lane, world::project(here, body.position).s}, {lane, s});
+    if (!route)
+        refuse("route_to", fmt::format("no way leads from '{}' to '{}'", here.name, goal.name));
+    world::CommandT& command = run.say(L, CommandKind::set_route, actor.id);
+    command.lanes = {lane};
+    command.s = s;
+    lua_pushnumber(L, route->length);
+    return 1;
+}
+
+/// { 3, 4 } or { x = 3, y = 4 } at the top of the stack.
+Eigen::Vector3d point_at_top(lua_State* L, const char* who) {
+    if (lua_type(L, -1) != LUA_TTABLE)
+        refuse(who, "'to' must be a point: to = { x, y }");
+    Eigen::Vector3d point(0, 0, 0);
+    for (int i = 0; i < 2; ++i) {
+        if (lua_rawgeti(L, -1, i + 1) == LUA_TNIL) {
+            lua_pop(L, 1);
+            lua_pushstring(L, i == 0 ? "x" : "y");
+            lua_rawget(L, -2);
+        }
+        point[i] = number_at(L, -1, who, i == 0 ? "x" : "y");
+        lua_pop(L, 1);
+    }
+    return point;
+}
+
+void say_walk(Run& run,
+              lua_State* L,
+              const Actor& actor,
+              const Eigen::Vector3d& target,
+              const Fields& fields) {
+    const double speed = fields.speed().value_or(0);  // 0: the model's own
+    if (speed > 12)
+        refuse(fields.who(), "nobody runs faster than 12 m/s");
+    world::CommandT& command = run.say(L, CommandKind::walk, actor.id);
+    command.target = world::to_vec3(target);
+    command.speed = speed;
+}
+
+Actor& walking(Run& run, lua_State* L, const char* who) {
+    Actor& actor = actor_at(run, L, 1, who);
+    if (!actor.is_walker())
+        refuse(who, "'" + actor.name + "' is no walker");
+    return actor;
+}
+
+int walk(Run& run, lua_State* L) {
+    const Actor& actor = walking(run, L, "walk");
+    const Fields fields(L, 2, "walk", {"to", "speed", "speed_kmh"});
+    fields.push("to");
+    const Eigen::Vector3d target = point_at_top(L, "walk");
+    say_walk(run, L, actor, target, fields);
+    return 0;
+}
+
+int walk_to(Run& run, lua_State* L) {
+    const Actor& actor = walking(run, L, "walk_to");
+    const Fields fields(
+        L, 2, "walk_to", {"x", "y", "lane", "s", "offset", "across", "speed", "speed_kmh"});
+    const auto across = fields.text("across");
+    const auto lane = fields.text("lane");
+    const auto x = fields.number("x");
+    const auto y = fields.number("y");
+    if ((across ? 1 : 0) + (lane ? 1 : 0) + (x && y ? 1 : 0) != 1)
+        refuse("walk_to", "needs { x, y }, { lane, s, offset } or { across = lane }");
+    const Body body = *body_of(run.last, actor);
+    Eigen::Vector3d target(x.value_or(0), y.value_or(0), body.position.z());
+    if (across)
+        target = across_road(run.town, run.lane_named(L, *across), body.position);
+    if (lane) {
+        const world::LanePoint at = world::point_at(run.town.lanes[run.lane_named(L, *lane)],
+                                                    fields.number("s").value_or(0));
+        target = world::pose(world::to_vec3(at.position), at.yaw, 0) *
+                 Eigen::Vector3d(0, fields.number("offset").value_or(0), 0);
+    }
+    say_walk(run, L, actor, target, fields);
+    return 0;
+}
+
+double in_range(const Fields& fields, const char* key, double low) {
+    const double value = fields.number(key).value_or(0);
+    if (value < low || value > 1)
+        refuse("control", fmt::format("'{}' must be in [{}, 1], got {}", key, low, value));
+    return value;
+}
+
+int control(Run& run, lua_State* L) {
+    const Actor& actor = actor_at(run, L, 1, "control");
+    if (actor.driver != Driver::manual)
+        refuse("control", "'" + actor.name + "' has a driver: spawn it with driver = 'manual'");
+    const Fields fields(L, 2, "control", {"throttle", "brake", "steer", "hand_brake", "reverse"});
+    const world::Control said(in_range(fields, "throttle", 0),
+                              in_range(fields, "brake", 0),
+                              in_range(fields, "steer", -1),
+                              actor.id,
+                              std::uint16_t{0},
+                              fields.flag("hand_brake").value_or(false),
+                              fields.flag("reverse").value_or(false));
+    run.say(L, CommandKind::control, actor.id).control = said;
+    return 0;
+}
+
+int despawn(Run& run, lua_State* L) {
+    run.say(L, CommandKind::despawn, actor_at(run, L, 1, "despawn").id);
+    return 0;
+}
+
+}  // namespace
+
+void add_drive_words(lua_State* L) {
+    add_function(L, "set_speed", commanding<set_speed>);
+    add_function(L, "set_speed_kmh", commanding<set_speed_kmh>);
+    add_function(L, "free_speed", commanding<free_speed>);
+    add_function(L, "change_lane", commanding<change_lane>);
+    add_function(L, "set_route", commanding<set_route>);
+    add_function(L, "route_to", commanding<route_to>);
+    add_function(L, "walk", commanding<walk>);
+    add_function(L, "walk_to", commanding<walk_to>);
+    add_function(L, "control", commanding<control>);
+    add_function(L, "despawn", commanding<despawn>);
+}
+
+}  // namespace reprise::scripting

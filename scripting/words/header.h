@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "scripting/lua/literals.h"
+
+struct lua_State;
+
+namespace reprise::scripting {
+
+class Vm;
+
+/// What `return scenario 'name' { ... }` says before anything runs.
+struct Header {
+    std::string name;
+    std::string town = "town1";
+    std::string weather = "clear_noon";
+    double duration = 60;  ///< [s]
+    bool has_duration = false;
+    std::string of_world;  ///< a key that decides the world at the start, or ""
+    std::uint64_t seed = 0;
+    std::uint32_t cars = 0;
+    std::map<std::string, Value> parameters;
+    std::uint32_t line = 0;
+    int run = 0;  ///< the function, in Lua's registry
+};
+
+/// Fills the machine with the whole vocabulary, runs the scenario's file in it and returns its
+/// header. Throws world::Error with file and line.
+Header read_header(Vm& vm, const std::string& source);
+
+/// `scenario`, into the table at the top of the stack.
+void add_header_words(lua_State* L);
+
+}  // namespace reprise::scripting

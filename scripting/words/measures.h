@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "scripting/words/actors.h"
+#include "world/town.h"
+
+namespace reprise::scripting {
+
+/// Pure functions over two bodies.
+
+/// How far apart two bodies are along the road. `ahead`: the other one is in front.
+struct Gap {
+    double length = 0;  ///< [m] bumper to bumper, 0 while they are side by side
+    bool ahead = true;
+    std::uint32_t searched = 0;  ///< lanes that the search for a way looked at
+};
+
+/// Where both are on one road - the same edge, or one reaches the other within 200 m by driving on
+/// - measured along its centre lines, whatever the lane. Elsewhere (walkers off the lanes, opposite
+/// directions, crossing roads) along the straight line of a's heading.
+/// `lane` of both bodies should be set where known. About 1 us on one edge.
+Gap gap(const world::TownT& town, const Body& a, const Body& b);
+
+/// [m] between the centres of both bounding boxes.
+double distance(const Body& a, const Body& b);
+
+/// [s] until the gap is closed when both keep their speed; infinite when it is not closing.
+double time_to_collision(const world::TownT& town, const Body& a, const Body& b);
+double time_to_collision(const Gap& between, const Body& a, const Body& b);
+
+}  // namespace reprise::scripting

@@ -1,0 +1,222 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "scripting/lua/arguments.h"
+#include "scripting/lua/text.h"
+#include "scripting/words/handles.h"
+#include "scripting/words/places.h"
+#include "scripting/words/vocabulary.h"
+#include "world/models/catalogue.h"
+
+// Who is there, and where: spawn, and the words about places.
+namespace reprise::scripting {
+
+namespace {
+
+constexpr double farthest_beside = 50;  // [m] from a lane's centre line
+constexpr double fastest = 150;         // [m/s]
+
+const std::vector<std::string> drivers{"autopilot", "manual", "traffic", "parked", "walker"};
+
+void read_model(const Fields& fields, Actor& actor) {
+    const auto model = fields.text("model");
+    if (!model) {
+        std::string known;
+        for (const world::VehicleModel& each : world::vehicle_models())
+            known += std::string(each.name) + ", ";
+        refuse("spawn",
+               fmt::format("'model' is missing: one of {}or one of {} walkers such as {}",
+                           known,
+                           world::walker_models().size(),
+                           world::walker_models().front().name));
+    }
+    const auto vehicle = world::find_vehicle_model(*model);
+    const auto walker = world::find_walker_model(*model);
+    if (!vehicle && !walker)
+        refuse("spawn",
+               fmt::format(
+                   "no model '{}'{}", *model, world::did_you_mean(*model, world::model_names())));
+    actor.model = vehicle ? *vehicle : *walker;
+
+    const std::string driver = fields.text("driver").value_or(vehicle ? "autopilot" : "walker");
+    const auto known = std::find(drivers.begin(), drivers.end(), driver);
+    if (known == drivers.end())
+        refuse("spawn",
+               fmt::format("no driver '{}'{}", driver, world::did_you_mean(driver, drivers)));
+    actor.driver = static_cast<world::Driver>(known - drivers.begin());
+    if (actor.is_walker() != walker.has_value())
+        refuse("spawn", fmt::format("a {} cannot have the driver '{}'", *model, driver));
+}
+
+void read_name(Run& run, const Fields& fields, Actor& actor) {
+    const auto name = fields.name("name");
+    if (name && run.actors.has_name(*name))
+        refuse("spawn", fmt::format("the name '{}' is taken", *name));
+    actor.name = name ? *name : run.actors.free_name(*fields.text("model"));
+}
+
+/// Lane, s and offset into the command.
+void read_place(
+    Run& run, lua_State* L, const Fields& fields, const Actor& actor, world::CommandT& command) {
+    const auto name = fields.text("lane");
+    if (!name) {
+        if (actor.is_walker() || actor.driver == world::Driver::parked)
+            refuse("spawn", "'lane' is missing: only who drives is given a free place");
+        if (fields.has("s") || fields.has("offset"))
+            refuse("spawn", "'s' and 'offset' need a 'lane'");
+        command.lane = world::none;
+        return;
+    }
+    try {
+        command.lane = run.lane_named(L, *name);
+    } catch (const world::Error& error) {
+        refuse("spawn", error.what());
+    }
+    const world::LaneT& lane = run.town.lanes[command.lane];
+    const bool drives = !actor.is_walker() && actor.driver != world::Driver::parked;
+    if (drives && !world::is_for_cars(lane))
+        refuse("spawn", fmt::format("'{}' is not a lane for cars", *name));
+    command.s = fields.number("s").value_or(0);
+    if (command.s < 0 || command.s > lane.length)
+        refuse("spawn",
+               fmt::format("'s' must be in [0, {:.2f}], the length of '{}', got {}",
+                           lane.length,
+                           *name,
+                           number_text(command.s)));
+    command.offset = fields.number("offset").value_or(0);
+    // Who drives begins on its lane; who is put down may stand beside it.
+    const double farthest = drives ? lane.width / 2 : farthest_beside;
+    if (std::abs(command.offset) > farthest)
+        refuse("spawn",
+               fmt::format("'offset' must be in [-{:.2f}, {:.2f}]{}, got {}",
+                           farthest,
+                           farthest,
+                           drives ? ", half the width of '" + *name + "'" : "",
+                           number_text(command.offset)));
+}
+
+int spawn(Run& run, lua_State* L) {
+    const Fields fields(
+        L, 1, "spawn", {"name", "model", "driver", "lane", "s", "offset", "speed", "speed_kmh"});
+    Actor actor;
+    actor.id = run.actors.next_id();
+    actor.line = run.vm.line(L);
+    actor.asked_at = run.now();
+    read_model(fields, actor);
+    read_name(run, fields, actor);
+    world::CommandT command;
+    read_place(run, L, fields, actor, command);
+    const double speed = fields.speed().value_or(0);
+    if (speed > fastest)
+        refuse(
+            "spawn",
+            fmt::format("the speed must be in [0, {}] m/s, got {}", fastest, number_text(speed)));
+    if (speed > 0 && (actor.is_walker() || actor.driver == world::Driver::parked))
+        refuse("spawn", fmt::format("'{}' starts at rest", actor.name));
+
+    world::CommandT& said = run.say(L, world::CommandKind::spawn, actor.id);
+    said.driver = actor.driver;
+    said.model = actor.model;
+    said.lane = command.lane;
+    said.s = command.s;
+    said.offset = command.offset;
+    said.speed = speed;
+    said.text = actor.name;
+    push_handle(L, run.actors.add(std::move(actor)).id);
+    return 1;
+}
+
+// --- Places in any town.
+
+int pick_lane(Run& run, lua_State* L) {
+    const Fields fields(L,
+                        1,
+                        "pick_lane",
+                        {"length", "left", "right", "sidewalk", "straight", "lanes", "optional"},
+                        true);
+    LaneWish wish;
+    wish.length = fields.number("length").value_or(0);
+    wish.left = fields.flag("left");
+    wish.right = fields.flag("right");
+    wish.sidewalk = fields.flag("sidewalk");
+    wish.straight = fields.flag("straight");
+    wish.lanes = fields.integer("lanes");
+    const auto lanes = fitting_lanes(run.town, wish);
+    run.vm.charge(L, run.town.lanes.size() * 20);
+    if (lanes.empty()) {
+        if (!fields.flag("optional").value_or(false))
+            refuse("pick_lane",
+                   run.town.name + " has no driving lane" +
+                       (describe(wish).empty() ? "" : " with " + describe(wish)));
+        lua_pushnil(L);
+        return 1;
+    }
+    const auto last = static_cast<std::int64_t>(lanes.size()) - 1;
+    const auto choice = run.streams.draw_integer("pick_lane", 0, last);
+    const std::string& name = run.town.lanes[lanes[static_cast<std::size_t>(choice)]].name;
+    lua_pushlstring(L, name.data(), name.size());
+    return 1;
+}
+
+const world::LaneT& lane_argument(Run& run, lua_State* L, const char* who) {
+    return run.town.lanes[run.lane_named(L, text_at(L, 1, who, "the lane"))];
+}
+
+int lane_point(Run& run, lua_State* L) {
+    const world::LaneT& lane = lane_argument(run, L, "lane_point");
+    const double s = number_at(L, 2, "lane_point", "s");
+    const double offset = lua_isnoneornil(L, 3) ? 0 : number_at(L, 3, "lane_point", "offset");
+    const world::LanePoint at = world::point_at(lane, s);
+    lua_pushnumber(L, at.position.x() - offset * std::sin(at.yaw));
+    lua_pushnumber(L, at.position.y() + offset * std::cos(at.yaw));
+    lua_pushnumber(L, at.position.z());
+    lua_pushnumber(L, at.yaw * 180 / std::numbers::pi);
+    return 4;
+}
+
+int lane_length(Run& run, lua_State* L) {
+    lua_pushnumber(L, lane_argument(run, L, "lane_length").length);
+    return 1;
+}
+
+int lane_width(Run& run, lua_State* L) {
+    lua_pushnumber(L, lane_argument(run, L, "lane_width").width);
+    return 1;
+}
+
+int speed_limit(Run& run, lua_State* L) {
+    lua_pushnumber(L, lane_argument(run, L, "speed_limit").speed_limit);
+    return 1;
+}
+
+/// The neighbour in the same direction, or nil.
+template <std::uint32_t world::LaneT::*side>
+int neighbour(Run& run, lua_State* L) {
+    const std::uint32_t index = lane_argument(run, L, "lane_beside").*side;
+    if (index == world::none || run.town.lanes[index].kind != world::LaneKind::driving) {
+        lua_pushnil(L);
+        return 1;
+    }
+    const std::string& name = run.town.lanes[index].name;
+    lua_pushlstring(L, name.data(), name.size());
+    return 1;
+}
+
+}  // namespace
+
+void add_spawn_words(lua_State* L) {
+    add_function(L, "spawn", acting<spawn>);
+    add_function(L, "pick_lane", acting<pick_lane>);
+    add_function(L, "lane_point", bound<lane_point>);
+    add_function(L, "lane_length", bound<lane_length>);
+    add_function(L, "lane_width", bound<lane_width>);
+    add_function(L, "speed_limit", bound<speed_limit>);
+    add_function(L, "lane_left_of", bound<neighbour<&world::LaneT::left>>);
+    add_function(L, "lane_right_of", bound<neighbour<&world::LaneT::right>>);
+}
+
+}  // namespace reprise::scripting

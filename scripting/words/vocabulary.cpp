@@ -1,0 +1,94 @@
+#include "scripting/words/vocabulary.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "scripting/lua/arguments.h"
+#include "scripting/lua/binding.h"
+#include "scripting/lua/text.h"
+#include "scripting/words/header.h"
+#include "scripting/words/run.h"
+#include "world/weather.h"
+
+namespace reprise::scripting {
+
+namespace {
+
+// What is printed is recorded, outside of Lua's memory: at most 1 MB a tick.
+constexpr std::uint64_t line_cost = 200;  // [instructions]
+constexpr std::uint64_t byte_cost = 10;   // [instructions]
+
+/// Into the trace, never to the terminal: the program that runs the scenario shows it.
+int print(Run& run, lua_State* L) {
+    std::string text;
+    for (int index = 1; index <= lua_gettop(L); ++index) {
+        text += (index == 1 ? "" : " ") + text_of(L, index);
+        if (text.size() > longest_text)
+            refuse("print", "more than 64 kB in one call");
+    }
+    run.vm.charge(L, line_cost + byte_cost * text.size());
+    // One event a line; what it says is shown, and does nothing to the terminal that shows it.
+    for (std::size_t start = 0; start <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', start), text.size());
+        run.vm.charge(L, line_cost);
+        world::EventT event;
+        event.kind = world::EventKind::printed;
+        event.text = printable(std::string_view(text).substr(start, end - start));
+        event.line = run.vm.line(L);
+        run.next->tick.events.push_back(std::move(event));
+        start = end + 1;
+    }
+    return 0;
+}
+
+std::string stream_at(lua_State* L, int index, const char* who) {
+    return lua_isnoneornil(L, index) ? "" : name_at(L, index, who, "the stream's name");
+}
+
+int random(Run& run, lua_State* L) {
+    lua_pushnumber(L, run.streams.draw(stream_at(L, 1, "random")));
+    return 1;
+}
+
+int random_int(Run& run, lua_State* L) {
+    const std::int64_t low = integer_at(L, 1, "random_int", "the lowest");
+    const std::int64_t high = integer_at(L, 2, "random_int", "the highest");
+    constexpr std::int64_t widest = std::int64_t{1} << 53U;  // exact in the drawn double
+    if (high < low || static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low) >= widest)
+        refuse("random_int", fmt::format("no numbers to choose from in [{}, {}]", low, high));
+    lua_pushinteger(L, run.streams.draw_integer(stream_at(L, 3, "random_int"), low, high));
+    return 1;
+}
+
+int set_weather(Run& run, lua_State* L) {
+    const std::string name = text_at(L, 1, "set_weather", "the name");
+    const world::WeatherPreset* preset = world::find_weather(name);
+    if (preset == nullptr)
+        refuse("set_weather",
+               fmt::format(
+                   "no weather '{}'{}", name, world::did_you_mean(name, world::weather_names())));
+    world::CommandT& command = run.say(L, world::CommandKind::set_weather, 0);
+    command.weather = preset->weather;
+    command.road_friction = preset->road_friction;
+    command.text = name;
+    return 0;
+}
+
+}  // namespace
+
+void add_vocabulary(lua_State* L) {
+    add_header_words(L);
+    add_task_words(L);
+    add_check_words(L);
+    add_handle_words(L);
+    add_spawn_words(L);
+    add_function(L, "print", bound<print>);
+    add_function(L, "random", acting<random>);
+    add_function(L, "random_int", acting<random_int>);
+    add_function(L, "set_weather", acting<set_weather>);
+}
+
+}  // namespace reprise::scripting

@@ -1,0 +1,250 @@
+#include "drivers/swing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/drivers/kinematic_car.h"
+
+namespace reprise::test {
+namespace {
+
+using kernel::Path;
+using kernel::Swing;
+
+constexpr double quarter = std::numbers::pi / 2;
+
+const world::VehicleModel& model_of(const char* name) {
+    return world::vehicle_models()[*world::find_vehicle_model(name)];
+}
+
+Path path_along(const Turtle& turtle) {
+    std::vector<Eigen::Vector3d> line;
+    for (const world::Vec3& point : turtle.line())
+        line.push_back(world::to_eigen(point));
+    Path path;
+    path.append(line, 10);
+    path.finish({});
+    return path;
+}
+
+/// A bus and the like on the first metres of a path that starts eastwards.
+kernel::Ego ego_at(const world::VehicleModel& model, double x, double y) {
+    kernel::Ego ego;
+    ego.model = &model;
+    ego.position = {x, y, 0};
+    ego.direction = {1, 0};
+    ego.rear_axle_s = x;
+    return ego;
+}
+
+/// A lane that turns right around a corner whose kerb has a radius of 6 m, as those of our towns;
+/// beyond a second lane on its left is the other kerb.
+world::TownT corner() {
+    const double kerb = 6;
+    const auto line = [&](double left) {
+        return Turtle(0, left, 0).ahead(60).turn(-quarter, kerb + 1.75 + left).ahead(60);
+    };
+    world::TownT town;
+    town.name = "corner";
+    town.lanes = {make_lane("inner", line(-3), 5, world::LaneKind::sidewalk),
+                  make_lane("outer", line(3.5 + 3), 5, world::LaneKind::sidewalk),
+                  make_lane("way", line(0))};
+    town.lanes[0].width = town.lanes[1].width = 2.5;
+    return town;
+}
+
+world::Prop pole_at(double x, double y) {
+    return {world::Vec3(x, y, 0), 0, 0.1, 0.1, 3, 0, 0, world::PropKind::pole, 0};
+}
+
+/// Places of the outline, half a metre apart. Metres to the left are positive.
+std::vector<Eigen::Vector2d> outline_of(const world::VehicleModel& model,
+                                        const Eigen::Vector2d& axle,
+                                        double yaw) {
+    const Eigen::Vector2d ahead(std::cos(yaw), std::sin(yaw));
+    const Eigen::Vector2d left(-ahead.y(), ahead.x());
+    std::vector<Eigen::Vector2d> places;
+    for (double x = 0; x <= model.length; x += 0.5)
+        for (const double y : {-model.width / 2, model.width / 2})
+            places.push_back(axle + (x - model.rear_overhang) * ahead + y * left);
+    return places;
+}
+
+class LongVehicles : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(All,
+                         LongVehicles,
+                         testing::Values("bus", "lorry", "minibus", "ambulance"),
+                         [](const auto& of) { return std::string(of.param); });
+
+/// R_rear^2 = R^2 - a^2 for a point `a` ahead of the rear axle on a circle of R; the front axle, L
+/// ahead, makes R_front^2 = R_rear^2 + L^2 (any textbook on turning, such as Gillespie, ch. 6).
+TEST_P(LongVehicles, CutACircleByWhatTheTextbookSays) {
+    const world::VehicleModel& model = model_of(GetParam());
+    world::TownT town;
+    town.name = "meadow";
+    const world::LaneMap lanes(town);
+    for (const double radius : {15.0, 40.0}) {
+        const Path path = path_along(Turtle(0, 0, 0).turn(1.5 * std::numbers::pi, radius));
+        Swing swing(model, town, lanes);
+        swing.plan(path, ego_at(model, 0, 0));
+        const kernel::SwingPoint middle = swing.at(path.end() / 2);
+        const double rear = std::sqrt(radius * radius - model.wheelbase * model.wheelbase / 4);
+        const Eigen::Vector2d centre(0, radius);
+        EXPECT_NEAR((middle.position - centre).norm(), rear, 0.03) << "radius " << radius;
+        EXPECT_NEAR(middle.curvature, 1 / rear, 0.02 / rear) << "radius " << radius;
+        const Eigen::Vector2d front =
+            middle.position +
+            model.wheelbase * Eigen::Vector2d(std::cos(middle.yaw), std::sin(middle.yaw));
+        EXPECT_NEAR((front - centre).norm(), std::hypot(rear, model.wheelbase), 0.03);
+    }
+}
+
+TEST_P(LongVehicles, KeepOffTheKerbsOfATightCorner) {
+    const auto index = *world::find_vehicle_model(GetParam());
+    const world::VehicleModel& model = world::vehicle_models()[index];
+    Drive drive(corner(), 7, index);
+    drive.place(2, 5, 8);
+    double sharpest = 0;
+    while (drive.seconds() < 40 && drive.car.y > -40) {
+        drive.step();
+        for (const Eigen::Vector2d& place :
+             outline_of(model, {drive.car.x, drive.car.y}, drive.car.yaw))
+            ASSERT_TRUE(drive.lanes.walkable_at({place.x(), place.y(), 0}).empty())
+                << place.transpose() << " at " << drive.seconds() << " s";
+        sharpest = std::max(sharpest, std::abs(drive.car.steering_angle));
+    }
+    EXPECT_LT(drive.car.y, -40) << "does not get round";
+    EXPECT_LT(sharpest, model.max_steering_angle);
+}
+
+TEST(Swing, WaitsForTheCarThatItWouldSwingInto) {
+    const auto index = *world::find_vehicle_model("bus");
+    const world::VehicleModel& bus = world::vehicle_models()[index];
+    Drive drive(corner(), 7, index);
+    drive.place(2, 5, 8);
+    // A sedan waits on the other lane, behind the corner: its sides are beside our own lane.
+    drive.cars = {car_at(1'000'000, 71.25, -12, quarter)};
+    const auto is_in_it = [](const Eigen::Vector2d& p) {
+        return std::abs(p.x() - 71.25) < 0.91 && p.y() > -13.0 && p.y() < -8.3;
+    };
+    while (drive.seconds() < 25) {
+        drive.step();
+        for (const Eigen::Vector2d& place :
+             outline_of(bus, {drive.car.x, drive.car.y}, drive.car.yaw))
+            ASSERT_FALSE(is_in_it(place)) << place.transpose();
+    }
+    EXPECT_EQ(drive.car.speed, 0);
+    EXPECT_GT(drive.car.x, 30) << "far too early";
+    drive.cars.clear();
+    while (drive.seconds() < 60 && drive.car.y > -40)
+        drive.step();
+    EXPECT_LT(drive.car.y, -40) << "does not go on";
+}
+
+TEST(Swing, LeavesRoomForAPoleBesideTheLane) {
+    const world::VehicleModel& bus = model_of("bus");
+    world::TownT town;
+    town.name = "pole";
+    town.lanes.push_back(make_lane("way", Turtle(0, 0, 0).ahead(120)));
+    town.props.push_back(pole_at(60, -1.4));
+    const world::LaneMap lanes(town);
+    Swing swing(bus, town, lanes);
+    const Path path = path_along(Turtle(0, 0, 0).ahead(120));
+    swing.plan(path, ego_at(bus, 0, 0));
+    double nearest = 100;
+    for (double s = 40; s < 80; s += 0.1) {
+        const kernel::SwingPoint point = swing.at(s);
+        for (const Eigen::Vector2d& place : outline_of(bus, point.position, point.yaw))
+            nearest = std::min(nearest, (place - Eigen::Vector2d(60, -1.4)).norm());
+    }
+    EXPECT_GT(nearest, 0.3);
+    EXPECT_NEAR(swing.at(10).position.y(), 0, 0.02) << "swings far too early";
+    EXPECT_NEAR(swing.at(110).position.y(), 0, 0.02) << "does not come back";
+}
+
+TEST(Swing, KeepsToTheLaneOnAStraightRoad) {
+    const world::TownT town = straight_road(200);
+    const world::LaneMap lanes(town);
+    Swing swing(model_of("bus"), town, lanes);
+    swing.plan(path_along(Turtle(0, -1.75, 0).ahead(200)), ego_at(model_of("bus"), 0, -1.75));
+    for (double s = 0; s < 200; s += 1) {
+        EXPECT_NEAR(swing.at(s).position.y(), -1.75, 1e-6);
+        EXPECT_NEAR(swing.at(s).curvature, 0, 1e-6);
+    }
+}
+
+TEST(Swing, GoesOnFromWhereTheVehicleIs) {
+    const world::TownT town = straight_road(200);
+    const world::LaneMap lanes(town);
+    const world::VehicleModel& bus = model_of("bus");
+    Swing swing(bus, town, lanes);
+    kernel::Ego ego = ego_at(bus, 50, -1.0);
+    ego.steering_angle = -0.1;
+    swing.plan(path_along(Turtle(0, -1.75, 0).ahead(200)), ego);
+    EXPECT_NEAR(swing.at(50).position.y(), -1.0, 0.02);
+    EXPECT_NEAR(swing.at(50).yaw, 0, 0.02);
+    EXPECT_NEAR(swing.at(50).curvature, std::tan(-0.1) / bus.wheelbase, 0.01);
+    EXPECT_NEAR(swing.at(100).position.y(), -1.75, 0.1);
+}
+
+TEST(Swing, DependsOnPathAndPlaceNotOnWhatWasPlannedBefore) {
+    const world::TownT town = corner();
+    const world::LaneMap lanes(town);
+    Path path;
+    std::vector<Eigen::Vector3d> line;
+    for (const world::Vec3& point : town.lanes[2].centre)
+        line.push_back(world::to_eigen(point));
+    ASSERT_GT(line.size(), 12u);
+    path.append(std::span(line).first(8), 10);
+    path.finish({});
+    kernel::Ego ego = ego_at(model_of("bus"), 5, 0);
+    Swing experienced(model_of("bus"), town, lanes);
+    experienced.plan(path, ego);
+    path.append(std::span(line).subspan(7), 10);
+    path.finish({});
+    experienced.plan(path, ego);
+    path.drop_before(30);
+    ego = ego_at(model_of("bus"), 40, 0.1);
+    experienced.plan(path, ego);
+    Swing fresh(model_of("bus"), town, lanes);
+    fresh.plan(path, ego);
+    for (double s = 40; s < path.end(); s += 0.7) {
+        EXPECT_EQ(experienced.at(s).position, fresh.at(s).position) << s;
+        EXPECT_EQ(experienced.at(s).curvature, fresh.at(s).curvature) << s;
+    }
+}
+
+TEST(Swing, AsksForNoMoreThanTheSteeringCanGive) {
+    const world::VehicleModel& bus = model_of("bus");
+    world::TownT town;
+    town.name = "meadow";
+    const world::LaneMap lanes(town);
+    Swing swing(bus, town, lanes);
+    const Path path = path_along(Turtle(0, 0, 0).ahead(40).turn(std::numbers::pi, 6).ahead(40));
+    swing.plan(path, ego_at(bus, 0, 0));
+    double sharpest = 0;
+    for (double s = 0; s < path.end(); s += 0.5)
+        sharpest = std::max(sharpest, swing.at(s).curvature);
+    EXPECT_LT(sharpest, std::tan(bus.max_steering_angle) / bus.wheelbase);
+    EXPECT_GT(sharpest, 0.1) << "does not turn";
+}
+
+TEST(Swing, SlowsDownBeforeABendAndNotOnAStraight) {
+    const world::TownT town = corner();
+    const world::LaneMap lanes(town);
+    Swing swing(model_of("bus"), town, lanes);
+    const Path path = path_along(Turtle(0, 0, 0).ahead(60).turn(-quarter, 7.75).ahead(60));
+    swing.plan(path, ego_at(model_of("bus"), 0, 0));
+    const double slow = swing.at(66).squared_speed;
+    EXPECT_LT(slow * std::abs(swing.at(66).curvature), 1.51);
+    EXPECT_GT(slow, 4) << "crawls";
+    EXPECT_GT(swing.at(10).squared_speed, 100);
+    EXPECT_GT(swing.at(110).squared_speed, 100);
+}
+
+}  // namespace
+}  // namespace reprise::test

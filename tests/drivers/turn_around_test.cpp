@@ -1,0 +1,146 @@
+#include "drivers/turn_around.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/drivers/kinematic_car.h"
+
+namespace reprise::test {
+namespace {
+
+using world::Turn;
+
+constexpr double road_end = 120;  // [m]
+
+/// A street of two lanes along the x axis that ends at x = 120: east_1 (index 1) turns around into
+/// west_1.
+world::TownT dead_end(double lane_width) {
+    world::TownT town = straight_road(road_end);
+    std::uint32_t east = 0;
+    std::uint32_t west = 0;
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
+        world::LaneT& lane = town.lanes[i];
+        if (lane.kind != world::LaneKind::driving)
+            continue;
+        const bool eastbound = lane.name == "east_1";
+        (eastbound ? east : west) = i;
+        lane.width = lane_width;
+        for (world::Vec3& point : lane.centre)
+            point.mutate_y((eastbound ? -0.5 : 0.5) * lane_width);
+    }
+    town.lanes.push_back(
+        make_lane(":end",
+                  Turtle(road_end, -lane_width / 2, 0).turn(std::numbers::pi, lane_width / 2),
+                  5.5,
+                  world::LaneKind::internal));
+    const auto inside = static_cast<std::uint32_t>(town.lanes.size() - 1);
+    town.lanes[east].links = {make_link(west, inside, Turn::around)};
+    town.lanes[inside].links = {make_link(west, world::none, Turn::around)};
+    town.junctions.resize(1);
+    town.lanes[east].junction = 0;
+    return town;
+}
+
+/// [m] of the car's corner that is farthest from the middle of the street, and farthest east.
+struct Reach {
+    double side = 0;
+    double ahead = 0;
+};
+
+Reach reach_of(const KinematicCar& car) {
+    const world::VehicleModel& model = world::vehicle_models()[car.model];
+    Reach reach;
+    for (const double x : {-model.rear_overhang, model.length - model.rear_overhang})
+        for (const double y : {-model.width / 2, model.width / 2}) {
+            reach.side = std::max(reach.side,
+                                  std::abs(car.y + x * std::sin(car.yaw) + y * std::cos(car.yaw)));
+            reach.ahead =
+                std::max(reach.ahead, car.x + x * std::cos(car.yaw) - y * std::sin(car.yaw));
+        }
+    return reach;
+}
+
+class TurnAroundOnStreets : public testing::TestWithParam<std::tuple<double, const char*>> {};
+
+TEST_P(TurnAroundOnStreets, KeepsAllCornersBetweenTheKerbs) {
+    const auto [lane_width, name] = GetParam();
+    const auto model = world::find_vehicle_model(name);
+    ASSERT_TRUE(model);
+    Drive drive(dead_end(lane_width), 7, *model);
+    drive.place(1, 60, 8);
+    Reach farthest;
+    while (drive.car.x > 50 && drive.seconds() < 90) {
+        drive.step();
+        const Reach reach = reach_of(drive.car);
+        farthest.side = std::max(farthest.side, reach.side);
+        farthest.ahead = std::max(farthest.ahead, reach.ahead);
+    }
+    EXPECT_LE(drive.car.x, 50) << "it drives back";
+    EXPECT_NEAR(drive.car.y, lane_width / 2, 0.2) << "on its side";
+    EXPECT_LT(farthest.side, lane_width + 0.1) << "[m] a kerb is at " << lane_width;
+    EXPECT_LT(farthest.ahead, road_end + 2.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Widths,
+                         TurnAroundOnStreets,
+                         testing::Combine(testing::Values(3.0, 3.2, 3.5, 4.5),
+                                          testing::Values("sedan", "suv", "city_car")));
+
+class TurnAroundOnSlopes : public testing::TestWithParam<double> {};
+
+TEST_P(TurnAroundOnSlopes, ComesBackUphillAndDownhill) {
+    world::TownT town = dead_end(3.2);
+    for (world::LaneT& lane : town.lanes)
+        for (world::Vec3& point : lane.centre)
+            point.mutate_z(GetParam() * point.x());
+    Drive drive(town);
+    drive.car.slope = GetParam();
+    drive.place(1, 60, 8);
+    Reach farthest;
+    while (drive.car.x > 50 && drive.seconds() < 60) {
+        drive.step();
+        farthest.side = std::max(farthest.side, reach_of(drive.car).side);
+    }
+    EXPECT_LE(drive.car.x, 50) << "it drives back";
+    EXPECT_LT(farthest.side, 3.2 + 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Slopes, TurnAroundOnSlopes, testing::Values(-0.15, -0.08, 0.08, 0.15));
+
+TEST(TurnAround, IsForStreetsThatAreTooNarrowToDriveAroundIn) {
+    const auto street = [](double lane_width, const char* name) {
+        const world::TownT town = dead_end(lane_width);
+        const world::LaneT& lane = town.lanes[1];
+        return kernel::TurnAround::street_of(
+            town, 1, lane.links[0], world::vehicle_models()[*world::find_vehicle_model(name)]);
+    };
+    ASSERT_TRUE(street(3.5, "sedan"));
+    EXPECT_NEAR(street(3.5, "sedan")->left, 3.5 + 1.75, 1e-9);
+    EXPECT_NEAR(street(3.5, "sedan")->right, 1.75, 1e-9);
+    EXPECT_FALSE(street(12, "sedan")) << "one sweep is enough";
+    EXPECT_FALSE(street(3.5, "bus")) << "never";
+}
+
+TEST(TurnAround, WaitsForSomebodyBehindIt) {
+    Drive drive(dead_end(3.5));
+    drive.place(1, 60, 8);
+    while (!drive.control.reverse() && drive.seconds() < 60)
+        drive.step();
+    ASSERT_TRUE(drive.control.reverse());
+    const double x = drive.car.x - 1.9 * std::cos(drive.car.yaw);
+    const double y = drive.car.y - 1.9 * std::sin(drive.car.yaw);
+    drive.walkers = {world::WalkerState(world::Vec3(x, y, 0), 0, 0, 0, 9, 1, false, 0, 0)};
+    const KinematicCar before = drive.car;
+    for (int i = 0; i < 100; ++i)
+        drive.step();
+    EXPECT_LT(std::hypot(drive.car.x - before.x, drive.car.y - before.y), 0.3);
+    drive.walkers.clear();
+    while (drive.car.x > 50 && drive.seconds() < 120)
+        drive.step();
+    EXPECT_LE(drive.car.x, 50) << "goes on when he is gone";
+}
+
+}  // namespace
+}  // namespace reprise::test

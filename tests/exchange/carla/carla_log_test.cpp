@@ -1,0 +1,138 @@
+#include "exchange/carla/carla_log.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/exchange/carla_logs.h"
+#include "world/check.h"
+#include "world/random.h"
+
+namespace reprise::exchange {
+namespace {
+
+using test::bytes_of;
+using test::carla_log;
+using testing::HasSubstr;
+
+/// What is wrong with these bytes; empty: nothing. Reads everything that can be read.
+std::string complaint(const std::string& bytes) {
+    try {
+        CarlaLog log(bytes_of(bytes));
+        while (log.next() != nullptr) {
+        }
+        return log.damage() ? log.damage()->what : "";
+    } catch (const world::Error& error) {
+        return error.what();
+    }
+}
+
+TEST(CarlaLog, ReadsTheHeader) {
+    const CarlaLog log(bytes_of(carla_log("--seconds 0.1")));
+    EXPECT_EQ(log.map(), "Carla/Maps/Town01");
+    EXPECT_EQ(log.date(), 1'600'000'000);
+}
+
+TEST(CarlaLog, TellsFloatsFromDoubles) {
+    EXPECT_EQ(CarlaLog(bytes_of(carla_log("--seconds 0.1"))).variant(), CarlaVariant::ue4);
+    EXPECT_EQ(CarlaLog(bytes_of(carla_log("--seconds 0.1 --ue5"))).variant(), CarlaVariant::ue5);
+}
+
+TEST(CarlaLog, ReadsWhatTheFirstFrameSays) {
+    for (const std::string variant : {"", " --ue5"}) {
+        CarlaLog log(bytes_of(carla_log("--seconds 0.5 --additional" + variant)));
+        const CarlaFrame* frame = log.next();
+        ASSERT_NE(frame, nullptr);
+        ASSERT_EQ(frame->added.size(), 6U);
+        const CarlaActor& car = frame->added.front();
+        EXPECT_EQ(car.pose.actor, 24U);
+        EXPECT_EQ(car.kind, CarlaKind::vehicle);
+        EXPECT_EQ(car.blueprint, "vehicle.tesla.model3");
+        EXPECT_EQ(car.attributes.at("role_name"), "hero");
+        EXPECT_EQ(car.pose.location, Eigen::Vector3d(3000, 0, 0));
+        EXPECT_EQ(car.pose.rotation, Eigen::Vector3d(0, 0, 90));
+        EXPECT_EQ(frame->poses.size(), 5U) << "the prop has a place, the traffic light has none";
+        ASSERT_EQ(frame->lights.size(), 1U);
+        EXPECT_EQ(frame->lights.front().color, CarlaColor::green);
+        EXPECT_EQ(frame->lamps.size(), 3U);
+        EXPECT_EQ(frame->controls.size(), 3U);
+        EXPECT_EQ(frame->motions.size(), 4U);
+        EXPECT_EQ(frame->boxes.size(), 1U);
+        ASSERT_EQ(frame->triggers.size(), 1U);
+        EXPECT_EQ(frame->triggers.front().extent, Eigen::Vector3d(200, 200, 200));
+    }
+}
+
+TEST(CarlaLog, StepsOverPacketsThatItDoesNotKnow) {
+    CarlaLog log(bytes_of(carla_log("--frames 3")));
+    while (log.next() != nullptr) {
+    }
+    EXPECT_FALSE(log.damage());
+    EXPECT_EQ(log.skipped().at(142), 3U);
+    EXPECT_EQ(carla_packet_name(142), "unknown packet 142");
+    EXPECT_EQ(carla_packet_name(6), "Position");
+}
+
+TEST(CarlaLog, ReadsTheSameAgainAfterRewinding) {
+    CarlaLog log(bytes_of(carla_log("--frames 5")));
+    std::vector<double> first;
+    std::vector<double> again;
+    while (const CarlaFrame* frame = log.next())
+        first.push_back(frame->poses.front().location.x());
+    const std::uint64_t end = log.offset();
+    log.rewind();
+    while (const CarlaFrame* frame = log.next())
+        again.push_back(frame->poses.front().location.x());
+    EXPECT_EQ(first.size(), 5U);
+    EXPECT_EQ(first, again);
+    EXPECT_EQ(log.offset(), end);
+}
+
+TEST(CarlaLog, KeepsTheWholeFramesOfALogThatWasCutOff) {
+    const std::string whole = carla_log("--frames 4");
+    CarlaLog log(bytes_of(carla_log("--frames 5 --cut 30")));
+    int frames = 0;
+    while (log.next() != nullptr)
+        ++frames;
+    EXPECT_EQ(frames, 4);
+    ASSERT_TRUE(log.damage());
+    EXPECT_EQ(log.offset(), whole.size()) << "what is lost begins with the fifth frame";
+    EXPECT_GE(log.damage()->offset, whole.size());
+}
+
+TEST(CarlaLog, SaysWhatIsNoLog) {
+    EXPECT_THAT(complaint(""), HasSubstr("ends within its header"));
+    EXPECT_THAT(complaint(std::string("\x01\x00\x0e\x00SOMETHING_ELSE", 18)),
+                HasSubstr("expected CARLA_RECORDER"));
+    std::string newer = carla_log("--frames 1");
+    newer[0] = 2;
+    EXPECT_THAT(complaint(newer), HasSubstr("version 2 of CARLA's recorder"));
+}
+
+/// Every cut leaves either a whole number of frames, or a complaint.
+TEST(CarlaLog, SurvivesEveryCutOfItsFirstTwoKilobytes) {
+    for (const std::string variant : {"", " --ue5 --additional"}) {
+        const std::string bytes = carla_log("--frames 6" + variant);
+        ASSERT_GT(bytes.size(), 2048U);
+        std::size_t sound = 0;
+        for (std::size_t size = 0; size < 2048; ++size)
+            sound += complaint(bytes.substr(0, size)).empty() ? 1 : 0;
+        EXPECT_GE(sound, 1U) << "a header alone is sound";
+        EXPECT_LE(sound, 7U) << "and so is what ends with a frame";
+    }
+}
+
+TEST(CarlaLog, SurvivesBitFlips) {
+    const std::string bytes = carla_log("--frames 20 --ue5 --additional");
+    std::size_t noticed = 0;
+    for (std::uint64_t i = 0; i < 500; ++i) {
+        std::string flipped = bytes;
+        const std::uint64_t bit =
+            world::draw_index(8 * bytes.size(), 1, 0, world::Purpose::scenario, i);
+        flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
+        noticed += complaint(flipped).empty() ? 0 : 1;
+    }
+    EXPECT_GT(noticed, 5U) << "there is no checksum; but lengths are looked at";
+    EXPECT_LT(noticed, 500U);
+}
+
+}  // namespace
+}  // namespace reprise::exchange

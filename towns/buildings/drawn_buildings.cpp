@@ -1,0 +1,94 @@
+#include "towns/buildings/drawn_buildings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "towns/buildings/building_choice.h"
+#include "towns/buildings/floors.h"
+#include "towns/buildings/rectangular_site.h"
+#include "towns/furnish/draws.h"
+#include "world/models/building_models.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+using Eigen::Vector2d;
+using world::Purpose;
+
+constexpr double overlap_allowed = 0.5;  ///< [m] a drawn building may reach into a lane
+constexpr double smallest_drawn = 2;     ///< [m2]
+
+/// Each has some thousand triangles: in a city the rest stay prisms.
+constexpr std::size_t most_models = 1500;
+
+/// Does no wall of it reach into a lane by more than is allowed?
+bool leaves_lanes_free(const world::Loop& loop, const Clearance& lanes) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vector2d along = loop[(i + 1) % loop.size()] - loop[i];
+        const double yaw = std::atan2(along.y(), along.x());
+        if (!lanes.is_clear({loop[i] + along / 2, yaw, along.norm(), 0}, 0))
+            return false;
+    }
+    return true;
+}
+
+/// A whole building of its model, with roof, door and chimneys, where the footprint allows. False:
+/// it stays as drawn.
+bool stand_as_model(Land& land, const world::DrawnBuildingT& drawn, const Streets& streets) {
+    if (land.town.buildings.size() >= most_models)
+        return false;
+    const world::BuildingModel& model = world::building_models()[drawn.model - 1];
+    const auto site = rectangular_site(world::in_plan(drawn.outline), streets);
+    const auto f = site ? fit(model, *site, streets) : std::nullopt;
+    if (!f)
+        return false;
+    land.solid.add_footprint(*f);
+    // The model's door may be on another side than the one that the outline's floor was set for.
+    const double z = drawn.outline.front().z();
+    land.town.buildings.emplace_back(
+        world::Vec3(f->centre.x(), f->centre.y(), floor_on(land.footing, *f, z).value_or(z)),
+        f->yaw,
+        f->length,
+        f->width,
+        drawn.height,
+        drawn.style,
+        drawn.model);
+    return true;
+}
+
+}  // namespace
+
+void keep_drawn_buildings(Land& land) {
+    Clearance lanes(1);
+    for (const world::LaneT& lane : land.town.lanes)
+        if (world::is_for_cars(lane))
+            lanes.add_line(lane.centre, std::max(0.1, lane.width / 2 - overlap_allowed));
+    const Districts districts(land);
+    const Streets streets(land.town);
+    for (std::size_t i = 0; i < land.place.buildings.size(); ++i) {
+        world::DrawnBuildingT drawn = land.place.buildings[i];
+        const double area = world::signed_area(world::in_plan(drawn.outline));
+        if (std::abs(area) < smallest_drawn)
+            continue;
+        if (area < 0)
+            std::reverse(drawn.outline.begin(), drawn.outline.end());
+        const world::Loop loop = world::in_plan(drawn.outline);
+        if (!leaves_lanes_free(loop, lanes))
+            continue;
+        set_floor(land, drawn);
+        Draws draws(land.seed, Purpose::building_model, 1U << 24 | i);
+        if (drawn.style == 0)
+            drawn.style = draws.style();
+        if (drawn.model == 0)
+            drawn.model =
+                1 + choose_model(districts.at(loop[0]), Situation::street, draws.between(0, 1));
+        land.solid.add_polygon(loop);
+        if (!stand_as_model(land, drawn, streets))
+            land.town.drawn_buildings.push_back(std::move(drawn));
+        land.buildings.add_polygon(loop);
+    }
+}
+
+}  // namespace reprise::traffic

@@ -1,0 +1,174 @@
+// Detour and Recast compute in single precision with nothing of the mathematics library but square
+// roots, which are exact everywhere; ways are the same on every machine. So far only observers ask
+// for ways, nothing of a run depends on them.
+#include "towns/check/walk_map.h"
+
+#include <array>
+#include <cstring>
+
+#include <recastnavigation/DetourAlloc.h>
+#include <recastnavigation/DetourNavMesh.h>
+#include <recastnavigation/DetourNavMeshQuery.h>
+
+#include "towns/check/walk_tiles.h"
+#include "world/check.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+constexpr int most_polygons = 4096;         ///< of a way
+constexpr int most_polygons_a_tile = 4096;  ///< 12 of a reference's 22 bits
+constexpr int most_nodes = 65535;           ///< looked at for one way: Detour's limit
+constexpr float crossing_cost = 1.5F;
+constexpr float road_cost = 10;
+
+using Point = std::array<float, 3>;
+
+world::Surface surface_of(unsigned char area) {
+    if (area == walk_sidewalk)
+        return world::Surface::sidewalk;
+    return area == walk_crossing ? world::Surface::crossing : world::Surface::road;
+}
+
+template <typename T, void (*release)(T*)>
+struct Release {
+    void operator()(T* thing) const { release(thing); }
+};
+
+}  // namespace
+
+struct WalkMap::Mesh {
+    std::unique_ptr<dtNavMesh, Release<dtNavMesh, dtFreeNavMesh>> tiles{dtAllocNavMesh()};
+    std::unique_ptr<dtNavMeshQuery, Release<dtNavMeshQuery, dtFreeNavMeshQuery>> query{
+        dtAllocNavMeshQuery()};
+    dtQueryFilter filter;
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    world::Hasher hasher;
+    std::size_t polygons = 0;
+    std::size_t bytes = 0;
+
+    void start(const WalkTiles& source);
+    void add(const WalkTile& tile);
+
+    /// The polygon at a place, and the place on it; 0: none within reach.
+    dtPolyRef find(const Eigen::Vector3d& p_world, Point& nearest) const;
+    std::vector<Step> corners(const std::vector<dtPolyRef>& polygons_on_the_way,
+                              const Point& from,
+                              const Point& to) const;
+};
+
+void WalkMap::Mesh::start(const WalkTiles& source) {
+    origin = source.origin();
+    dtNavMeshParams params{};
+    params.tileWidth = params.tileHeight = static_cast<float>(source.edge());
+    params.maxTiles = source.columns() * source.rows();
+    params.maxPolys = most_polygons_a_tile;
+    REPRISE_CHECK(dtStatusSucceed(tiles->init(&params)), "walk map: too many tiles");
+    REPRISE_CHECK(dtStatusSucceed(query->init(tiles.get(), most_nodes)), "walk map: query");
+    filter.setAreaCost(walk_road, road_cost);
+    filter.setAreaCost(walk_crossing, crossing_cost);
+    filter.setAreaCost(walk_sidewalk, 1);
+}
+
+void WalkMap::Mesh::add(const WalkTile& tile) {
+    if (tile.bytes.empty())
+        return;
+    hasher.add_bytes(tile.bytes.data(), tile.bytes.size());
+    polygons += tile.polygons;
+    bytes += tile.bytes.size();
+    // Detour owns its copy, and frees it with its own function.
+    auto* data = static_cast<unsigned char*>(dtAlloc(tile.bytes.size(), DT_ALLOC_PERM));
+    REPRISE_CHECK(data != nullptr, "walk map: no memory");
+    std::memcpy(data, tile.bytes.data(), tile.bytes.size());
+    const dtStatus status =
+        tiles->addTile(data, static_cast<int>(tile.bytes.size()), DT_TILE_FREE_DATA, 0, nullptr);
+    REPRISE_CHECK(dtStatusSucceed(status), "walk map: tile refused");
+}
+
+dtPolyRef WalkMap::Mesh::find(const Eigen::Vector3d& p_world, Point& nearest) const {
+    constexpr float reach[] = {2, 2, 2};  // [m]
+    dtPolyRef polygon = 0;
+    const Point p = to_recast(p_world, origin);
+    query->findNearestPoly(p.data(), reach, &filter, &polygon, nearest.data());
+    return polygon;
+}
+
+std::vector<WalkMap::Step> WalkMap::Mesh::corners(const std::vector<dtPolyRef>& polygons_on_the_way,
+                                                  const Point& from,
+                                                  const Point& to) const {
+    std::vector<Point> points(most_polygons);
+    std::vector<unsigned char> flags(most_polygons);
+    std::vector<dtPolyRef> references(most_polygons);
+    int count = 0;
+    query->findStraightPath(from.data(),
+                            to.data(),
+                            polygons_on_the_way.data(),
+                            static_cast<int>(polygons_on_the_way.size()),
+                            points[0].data(),
+                            flags.data(),
+                            references.data(),
+                            &count,
+                            most_polygons,
+                            DT_STRAIGHTPATH_AREA_CROSSINGS);
+    std::vector<Step> steps;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        unsigned char area = walk_sidewalk;
+        // The last corner leads nowhere and has no polygon: it keeps the surface of the one before.
+        if (references[i] != 0)
+            tiles->getPolyArea(references[i], &area);
+        const world::Surface surface =
+            references[i] == 0 && !steps.empty() ? steps.back().surface : surface_of(area);
+        steps.push_back({from_recast(points[i].data(), origin), surface});
+    }
+    return steps;
+}
+
+WalkMap::WalkMap(const world::GroundMesh& ground) : mesh_(std::make_unique<Mesh>()) {
+    const WalkTiles source(ground);
+    if (source.columns() == 0)
+        return;
+    mesh_->start(source);
+    for (int row = 0; row < source.rows(); ++row)
+        for (int column = 0; column < source.columns(); ++column)
+            mesh_->add(source.build(column, row));
+}
+
+WalkMap::~WalkMap() = default;
+WalkMap::WalkMap(WalkMap&&) noexcept = default;
+WalkMap& WalkMap::operator=(WalkMap&&) noexcept = default;
+
+std::optional<std::vector<WalkMap::Step>> WalkMap::path(const Eigen::Vector3d& from_world,
+                                                        const Eigen::Vector3d& to_world) const {
+    if (mesh_->polygons == 0)
+        return std::nullopt;
+    Point from{};
+    Point to{};
+    const dtPolyRef first = mesh_->find(from_world, from);
+    const dtPolyRef last = mesh_->find(to_world, to);
+    if (first == 0 || last == 0)
+        return std::nullopt;
+    std::vector<dtPolyRef> way(most_polygons);
+    int count = 0;
+    mesh_->query->findPath(
+        first, last, from.data(), to.data(), &mesh_->filter, way.data(), &count, most_polygons);
+    // Without a way Detour gives the way to the nearest place.
+    if (count == 0 || way[static_cast<std::size_t>(count) - 1] != last)
+        return std::nullopt;
+    way.resize(static_cast<std::size_t>(count));
+    return mesh_->corners(way, from, to);
+}
+
+std::size_t WalkMap::polygons() const {
+    return mesh_->polygons;
+}
+
+std::size_t WalkMap::bytes() const {
+    return mesh_->bytes;
+}
+
+world::Digest128 WalkMap::digest() const {
+    return mesh_->hasher.digest128();
+}
+
+}  // namespace reprise::traffic

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "towns/furnish/land.h"
+
+namespace reprise::traffic {
+
+/// Fills town.heads: a lamp housing for the signals that one lane faces, two for those of a
+/// crossing. Poses that the place knows are kept, where the pole does not stand on a road; others
+/// are derived: a pole beside the kerb with the housing of the outermost lane, and those of inner
+/// lanes on arms over the road.
+void place_heads(Land& land);
+
+}  // namespace reprise::traffic

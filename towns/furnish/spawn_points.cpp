@@ -1,0 +1,79 @@
+#include "towns/furnish/spawn_points.h"
+
+#include <array>
+#include <cmath>
+
+#include "ground/mesh/ground.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+using Eigen::Vector2d;
+using world::LaneKind;
+using world::LaneT;
+
+constexpr double vehicle_spacing = 25;
+constexpr double after_junction = 12;
+constexpr double before_end = 15;
+constexpr double walker_spacing = 20;
+constexpr double walker_end = 3;     ///< [m] before the ends of a sidewalk
+constexpr double longest_car = 5.5;  ///< [m] what starts there without asking
+constexpr double car_width = 2.1;
+
+void add(Land& land,
+         std::uint32_t lane,
+         double s,
+         const world::LanePoint& at,
+         const Vector2d& p,
+         double raised) {
+    land.town.spawn_points.emplace_back(world::Vec3(p.x(), p.y(), at.position.z() + raised),
+                                        at.yaw,
+                                        s,
+                                        lane,
+                                        raised > 0,
+                                        std::uint8_t{0},
+                                        std::uint16_t{0});
+}
+
+void add_on_driving_lane(Land& land, std::uint32_t index) {
+    const LaneT& lane = land.town.lanes[index];
+    for (double s = after_junction; s <= lane.length - before_end; s += vehicle_spacing) {
+        const world::LanePoint at = world::point_at(lane, s);
+        if (land.solid.is_clear({at.position.head<2>(), at.yaw, longest_car, car_width}, 0.3))
+            add(land, index, s, at, at.position.head<2>(), 0);
+    }
+}
+
+void add_on_sidewalk(Land& land, std::uint32_t index) {
+    const LaneT& lane = land.town.lanes[index];
+    for (double s = walker_end; s <= lane.length - walker_end; s += walker_spacing) {
+        const world::LanePoint at = world::point_at(lane, s);
+        const Vector2d left(-std::sin(at.yaw), std::cos(at.yaw));
+        // Beside what stands in the middle.
+        for (const double t : std::array{0.0, 0.4, -0.4, 0.8, -0.8}) {
+            const Vector2d p = at.position.head<2>() + left * t;
+            if (std::abs(t) > lane.width / 2 - 0.3 || !land.solid.is_clear(p, 0.4) ||
+                !land.roads.is_clear(p, 0.2))
+                continue;
+            add(land, index, s, at, p, world::kerb_height);
+            break;
+        }
+    }
+}
+
+}  // namespace
+
+void place_spawn_points(Land& land) {
+    for (const LaneKind kind : {LaneKind::driving, LaneKind::sidewalk})
+        for (std::uint32_t i = 0; i < land.town.lanes.size(); ++i) {
+            if (land.town.lanes[i].kind != kind)
+                continue;
+            if (kind == LaneKind::driving)
+                add_on_driving_lane(land, i);
+            else
+                add_on_sidewalk(land, i);
+        }
+}
+
+}  // namespace reprise::traffic

@@ -1,0 +1,350 @@
+// What it must do: make a town of a map, and say what was done, changed and lost.
+// What it assumes: netconvert's exit code means little: what it wrote is looked at.
+// How it goes: copy the map into a work folder; netconvert; read out of the map what netconvert
+// does
+//   not take over; write; read the result as any town is read.
+// What it keeps: nothing; all files lie in the folder.
+#include "towns/import/town_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "towns/bridges/raise_roads.h"
+#include "towns/import/footprints.h"
+#include "towns/import/guessed_crossings.h"
+#include "towns/import/import_check.h"
+#include "towns/import/map_signs.h"
+#include "towns/import/right_of_way.h"
+#include "towns/import/signal_sites.h"
+#include "towns/maps/map_source.h"
+#include "towns/maps/netconvert.h"
+#include "towns/maps/opendrive.h"
+#include "towns/town_reader.h"
+#include "world/check.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+namespace fs = std::filesystem;
+using world::LaneKind;
+
+constexpr const char* made = "made.net.xml";  ///< in the work folder
+constexpr std::uintmax_t room = 1 << 20;      ///< [bytes] of a disk with less it is said to be full
+
+std::string read_text(const fs::path& path) {
+    std::ostringstream text;
+    std::ifstream file(path, std::ios::binary);
+    if (file.peek() != std::ifstream::traits_type::eof())
+        text << file.rdbuf();
+    if (!file)
+        throw world::Error(path.string() + ": cannot be read");
+    return std::move(text).str();
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file)
+        throw world::Error(path.string() + ": cannot be written");
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != std::string::npos;
+         at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+}
+
+/// netconvert writes the date and its command line into a comment.
+std::string without_comments(const std::string& xml) {
+    std::string kept;
+    for (std::size_t from = 0; from < xml.size();) {
+        const std::size_t start = std::min(xml.find("<!--", from), xml.size());
+        kept.append(xml, from, start - from);
+        const std::size_t end = xml.find("-->", start);
+        from = start == xml.size() || end == std::string::npos ? xml.size() : end + 3;
+        if (start < xml.size())
+            from = std::min(xml.find_first_not_of("\r\n", from), xml.size());
+    }
+    return kept;
+}
+
+/// netconvert escapes the names of OpenStreetMap's streets twice.
+void escape_once(std::string& xml) {
+    for (const std::string_view entity : {"lt;", "gt;", "quot;", "apos;", "amp;"})
+        replace_all(xml, fmt::format("&amp;{}", entity), fmt::format("&{}", entity));
+}
+
+/// One import on its way.
+class Import {
+  public:
+    Import(const TownImport& wish, const fs::path& work)
+        : work_(work),
+          map_(wish.map.string()),
+          source_(open_map(wish.map, work)) {
+        if (wish.left_hand && source_.kind != MapKind::openstreetmap)
+            throw world::Error(map_ + ": --lefthand is for OpenStreetMap; this map says so itself");
+        switch (source_.kind) {
+            case MapKind::opendrive:
+                from_opendrive(wish);
+                break;
+            case MapKind::openstreetmap:
+                from_openstreetmap(wish);
+                break;
+            case MapKind::network:
+                from_network(wish);
+                break;
+        }
+    }
+
+    std::string network;
+    std::string place;
+    std::string report;
+
+    const std::string& map_name() const { return source_.name; }
+
+  private:
+    template <typename... Values>
+    void say(fmt::format_string<Values...> text, Values&&... values) {
+        report += fmt::format(text, std::forward<Values>(values)...) + "\n";
+    }
+
+    /// Runs netconvert; the network it made is in the file `made` and in `network`.
+    void convert(std::vector<std::string> words) {
+        if (const int warnings = run_netconvert(std::move(words)); warnings > 0)
+            say("netconvert gave {} warnings", warnings);
+    }
+
+    int run_netconvert(std::vector<std::string> words) {
+        words.insert(words.end(),
+                     {"--output.street-names", "--precision", "3", "--output-file", made});
+        const int warnings = run_sumo_tool("netconvert", std::move(words), work_, map_);
+        if (!fs::exists(work_ / made))
+            throw world::Error(map_ + ": netconvert made no network of it");
+        network = without_comments(read_text(work_ / made));
+        // netconvert does not look whether its output could be written.
+        if (network.find("</net>") == std::string::npos && fs::space(work_).available < room)
+            throw world::Error(work_.parent_path().string() + ": cannot be written: no space left");
+        escape_once(network);
+        return warnings;
+    }
+
+    /// The same again, without the crossings that netconvert only guesses where no roads meet.
+    void take_back_crossings(std::vector<std::string> words,
+                             const std::vector<Eigen::Vector3d>& mapped) {
+        const GuessedCrossings guessed = guessed_crossings(network, mapped);
+        if (guessed.at_joins == 0)
+            return;
+        write_text(work_ / "crossings.con.xml", guessed.connections);
+        words.insert(words.end(), {"--connection-files", "crossings.con.xml"});
+        run_netconvert(std::move(words));
+    }
+
+    void count_crossings(const std::vector<Eigen::Vector3d>& mapped) {
+        if (const int lost = lost_crossings(read_roads(network, map_).town, mapped); lost > 0)
+            say("lost: {} crossings between junctions or without sidewalks", lost);
+    }
+
+    void guess_sidewalks(std::vector<std::string>& words) {
+        words.emplace_back("--sidewalks.guess");
+        // netconvert's own bounds: 5.8 and 13.89 m/s.
+        say("sidewalks: added along roads with limits of 21 to 50 km/h that had none");
+    }
+
+    void from_opendrive(const TownImport& wish) {
+        const OpenDrive map = read_opendrive(read_text(source_.file), map_);
+        write_text(work_ / "map.xodr", map.prepared);
+        say("OpenDRIVE {}", map.version);
+        if (map.left_hand)
+            say("left-hand traffic: netconvert mirrors the lanes; roads with unlike sides come out "
+                "wrong");
+        std::vector<std::string> words = opendrive_words("map.xodr", map.left_hand);
+        if (wish.guess_sidewalks)
+            guess_sidewalks(words);
+        convert(words);
+        const std::vector<Eigen::Vector3d> crossings = crossings_of(map);
+        take_back_crossings(words, crossings);
+        if (map.limits_set > 0)
+            say("speed limits: {} lanes got that of their road, which netconvert ignores",
+                map.limits_set);
+        obey_signs([&](const ImportedRoads& roads) { return lane_signs(map, roads); });
+        Place found;
+        const SignalReport signals = place_signals(map, read_roads(network, map_), found);
+        say("signals: {} in the map, {} heads placed as it says; signs: {} placed",
+            signals.lights,
+            signals.heads,
+            signals.signs);
+        if (signals.moved > 0)
+            say("poles: {} would stand on a road and were moved to its edge, where heads get an "
+                "arm",
+                signals.moved);
+        if (signals.shared > 0)
+            say("signals: {} stand beside another one, whose head shows what they would",
+                signals.shared);
+        if (signals.lost > 0)
+            say("lost: {} signals and signs that control nothing or have no place", signals.lost);
+        if (map.other_signs > 0)
+            say("lost: {} signals and signs of other kinds", map.other_signs);
+        if (map.banked > 0)
+            say("lost: the superelevation of {} roads; they are flat from side to side",
+                map.banked);
+        count_crossings(crossings);
+        say("lost: road markings and objects (they are made anew)");
+        place = place_xml(found);
+    }
+
+    /// In the network's coordinates.
+    std::vector<Eigen::Vector3d> crossings_of(const OpenDrive& map) const {
+        std::vector<Eigen::Vector3d> crossings = map.crossings;
+        const Eigen::Vector2d offset = offset_of(map, read_roads(network, map_));
+        for (Eigen::Vector3d& crossing : crossings)
+            crossing.head<2>() += offset;
+        return crossings;
+    }
+
+    /// netconvert knows no signs: it is called once more, with what they mean.
+    template <typename FindSigns>
+    void obey_signs(const FindSigns& find_signs) {
+        const ImportedRoads roads = read_roads(network, map_);
+        const RightOfWay patch = right_of_way(find_signs(roads), roads.town);
+        if (patch.junctions == 0)
+            return;
+        write_text(work_ / "signs.nod.xml", patch.nodes);
+        write_text(work_ / "signs.edg.xml", patch.edges);
+        write_text(work_ / "first.net.xml", network);
+        std::vector<std::string> words{"--sumo-net-file",
+                                       "first.net.xml",
+                                       "--node-files",
+                                       "signs.nod.xml",
+                                       "--offset.disable-normalization"};
+        if (!patch.edges.empty())
+            words.insert(words.end(), {"--edge-files", "signs.edg.xml"});
+        if (source_.kind == MapKind::openstreetmap)
+            words.emplace_back("--output.original-names");
+        convert(words);
+        network = stop_only_at(patch.edges_with_stops, network);
+        const ImportedRoads now = read_roads(network, map_);
+        const SignsThatBind bind = signs_that_bind(find_signs(now), now.town);
+        say("right of way: {} junctions follow their stop and yield signs; {} of {} roads with "
+            "such a "
+            "sign give way",
+            patch.junctions,
+            bind.giving_way,
+            bind.roads);
+    }
+
+    void from_openstreetmap(const TownImport& wish) {
+        fs::create_symlink(fs::absolute(source_.file), work_ / "map.osm");
+        say("OpenStreetMap, traffic drives on the {}", wish.left_hand ? "left" : "right");
+        std::vector<std::string> words = openstreetmap_words("map.osm", wish.left_hand);
+        if (wish.guess_sidewalks)
+            guess_sidewalks(words);
+        // Each road says which ways it was made of: bridges and signs are looked up by that.
+        words.emplace_back("--output.original-names");
+        convert(words);
+        if (read_roads(network, map_).town.lanes.empty())
+            return;  // a clearer word is said when the network is read
+        const MapShapes shapes = read_shapes("map.osm", made, work_, map_);
+        take_back_crossings(words, shapes.crossings);
+        const ImportedRoads roads = read_roads(network, map_);
+        obey_signs([&](const ImportedRoads& seen) { return lane_signs(shapes.signs, seen.town); });
+        Place found;
+        const FootprintReport areas = place_footprints(shapes.areas, roads.town, found);
+        say("buildings: {} with their own footprints; {} cut back to the edge of a road, {} left "
+            "out "
+            "that stand on one",
+            areas.buildings,
+            areas.cut,
+            areas.on_roads);
+        say("parks, waters, woods and the like: {}", areas.plots);
+        if (areas.filled > 0)
+            say("courtyards: {} were built over; outlines of buildings have no holes here",
+                areas.filled);
+        if (areas.broken > 0)
+            say("lost: {} areas whose outline crosses itself", areas.broken);
+        if (shapes.open_areas > 0)
+            say("lost: {} areas, or parts of them, whose outline does not close in the map",
+                shapes.open_areas);
+        count_crossings(shapes.crossings);
+        place = place_xml(found);
+        if (std::any_of(roads.town.lanes.begin(), roads.town.lanes.end(), [](const auto& lane) {
+                return lane.kind == LaneKind::driving;
+            }))
+            raise(shapes);
+    }
+
+    /// netconvert's own heights (--osm.layer-elevation) reach as far as the next junction at most,
+    /// and leave everything beyond a bridge up.
+    void raise(const MapShapes& shapes) {
+        HeightJudge judge({source_.name, network, "", place});
+        const RaisedRoads raised = raise_roads(
+            network, shapes.ways, [&](const std::string& xml) { return judge.faults(xml); });
+        if (shapes.ways.empty())
+            return;
+        say("bridges and tunnels: {} ways in the map; {} places where a road passes over another; "
+            "{:.2f} km of road raised or lowered for it, the steepest {:.0f} %",
+            shapes.ways.size(),
+            raised.crossings,
+            raised.length / 1000,
+            100 * raised.steepest);
+        if (raised.steep > 0)
+            say("steep: {} roads for cars have ramps of more than 12 %: there is no room for "
+                "longer "
+                "ones",
+                raised.steep);
+        for (const auto& [kind, number] : raised.flat)
+            say("flat: {} bridges and tunnels stay at the height of what they cross: {}",
+                number,
+                kind == HeightFault::Kind::steep ? "ramps would be steeper than 15 %"
+                : kind == HeightFault::Kind::low ? "they leave too little room over another road"
+                                                 : "the ground would fail a criterion");
+    }
+
+    void from_network(const TownImport& wish) {
+        const Network loaded = load_network(wish.map);
+        say("a SUMO network");
+        report += loaded.notes;
+        network = without_comments(loaded.xml);
+        place = loaded.place;
+        if (!wish.guess_sidewalks)
+            return;
+        write_text(work_ / "map.net.xml", network);
+        std::vector<std::string> words{
+            "--sumo-net-file", "map.net.xml", "--offset.disable-normalization"};
+        words.insert(words.end(), {"--crossings.guess", "--walkingareas"});
+        guess_sidewalks(words);
+        const std::vector<Eigen::Vector3d> crossings =
+            places_of_crossings(read_roads(network, map_).town);
+        convert(words);
+        take_back_crossings(words, crossings);
+    }
+
+    fs::path work_;
+    std::string map_;  ///< as the user calls it
+    MapSource source_;
+};
+
+}  // namespace
+
+std::string import_town(const TownImport& wish, const fs::path& folder) {
+    const fs::path work = folder / "import.work";
+    fs::create_directory(work);
+    const Import import(wish, fs::absolute(work));
+    const std::string name = wish.name.empty() ? import.map_name() : wish.name;
+    const fs::path network = folder / (name + ".net.xml");
+    write_text(network, import.network);
+    if (!import.place.empty())
+        write_text(folder / (name + ".place.xml"), import.place);
+    const std::string report = fmt::format("{}: made of {}\n", name, wish.map.filename().string()) +
+                               import.report + check_import(network, work, wish.map.string());
+    write_text(folder / "import.txt", report);
+    fs::remove_all(work);
+    return report;
+}
+
+}  // namespace reprise::traffic

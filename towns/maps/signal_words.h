@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "towns/maps/opendrive.h"
+
+namespace reprise::traffic {
+
+/// What an OpenDRIVE signal says of itself, as written in the map.
+struct SignalWords {
+    std::string_view type, subtype, value, unit, name, country;
+    bool dynamic = false;
+};
+
+/// What it is: by its type; by its name where the type says nothing that is known here. Nothing for
+/// what has no place in a town.
+std::optional<RoadSignal::Kind> kind_of(const SignalWords& signal);
+
+/// The limit that it shows. [km/h]; 0 when it does not say, or is no limit.
+double limit_kmh(const SignalWords& signal);
+
+}  // namespace reprise::traffic

@@ -1,0 +1,108 @@
+#include "world/models/car_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace reprise::kernel {
+
+namespace {
+
+/// What the catalogue does not hold and follows from the kind of body: typical values from the
+/// sources named in vehicle.h.
+struct Kind {
+    double com_height;   // [m]
+    double front_share;  // of the weight
+    bool front_driven;
+    double clearance;           // [m] under the body; kerbs are 0.15 m
+    double grip;                // force / load on dry asphalt
+    double brake_deceleration;  // [m/s^2]
+    double rolling_resistance;  // force / load
+    double frequency;           // [Hz] body on its springs
+};
+
+Kind kind_of(world::BodyStyle body) {
+    switch (body) {
+        case world::BodyStyle::hatchback:
+            return {0.54, 0.60, true, 0.22, 1.05, 9.5, 0.012, 1.4};
+        case world::BodyStyle::sedan:
+            return {0.54, 0.57, true, 0.22, 1.05, 9.5, 0.012, 1.4};
+        case world::BodyStyle::suv:
+            return {0.66, 0.55, true, 0.26, 1.05, 9.5, 0.012, 1.4};
+        case world::BodyStyle::van:
+            return {0.75, 0.55, true, 0.24, 1.00, 9.0, 0.012, 1.5};
+        case world::BodyStyle::lorry:
+            return {1.15, 0.42, false, 0.45, 0.85, 7.5, 0.008, 1.7};
+        case world::BodyStyle::bus:
+            return {1.15, 0.36, false, 0.32, 0.85, 7.5, 0.008, 1.6};
+        case world::BodyStyle::wagon:
+            return {0.56, 0.54, true, 0.22, 1.05, 9.5, 0.012, 1.4};
+        case world::BodyStyle::coupe:
+            return {0.46, 0.48, false, 0.19, 1.10, 10.2, 0.012, 1.7};
+        case world::BodyStyle::pickup:
+            return {0.72, 0.55, false, 0.28, 1.00, 9.0, 0.012, 1.5};
+        case world::BodyStyle::minibus:
+            return {0.85, 0.50, false, 0.26, 0.95, 8.5, 0.011, 1.5};
+        case world::BodyStyle::motorcycle:
+            return {0.18, 0.50, false, 0.22, 1.00, 8.8, 0.015, 2.4};
+        case world::BodyStyle::bicycle:
+            return {0.16, 0.45, false, 0.22, 0.80, 7.0, 0.006, 2.4};
+    }
+    return {};
+}
+
+constexpr double wrong_gear_speed = 2.0;  // [m/s]
+
+}  // namespace
+
+CarModel car_model(const world::VehicleModel& m) {
+    const Kind kind = kind_of(m.body);
+    CarModel car;
+    car.catalogue = &m;
+    car.com_ahead = kind.front_share * m.wheelbase;
+    car.com_height = kind.com_height;
+    car.front_share = kind.front_share;
+    car.front_driven = kind.front_driven;
+    car.grip = kind.grip;
+    car.brake_deceleration = kind.brake_deceleration;
+    car.rolling_resistance = kind.rolling_resistance;
+    car.spring_frequency = 2 * std::numbers::pi * kind.frequency;
+
+    const double box_height = m.height - kind.clearance;
+    car.box_half = Eigen::Vector3d(m.length, m.width, box_height) / 2;
+    car.box_centre = {m.length / 2 - m.rear_overhang - car.com_ahead,
+                      0,
+                      kind.clearance + box_height / 2 - kind.com_height};
+    // Yaw and pitch: dynamic index k^2 / (a b) close to 1, as for most cars
+    // (Mitschke/Wallentowitz); roll: as an even box.
+    const double yaw = m.mass * car.com_ahead * (m.wheelbase - car.com_ahead);
+    const double roll = m.mass / 12 * (m.width * m.width + m.height * m.height);
+    car.inertia = {roll, 0.95 * yaw, yaw};
+    return car;
+}
+
+double drive_force(const world::VehicleModel& model, double throttle, bool reverse, double speed) {
+    const double along = reverse ? -speed : speed;
+    if (along < -wrong_gear_speed)
+        return 0;
+    const double by_power = model.power / std::max(along, 0.1);
+    double force = throttle * std::min(model.max_drive_force, by_power);
+    if (reverse)
+        force *= std::clamp(reverse_speed - along, 0.0, 1.0);
+    return reverse ? -force : force;
+}
+
+AckermannAngles ackermann(double steering_angle, double wheelbase, double track) {
+    if (steering_angle == 0)
+        return {0, 0};
+    const double radius = wheelbase / std::tan(steering_angle);  // of the rear axle's middle
+    return {std::atan(wheelbase / (radius - track / 2)),
+            std::atan(wheelbase / (radius + track / 2))};
+}
+
+double brush_share(double slip, double cornering_stiffness, double grip) {
+    const double z = cornering_stiffness * std::abs(slip) / (3 * grip);
+    return z >= 1 ? 1 : z * (3 - z * (3 - z));
+}
+
+}  // namespace reprise::kernel

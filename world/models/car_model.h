@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "world/models/catalogue.h"
+
+namespace reprise::kernel {
+
+/// A two-wheeler is a narrow car here: four wheels on a track of 0.4 m, and a centre of mass so low
+/// that it slides before it tips. It neither leans (pictures show the lean that its speed and yaw
+/// rate ask for) nor falls over.
+///
+/// Constants of one model, derived from the catalogue. SI; body frame: x ahead, y left, z up,
+/// origin in the centre of mass.
+struct CarModel {
+    const world::VehicleModel* catalogue;
+    double com_ahead;    ///< of the rear axle [m]
+    double com_height;   ///< above the ground at rest [m]
+    double front_share;  ///< of the weight, on the front axle
+    bool front_driven;
+    double grip;                 ///< tyre on dry asphalt: largest force / load
+    double brake_deceleration;   ///< [m/s^2] of the brakes at full pedal
+    double rolling_resistance;   ///< force / load
+    double spring_frequency;     ///< [rad/s] natural frequency of the body on its springs
+    Eigen::Vector3d inertia;     ///< [kg m^2] about x, y, z
+    Eigen::Vector3d box_half;    ///< of the collision box [m]
+    Eigen::Vector3d box_centre;  ///< in the body frame
+};
+
+CarModel car_model(const world::VehicleModel& model);
+
+inline constexpr double gravity = 9.81;       ///< [m/s^2]
+inline constexpr double air_density = 1.225;  ///< [kg/m^3] ICAO standard atmosphere, sea level
+inline constexpr double steering_rate = 0.7;  ///< [rad/s] of the front wheels
+inline constexpr double reverse_speed = 8.0;  ///< [m/s] fastest speed backwards
+
+/// Force of the engine at the wheels along x. [N]; throttle in [0, 1], speed along x.
+/// Zero while the car still rolls faster than 2 m/s against the chosen gear.
+double drive_force(const world::VehicleModel& model, double throttle, bool reverse, double speed);
+
+/// Angles of the left and the right front wheel that turn the car about one centre. [rad]
+struct AckermannAngles {
+    double left;
+    double right;
+};
+
+AckermannAngles ackermann(double steering_angle, double wheelbase, double track);
+
+/// Share of the friction limit that a tyre's lateral force reaches, in [0, 1].
+/// Brush model with parabolic pressure (Pacejka, "Tire and Vehicle Dynamics", 3rd ed., 3.2;
+/// Mitschke/Wallentowitz, part I): 3z - 3z^2 + z^3, z = stiffness * |slip| / (3 * grip), full
+/// sliding from z = 1. `slip` is the tangent of the slip angle, `cornering_stiffness` the
+/// force per radian and load, `grip` the largest force per load.
+double brush_share(double slip, double cornering_stiffness, double grip);
+
+}  // namespace reprise::kernel
