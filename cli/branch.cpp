@@ -100,7 +100,7 @@ std::vector<WhatIf> plan(const BranchOptions& options,
 /// In the child: the parent's ticks as they are recorded, then what the script makes of it.
 int go_on(kernel::Kernel& kernel, replay::TraceReader& trace, const WhatIf& what_if) {
     try {
-        replay::Recording recording = trace.recording();
+        world::Recording recording = trace.recording();
         recording.episode.branches.push_back(what_if.branch);
         recording.episode.fingerprint = this_build();
         replay::TraceWriter writer(
@@ -125,7 +125,7 @@ int report(const WhatIf& what_if, int code) {
         return code;
     }
     const replay::TraceReader trace(what_if.output);
-    const replay::Outcome& outcome = trace.outcome();
+    const world::Outcome& outcome = trace.outcome();
     fmt::print("{}: {} ticks, {} from tick {} on; {}: {}\n",
                what_if.output.string(),
                trace.ticks(),

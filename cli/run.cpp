@@ -14,7 +14,6 @@
 #include "kernel/kernel.h"
 #include "replay/imported.h"
 #include "replay/level.h"
-#include "replay/recording.h"
 #include "replay/slice.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
@@ -22,6 +21,7 @@
 #include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/digest.h"
+#include "world/recording.h"
 
 namespace reprise::cli {
 
@@ -35,15 +35,15 @@ bool is_trace(const fs::path& path) {
 }
 
 /// What a recorded run started from; of this only its length may be another.
-replay::Recording prepare_again(const RunOptions& options, replay::TraceReader& trace) {
+world::Recording prepare_again(const RunOptions& options, replay::TraceReader& trace) {
     if (options.town || options.seed || !options.parameters.empty())
         throw world::Error(options.scenario +
                            ": a recorded run is run again as it was: --town, --seed and --set are "
                            "for scenarios; to change them run its scenario");
-    replay::Recording recording = trace.recording();
+    world::Recording recording = trace.recording();
     world::EpisodeT& episode = recording.episode;
     if (options.seconds)
-        replay::limit_ticks(
+        world::limit_ticks(
             episode,
             std::max<std::uint64_t>(
                 1,
@@ -53,15 +53,15 @@ replay::Recording prepare_again(const RunOptions& options, replay::TraceReader& 
     return recording;
 }
 
-replay::Recording prepare(const RunOptions& options) {
-    replay::Recording recording;
+world::Recording prepare(const RunOptions& options) {
+    world::Recording recording;
     recording.episode = scripting::load_episode(
         options.scenario, {options.town, options.seed, options.seconds, options.parameters});
     world::EpisodeT& episode = recording.episode;
-    traffic::Network network = load_town(episode.town, options.scenario);
+    towns::Network network = load_town(episode.town, options.scenario);
     if (!network.notes.empty())
         fmt::print(stderr, "{}", network.notes);
-    recording.town = traffic::read_town(network);
+    recording.town = towns::read_town(network);
     episode.town_path =
         episode.town;  // as it was named: equal runs write equal bytes in any folder
     episode.town = network.name;
@@ -92,9 +92,9 @@ std::optional<kernel::Nudge> planned_nudge(const RunOptions& options,
     if (options.nudge.empty())
         return std::nullopt;
     const kernel::Nudge nudge = kernel::parse_nudge(options.nudge);
-    if (nudge.tick < 1 || nudge.tick > replay::tick_limit(episode))
+    if (nudge.tick < 1 || nudge.tick > world::tick_limit(episode))
         throw world::Error(fmt::format(
-            "--nudge {}: the run has ticks 1 to {}", options.nudge, replay::tick_limit(episode)));
+            "--nudge {}: the run has ticks 1 to {}", options.nudge, world::tick_limit(episode)));
     return nudge;
 }
 
@@ -143,11 +143,11 @@ const char* word(Check::Status status) {
     return "NOT EVALUATED";
 }
 
-void print_summary(const replay::Recording& recording,
+void print_summary(const world::Recording& recording,
                    const kernel::Kernel& kernel,
                    const fs::path& path,
                    double wall_seconds) {
-    const replay::Outcome outcome = kernel.outcome();
+    const world::Outcome outcome = kernel.outcome();
     const double simulated = world::seconds(outcome.ticks, recording.episode.step_ns);
     for (const Check& check : kernel.checks())
         fmt::print("  {:<14}{}{}\n",
@@ -175,7 +175,7 @@ int run(const RunOptions& options) {
         replay::require_simulated(before.emplace(options.scenario));
         replay::require_start_of_run(*before);
     }
-    const replay::Recording recording = before ? prepare_again(options, *before) : prepare(options);
+    const world::Recording recording = before ? prepare_again(options, *before) : prepare(options);
     const std::optional<kernel::Nudge> nudge = planned_nudge(options, recording.episode);
     const fs::path path = output_path(options);
     const fs::path target = behind_links(path);
@@ -185,7 +185,7 @@ int run(const RunOptions& options) {
     kernel::Kernel kernel(recording);
     if (nudge)
         kernel.nudge(*nudge);
-    Progress progress("running", "ticks", replay::tick_limit(recording.episode));
+    Progress progress("running", "ticks", world::tick_limit(recording.episode));
     std::uint64_t index = 0;
     while (!kernel.finished()) {
         const world::SealedTick& tick = kernel.step(inputs(before, ++index));

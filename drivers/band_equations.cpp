@@ -3,7 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 Eigen::VectorXd BandEquations::solve(double damping) const {
     std::vector<Eigen::Triplet<double>> entries;
@@ -22,4 +22,4 @@ Eigen::VectorXd BandEquations::solve(double damping) const {
     return solver.solve(-slope_);
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

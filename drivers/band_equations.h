@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// Normal equations of a least sum of squares over numbers in a row, where each residual depends on
 /// a few neighbours only. Collects one residual after another; memory and time are linear.
@@ -49,4 +49,4 @@ class BandEquations {
     double sum_ = 0;
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

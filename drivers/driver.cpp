@@ -18,20 +18,20 @@
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/models/car_model.h"
+#include "world/units.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double speed_gain = 0.8;      // [1/s]
 constexpr double indicate_before = 30;  // [m]
 constexpr double low_sun = 0.1;         // [rad]
 constexpr double longest_wait = 12;     // [s] for room on the next lane
 
-CarModel model_with(std::uint16_t index) {
+world::CarModel model_with(std::uint16_t index) {
     REPRISE_CHECK(index < world::vehicle_models().size(), "model " + std::to_string(index));
-    return car_model(world::vehicle_models()[index]);
+    return world::car_model(world::vehicle_models()[index]);
 }
 
 }  // namespace
@@ -40,17 +40,16 @@ struct Autopilot::State {
     State(std::uint32_t actor_id,
           std::uint16_t model,
           const world::EpisodeT& episode,
-          const world::TownT& town,
-          const world::LaneMap& lane_map)
+          const RoadMap& road_map)
         : actor(actor_id),
           step(static_cast<double>(episode.step_ns) * 1e-9),
           car(model_with(model)),
-          lanes(&lane_map),
-          navigator(town, lane_map, episode.seed, actor_id, step, style.comfortable_braking),
-          hazards(town),
-          gatekeeper(town) {}
+          map(&road_map),
+          navigator(road_map, episode.seed, actor_id, step, style.comfortable_braking),
+          hazards(road_map.town),
+          gatekeeper(road_map.town) {}
 
-    const world::TownT& town() const { return navigator.graph().town(); }
+    const world::TownT& town() const { return map->town; }
 
     const Way& way() const { return navigator.way(); }
 
@@ -64,9 +63,9 @@ struct Autopilot::State {
 
     std::uint32_t actor;
     double step;  ///< [s] of a tick
-    CarModel car;
+    world::CarModel car;
     DrivingStyle style;
-    const world::LaneMap* lanes;
+    const RoadMap* map;
     Navigator navigator;
     std::optional<Swing> swing;      ///< once there was a bend that needs it
     std::uint64_t swing_of_way = 0;  ///< the way's plan() that it was planned for
@@ -83,9 +82,8 @@ struct Autopilot::State {
 Autopilot::Autopilot(std::uint32_t actor,
                      std::uint16_t model,
                      const world::EpisodeT& episode,
-                     const world::TownT& town,
-                     const world::LaneMap& lanes)
-    : state_(std::make_unique<State>(actor, model, episode, town, lanes)) {}
+                     const RoadMap& map)
+    : state_(std::make_unique<State>(actor, model, episode, map)) {}
 
 Autopilot::~Autopilot() = default;
 Autopilot::Autopilot(Autopilot&&) noexcept = default;
@@ -190,7 +188,7 @@ void Autopilot::State::plan_swing(const Ego& ego) {
     if (!swings)
         return;
     if (!swing)
-        swing.emplace(*car.catalogue, town(), *lanes);
+        swing.emplace(*car.catalogue, map->rooms);
     swing->plan(way().path(), ego);
     swings = !swing->empty();
 }
@@ -205,23 +203,23 @@ double Autopilot::State::change_lanes(const world::TickView& last, Ego& ego) {
         if (is_clear(last, ego, town(), change.to) || waiting_ticks * step > longest_wait) {
             if (before < 1)
                 waiting_ticks = 0;
-            return infinity;
+            return world::infinity;
         }
         if (change.spare > 5) {
             const double later = before + std::min(5 + ego.speed, change.spare);
             navigator.put_off_change(later, ego);
-            return infinity;
+            return world::infinity;
         }
         waiting_ticks += ego.speed < 0.5 ? 1 : 0;
         return stop_acceleration(before, ego.speed, style.comfortable_braking, style);
     }
-    return infinity;
+    return world::infinity;
 }
 
 /// The speed that lanes, curves and the scenario's cap allow, and dead ends. [m/s^2]
 double Autopilot::State::cruise(const Ego& ego) const {
     const Path& path = way().path();
-    const double cap = speed_cap.value_or(infinity);
+    const double cap = speed_cap.value_or(world::infinity);
     // A glance ahead makes up for the tick's delay.
     const double middle = ego.model->wheelbase / 2;
     const double s = ego.rear_axle_s + middle + ego.speed * step;
@@ -253,11 +251,11 @@ double Autopilot::State::approach_turn(const Ego& ego) {
                                     [&](const Gate& gate) { return gate.s > ego.front_s() - 1; });
     if (ahead == way().gates().end() || ahead->turn != world::Turn::around ||
         ahead->s > ego.front_s() + sight)
-        return infinity;
+        return world::infinity;
     const world::Link& link = town().lanes[ahead->from].links[ahead->link];
     const auto street = TurnAround::street_of(town(), ahead->from, link, *ego.model);
     if (!street)
-        return infinity;
+        return world::infinity;
     const double distance = ahead->s - TurnAround::before_end - ego.front_s();
     if (distance < 0.7 && ego.speed < 0.2) {
         turn_around.begin(*street, ego);
@@ -336,4 +334,4 @@ std::uint64_t Autopilot::digest() const {
     return hasher.digest64();
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
+#include "drivers/road_map.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"
-#include "world/town.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// The built-in driver: follows lanes with Stanley steering, holds speed by feed-forward with
 /// proportional and integral terms, keeps its distance (IDM), stops at red and at stop signs, gives
@@ -16,12 +16,11 @@ namespace reprise::kernel {
 /// it draws one of the ways that go on.
 class Autopilot {
   public:
-    /// `town` and `lanes` must outlive the driver; it copies what it needs of `episode`.
+    /// `map` must outlive the driver; it copies what it needs of `episode`.
     Autopilot(std::uint32_t actor,
               std::uint16_t model,
               const world::EpisodeT& episode,
-              const world::TownT& town,
-              const world::LaneMap& lanes);
+              const RoadMap& map);
     ~Autopilot();
     Autopilot(Autopilot&&) noexcept;
     Autopilot& operator=(Autopilot&&) noexcept;
@@ -54,4 +53,4 @@ class Autopilot {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -9,7 +9,7 @@
 #include "world/models/catalogue.h"
 #include "world/tick.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// The driver's own car as the last tick shows it, and where it is on the driver's path.
 struct Ego {
@@ -44,4 +44,4 @@ inline Ego ego_of(const world::VehicleState& state) {
     return ego;
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "world/models/catalogue.h"
+#include "world/units.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
 using world::SignalColor;
 using world::Turn;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double line_distance = 1;     // [m] from the lane's end to our bumper when we stand
 constexpr double yellow_braking = 3.5;  // [m/s^2] harder than this we rather drive through
 constexpr double red_braking = 7;       // [m/s^2] at red only what is hardly possible
@@ -127,7 +127,7 @@ double Gatekeeper::decide(const world::TickView& last,
         if (gate.serial == creeping_gate_)
             return creep_speed - ego.speed;
     }
-    return infinity;
+    return world::infinity;
 }
 
 bool Gatekeeper::must_stop(const world::TickView& last,
@@ -256,4 +256,4 @@ void Gatekeeper::add_to(world::Hasher& hasher) const {
     hasher.add(creeping_gate_);
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -11,7 +11,7 @@
 #include "world/tick.h"
 #include "world/town.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// Decides at the end of every lane whether to enter the junction behind it.
 ///
@@ -61,4 +61,4 @@ class Gatekeeper {
     std::uint32_t creeping_gate_ = world::none;
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

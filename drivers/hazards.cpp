@@ -3,22 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/geometry2d.h"
 #include "world/models/catalogue.h"
+#include "world/units.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double side_margin = 0.3;     // [m] between our side and theirs
 constexpr double horizon = 1.5;         // [s] of foresight
 constexpr double look_step = 0.25;      // [s]
 constexpr std::size_t coarse_step = 8;  // [samples] = 4 m
-constexpr double storey = 3;            // [m] higher or lower is another road
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
 
 }  // namespace
 
@@ -52,7 +48,7 @@ struct Hazards::Body {
             return first <= last;
         };
         return clip(from.dot(direction), half.dot(direction), half_length) &&
-               clip(cross(direction, from), cross(direction, half), half_width);
+               clip(world::cross(direction, from), world::cross(direction, half), half_width);
     }
 };
 
@@ -86,8 +82,8 @@ void Hazards::make_corridor(const Ego& ego, const Path& path) {
     sight_start_ = ego.front_s() - 1;
     coarse_.clear();
     coarse_index_.clear();
-    low_.setConstant(infinity);
-    high_.setConstant(-infinity);
+    low_.setConstant(world::infinity);
+    high_.setConstant(-world::infinity);
     const std::size_t last = path.index(sight_start_ + sight);
     for (std::size_t i = path.index(sight_start_);; i = std::min(i + coarse_step, last)) {
         const Eigen::Vector2d point = path.points()[i].position.head<2>();
@@ -119,7 +115,7 @@ void Hazards::look(const world::TickView& last,
                    std::span<const SweptWidth> swept) {
     swept_ = swept;
     overlaps_.clear();
-    acceleration_ = infinity;
+    acceleration_ = world::infinity;
     if (path.points().size() < 2)
         return;
     make_corridor(ego, path);
@@ -184,8 +180,8 @@ void Hazards::consider(const Body& body, const Scene& scene) {
     // Half a coarse step is the most that the coarse polyline can overlook.
     if (distance > 2.1 + horizon * body.speed)
         return;
-    const double contact = distance > 2.1 ? infinity : first_contact(body, scene.path);
-    if (contact == infinity) {
+    const double contact = distance > 2.1 ? world::infinity : first_contact(body, scene.path);
+    if (contact == world::infinity) {
         foresee(body, scene, distance);
         return;
     }
@@ -210,21 +206,21 @@ void Hazards::foresee(const Body& body, const Scene& scene, double distance) {
     if ((body.centre - nose).dot(ego.direction) < 0 && heading > 0.7)
         return;
 
-    double entered = infinity;
+    double entered = world::infinity;
     double left = 0;
-    double contact = infinity;
+    double contact = world::infinity;
     Body moved = body;
     for (double time = look_step; time <= horizon; time += look_step) {
         if (!place_after(body, time, moved))
             break;
         const double touched = first_contact(moved, scene.path);
-        if (touched == infinity)
+        if (touched == world::infinity)
             continue;
         entered = std::min(entered, time);
         left = time;
         contact = std::min(contact, touched);
     }
-    if (contact == infinity)
+    if (contact == world::infinity)
         return;
     if (left > horizon - look_step / 2)
         left += 1;  // still there at the end of our foresight
@@ -269,7 +265,7 @@ bool Hazards::place_after(const Body& body, double time, Body& moved) const {
             const double beyond = s - std::clamp(s, 0.0, lane.length);
             const Eigen::Vector2d offset = body.centre - here.position.head<2>();
             const double before = now - std::clamp(now, 0.0, lane.length);
-            const double aside = cross(lane_direction, offset - before * lane_direction);
+            const double aside = world::cross(lane_direction, offset - before * lane_direction);
             moved.centre = then.position.head<2>() + beyond * moved.direction +
                            aside * Eigen::Vector2d(-moved.direction.y(), moved.direction.x());
             return true;
@@ -280,7 +276,7 @@ bool Hazards::place_after(const Body& body, double time, Body& moved) const {
 }
 
 double Hazards::coarse_distance(const Eigen::Vector2d& p_world) const {
-    double least = infinity;
+    double least = world::infinity;
     for (const Eigen::Vector2d& point : coarse_)
         least = std::min(least, (point - p_world).squaredNorm());
     return std::sqrt(least);
@@ -295,7 +291,7 @@ double Hazards::first_contact(const Body& body, const Path& path) const {
             const Eigen::Vector2d left(-direction.y(), direction.x());
             const Eigen::Vector2d middle = p.head<2>() + (width.left - width.right) / 2 * left;
             const Eigen::Vector2d half = (width.left + width.right) / 2 * left;
-            return std::abs(p.z() - body.z) < storey && body.meets(middle, half);
+            return std::abs(p.z() - body.z) < world::reach_of_level && body.meets(middle, half);
         };
     for (std::size_t k = 0; k < coarse_.size(); ++k) {
         if ((coarse_[k] - body.centre).squaredNorm() > reach * reach)
@@ -323,7 +319,7 @@ double Hazards::first_contact(const Body& body, const Path& path) const {
             return path.s_of(i - 1) + met * Path::spacing;
         }
     }
-    return infinity;
+    return world::infinity;
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -13,7 +13,7 @@
 #include "world/tick.h"
 #include "world/town.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// Somebody who stands or drives on our path.
 struct Overlap {
@@ -71,4 +71,4 @@ class Hazards {
     double acceleration_ = std::numeric_limits<double>::infinity();
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

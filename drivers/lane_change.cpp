@@ -5,23 +5,23 @@
 
 #include "world/models/catalogue.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
-constexpr double standing_room = 2.5;  // [m] to both sides when all drive alike
-constexpr double reaction = 0.4;       // [s] of our own speed
-constexpr double closing_time = 2.5;   // [s] that somebody faster needs to adapt
-constexpr double sight = 100;          // [m]
+constexpr double standing_room = 2.5;    // [m] to both sides when all drive alike
+constexpr double change_reaction = 0.4;  // [s] of our own speed
+constexpr double closing_time = 2.5;     // [s] that somebody faster needs to adapt
+constexpr double sight = 100;            // [m]
 
 /// Somebody on the other lane: where its ends are along it.
 bool leaves_room(
     double rear, double front, double speed, double our_rear, double our_front, double our_speed) {
     if ((rear + front) / 2 > (our_rear + our_front) / 2)
-        return rear - our_front > standing_room + reaction * our_speed +
+        return rear - our_front > standing_room + change_reaction * our_speed +
                                       closing_time * std::max(our_speed - speed, 0.0);
-    return our_rear - front >
-           standing_room + reaction * speed + closing_time * std::max(speed - our_speed, 0.0);
+    return our_rear - front > standing_room + change_reaction * speed +
+                                  closing_time * std::max(speed - our_speed, 0.0);
 }
 
 }  // namespace
@@ -60,4 +60,4 @@ bool is_clear(const world::TickView& last,
                        });
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -6,7 +6,7 @@
 #include "world/tick.h"
 #include "world/town.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// Is there room for us on a neighbouring lane: nobody beside us, nobody so near or so fast behind
 /// that he had to brake hard, nobody so near ahead that we had to?
@@ -15,4 +15,4 @@ bool is_clear(const world::TickView& last,
               const world::TownT& town,
               std::uint32_t lane);
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

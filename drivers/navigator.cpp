@@ -9,12 +9,12 @@
 
 #include "world/check.h"
 #include "world/frames.h"
+#include "world/units.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double braking_reserve = 50;  // [m] of path beyond the braking distance
 constexpr double shortest_way = 150;    // [m]
 constexpr double lost_distance = 4;     // [m] from the path: pushed away, or put elsewhere
@@ -22,15 +22,13 @@ constexpr double way_behind = 10;       // [m] kept behind the car
 
 }  // namespace
 
-Navigator::Navigator(const world::TownT& town,
-                     const world::LaneMap& lanes,
+Navigator::Navigator(const RoadMap& map,
                      std::uint64_t seed,
                      std::uint32_t actor,
                      double step,
                      double comfortable_braking)
-    : lanes_(&lanes),
-      graph_(town),
-      way_(graph_, seed, actor),
+    : map_(&map),
+      way_(map.graph, seed, actor),
       step_(step),
       comfortable_braking_(comfortable_braking) {}
 
@@ -70,17 +68,17 @@ Navigator::Found Navigator::follow(Ego& ego) {
 /// The lane that fits best; not one inside a junction that leads nowhere, where there is another.
 std::optional<std::uint32_t> Navigator::lane_under(const Ego& ego) const {
     constexpr double around = 8;  // [m]
-    const auto best = lanes_->best(ego.position, ego.yaw);
+    const auto best = map_->lanes.best(ego.position, ego.yaw);
     const auto leads_on = [&](std::uint32_t lane) {
-        return graph_.town().lanes[lane].kind != world::LaneKind::internal ||
-               graph_.exit(lane) != world::none;
+        return map_->town.lanes[lane].kind != world::LaneKind::internal ||
+               map_->graph.exit(lane) != world::none;
     };
     if (best && leads_on(best->lane))
         return best->lane;
     std::optional<std::uint32_t> nearest;
-    double least = infinity;
-    for (const world::LaneMap::Found& found : lanes_->at(ego.position, around)) {
-        const double yaw = world::point_at(graph_.town().lanes[found.lane], found.at.s).yaw;
+    double least = world::infinity;
+    for (const world::LaneMap::Found& found : map_->lanes.at(ego.position, around)) {
+        const double yaw = world::point_at(map_->town.lanes[found.lane], found.at.s).yaw;
         const double turn = std::abs(world::wrap_angle(yaw - ego.yaw));
         const double cost = found.at.distance + 4 * turn;
         if (leads_on(found.lane) && turn < std::numbers::pi / 2 && cost < least) {
@@ -104,7 +102,7 @@ bool Navigator::is_lost(const Ego& ego) const {
 void Navigator::start_over(Ego& ego,
                            const std::vector<std::uint32_t>& lanes_ahead,
                            double change_room) {
-    const double s = world::project(graph_.town().lanes[lanes_ahead.front()], ego.position).s;
+    const double s = world::project(map_->town.lanes[lanes_ahead.front()], ego.position).s;
     way_.restart(lanes_ahead, {std::max(s - way_behind, 0.0), s, ego.speed, change_room});
     way_.extend(0, shortest_way);
     rear_axle_s_ = way_.path().project(ego.position, 0, 3 * way_behind);
@@ -127,7 +125,7 @@ std::vector<std::uint32_t> Navigator::committed_lanes(const Ego& ego) const {
             continue;
         if (!lanes_on.empty() && !inside && piece.start > until)
             break;
-        inside = graph_.town().lanes[piece.lane].kind == world::LaneKind::internal;
+        inside = map_->town.lanes[piece.lane].kind == world::LaneKind::internal;
         if (!inside || lanes_on.empty())
             lanes_on.push_back(piece.lane);
     }
@@ -140,11 +138,11 @@ void Navigator::take_route(Ego& ego) {
     for (const std::uint32_t lane : lanes_ahead)
         if (!stops.empty() && stops.front() == lane)
             stops = stops.subspan(1);
-    const Plan plan = graph_.plan({lanes_ahead.back(), 0}, stops, new_route_->last_s);
+    const Plan plan = map_->graph.plan({lanes_ahead.back(), 0}, stops, new_route_->last_s);
     if (plan.unreachable != world::none)
         throw world::Error("route: no way leads from lane '" +
-                           graph_.town().lanes[lanes_ahead.back()].name + "' to lane '" +
-                           graph_.town().lanes[plan.unreachable].name + "'");
+                           map_->town.lanes[lanes_ahead.back()].name + "' to lane '" +
+                           map_->town.lanes[plan.unreachable].name + "'");
     way_.set_stops(std::move(new_route_->stops), new_route_->last_s);
     new_route_.reset();
     start_over(ego, lanes_ahead, ego.model->length + 0.5 * ego.speed);
@@ -157,14 +155,13 @@ void Navigator::take_change(Ego& ego) {
     new_lane_.reset();
     std::vector<std::uint32_t> lanes_ahead = committed_lanes(ego);
     const auto is_beside = [&](std::uint32_t lane) {
-        return wanted == graph_.town().lanes[lane].left ||
-               wanted == graph_.town().lanes[lane].right;
+        return wanted == map_->town.lanes[lane].left || wanted == map_->town.lanes[lane].right;
     };
     if (is_beside(lanes_ahead.back())) {
         lanes_ahead.push_back(wanted);
         start_over(ego, lanes_ahead, ego.model->length + 0.5 * ego.speed);
     } else if (std::none_of(lanes_ahead.begin(), lanes_ahead.end(), is_beside)) {
-        new_route_ = {{wanted}, graph_.town().lanes[wanted].length};
+        new_route_ = {{wanted}, map_->town.lanes[wanted].length};
         take_route(ego);
     }
 }
@@ -191,4 +188,4 @@ void Navigator::add_to(world::Hasher& hasher) const {
     hasher.add(on_way_);
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

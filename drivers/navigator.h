@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "drivers/ego.h"
-#include "drivers/way/lane_graph.h"
+#include "drivers/road_map.h"
 #include "drivers/way/way.h"
 #include "world/digest.h"
 #include "world/town.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// Knows where the car is on its way, and keeps the way going: along what it is told, or wherever
 /// the seed leads. Finds a way again for a car that was pushed off it.
@@ -23,9 +23,8 @@ class Navigator {
         another  ///< it was lost, or has just begun
     };
 
-    /// `town` and `lanes` must outlive this. `step`: [s] of a tick; `comfortable_braking` [m/s^2].
-    Navigator(const world::TownT& town,
-              const world::LaneMap& lanes,
+    /// `map` must outlive this. `step`: [s] of a tick; `comfortable_braking` [m/s^2].
+    Navigator(const RoadMap& map,
               std::uint64_t seed,
               std::uint32_t actor,
               double step,
@@ -50,8 +49,6 @@ class Navigator {
     /// The next change of lanes begins `distance` [m] ahead of the front bumper, not before.
     void put_off_change(double distance, Ego& ego);
 
-    const LaneGraph& graph() const { return graph_; }
-
     const Way& way() const { return way_; }
 
     void add_to(world::Hasher& hasher) const;
@@ -70,8 +67,7 @@ class Navigator {
     void take_route(Ego& ego);
     void take_change(Ego& ego);
 
-    const world::LaneMap* lanes_;
-    LaneGraph graph_;
+    const RoadMap* map_;
     Way way_;
     double step_;
     double comfortable_braking_;
@@ -81,4 +77,4 @@ class Navigator {
     bool on_way_ = false;
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
-constexpr double settling = 0.5;      // [s] of the last metre before a stop
-constexpr double speed_gain = 1.2;    // [1/s]
-constexpr double braking_beyond = 3;  // [m/s^2] more than this only to avoid a collision
+constexpr double settling = 0.5;       // [s] of the last metre before a stop
+constexpr double approach_gain = 1.2;  // [1/s]
+constexpr double braking_beyond = 3;   // [m/s^2] more than this only to avoid a collision
 
 }  // namespace
 
@@ -18,7 +18,8 @@ double stop_acceleration(double distance, double speed, double comfort, const Dr
         return speed > 0.5 ? -style.hardest_braking : -comfort;
     const double soft = comfort * settling;
     const double envelope = std::sqrt(soft * soft + 2 * comfort * distance) - soft;
-    const double wanted = speed_gain * (envelope - speed) - comfort * envelope / (envelope + soft);
+    const double wanted =
+        approach_gain * (envelope - speed) - comfort * envelope / (envelope + soft);
     // Too fast for that: a tenth more than what is needed, not more.
     const double needed = std::max(speed * speed / (2 * distance), comfort);
     return std::max({wanted, -1.1 * needed, -style.hardest_braking});
@@ -49,7 +50,7 @@ double travel_time(double distance, double speed, double acceleration, double to
 }
 
 Pedals::Position Pedals::press(
-    double wanted, double speed, double climb, const CarModel& car, double step) {
+    double wanted, double speed, double climb, const world::CarModel& car, double step) {
     // What became of the last wish?
     if (started_ && !holding_ && !saturated_ && speed > 1) {
         const double got = (speed - last_speed_) / step;
@@ -73,9 +74,10 @@ Pedals::Position Pedals::press(
     holding_ = false;
 
     const world::VehicleModel& model = *car.catalogue;
-    const double resistance = 0.5 * air_density * model.drag_area * speed * speed +
-                              (speed > 0.1 ? car.rolling_resistance * model.mass * gravity : 0);
-    const double force = model.mass * (asked_ + correction_ + gravity * climb) + resistance;
+    const double resistance =
+        0.5 * world::air_density * model.drag_area * speed * speed +
+        (speed > 0.1 ? car.rolling_resistance * model.mass * world::gravity : 0);
+    const double force = model.mass * (asked_ + correction_ + world::gravity * climb) + resistance;
     Position pedals;
     if (force > 0) {
         const double most = std::min(model.max_drive_force, model.power / std::max(speed, 1.0));
@@ -96,4 +98,4 @@ void Pedals::add_to(world::Hasher& hasher) const {
     hasher.add(saturated_);
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

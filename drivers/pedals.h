@@ -3,7 +3,7 @@
 #include "world/digest.h"
 #include "world/models/car_model.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// How hard the driver works the car. [m/s^2], [m], [s]
 struct DrivingStyle {
@@ -43,7 +43,8 @@ class Pedals {
     };
 
     /// `climb` is the sine of the road's slope the way the car drives, or wants to.
-    Position press(double wanted, double speed, double climb, const CarModel& car, double step);
+    Position press(
+        double wanted, double speed, double climb, const world::CarModel& car, double step);
 
     void add_to(world::Hasher& hasher) const;
 
@@ -56,4 +57,4 @@ class Pedals {
     bool saturated_ = false;  ///< a pedal was at its end: nothing to learn from the answer
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -3,24 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/physics/obstacle.h"
+#include "world/units.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
 constexpr double step = 0.2;           // [m] of the search for kerbs
 constexpr double aside = 0.35;         // [m] things count this far beside the line
-constexpr double storey = 3;           // [m] higher or lower is another road
 constexpr double lowest_thing = -0.3;  // [m] below the road
 
 /// A box or a prism as its outline, a cylinder as a point.
-world::Loop outline_of(const Obstacle& obstacle) {
+world::Loop outline_of(const world::Obstacle& obstacle) {
     const Eigen::Vector2d middle(obstacle.position.x(), obstacle.position.y());
-    if (obstacle.shape == Obstacle::Shape::cylinder)
+    if (obstacle.shape == world::Obstacle::Shape::cylinder)
         return {middle};
     world::Loop outline;
-    for (const btVector3& corner : obstacle.corners)
+    for (const Eigen::Vector3d& corner : obstacle.corners)
         outline.push_back(middle + Eigen::Vector2d(corner.x(), corner.y()));
     if (!outline.empty())
         return outline;
@@ -33,12 +32,14 @@ world::Loop outline_of(const Obstacle& obstacle) {
 
 }  // namespace
 
-RoadRooms::RoadRooms(const world::TownT& town, const world::LaneMap& lanes)
+RoadRooms::RoadRooms(const world::TownT& town,
+                     const world::LaneMap& lanes,
+                     std::span<const world::Obstacle> obstacles)
     : town_(&town),
       lanes_(&lanes) {
     std::vector<world::BoxGrid::Entry> entries;
-    for (const Obstacle& obstacle : obstacles_of(town)) {
-        const bool round = obstacle.shape == Obstacle::Shape::cylinder;
+    for (const world::Obstacle& obstacle : obstacles) {
+        const bool round = obstacle.shape == world::Obstacle::Shape::cylinder;
         Thing thing{outline_of(obstacle), round ? obstacle.radius : 0, obstacle.position.z()};
         entries.push_back({world::box_around(thing.outline, thing.radius + aside),
                            static_cast<std::uint32_t>(things_.size())});
@@ -71,7 +72,7 @@ RoadRoom RoadRooms::look(const Eigen::Vector3d& p_world, const Eigen::Vector2d& 
     for (const std::uint32_t index : things_by_place_.near(box)) {
         const Thing& thing = things_[index];
         const double above = thing.z - p_world.z();
-        if (above < lowest_thing - storey || above > storey)
+        if (above < lowest_thing - world::reach_of_level || above > world::reach_of_level)
             continue;
         // Halve: how far can one go?
         double free = 0;
@@ -91,4 +92,4 @@ RoadRoom RoadRooms::look(const Eigen::Vector3d& p_world, const Eigen::Vector2d& 
     return room;
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

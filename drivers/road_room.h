@@ -1,14 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "world/geometry2d.h"
+#include "world/obstacle.h"
 #include "world/town.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// How far the road reaches to one side of a place, across it. [m], at most RoadRooms::sight.
 struct RoadRoom {
@@ -21,8 +23,10 @@ class RoadRooms {
   public:
     static constexpr double sight = 6;  ///< [m]
 
-    /// Looks into `town` and `lanes`, which must outlive this. O(things in the town).
-    RoadRooms(const world::TownT& town, const world::LaneMap& lanes);
+    /// Looks into `town` and `lanes`, which must outlive this. O(obstacles).
+    RoadRooms(const world::TownT& town,
+              const world::LaneMap& lanes,
+              std::span<const world::Obstacle> obstacles);
 
     /// From p_world towards `side` (unit, in plan). About 20 us.
     /// Things count from half a metre beside the line on: lines half a metre apart miss none.
@@ -44,4 +48,4 @@ class RoadRooms {
     world::BoxGrid things_by_place_;
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
@@ -68,4 +68,4 @@ double steer(const Ego& ego, const Swing& swing) {
     return steer_to(ego, aim, ahead);
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -4,7 +4,7 @@
 #include "drivers/swing.h"
 #include "drivers/way/path.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// The steering wheel, [-1, 1], that keeps the car on its path; a pure function of what is seen.
 ///
@@ -18,4 +18,4 @@ double steer(const Ego& ego, const Path& path);
 /// As above, for a long vehicle: it tracks the plan of its rear axle.
 double steer(const Ego& ego, const Swing& swing);
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

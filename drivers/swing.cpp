@@ -6,7 +6,7 @@
 #include "world/frames.h"
 #include "world/models/car_model.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
@@ -56,11 +56,9 @@ struct Swing::Corner {
     std::array<double, 3> change = {};  ///< of it, for a metre of offset station - 1, 0, + 1
 };
 
-Swing::Swing(const world::VehicleModel& model,
-             const world::TownT& town,
-             const world::LaneMap& lanes)
+Swing::Swing(const world::VehicleModel& model, const RoadRooms& rooms)
     : model_(&model),
-      rooms_(town, lanes) {}
+      rooms_(&rooms) {}
 
 Swing::~Swing() = default;
 
@@ -137,8 +135,8 @@ void Swing::look_around(const Path& path, double rear_axle_s) {
             station.room_left = known[before].room_left;
             station.room_right = known[before].room_right;
         } else {
-            station.room_left = rooms_.look(station.path, station.left);
-            station.room_right = rooms_.look(station.path, -station.left);
+            station.room_left = rooms_->look(station.path, station.left);
+            station.room_right = rooms_->look(station.path, -station.left);
         }
         stations_.push_back(station);
     }
@@ -288,7 +286,7 @@ void Swing::finish() {
         const double before = std::atan(
             model_->wheelbase * std::abs(points_[i - std::min<std::size_t>(i, 1)].curvature));
         const double turning = std::abs(angle - before) / Path::spacing;
-        const double wheels = 0.6 * steering_rate / std::max(turning, 1e-6);
+        const double wheels = 0.6 * world::steering_rate / std::max(turning, 1e-6);
         next = std::min({lateral_acceleration / std::max(curvature, 1e-6),
                          wheels * wheels,
                          next + 2 * deceleration * Path::spacing});
@@ -331,4 +329,4 @@ SwingPoint Swing::at(double s) const {
             mix(source.squared_speed, target.squared_speed)};
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -14,7 +14,7 @@
 #include "world/digest.h"
 #include "world/models/catalogue.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// Where the rear axle of a long vehicle should run, and how the body stands there.
 struct SwingPoint {
@@ -45,7 +45,8 @@ class Swing {
     static bool is_needed(const world::VehicleModel& model) { return model.wheelbase > 3.3; }
 
     /// All must outlive this.
-    Swing(const world::VehicleModel& model, const world::TownT& town, const world::LaneMap& lanes);
+    /// `rooms` must outlive this.
+    Swing(const world::VehicleModel& model, const RoadRooms& rooms);
     ~Swing();
 
     /// Plans from where the vehicle is to the end of the path. About 8 ms for 200 m.
@@ -82,7 +83,7 @@ class Swing {
     void sweep(const Path& path);
 
     const world::VehicleModel* model_;
-    RoadRooms rooms_;
+    const RoadRooms* rooms_;
     std::vector<Station> stations_;  ///< samples of the path
     std::vector<SwingPoint> points_;
     std::vector<SweptWidth> swept_;
@@ -90,4 +91,4 @@ class Swing {
     double start_ = 0;            ///< s of the first station
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -7,19 +7,19 @@
 #include "world/frames.h"
 #include "world/models/catalogue.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
-constexpr double creep = 1.3;               // [m/s]
-constexpr double braking = 1.5;             // [m/s^2]
-constexpr double reaction = 0.15;           // [s]
-constexpr double aligned = 0.35;            // [rad] the path does the rest
-constexpr double straight_enough = 0.15;    // [rad] backwards
-constexpr double looks_ahead = 1.2;         // [m]
-constexpr double keeps_clear = 0.5;         // [m]
-constexpr std::uint32_t most_changes = 16;  // of gear: then the street is narrower than it seemed
-constexpr double spare = 0.6;               // [m] of a street's width beyond the car's length
+constexpr double creep = 1.3;                // [m/s]
+constexpr double braking = 1.5;              // [m/s^2]
+constexpr double manoeuvre_reaction = 0.15;  // [s]
+constexpr double aligned = 0.35;             // [rad] the path does the rest
+constexpr double straight_enough = 0.15;     // [rad] backwards
+constexpr double looks_ahead = 1.2;          // [m]
+constexpr double keeps_clear = 0.5;          // [m]
+constexpr std::uint32_t most_changes = 16;   // of gear: then the street is narrower than it seemed
+constexpr double spare = 0.6;                // [m] of a street's width beyond the car's length
 
 /// [m] from the centre line of a lane to the edge of the last lane on this side for cars that
 /// drive the same way.
@@ -165,7 +165,7 @@ TurnAround::Move TurnAround::next(const world::TickView& last, const Ego& ego) {
     const double error = std::abs(world::wrap_angle(ego.yaw - street_.yaw));
     const double along = forward_ ? ego.speed : -ego.speed;
     const double speed = std::max(along, 0.0);
-    const double stopping = 0.05 + reaction * speed + speed * speed / (2 * braking);
+    const double stopping = 0.05 + manoeuvre_reaction * speed + speed * speed / (2 * braking);
     const double sign = forward_ ? 1 : -1;
     done_ = (forward_ && error < aligned) || gear_changes_ > most_changes;
     const bool at_kerb = beyond_kerbs(ego, sign * stopping) > 0;
@@ -200,4 +200,4 @@ void TurnAround::add_to(world::Hasher& hasher) const {
     hasher.add(gear_changes_);
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -10,7 +10,7 @@
 #include "world/tick.h"
 #include "world/town.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// Turns a car around between the kerbs of a street that is too narrow for its turning circle:
 /// ahead with full lock until the front is at one kerb, back with the other lock until the rear is
@@ -67,4 +67,4 @@ class TurnAround {
     std::uint32_t gear_changes_ = 0;
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

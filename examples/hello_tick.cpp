@@ -9,10 +9,10 @@
 
 int main() {
     using namespace reprise;
-    replay::Recording recording;
+    world::Recording recording;
     recording.episode = scripting::load_episode("examples/hello.lua", {});
-    traffic::Network network = traffic::load_network("scenarios/towns/town1/town1.net.xml");
-    recording.town = traffic::read_town(network);
+    towns::Network network = towns::load_network("scenarios/towns/town1/town1.net.xml");
+    recording.town = towns::read_town(network);
     recording.network = std::move(network.xml);
 
     kernel::Kernel kernel(recording);

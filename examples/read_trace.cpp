@@ -15,10 +15,10 @@ namespace {
 
 void record(const std::filesystem::path& path) {
     using namespace reprise;
-    replay::Recording recording;
+    world::Recording recording;
     recording.episode = scripting::load_episode("scenarios/free_drive.lua", {{}, 7, 5.0, {}});
-    traffic::Network network = traffic::load_network("scenarios/towns/town2/town2.net.xml");
-    recording.town = traffic::read_town(network);
+    towns::Network network = towns::load_network("scenarios/towns/town2/town2.net.xml");
+    recording.town = towns::read_town(network);
     recording.network = std::move(network.xml);
     replay::TraceWriter trace(path, recording);
     kernel::Kernel kernel(recording);

@@ -1,15 +1,18 @@
 #include "kernel/kernel.h"
 
+#include "ground/mesh/ground.h"
+#include "ground/obstacles.h"
 #include "kernel/digests.h"
 #include "kernel/measurements.h"
 #include "kernel/nudger.h"
 #include "kernel/pedestrians.h"
 #include "kernel/physics/physics.h"
 #include "kernel/roster.h"
-#include "replay/recording.h"
+#include "replay/chain_seed.h"
 #include "traffic/background.h"
 #include "world/arithmetic.h"
 #include "world/check.h"
+#include "world/recording.h"
 #include "world/town.h"
 
 namespace reprise::kernel {
@@ -28,24 +31,26 @@ world::SealedTick genesis(const world::EpisodeT& episode, const world::Digest128
 }  // namespace
 
 struct Kernel::Stages {
-    explicit Stages(const replay::Recording& its_recording)
+    explicit Stages(const world::Recording& its_recording)
         : recording(its_recording),
           episode(recording.episode),
           town(recording.town),
           lanes(town),
           scenario(episode, town),
-          roster(episode, town, lanes),
+          obstacles(ground::obstacles_of(town)),
+          roster(episode, town, lanes, obstacles),
           background(episode, town, recording.network),
           pedestrians(episode, town),
-          physics(episode, town),
+          physics(episode, ground::build_ground(town), obstacles),
           chain_seed(replay::chain_seed(recording)),
           last(genesis(episode, chain_seed)) {}
 
-    const replay::Recording& recording;
+    const world::Recording& recording;
     world::EpisodeT episode;  ///< of it script, parameters and limit change where a run branches
     const world::TownT& town;
     world::LaneMap lanes;
     scripting::Scenario scenario;
+    std::vector<world::Obstacle> obstacles;
     Roster roster;
     traffic::Background background;
     Pedestrians pedestrians;
@@ -57,7 +62,7 @@ struct Kernel::Stages {
     std::string reason;
 };
 
-Kernel::Kernel(const replay::Recording& recording) : stages_(std::make_unique<Stages>(recording)) {}
+Kernel::Kernel(const world::Recording& recording) : stages_(std::make_unique<Stages>(recording)) {}
 
 Kernel::~Kernel() = default;
 
@@ -172,7 +177,7 @@ bool Kernel::finished() const {
     return stages_->finished;
 }
 
-replay::Outcome Kernel::outcome() const {
+world::Outcome Kernel::outcome() const {
     using Status = scripting::Scenario::Check::Status;
     const auto all = checks();
     bool failed = false;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kernel/drill/nudge.h"
-#include "replay/recording.h"
 #include "scripting/scenario.h"
+#include "world/recording.h"
 #include "world/tick.h"
 
 namespace reprise::kernel {
@@ -18,7 +18,7 @@ namespace reprise::kernel {
 class Kernel {
   public:
     /// Starts everything; the world is empty until the first step. `recording` must outlive this.
-    explicit Kernel(const replay::Recording& recording);
+    explicit Kernel(const world::Recording& recording);
     ~Kernel();
     Kernel(const Kernel&) = delete;
     Kernel& operator=(const Kernel&) = delete;
@@ -34,7 +34,7 @@ class Kernel {
     /// True once the scenario said finish or the episode's last tick was made.
     bool finished() const;
 
-    replay::Outcome outcome() const;
+    world::Outcome outcome() const;
 
     std::vector<scripting::Scenario::Check> checks() const;
 

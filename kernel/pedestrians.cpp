@@ -181,7 +181,7 @@ double Pedestrians::ground_height(const Eigen::Vector3d& p_world) const {
         return p_world.z();
     const world::LaneT& lane = town_->lanes[walkable.front().lane];
     const double height = world::point_at(lane, walkable.front().at.s).position.z();
-    return height + (is_raised(lane) ? world::kerb_height : 0);
+    return height + (is_raised(lane) ? ground::kerb_height : 0);
 }
 
 void Pedestrians::nudge(std::uint32_t id, std::string_view field, std::int64_t units) {

@@ -34,10 +34,11 @@ world::EventT event(world::EventKind kind, std::uint32_t actor, const world::Com
 
 Roster::Roster(const world::EpisodeT& episode,
                const world::TownT& town,
-               const world::LaneMap& lanes)
+               const world::LaneMap& lanes,
+               std::span<const world::Obstacle> obstacles)
     : episode_(&episode),
       town_(&town),
-      lanes_(&lanes) {}
+      map_(town, lanes, obstacles) {}
 
 void Roster::apply_commands(const world::TickView& last, world::TickDraft& next, Physics& physics) {
     for (world::CommandT& command : next.tick.commands) {
@@ -104,7 +105,7 @@ void Roster::spawn(const world::TickView& last,
 
     Entry entry{std::nullopt, parked_control(command.actor)};
     if (command.driver == world::Driver::autopilot) {
-        entry.autopilot.emplace(command.actor, command.model, *episode_, *town_, *lanes_);
+        entry.autopilot.emplace(command.actor, command.model, *episode_, map_);
         entry.route_line = command.line;
         if (!command.lanes.empty())
             entry.autopilot->set_route(command.lanes, town_->lanes.at(command.lanes.back()).length);

@@ -8,6 +8,7 @@
 #include "drivers/driver.h"
 #include "kernel/physics/physics.h"
 #include "world/episode_generated.h"
+#include "world/obstacle.h"
 #include "world/tick.h"
 #include "world/town.h"
 
@@ -16,8 +17,11 @@ namespace reprise::kernel {
 /// The vehicles with mass and who drives them: what the scenario asked for, kept in id order.
 class Roster {
   public:
-    /// All three must outlive the roster.
-    Roster(const world::EpisodeT& episode, const world::TownT& town, const world::LaneMap& lanes);
+    /// `episode`, `town` and `lanes` must outlive the roster; `obstacles` are looked at here only.
+    Roster(const world::EpisodeT& episode,
+           const world::TownT& town,
+           const world::LaneMap& lanes,
+           std::span<const world::Obstacle> obstacles);
 
     /// Carries out next's commands for vehicles with mass: puts them into physics, takes them out,
     /// and hands speed, route and control on to their drivers. Writes spawned and despawned events.
@@ -37,10 +41,10 @@ class Roster {
 
   private:
     struct Entry {
-        std::optional<Autopilot> autopilot;  ///< none: manual
-        world::Control control;              ///< the newest
-        bool scripted = false;               ///< the scenario gave one: it drives
-        std::uint32_t route_line = 0;        ///< of the scenario, that last asked for a route
+        std::optional<drivers::Autopilot> autopilot;  ///< none: manual
+        world::Control control;                       ///< the newest
+        bool scripted = false;                        ///< the scenario gave one: it drives
+        std::uint32_t route_line = 0;  ///< of the scenario, that last asked for a route
     };
 
     world::Control decide(Entry& entry, const world::TickView& last) const;
@@ -59,7 +63,7 @@ class Roster {
 
     const world::EpisodeT* episode_;
     const world::TownT* town_;
-    const world::LaneMap* lanes_;
+    drivers::RoadMap map_;
     std::map<std::uint32_t, Entry> entries_;
 };
 

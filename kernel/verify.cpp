@@ -26,7 +26,7 @@ replay::Divergence unreadable(std::uint64_t tick, const std::string& damage) {
 }
 
 /// Somebody put another network into the trace.
-std::optional<replay::Divergence> wrong_network(const replay::Recording& recording) {
+std::optional<replay::Divergence> wrong_network(const world::Recording& recording) {
     const world::Digest128& wanted = recording.episode.town_digest;
     const world::Digest128 found = world::digest128(recording.network);
     const bool unknown = wanted == world::Digest128();  // a recording made without

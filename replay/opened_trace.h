@@ -23,13 +23,13 @@ struct OpenedTrace {
     InputFile input;
     TraceIndex index;
     std::vector<TickRange> ranges;  ///< of index.chunks, without gaps
-    Recording recording;
+    world::Recording recording;
     Level level = Level::full;
     bool has_town = false;  ///< recording.town and .network are read
-    Outcome outcome;
+    world::Outcome outcome;
     world::Digest128 first_chain;
-    SliceStart slice;  ///< of a whole run: from tick 1 on, and no run_ticks
-    std::string loss;  ///< what a salvage left out
+    world::SliceStart slice;  ///< of a whole run: from tick 1 on, and no run_ticks
+    std::string loss;         ///< what a salvage left out
     ChunkReader loaded_chunk;
     std::uint64_t loaded = none_loaded;  ///< first tick of the chunk in memory
     mcap::Bytes packed;                  ///< as handed out by packed()

@@ -73,7 +73,7 @@ TraceReader open(const fs::path& damaged) {
 }
 
 /// Writes the trace; removes what is there of it when that fails.
-void write(const fs::path& path, TraceReader& trace, const Outcome& outcome) {
+void write_recovered(const fs::path& path, TraceReader& trace, const world::Outcome& outcome) {
     try {
         TraceWriter writer(path, trace.recording(), trace.level(), Unfinished::keep, trace.slice());
         try {
@@ -83,7 +83,7 @@ void write(const fs::path& path, TraceReader& trace, const Outcome& outcome) {
         } catch (const world::Error&) {
             // Its text promises a rest that is worth keeping; this one is not.
             throw world::Error(
-                fmt::format("{}: cannot write all of it; is there room for {:.1f} MB?",
+                fmt::format("{}: cannot write_recovered all of it; is there room for {:.1f} MB?",
                             path.string(),
                             static_cast<double>(trace.file_size()) / 1e6));
         }
@@ -114,14 +114,14 @@ Recovery recover(const fs::path& damaged, const fs::path& out) {
     }
     // Not OUT.partial: that may be what is recovered.
     const fs::path grown = out.string() + ".recovered";
-    write(grown, trace, recovery.outcome);
+    write_recovered(grown, trace, recovery.outcome);
     std::error_code error;
     fs::rename(grown, out, error);
     if (error) {
         std::error_code ignored;
         fs::remove(grown, ignored);
         throw world::Error(
-            fmt::format("{}: cannot write the trace: {}", out.string(), error.message()));
+            fmt::format("{}: cannot write_recovered the trace: {}", out.string(), error.message()));
     }
     return recovery;
 }

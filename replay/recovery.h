@@ -4,15 +4,16 @@
 #include <filesystem>
 #include <string>
 
-#include "replay/recording.h"
 #include "world/check.h"
+#include "world/recording.h"
 
 namespace reprise::replay {
 
 /// What became of a trace that was cut off or damaged.
 struct Recovery {
     world::EpisodeT episode;
-    Outcome outcome;   ///< of the trace that was written; verdict "error" when its end was lost
+    world::Outcome
+        outcome;       ///< of the trace that was written; verdict "error" when its end was lost
     std::string loss;  ///< what is not in it and why, or "" when everything is
 };
 

@@ -1,8 +1,9 @@
 #include "replay/slice.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <optional>
+
+#include <fmt/format.h>
 
 #include "replay/level.h"
 #include "replay/trace_writer.h"
@@ -13,7 +14,7 @@ namespace reprise::replay {
 
 namespace {
 
-SliceStart start_at(TraceReader& trace, std::uint64_t first) {
+world::SliceStart start_at(TraceReader& trace, std::uint64_t first) {
     return {first, trace.run_ticks(), trace.chain(first - 1)};
 }
 
@@ -35,7 +36,7 @@ void copy(TraceReader& trace, std::uint64_t first, std::uint64_t last, TraceWrit
 template <typename Fill>
 void write(const std::filesystem::path& out,
            TraceReader& of,
-           const SliceStart& start,
+           const world::SliceStart& start,
            std::uint64_t last,
            Fill fill) {
     const bool whole = start.first == 1 && last == start.run_ticks;

@@ -47,7 +47,7 @@ mcap::Bytes pack(const world::TownT& town) {
     return pack_noun<world::Town>(town, world::TownIdentifier());
 }
 
-mcap::Bytes packed_town(const Recording& recording) {
+mcap::Bytes packed_town(const world::Recording& recording) {
     return recording.recorded_town.empty() ? pack(recording.town) : recording.recorded_town;
 }
 

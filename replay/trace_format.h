@@ -5,7 +5,7 @@
 #include <string>
 
 #include "replay/mcap/mcap.h"
-#include "replay/recording.h"
+#include "world/recording.h"
 
 /// What is where in a trace. An MCAP file with, in this order:
 ///   metadata    reprise.run        who, where, which seed: for people and tools
@@ -36,7 +36,7 @@ mcap::Bytes pack(const world::EpisodeT& episode);
 mcap::Bytes pack(const world::TownT& town);
 
 /// Of the town in a recording; as it was recorded, if it was.
-mcap::Bytes packed_town(const Recording& recording);
+mcap::Bytes packed_town(const world::Recording& recording);
 
 /// 32 hexadecimal digits as world::to_hex writes them. Zero when it is no such text.
 world::Digest128 from_hex(const std::string& text);

@@ -1,6 +1,7 @@
 #include "replay/trace_reader.h"
 
 #include <algorithm>
+
 #include <fmt/format.h>
 
 #include "replay/level.h"
@@ -50,7 +51,7 @@ std::uint64_t TraceReader::run_ticks() const {
     return file_->slice.run_ticks > 0 ? file_->slice.run_ticks : ticks();
 }
 
-std::optional<SliceStart> TraceReader::slice() const {
+std::optional<world::SliceStart> TraceReader::slice() const {
     if (file_->slice.run_ticks == 0)
         return std::nullopt;
     return file_->slice;
@@ -88,11 +89,11 @@ const world::EpisodeT& TraceReader::episode() const {
     return file_->recording.episode;
 }
 
-const Outcome& TraceReader::outcome() const {
+const world::Outcome& TraceReader::outcome() const {
     return file_->outcome;
 }
 
-const Recording& TraceReader::recording() {
+const world::Recording& TraceReader::recording() {
     if (!file_->has_town)
         file_->read_town();
     return file_->recording;

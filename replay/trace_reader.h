@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "replay/recording.h"
+#include "world/recording.h"
 #include "world/tick.h"
 
 namespace reprise::replay {
@@ -69,7 +69,7 @@ class TraceReader {
     std::uint64_t run_ticks() const;
 
     /// What the trace says of being a part of a run; nothing when it is the whole run.
-    std::optional<SliceStart> slice() const;
+    std::optional<world::SliceStart> slice() const;
 
     /// full when the trace does not say.
     Level level() const;
@@ -88,10 +88,10 @@ class TraceReader {
     world::Digest128 chain(std::uint64_t index);
 
     const world::EpisodeT& episode() const;
-    const Outcome& outcome() const;
+    const world::Outcome& outcome() const;
 
     /// Town, network and all: read on first use.
-    const Recording& recording();
+    const world::Recording& recording();
 
     /// Bytes of the file, and bytes of all messages before compression.
     std::uint64_t file_size() const;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "replay/chain_seed.h"
 #include "replay/chunk_thread.h"
 #include "replay/level.h"
 #include "replay/trace_file.h"
@@ -21,7 +22,7 @@ mcap::View bytes_of(const std::string& text) {
 std::map<std::string, std::string> facts(const world::EpisodeT& episode,
                                          const world::Digest128& seed_of_chain,
                                          Level level,
-                                         const std::optional<SliceStart>& slice) {
+                                         const std::optional<world::SliceStart>& slice) {
     std::map<std::string, std::string> facts{
         {"format", std::to_string(format::version)},
         {"name", episode.name},
@@ -74,10 +75,10 @@ struct TraceWriter::File {
     std::unique_ptr<ChunkThread> thread;
 
     File(const std::filesystem::path& path,
-         const Recording& recording,
+         const world::Recording& recording,
          Level its_level,
          Unfinished what_to_do,
-         const std::optional<SliceStart>& slice)
+         const std::optional<world::SliceStart>& slice)
         : level(its_level),
           unfinished(what_to_do),
           file(path, its_level),
@@ -94,7 +95,8 @@ struct TraceWriter::File {
         thread = std::make_unique<ChunkThread>(file);
     }
 
-    void write_start(const Recording& recording, const std::optional<SliceStart>& slice) {
+    void write_start(const world::Recording& recording,
+                     const std::optional<world::SliceStart>& slice) {
         const world::EpisodeT& episode = recording.episode;
         file.metadata(format::run_metadata, facts(episode, chain, level, slice));
         if (slice)
@@ -132,10 +134,10 @@ struct TraceWriter::File {
 };
 
 TraceWriter::TraceWriter(const std::filesystem::path& path,
-                         const Recording& recording,
+                         const world::Recording& recording,
                          Level level,
                          Unfinished unfinished,
-                         const std::optional<SliceStart>& slice) {
+                         const std::optional<world::SliceStart>& slice) {
     REPRISE_CHECK(recording.episode.step_ns > 0, "an episode needs a step");
     REPRISE_CHECK(!slice || (slice->first > 0 && slice->first <= slice->run_ticks),
                   "a slice needs a start");
@@ -182,7 +184,7 @@ void TraceWriter::append(const RecordedTick& tick) {
     });
 }
 
-void TraceWriter::close(const Outcome& outcome) {
+void TraceWriter::close(const world::Outcome& outcome) {
     REPRISE_CHECK(!file_->closed, "the trace is closed already");
     file_->guarded([&] {
         if (!file_->chunk->messages.empty())

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "replay/recording.h"
 #include "replay/trace_reader.h"
+#include "world/recording.h"
 #include "world/tick.h"
 
 namespace reprise::replay {
@@ -25,10 +25,10 @@ class TraceWriter {
     /// `level`: how much of each tick is kept. `slice`: the trace is of a part of a run, and this
     /// is where it begins; of level inputs only at tick 1.
     TraceWriter(const std::filesystem::path& path,
-                const Recording& recording,
+                const world::Recording& recording,
                 Level level = Level::full,
                 Unfinished unfinished = Unfinished::keep,
-                const std::optional<SliceStart>& slice = std::nullopt);
+                const std::optional<world::SliceStart>& slice = std::nullopt);
     ~TraceWriter();
     TraceWriter(const TraceWriter&) = delete;
     TraceWriter& operator=(const TraceWriter&) = delete;
@@ -39,7 +39,7 @@ class TraceWriter {
     void append(const RecordedTick& tick);
 
     /// Writes outcome, index and footer, and gives the file its name.
-    void close(const Outcome& outcome);
+    void close(const world::Outcome& outcome);
 
   private:
     struct File;

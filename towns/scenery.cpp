@@ -13,7 +13,7 @@
 #include "towns/furnish/spawn_points.h"
 #include "towns/furnish/street_furniture.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 void place_scenery(world::TownT& town,
                    const Place& place,
@@ -35,4 +35,4 @@ void place_scenery(world::TownT& town,
     place_spawn_points(land);
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -6,7 +6,7 @@
 #include "towns/network/place.h"
 #include "world/town_generated.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Fills a town with all that stands in it: signal heads, signs, buildings, plants, furniture,
 /// plots and spawn points. What the place knows is kept; the rest is drawn from the town's name, so
@@ -17,4 +17,4 @@ void place_scenery(world::TownT& town,
                    const Place& place,
                    const std::vector<GiveWay>& right_of_way);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

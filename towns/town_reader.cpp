@@ -14,7 +14,7 @@
 #include "world/check.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -57,7 +57,7 @@ world::TownT read_town(const Network& network) {
     });
     if (!drivable)
         throw world::Error(network.name + ".net.xml:1: has no lane that a passenger car may use");
-    world::level_paths(town);
+    ground::level_paths(town);
     read_links(net, town);
     const Place place =
         network.place.empty() ? Place() : read_place(network.place, network.name + ".place.xml");
@@ -66,4 +66,4 @@ world::TownT read_town(const Network& network) {
     return town;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

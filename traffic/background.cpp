@@ -8,6 +8,7 @@
 #include "traffic/background.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -16,6 +17,7 @@
 #include "traffic/background_state.h"
 #include "traffic/fleet.h"
 #include "world/check.h"
+#include "world/models/vehicle_classes.h"
 
 namespace reprise::traffic {
 
@@ -25,16 +27,16 @@ using libsumo::Vehicle;
 using world::none;
 using world::SignalColor;
 
-std::vector<ClassSet> lane_classes(const world::TownT& town) {
-    std::vector<ClassSet> classes(town.lanes.size(), 0);
+std::vector<world::ClassSet> lane_classes(const world::TownT& town) {
+    std::vector<world::ClassSet> classes(town.lanes.size(), 0);
     for (std::size_t i = 0; i < town.lanes.size(); ++i) {
         if (!world::is_for_cars(town.lanes[i]))
             continue;
         const std::vector<std::string> allowed = libsumo::Lane::getAllowed(town.lanes[i].name);
         for (const std::string& name : allowed)
-            classes[i] |= class_bit(name);
+            classes[i] |= world::class_bit(name);
         if (allowed.empty())  // SUMO's way to say: all
-            classes[i] = permitted("", "");
+            classes[i] = world::permitted("", "");
     }
     return classes;
 }
@@ -117,8 +119,8 @@ std::uint32_t Background::Sumo::lane_index(std::string_view name) const {
     return found == lanes_by_name.end() ? none : found->second;
 }
 
-ClassSet Background::Sumo::classes_of(const Car& car) const {
-    return car.origin == Origin::demand ? model_class(car.model) : class_bit("passenger");
+world::ClassSet Background::Sumo::classes_of(const Car& car) const {
+    return car.origin == Origin::demand ? model_class(car.model) : world::class_bit("passenger");
 }
 
 void Background::Sumo::remove(std::size_t index, world::TickDraft& next) {
@@ -150,7 +152,8 @@ void Background::Sumo::drop_arrived(world::TickDraft& next) {
     std::vector<std::string> arrived = libsumo::Simulation::getArrivedIDList();
     std::sort(arrived.begin(), arrived.end());
     for (const std::string& name : arrived) {
-        const auto id = static_cast<std::uint32_t>(number(name, 0));
+        std::uint32_t id = 0;  // our own, written as a number
+        std::from_chars(name.data(), name.data() + name.size(), id);
         if (const Car* car = find(id))
             remove(static_cast<std::size_t>(car - cars.data()), next);
         else

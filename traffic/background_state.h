@@ -12,8 +12,11 @@
 #include "traffic/places.h"
 #include "traffic/road_graph.h"
 #include "traffic/sumo.h"
+#include "world/models/vehicle_classes.h"
 
 namespace reprise::traffic {
+
+inline constexpr double planned_route = 1500;  ///< [m] of route made at once
 
 /// All that Background keeps. Its stages, in their order, lie in orders.cpp (commands), demand.cpp
 /// (the number of cars), reading.cpp (what SUMO made of it) and background.cpp (the step).
@@ -39,7 +42,7 @@ struct Background::Sumo {
     Car* find(std::uint32_t id);
     Car& add(Car car);
     std::uint32_t lane_index(std::string_view name) const;
-    ClassSet classes_of(const Car& car) const;
+    world::ClassSet classes_of(const Car& car) const;
     std::vector<Taken> taken_ground(const world::TickView& last,
                                     const world::TickDraft& next) const;
 
@@ -57,7 +60,7 @@ struct Background::Sumo {
     world::LaneMap lane_map;
     RoadGraph graph;
     Places places;
-    ClassSet at_home;  ///< classes that most roads are open to
+    world::ClassSet at_home;  ///< classes that most roads are open to
     Mirrors mirrors;
     std::unordered_map<std::string_view, std::uint32_t> lanes_by_name;  ///< looked up, never walked
 
@@ -93,7 +96,7 @@ struct PlaceSearch {
 
 std::optional<Place> find_place(const Places& places,
                                 double car_length,
-                                ClassSet car,
+                                world::ClassSet car,
                                 std::span<const Taken> taken,
                                 PlaceSearch& search);
 

@@ -8,6 +8,7 @@
 #include "traffic/fleet.h"
 #include "traffic/walk.h"
 #include "world/models/catalogue.h"
+#include "world/models/vehicle_classes.h"
 
 namespace reprise::traffic {
 
@@ -16,7 +17,6 @@ namespace {
 using libsumo::Vehicle;
 using world::none;
 
-constexpr double plan = 1500;        // [m] of route made at once
 constexpr double short_plan = 500;   // [m] left: time to plan on
 constexpr double too_long = 240;     // [s] of standing, after which a car gives up its place
 constexpr double out_of_sight = 80;  // [m] from every physics vehicle
@@ -32,7 +32,7 @@ bool is_seen(const Eigen::Vector3d& p, const world::TickView& last, double sight
 
 std::optional<Place> find_place(const Places& places,
                                 double car_length,
-                                ClassSet car,
+                                world::ClassSet car,
                                 std::span<const Taken> taken,
                                 PlaceSearch& search) {
     for (int i = 0; i < search.tries; ++i) {
@@ -92,7 +92,7 @@ bool Background::Sumo::add_demand_car(const std::vector<Taken>& taken,
     const double drawn = world::draw(episode.seed, tick, world::Purpose::demand_model, place_draws);
     car.model = demand_model(drawn, at_home);
     const double length = world::vehicle_models()[car.model].length;
-    const ClassSet classes = model_class(car.model);
+    const world::ClassSet classes = model_class(car.model);
     PlaceSearch search{episode.seed,
                        tick,
                        world::Purpose::demand_place,
@@ -106,7 +106,7 @@ bool Background::Sumo::add_demand_car(const std::vector<Taken>& taken,
         return false;
     ++next_id;
     car.speed = entry_speed(town.lanes[place->lane], *place, search.margin / 2);
-    walk_from(place->lane, car, graph, classes, episode.seed, plan);
+    walk_from(place->lane, car, graph, classes, episode.seed, planned_route);
     insert_into_sumo(car, *place, demand_type(car.model));
 
     world::EventT event;
@@ -172,7 +172,7 @@ void Background::Sumo::keep_routes() {
             left += graph.edge(edge).length;
         if (left >= short_plan && car.route.size() > 2)
             continue;
-        walk_on(car, graph, classes_of(car), episode.seed, plan);
+        walk_on(car, graph, classes_of(car), episode.seed, planned_route);
         Vehicle::setRoute(car.sumo, graph.names(car.route));
     }
 }

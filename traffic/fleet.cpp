@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "world/models/catalogue.h"
+#include "world/models/vehicle_classes.h"
 
 namespace reprise::traffic {
 
@@ -92,11 +93,11 @@ std::string scripted_type(std::uint16_t model) {
     return fmt::format("s{}", model);
 }
 
-ClassSet model_class(std::uint16_t model) {
-    return class_bit(world::vehicle_models()[model].sumo_class);
+world::ClassSet model_class(std::uint16_t model) {
+    return world::class_bit(world::vehicle_models()[model].sumo_class);
 }
 
-std::uint16_t demand_model(double drawn, ClassSet at_home) {
+std::uint16_t demand_model(double drawn, world::ClassSet at_home) {
     const auto share = [&](std::uint16_t model) {
         return (model_class(model) & at_home) != 0 ? manner_of(model).share : 0;
     };

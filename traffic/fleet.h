@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "towns/network/network_xml.h"
+#include "world/models/vehicle_classes.h"
 
 namespace reprise::traffic {
 
@@ -16,11 +16,11 @@ std::string demand_type(std::uint16_t model);
 std::string scripted_type(std::uint16_t model);
 
 /// What may drive where the model's class is asked for.
-ClassSet model_class(std::uint16_t model);
+world::ClassSet model_class(std::uint16_t model);
 
 /// The model for a draw in [0, 1): mostly cars, some vans, few lorries, buses and two-wheelers.
 /// `at_home`: the classes that the town's roads are open to; others do not come.
-std::uint16_t demand_model(double drawn, ClassSet at_home);
+std::uint16_t demand_model(double drawn, world::ClassSet at_home);
 
 /// Metres from the origin (rear axle) to the front bumper, which is where SUMO's positions lie.
 double origin_to_front(std::uint16_t model);

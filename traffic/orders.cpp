@@ -9,6 +9,7 @@
 #include "traffic/walk.h"
 #include "world/check.h"
 #include "world/models/catalogue.h"
+#include "world/models/vehicle_classes.h"
 
 namespace reprise::traffic {
 
@@ -30,8 +31,6 @@ constexpr int changes_as_told = 1 + 256;
 
 constexpr double hardest_braking = 9;     // [m/s^2] a dry road's limit
 constexpr double hardest_starting = 4.5;  // [m/s^2] a quick car
-
-constexpr double plan = 1500;  // [m] of route made at once
 
 [[noreturn]] void fail(const world::EpisodeT& episode,
                        const world::CommandT& command,
@@ -93,7 +92,7 @@ void Background::Sumo::spawn(const world::CommandT& command,
                            20,
                            40};
         const auto found = find_place(
-            places, model.length, class_bit("passenger"), taken_ground(last, next), search);
+            places, model.length, world::class_bit("passenger"), taken_ground(last, next), search);
         if (!found)
             fail(episode, command, fmt::format("spawn: no free place for a {}", model.name));
         place = *found;
@@ -120,7 +119,8 @@ void Background::Sumo::spawn(const world::CommandT& command,
     }
 
     if (!parked || (on_road && stands_in_the_way(lane, model, command.offset))) {
-        walk_from(place.lane, car, graph, class_bit("passenger"), episode.seed, plan);
+        walk_from(
+            place.lane, car, graph, world::class_bit("passenger"), episode.seed, planned_route);
         insert_into_sumo(car, ground, scripted_type(car.model));
         Vehicle::setLaneChangeMode(car.sumo, parked ? 0 : changes_as_told);
         if (parked) {
@@ -193,7 +193,7 @@ void Background::Sumo::order(const world::CommandT& command, Car& car) {
             if (route.size() < 2)
                 break;
             car.route = route;
-            walk_on(car, graph, class_bit("passenger"), episode.seed, plan);
+            walk_on(car, graph, world::class_bit("passenger"), episode.seed, planned_route);
             Vehicle::setRoute(car.sumo, graph.names(car.route));
             break;
         }
@@ -218,7 +218,12 @@ void Background::Sumo::follow_orders() {
         if (car.lane == car.lane_order->lane || tick > car.lane_order->until) {
             // From its new lane it may need another way.
             if (car.lane == car.lane_order->lane) {
-                walk_from(car.lane, car, graph, class_bit("passenger"), episode.seed, plan);
+                walk_from(car.lane,
+                          car,
+                          graph,
+                          world::class_bit("passenger"),
+                          episode.seed,
+                          planned_route);
                 Vehicle::setRoute(car.sumo, graph.names(car.route));
             }
             car.lane_order.reset();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/models/vehicle_classes.h"
+
 namespace reprise::traffic {
 
 namespace {
@@ -27,7 +29,7 @@ Places::Places(const world::TownT& town, const RoadGraph& graph) : town_(&town),
     }
 }
 
-std::optional<Place> Places::at(double drawn, double car_length, ClassSet car) const {
+std::optional<Place> Places::at(double drawn, double car_length, world::ClassSet car) const {
     const double metre = drawn * ends_.back();
     const auto found = std::upper_bound(ends_.begin(), ends_.end(), metre);
     const auto index = std::min(static_cast<std::size_t>(found - ends_.begin()), lanes_.size() - 1);
@@ -39,16 +41,16 @@ std::optional<Place> Places::at(double drawn, double car_length, ClassSet car) c
     return Place{lane, s};
 }
 
-ClassSet Places::common_classes() const {
-    ClassSet common = 0;
+world::ClassSet Places::common_classes() const {
+    world::ClassSet common = 0;
     const double total = ends_.empty() ? 0 : ends_.back();
-    for (const std::string_view name : vehicle_class_names()) {
+    for (const std::string_view name : world::vehicle_class_names()) {
         double open = 0;
         for (const std::uint32_t lane : lanes_)
-            if (graph_->may_use(lane, class_bit(name)))
+            if (graph_->may_use(lane, world::class_bit(name)))
                 open += town_->lanes[lane].length;
         if (open >= total / 2)
-            common |= class_bit(name);
+            common |= world::class_bit(name);
     }
     return common;
 }

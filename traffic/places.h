@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "traffic/road_graph.h"
+#include "world/models/vehicle_classes.h"
 #include "world/random.h"
 #include "world/town.h"
 
@@ -34,10 +35,10 @@ class Places {
 
     /// The place that this number in [0, 1) falls on, for a car of this length and class. None
     /// where the car does not fit between the ends of the lane or may not drive.
-    std::optional<Place> at(double drawn, double car_length, ClassSet car) const;
+    std::optional<Place> at(double drawn, double car_length, world::ClassSet car) const;
 
     /// The classes that may use at least half of the driving lanes' length.
-    ClassSet common_classes() const;
+    world::ClassSet common_classes() const;
 
     /// Is there nothing within `margin` metres before and behind a car of this length there, and no
     /// eye within `sight`?

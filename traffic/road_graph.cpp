@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "world/models/vehicle_classes.h"
 #include "world/tick.h"
 
 namespace reprise::traffic {
@@ -15,7 +16,7 @@ using world::LaneKind;
 using world::LaneT;
 using world::none;
 
-RoadGraph::RoadGraph(const world::TownT& town, std::vector<ClassSet> classes)
+RoadGraph::RoadGraph(const world::TownT& town, std::vector<world::ClassSet> classes)
     : town_(&town),
       classes_(std::move(classes)),
       edge_of_lane_(town.lanes.size(), none),
@@ -57,7 +58,7 @@ RoadGraph::RoadGraph(const world::TownT& town, std::vector<ClassSet> classes)
     }
 }
 
-std::vector<std::uint32_t> RoadGraph::ways_on(std::uint32_t lane, ClassSet car) const {
+std::vector<std::uint32_t> RoadGraph::ways_on(std::uint32_t lane, world::ClassSet car) const {
     auto ways = [&](std::uint32_t from, bool around) {
         std::vector<std::uint32_t> found;
         for (const world::Link& link : town_->lanes[from].links)

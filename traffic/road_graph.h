@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "towns/network/network_xml.h"
+#include "world/models/vehicle_classes.h"
 #include "world/town_generated.h"
 
 namespace reprise::traffic {
@@ -13,7 +13,7 @@ namespace reprise::traffic {
 class RoadGraph {
   public:
     /// `classes` has one set a lane of the town, see ClassSet.
-    RoadGraph(const world::TownT& town, std::vector<ClassSet> classes);
+    RoadGraph(const world::TownT& town, std::vector<world::ClassSet> classes);
 
     struct Edge {
         std::string name;
@@ -32,11 +32,13 @@ class RoadGraph {
     /// The edge that an internal lane leads to; for others the same as edge_of.
     std::uint32_t edge_after(std::uint32_t lane) const { return edge_after_[lane]; }
 
-    bool may_use(std::uint32_t lane, ClassSet car) const { return (classes_[lane] & car) != 0; }
+    bool may_use(std::uint32_t lane, world::ClassSet car) const {
+        return (classes_[lane] & car) != 0;
+    }
 
     /// The lanes that a car of this class can go to from the end of `lane`, without a lane change
     /// where possible; turning around is the last resort. Ascending; empty at a dead end.
-    std::vector<std::uint32_t> ways_on(std::uint32_t lane, ClassSet car) const;
+    std::vector<std::uint32_t> ways_on(std::uint32_t lane, world::ClassSet car) const;
 
     /// Edges of the shortest way from one edge to another, both included; empty when there is none.
     std::vector<std::uint32_t> shortest(std::uint32_t from, std::uint32_t to) const;
@@ -45,7 +47,7 @@ class RoadGraph {
 
   private:
     const world::TownT* town_;
-    std::vector<ClassSet> classes_;
+    std::vector<world::ClassSet> classes_;
     std::vector<Edge> edges_;  ///< sorted by name
     std::vector<std::uint32_t> edge_of_lane_;
     std::vector<std::uint32_t> edge_after_;

@@ -1,11 +1,15 @@
 #include "traffic/walk.h"
 
+#include "world/models/vehicle_classes.h"
 #include "world/random.h"
 
 namespace reprise::traffic {
 
-void walk_on(
-    Car& car, const RoadGraph& graph, ClassSet classes, std::uint64_t seed, double distance) {
+void walk_on(Car& car,
+             const RoadGraph& graph,
+             world::ClassSet classes,
+             std::uint64_t seed,
+             double distance) {
     double planned = 0;
     while (planned < distance) {
         const std::vector<std::uint32_t> ways = graph.ways_on(car.last_lane, classes);
@@ -23,7 +27,7 @@ void walk_on(
 void walk_from(std::uint32_t lane,
                Car& car,
                const RoadGraph& graph,
-               ClassSet classes,
+               world::ClassSet classes,
                std::uint64_t seed,
                double distance) {
     // From inside a junction the plan starts with the edge that the car came from.

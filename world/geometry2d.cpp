@@ -41,6 +41,14 @@ Loop in_plan(const std::vector<Vec3>& outline) {
     return loop;
 }
 
+Loop in_plan(const std::vector<Eigen::Vector3d>& outline) {
+    Loop loop;
+    loop.reserve(outline.size());
+    for (const Eigen::Vector3d& p : outline)
+        loop.push_back(p.head<2>());
+    return loop;
+}
+
 Box box_around(const Loop& loop, double margin) {
     Box box;
     for (const Eigen::Vector2d& p : loop)

@@ -41,6 +41,7 @@ inline double cross(const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
 }
 
 Loop in_plan(const std::vector<Vec3>& outline);
+Loop in_plan(const std::vector<Eigen::Vector3d>& outline);
 
 Box box_around(const Loop& loop, double margin = 0);
 

@@ -144,7 +144,7 @@ void add_export(CLI::App& app, ExportOptions& options) {
         "         reprise export a.mcap --to foxglove -o a.foxglove.mcap --images noon");
 }
 
-void add_import(CLI::App& app, ImportOptions& options) {
+void add_log_import(CLI::App& app, ImportOptions& options) {
     CLI::App& command =
         *app.add_subcommand("import", "Make a trace of a recording of CARLA's recorder");
     command.add_option("log", options.log, "The recording")->required()->type_name("CARLA.log");
@@ -177,7 +177,7 @@ void add_tool_commands(CLI::App& app, ToolOptions& tools) {
     add_merge(app, tools.merge);
     add_query(app, tools.query);
     add_export(app, tools.export_to);
-    add_import(app, tools.import_from);
+    add_log_import(app, tools.import_from);
 }
 
 }  // namespace reprise::cli

@@ -10,7 +10,7 @@ constexpr const char* town_help =
     "A town: its name, a folder that `town import` made, a SUMO network (.net.xml[.gz]), or a map "
     "(.xodr, .osm[.gz])";
 
-void add_import(CLI::App& town, TownImportOptions& import) {
+void add_map_import(CLI::App& town, TownImportOptions& import) {
     CLI::App& command = *town.add_subcommand("import", "Make a town of a map");
     command
         .add_option(
@@ -70,7 +70,7 @@ void add_check(CLI::App& town, TownCheckOptions& check) {
 void add_town_commands(CLI::App& app, TownOptions& town) {
     CLI::App& group = *app.add_subcommand("town", "Import, show or check a town");
     group.require_subcommand(1);
-    add_import(group, town.import);
+    add_map_import(group, town.import);
     add_show(group, town.show);
     add_check(group, town.check);
     for (CLI::App* command : group.get_subcommands([](const CLI::App*) { return true; }))

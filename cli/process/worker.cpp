@@ -102,7 +102,7 @@ void limit_myself() {
 std::string in_worker(const std::string& name, const std::function<std::string()>& work) {
     std::fflush(nullptr);
     const Note note;
-    const traffic::AwaitedSignals signals;
+    const towns::AwaitedSignals signals;
     const pid_t parent = getpid();
     const pid_t child = fork();
     if (child == 0)

@@ -20,14 +20,14 @@ namespace reprise::cli {
 
 namespace {
 
-using world::Criterion;
+using towns::Criterion;
 
 /// All that a town is made into, and how long each part took. [s]
 struct Built {
     world::TownT town;
-    world::GroundMesh ground;
-    world::GroundMesh markings;
-    traffic::WalkMap walk_map;
+    ground::GroundMesh ground;
+    ground::GroundMesh markings;
+    towns::WalkMap walk_map;
     std::vector<std::pair<std::string, double>> seconds;
 };
 
@@ -45,13 +45,13 @@ class Stopwatch {
 
 Built build(const std::string& name) {
     Stopwatch watch;
-    world::TownT town = traffic::read_town(load_town(name));
+    world::TownT town = towns::read_town(load_town(name));
     const double reading = watch.lap();
-    world::GroundMesh ground = world::build_ground(town);
+    ground::GroundMesh ground = ground::build_ground(town);
     const double meshing = watch.lap();
-    world::GroundMesh markings = world::build_markings(town);
+    ground::GroundMesh markings = ground::build_markings(town);
     const double marking = watch.lap();
-    traffic::WalkMap walk_map(ground);
+    towns::WalkMap walk_map(ground);
     return {
         std::move(town),
         std::move(ground),
@@ -75,19 +75,19 @@ Criterion check_repeats(const Built& first, const Built& second) {
             faults.push_back({what, Eigen::Vector2d::Zero(), 1});
     };
     compare("town", digest_of(first.town), digest_of(second.town));
-    compare("ground", world::digest_of(first.ground), world::digest_of(second.ground));
-    compare("markings", world::digest_of(first.markings), world::digest_of(second.markings));
+    compare("ground", towns::digest_of(first.ground), towns::digest_of(second.ground));
+    compare("markings", towns::digest_of(first.markings), towns::digest_of(second.markings));
     compare("walk map", first.walk_map.digest(), second.walk_map.digest());
-    return world::none_of(
+    return towns::none_of(
         "differences when read twice", std::move(faults), "town, ground, markings, walk map");
 }
 
 std::vector<Criterion> check(const Built& first, const Built& second) {
-    std::vector<Criterion> criteria = world::check_ground(first.town, first.ground);
-    criteria.push_back(traffic::check_walking(first.town, first.walk_map));
-    for (Criterion& criterion : world::check_furniture(first.town))
+    std::vector<Criterion> criteria = towns::check_ground(first.town, first.ground);
+    criteria.push_back(towns::check_walking(first.town, first.walk_map));
+    for (Criterion& criterion : towns::check_furniture(first.town))
         criteria.push_back(std::move(criterion));
-    for (Criterion& criterion : world::check_standing(first.town, first.ground))
+    for (Criterion& criterion : towns::check_standing(first.town, first.ground))
         criteria.push_back(std::move(criterion));
     criteria.push_back(check_repeats(first, second));
     return criteria;

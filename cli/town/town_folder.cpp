@@ -66,17 +66,15 @@ void require_free(const fs::path& folder, bool replace) {
 
 }  // namespace
 
-std::string make_town_folder(const traffic::TownImport& wish,
-                             const fs::path& folder,
-                             bool replace) {
+std::string make_town_folder(const towns::TownImport& wish, const fs::path& folder, bool replace) {
     // "towns/x/" names the folder x.
     const fs::path target = folder.has_filename() ? folder : folder.parent_path();
     try {
         require_free(target, replace);
         const Partial partial(target.string() + ".partial");
         // In a process of its own: whatever ends that, what it began is removed here.
-        const std::string report = in_worker(
-            wish.map.string(), [&] { return traffic::import_town(wish, partial.path()); });
+        const std::string report =
+            in_worker(wish.map.string(), [&] { return towns::import_town(wish, partial.path()); });
         fs::remove_all(target);
         fs::rename(partial.path(), target);
         return report;

@@ -11,10 +11,10 @@
 namespace reprise::cli {
 
 int town_import(const TownImportOptions& options) {
-    if (!options.name.empty() && options.name != traffic::harmless_name(options.name))
+    if (!options.name.empty() && options.name != towns::harmless_name(options.name))
         throw world::Error("--name " + options.name +
                            ": letters, digits, '_', '-' and '.' were expected");
-    const traffic::TownImport wish{
+    const towns::TownImport wish{
         options.source, options.name, options.left_hand, options.sidewalks == "guess"};
     fmt::print("{}", make_town_folder(wish, options.directory, options.force));
     fmt::print("{}: written; `reprise town check {}` tells whether all of it can be driven\n",

@@ -59,10 +59,10 @@ void require_some_town(const world::Box& region, const world::TownT& town) {
 
 int town_show(const TownShowOptions& options) {
     const world::Box region = region_of(options.region);
-    const world::TownT town = traffic::read_town(load_town(options.town));
+    const world::TownT town = towns::read_town(load_town(options.town));
     require_some_town(region, town);
     const world::SensorFrame map = render::town_map(
-        town, world::build_ground(town), world::build_markings(town), {region, options.size});
+        town, ground::build_ground(town), ground::build_markings(town), {region, options.size});
     render::write_png(map, options.output);
     fmt::print("{}: {} x {} pixels\n", options.output, map.width, map.height);
     return exit_good;

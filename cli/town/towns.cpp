@@ -66,7 +66,7 @@ bool is_map(const std::string& town) {
 }
 
 /// A town made of a map for this run only.
-traffic::Network import_map(const std::string& map) {
+towns::Network import_map(const std::string& map) {
     std::string folder = (fs::temp_directory_path() / "reprise_town_XXXXXX").string();
     if (mkdtemp(folder.data()) == nullptr)
         throw world::Error(folder + ": cannot be made: " + std::strerror(errno));
@@ -82,7 +82,7 @@ traffic::Network import_map(const std::string& map) {
 
     fmt::print(stderr, "{}: importing it; `reprise town import` would keep the town\n", map);
     make_town_folder({map, "", false, false}, folder, false);
-    return traffic::load_network(network_in(folder));
+    return towns::load_network(network_in(folder));
 }
 
 bool looks_like_path(const std::string& town) {
@@ -117,8 +117,8 @@ fs::path find_network(const std::string& town, const fs::path& scenario) {
 
 }  // namespace
 
-traffic::Network load_town(const std::string& town, const fs::path& scenario) {
-    return is_map(town) ? import_map(town) : traffic::load_network(find_network(town, scenario));
+towns::Network load_town(const std::string& town, const fs::path& scenario) {
+    return is_map(town) ? import_map(town) : towns::load_network(find_network(town, scenario));
 }
 
 }  // namespace reprise::cli

@@ -11,6 +11,6 @@ namespace reprise::cli {
 /// that holds one, or of a map (.xodr, .osm[.gz]), which is imported then (and said so on stderr);
 /// or a name, looked up as towns/NAME/NAME.net.xml beside the scenario, then in the scenarios that
 /// belong to this program. Throws world::Error that lists the towns there are.
-traffic::Network load_town(const std::string& town, const std::filesystem::path& scenario = {});
+towns::Network load_town(const std::string& town, const std::filesystem::path& scenario = {});
 
 }  // namespace reprise::cli

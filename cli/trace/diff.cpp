@@ -25,10 +25,9 @@ std::string commands_again(const DiffOptions& options,
                            std::uint64_t tick) {
     const auto again = [&](replay::TraceReader& trace) {
         const world::EpisodeT& episode = trace.episode();
-        return rerun_command(
-            trace.path(),
-            episode,
-            tick == 0 ? replay::tick_limit(episode) : length_beyond(episode, tick));
+        return rerun_command(trace.path(),
+                             episode,
+                             tick == 0 ? world::tick_limit(episode) : length_beyond(episode, tick));
     };
     if (expected.chain(0) == found.chain(0) &&
         replay::branch_text(expected.episode(), found.episode()).empty())

@@ -39,11 +39,11 @@ std::uint64_t step_ns(const ImportOptions& options) {
 std::optional<exchange::CarlaTown> read_town(const ImportOptions& options) {
     if (options.town.empty())
         return std::nullopt;
-    traffic::Network network = load_town(options.town, options.log);
+    towns::Network network = load_town(options.town, options.log);
     if (!network.notes.empty())
         fmt::print(stderr, "{}", network.notes);
     exchange::CarlaTown town;
-    town.town = traffic::read_town(network);
+    town.town = towns::read_town(network);
     town.path = options.town;
     town.network = std::move(network.xml);
     return town;

@@ -111,7 +111,7 @@ struct Screen {
     }
 
     void print_outcome() const {
-        const replay::Outcome& outcome = trace.outcome();
+        const world::Outcome& outcome = trace.outcome();
         const bool bad = outcome.verdict == "failed" || outcome.verdict == "error";
         row("outcome",
             paint(bad ? red : green, outcome.verdict) +

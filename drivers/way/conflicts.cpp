@@ -5,8 +5,9 @@
 #include <optional>
 
 #include "world/frames.h"
+#include "world/geometry2d.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
@@ -32,10 +33,6 @@ Line line_of(const LaneGraph& graph, const std::vector<std::uint32_t>& lanes) {
     return line;
 }
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 struct Meeting {
     double ours = 0;
     double theirs = 0;
@@ -47,12 +44,12 @@ std::optional<Meeting> crossing(const Line& ours, const Line& theirs) {
         const Eigen::Vector2d our_step = ours.points[i + 1] - ours.points[i];
         for (std::size_t k = 0; k + 1 < theirs.points.size(); ++k) {
             const Eigen::Vector2d their_step = theirs.points[k + 1] - theirs.points[k];
-            const double area = cross(our_step, their_step);
+            const double area = world::cross(our_step, their_step);
             if (std::abs(area) < 1e-9)
                 continue;
             const Eigen::Vector2d between = theirs.points[k] - ours.points[i];
-            const double u = cross(between, their_step) / area;
-            const double v = cross(between, our_step) / area;
+            const double u = world::cross(between, their_step) / area;
+            const double v = world::cross(between, our_step) / area;
             if (u >= 0 && u <= 1 && v >= 0 && v <= 1)
                 return Meeting{ours.s[i] + u * our_step.norm(),
                                theirs.s[k] + v * their_step.norm()};
@@ -130,4 +127,4 @@ std::vector<Foe> find_foes(const LaneGraph& graph,
     return foes;
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

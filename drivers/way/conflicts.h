@@ -6,7 +6,7 @@
 #include "drivers/way/lane_graph.h"
 #include "world/tick.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// A place on a lane whose traffic crosses or joins our way through a junction.
 struct Foe {
@@ -28,4 +28,4 @@ std::vector<Foe> find_foes(const LaneGraph& graph,
                            const world::Link& link,
                            double gate_s);
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

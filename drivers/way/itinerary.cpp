@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 void Itinerary::set_stops(std::vector<std::uint32_t> stops, double last_s) {
     stops_ = std::move(stops);
@@ -97,4 +97,4 @@ void Itinerary::add_to(world::Hasher& hasher) const {
     hasher.add(last_s_);
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -9,7 +9,7 @@
 #include "drivers/way/lane_graph.h"
 #include "world/digest.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// Where a driver is told to go: stops, and the lanes to the next ones as far as they are planned.
 /// A plan may be dropped at any time; the stops make a new one. A stop is entered by the path long
@@ -69,4 +69,4 @@ class Itinerary {
     double last_s_ = 0;
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -5,7 +5,7 @@
 #include "world/check.h"
 #include "world/lanes/planner.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
@@ -189,4 +189,4 @@ std::optional<Detour> LaneGraph::detour(std::uint32_t lane,
     return best;
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -9,7 +9,7 @@
 #include "world/tick.h"
 #include "world/town.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// Where a way leads in the end.
 enum class Outlook : std::uint8_t {
@@ -78,4 +78,4 @@ class LaneGraph {
     std::vector<std::vector<std::uint32_t>> incoming_;
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -4,7 +4,7 @@
 
 #include "world/frames.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 std::vector<Eigen::Vector3d> part_of(const world::LaneT& lane, double from, double to) {
     std::vector<Eigen::Vector3d> line{world::point_at(lane, from).position};
@@ -37,4 +37,4 @@ std::vector<Eigen::Vector3d> change_line(const world::LaneT& here,
     return line;
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -6,7 +6,7 @@
 
 #include "world/town.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// The centre line between two places on a lane, [m] from its start; at least two points, world.
 std::vector<Eigen::Vector3d> part_of(const world::LaneT& lane, double from, double to);
@@ -19,4 +19,4 @@ std::vector<Eigen::Vector3d> change_line(const world::LaneT& here,
                                          double begin,
                                          double length);
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -5,7 +5,7 @@
 
 #include "world/frames.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
@@ -156,4 +156,4 @@ void Path::add_to(world::Hasher& hasher) const {
         hasher.add(number);
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

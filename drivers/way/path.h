@@ -8,7 +8,7 @@
 
 #include "world/digest.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// A sample of the driver's path. Yaw runs on without wrapping, so that differences are turns.
 struct PathPoint {
@@ -84,4 +84,4 @@ class Path {
     double rest_ = 0;                                 ///< [m] from the last sample to the tail
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

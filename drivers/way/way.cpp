@@ -9,7 +9,7 @@
 #include "world/frames.h"
 #include "world/random.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 namespace {
 
@@ -317,4 +317,4 @@ void Way::note_plan() {
     plan_digest_ = hasher.digest64();
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

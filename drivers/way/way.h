@@ -10,7 +10,7 @@
 #include "drivers/way/path.h"
 #include "world/digest.h"
 
-namespace reprise::kernel {
+namespace reprise::drivers {
 
 /// A lane under the path, from `start` to `end` along the path.
 struct PathPiece {
@@ -138,4 +138,4 @@ class Way {
     std::uint64_t plan_digest_ = 0;  ///< of path, gates and changes, as of their last change
 };
 
-}  // namespace reprise::kernel
+}  // namespace reprise::drivers

@@ -6,6 +6,7 @@
 
 #include "world/frames.h"
 #include "world/models/catalogue.h"
+#include "world/units.h"
 
 namespace reprise::exchange {
 
@@ -78,13 +79,13 @@ Vector3d ahead_of(double yaw, double pitch) {
 }
 
 Body body_of(const CarlaPose& pose, const CarlaSurvey& survey, const Vector3d& offset) {
-    constexpr double degree = std::numbers::pi / 180;
     const CarlaRole& role = survey.roles.at(pose.actor);
     Body body;
     body.id = pose.actor;
-    body.yaw = world::wrap_angle(-pose.rotation.z() * degree);
-    body.pitch =
-        role.actor.kind == CarlaKind::walker ? 0 : world::wrap_angle(pose.rotation.y() * degree);
+    body.yaw = world::wrap_angle(-pose.rotation.z() * world::degree);
+    body.pitch = role.actor.kind == CarlaKind::walker
+                     ? 0
+                     : world::wrap_angle(pose.rotation.y() * world::degree);
     body.position = from_carla(pose.location) + offset +
                     role.ahead * ahead_of(body.yaw, body.pitch) - Vector3d(0, 0, role.above);
     return body;

@@ -9,6 +9,7 @@
 #include "exchange/carla/carla_survey.h"
 #include "exchange/carla/carla_town.h"
 #include "exchange/geo_origin.h"
+#include "replay/chain_seed.h"
 #include "replay/trace_writer.h"
 #include "world/check.h"
 #include "world/digest.h"
@@ -49,11 +50,11 @@ std::uint64_t ticks_of(const CarlaSurvey& survey, const std::string& name, std::
     return ticks;
 }
 
-replay::Recording make_recording(const CarlaImportOptions& options,
-                                 const CarlaSurvey& survey,
-                                 const std::string& source,
-                                 std::uint64_t ticks) {
-    replay::Recording recording;
+world::Recording make_recording(const CarlaImportOptions& options,
+                                const CarlaSurvey& survey,
+                                const std::string& source,
+                                std::uint64_t ticks) {
+    world::Recording recording;
     world::EpisodeT& episode = recording.episode;
     episode.name = std::filesystem::path(options.name).stem().string();
     episode.scenario_path = options.name;
@@ -119,8 +120,7 @@ CarlaReport import_carla(CarlaBytes bytes,
                                          : name + ": holds no frames");
     report.ticks = ticks_of(survey, name, options.timing.step_ns);
     report.source = source_text(log, options.name);
-    const replay::Recording recording =
-        make_recording(options, survey, report.source, report.ticks);
+    const world::Recording recording = make_recording(options, survey, report.source, report.ticks);
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();
     offset.head<2>() = net_offset(recording.network);
     std::vector<std::uint32_t> lights = match_signals(recording.town, survey, offset);
@@ -142,7 +142,7 @@ CarlaReport import_carla(CarlaBytes bytes,
         options.progress(size + log.offset());
     }
     report.jumps = ticks.jumps();
-    replay::Outcome outcome;
+    world::Outcome outcome;
     outcome.verdict = report.damage ? "error" : "completed";
     outcome.reason = report.damage ? "the log ends early" : "the log ended";
     outcome.ticks = report.ticks;

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 // capsules of one height for all grown ups.
 constexpr double half_a_walker = 0.9;
 constexpr double half_a_child = 0.6;
-constexpr double per_metre = 32;  // of heights that count as one
+constexpr double height_steps = 32;  // of heights that count as one
 
 class Surveyor {
   public:
@@ -55,7 +55,7 @@ class Surveyor {
         for (const auto& [height, count] : heights_) {
             if (2 * below >= count_)
                 break;
-            found.height = static_cast<double>(height) / per_metre;
+            found.height = static_cast<double>(height) / height_steps;
             below += count;
         }
     }
@@ -85,7 +85,7 @@ class Surveyor {
         found.high = found.high.cwiseMax(at);
         if (walks)
             return;  // its origin is only about there
-        ++heights_[std::llround(at.z() * per_metre)];
+        ++heights_[std::llround(at.z() * height_steps)];
         ++count_;
     }
 

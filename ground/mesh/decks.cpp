@@ -8,22 +8,22 @@
 #include "world/frames.h"
 #include "world/town.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double hanging = 1.5;  ///< [m] over what is below; less is an embankment's edge
-constexpr double spacing = 4;    ///< [m] along a lane, between questions whether it hangs
-constexpr double level = 0.3;    ///< [m] roads beside each other differ by less
+constexpr double hanging = 1.5;      ///< [m] over what is below; less is an embankment's edge
+constexpr double probe_spacing = 4;  ///< [m] along a lane, between questions whether it hangs
+constexpr double beside_step = 0.3;  ///< [m] roads beside each other differ by less
 
-bool is_flat(const TownT& town) {
+bool is_town_flat(const world::TownT& town) {
     double low = 0;
     double high = 0;
     bool first = true;
-    for (const LaneT& lane : town.lanes)
-        for (const Vec3& p : lane.centre) {
+    for (const world::LaneT& lane : town.lanes)
+        for (const world::Vec3& p : lane.centre) {
             low = first ? p.z() : std::min(low, p.z());
             high = first ? p.z() : std::max(high, p.z());
             first = false;
@@ -33,7 +33,7 @@ bool is_flat(const TownT& town) {
 
 /// Terrain lies under everything: where none is found below the surface, it carries that.
 bool hangs(const GroundProbe& probe, const Vector3d& p) {
-    const auto below = probe.below(p - level * Vector3d::UnitZ());
+    const auto below = probe.below(p - beside_step * Vector3d::UnitZ());
     return below && below->z < p.z() - hanging;
 }
 
@@ -46,16 +46,16 @@ void add_side(const GroundProbe& probe,
     const double length = along.head<2>().norm();
     if (length < 1e-3)
         return;
-    constexpr double beside = 0.15;  // [m]
-    const Vector3d outward = Vector3d(along.y(), -along.x(), 0) / length * beside;
+    constexpr double beside_step = 0.15;  // [m]
+    const Vector3d outward = Vector3d(along.y(), -along.x(), 0) / length * beside_step;
     const Vector3d middle = (from + to) / 2;
-    const auto next = probe.below(middle + outward + level * Vector3d::UnitZ());
-    if (!next || next->z < middle.z() - level)
+    const auto next = probe.below(middle + outward + beside_step * Vector3d::UnitZ());
+    if (!next || next->z < middle.z() - beside_step)
         ground.add_wall(from, to, -deck_depth, 0, Surface::deck);
 }
 
-void add_deck(const LaneT& lane, const GroundProbe& probe, GroundBuilder& ground) {
-    const std::vector<Vector3d> line = with_more_points(clean_line(lane.centre), spacing);
+void add_deck(const world::LaneT& lane, const GroundProbe& probe, GroundBuilder& ground) {
+    const std::vector<Vector3d> line = with_more_points(clean_line(lane.centre), probe_spacing);
     const Ribbon ribbon = make_ribbon(line, -lane.width / 2, lane.width / 2);
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         if (!hangs(probe, (line[i] + line[i + 1]) / 2))
@@ -71,14 +71,15 @@ void add_deck(const LaneT& lane, const GroundProbe& probe, GroundBuilder& ground
 
 }  // namespace
 
-void add_decks(const TownT& town, GroundBuilder& ground) {
-    if (is_flat(town))
+void add_decks(const world::TownT& town, GroundBuilder& ground) {
+    if (is_town_flat(town))
         return;
     const GroundMesh above = ground.mesh();
     const GroundProbe probe(above);
-    for (const LaneT& lane : town.lanes)
-        if (is_for_cars(lane) || lane.kind == LaneKind::sidewalk || lane.kind == LaneKind::other)
+    for (const world::LaneT& lane : town.lanes)
+        if (world::is_for_cars(lane) || lane.kind == world::LaneKind::sidewalk ||
+            lane.kind == world::LaneKind::other)
             add_deck(lane, probe, ground);
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

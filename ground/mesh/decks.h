@@ -2,13 +2,13 @@
 
 #include "ground/mesh/ground_builder.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// How thick a bridge is. [m]
 inline constexpr double deck_depth = 0.8;
 
 /// Sides and undersides (Surface::deck) for all roads and sidewalks in `ground` that hang more than
 /// 1.5 m over what is under them, the terrain included. Nothing in a flat town.
-void add_decks(const TownT& town, GroundBuilder& ground);
+void add_decks(const world::TownT& town, GroundBuilder& ground);
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -8,7 +8,7 @@
 
 #include "world/town_generated.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// What a piece of ground is made of. Values are recorded (WheelState.surface).
 enum class Surface : std::uint8_t {
@@ -35,13 +35,13 @@ inline constexpr double kerb_height = 0.15;
 /// Sidewalk slabs are cut clear of everything that cars drive over; every level of a town with
 /// bridges keeps its own height. A pure function of the town: same bytes every time.
 /// Town 1: about 40 ms and 7,400 triangles.
-GroundMesh build_ground(const TownT& town);
+GroundMesh build_ground(const world::TownT& town);
 
 /// Painted lines of the town (Surface::marking). Derived, because road networks do not hold them:
 /// dashes between lanes of one direction; between directions a centre line, dashed in towns and
 /// solid near junctions, in bends and on fast or wide roads; edge lines where there is no kerb;
 /// stop lines at signals and stop signs, shark's teeth where one must give way; arrows where lanes
 /// lead to different turns; zebra stripes.
-GroundMesh build_markings(const TownT& town);
+GroundMesh build_markings(const world::TownT& town);
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

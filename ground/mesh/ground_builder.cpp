@@ -6,7 +6,9 @@
 
 #include <Eigen/Geometry>
 
-namespace reprise::world {
+#include "world/geometry2d.h"
+
+namespace reprise::ground {
 
 namespace {
 
@@ -15,8 +17,8 @@ constexpr double smallest_triangle = 1e-6;
 
 /// The part of a convex polygon where coordinate `axis` lies on `side` (+1 above, -1 below) of
 /// `at`.
-Loop clip(const Loop& polygon, int axis, double at, double side) {
-    Loop kept;
+world::Loop clip(const world::Loop& polygon, int axis, double at, double side) {
+    world::Loop kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Eigen::Vector2d& from = polygon[i];
         const Eigen::Vector2d& to = polygon[(i + 1) % polygon.size()];
@@ -31,11 +33,11 @@ Loop clip(const Loop& polygon, int axis, double at, double side) {
 }
 
 /// Cut along the lines where `axis` is a multiple of `cell`.
-std::vector<Loop> cut(const std::vector<Loop>& polygons, int axis, double cell) {
-    std::vector<Loop> parts;
-    for (const Loop& polygon : polygons) {
-        const Box box = box_around(polygon);
-        Loop rest = polygon;
+std::vector<world::Loop> cut(const std::vector<world::Loop>& polygons, int axis, double cell) {
+    std::vector<world::Loop> parts;
+    for (const world::Loop& polygon : polygons) {
+        const world::Box box = world::box_around(polygon);
+        world::Loop rest = polygon;
         const double last = std::floor(box.high[axis] / cell);
         for (double line = std::floor(box.low[axis] / cell) + 1; line <= last; ++line) {
             parts.push_back(clip(rest, axis, line * cell, -1));
@@ -78,7 +80,7 @@ void GroundBuilder::add_face(const std::vector<Eigen::Vector3d>& corners, Surfac
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
         const Eigen::Vector2d first = (corners[i] - corners[0]).head<2>();
         const Eigen::Vector2d second = (corners[i + 1] - corners[0]).head<2>();
-        const double area = cross(first, second) / 2;
+        const double area = world::cross(first, second) / 2;
         if (area > smallest_triangle)
             add_triangle(corners[0], corners[i], corners[i + 1], surface);
         else if (area < -smallest_triangle)
@@ -86,14 +88,14 @@ void GroundBuilder::add_face(const std::vector<Eigen::Vector3d>& corners, Surfac
     }
 }
 
-void GroundBuilder::add_face(const Loop& corners,
+void GroundBuilder::add_face(const world::Loop& corners,
                              const Height& height,
                              double cell,
                              Surface surface) {
-    std::vector<Loop> parts{corners};
+    std::vector<world::Loop> parts{corners};
     if (cell > 0)
         parts = cut(cut(parts, 0, cell), 1, cell);
-    for (const Loop& part : parts) {
+    for (const world::Loop& part : parts) {
         std::vector<Eigen::Vector3d> raised;
         for (const Eigen::Vector2d& p : part)
             raised.emplace_back(p.x(), p.y(), height(p));
@@ -121,4 +123,4 @@ void GroundBuilder::add_ceiling(std::vector<Eigen::Vector3d> corners,
         add_triangle(corners[0], corners[i + 1], corners[i], surface);
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

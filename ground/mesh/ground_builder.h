@@ -7,7 +7,7 @@
 #include "ground/mesh/ground.h"
 #include "world/geometry2d.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// Height of a surface at a place in plan. [m]
 using Height = std::function<double(const Eigen::Vector2d&)>;
@@ -20,7 +20,7 @@ class GroundBuilder {
 
     /// As above, from plan. Cut into cells of `cell` metres where the height is not linear (0:
     /// never).
-    void add_face(const Loop& corners, const Height& height, double cell, Surface surface);
+    void add_face(const world::Loop& corners, const Height& height, double cell, Surface surface);
 
     /// The vertical face over an edge whose right side is the outside, from `bottom` to `top`
     /// (heights over the edge's own z).
@@ -53,4 +53,4 @@ class GroundBuilder {
     std::unordered_map<std::array<double, 3>, std::uint32_t, Hash> index_;
 };
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <limits>
 
-namespace reprise::world {
+#include "world/geometry2d.h"
+
+namespace reprise::ground {
 
 namespace {
 
@@ -12,8 +14,8 @@ constexpr double least_area = 1e-9;   ///< [m2] twice that of a triangle from ab
 constexpr double headroom = 2.0;      ///< [m] terrain closer below a road carries only the road
 constexpr double on_the_edge = 1e-9;  ///< [m2] a plumb line on a seam hits both sides
 
-Box box_of(const GroundMesh& mesh, std::size_t triangle) {
-    Box box;
+world::Box box_of(const GroundMesh& mesh, std::size_t triangle) {
+    world::Box box;
     for (const std::uint32_t vertex : mesh.triangles[triangle])
         box.take(mesh.vertices[vertex].head<2>());
     return box;
@@ -31,7 +33,7 @@ std::optional<double> height_at(const GroundMesh& mesh,
     for (std::size_t i = 0; i < 3; ++i) {
         const Eigen::Vector2d from = corners[(i + 1) % 3].head<2>() - p;
         const Eigen::Vector2d to = corners[(i + 2) % 3].head<2>() - p;
-        weights[i] = cross(from, to);
+        weights[i] = world::cross(from, to);
         whole += weights[i];
         if (weights[i] < -on_the_edge)
             return std::nullopt;
@@ -46,16 +48,16 @@ std::optional<double> height_at(const GroundMesh& mesh,
 }  // namespace
 
 GroundProbe::GroundProbe(const GroundMesh& mesh) : mesh_(&mesh) {
-    std::vector<BoxGrid::Entry> entries;
+    std::vector<world::BoxGrid::Entry> entries;
     entries.reserve(mesh.triangles.size());
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
         entries.push_back({box_of(mesh, i), i});
-    by_place_ = BoxGrid(entries, cell);
+    by_place_ = world::BoxGrid(entries, cell);
 }
 
 std::optional<GroundProbe::Hit> GroundProbe::below(const Eigen::Vector3d& from_world) const {
     const Eigen::Vector2d p = from_world.head<2>();
-    Box place;
+    world::Box place;
     place.take(p);
     std::optional<Hit> highest;
     for (const std::uint32_t triangle : by_place_.near(place)) {
@@ -81,4 +83,4 @@ std::optional<GroundProbe::Hit> GroundProbe::nearest(const Eigen::Vector3d& near
     return best;
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -6,7 +6,7 @@
 #include "ground/mesh/ground.h"
 #include "world/geometry2d.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// Drops plumb lines on a ground mesh: where would a wheel rest? Built once, O(triangles near) for
 /// each question.
@@ -30,11 +30,11 @@ class GroundProbe {
     std::optional<Hit> nearest(const Eigen::Vector3d& near_world) const;
 
     /// Triangles whose box in plan may touch `box`; some beside it, too. Ascending.
-    std::vector<std::uint32_t> near(const Box& box) const { return by_place_.near(box); }
+    std::vector<std::uint32_t> near(const world::Box& box) const { return by_place_.near(box); }
 
   private:
     const GroundMesh* mesh_;
-    BoxGrid by_place_;
+    world::BoxGrid by_place_;
 };
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -1,29 +1,29 @@
 #include "ground/mesh/junction_surface.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
-bool is_inside_junction(const TownT& town, const LaneT& lane) {
-    const bool is_path = lane.kind == LaneKind::internal ||
-                         (lane.kind == LaneKind::other && lane.edge.starts_with(':'));
+bool is_inside_junction(const world::TownT& town, const world::LaneT& lane) {
+    const bool is_path = lane.kind == world::LaneKind::internal ||
+                         (lane.kind == world::LaneKind::other && lane.edge.starts_with(':'));
     return is_path && lane.junction < town.junctions.size();
 }
 
-std::vector<JunctionParts> parts_of_junctions(const TownT& town) {
+std::vector<JunctionParts> parts_of_junctions(const world::TownT& town) {
     std::vector<JunctionParts> parts(town.junctions.size());
     for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
-        const LaneT& lane = town.lanes[i];
+        const world::LaneT& lane = town.lanes[i];
         if (is_inside_junction(town, lane))
             parts[lane.junction].paths.push_back(i);
-        if (lane.kind == LaneKind::crossing && lane.junction < parts.size())
+        if (lane.kind == world::LaneKind::crossing && lane.junction < parts.size())
             parts[lane.junction].crossings.push_back(i);
     }
     return parts;
 }
 
-SurfaceHeight height_of_junction(const TownT& town,
+SurfaceHeight height_of_junction(const world::TownT& town,
                                  std::uint32_t junction,
                                  const JunctionParts& parts) {
-    std::vector<std::vector<Vec3>> lines;
+    std::vector<std::vector<world::Vec3>> lines;
     for (const std::uint32_t path : parts.paths)
         lines.push_back(town.lanes[path].centre);
     // Only cars care to the centimetre; without paths the outline and the crossings must do.
@@ -35,4 +35,4 @@ SurfaceHeight height_of_junction(const TownT& town,
     return SurfaceHeight(lines);
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -6,7 +6,7 @@
 #include "ground/mesh/surface_height.h"
 #include "world/town_generated.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// What lies within one junction. Indices in town.lanes, ascending.
 struct JunctionParts {
@@ -15,14 +15,14 @@ struct JunctionParts {
 };
 
 /// Does a vehicle (of any kind) pass a junction on it?
-bool is_inside_junction(const TownT& town, const LaneT& lane);
+bool is_inside_junction(const world::TownT& town, const world::LaneT& lane);
 
 /// One for each junction, in their order.
-std::vector<JunctionParts> parts_of_junctions(const TownT& town);
+std::vector<JunctionParts> parts_of_junctions(const world::TownT& town);
 
 /// The height of a junction's road: that of its paths.
-SurfaceHeight height_of_junction(const TownT& town,
+SurfaceHeight height_of_junction(const world::TownT& town,
                                  std::uint32_t junction,
                                  const JunctionParts& parts);
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

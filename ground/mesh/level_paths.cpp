@@ -1,6 +1,6 @@
 // Must: give crossing paths the same height, so that one surface can carry both.
 // Assumes: paths of one junction that come near each other in plan are on the same level, unless
-//   they are a storey apart.
+//   they are a world::level_spacing apart.
 // Goes: each path is sampled every metre; the unknowns are the samples' changes of height. Least
 //   squares of: differences between samples of two paths that lie near each other (weighed by
 //   nearness), curvature of the change along a path, and the change itself (little). Ends that join
@@ -18,16 +18,16 @@
 #include "ground/mesh/junction_surface.h"
 #include "ground/mesh/ribbon.h"
 #include "world/frames.h"
+#include "world/units.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 namespace {
 
-constexpr double spacing = 1.0;          ///< [m] of samples
+constexpr double sample_spacing = 1.0;   ///< [m] of samples
 constexpr double reach = 1.0;            ///< [m] in plan, within which samples should agree
-constexpr double storey = 2.5;           ///< [m] farther apart in height is another level
 constexpr double agreed = 0.01;          ///< [m] between paths: nothing to do
-constexpr double noticed = 0.002;        ///< [m] smaller changes of a path are not worth its points
+constexpr double least_change = 0.002;   ///< [m] smaller changes of a path are not worth its points
 constexpr double agreement_weight = 30;  ///< over that of curvature, which is 1
 constexpr double rest_weight = 1e-3;     ///< of the change itself: where nothing else speaks, none
 
@@ -79,12 +79,12 @@ class LeastSquares {
 /// The paths of one junction.
 class Leveller {
   public:
-    Leveller(const TownT& town, std::uint32_t junction, const JunctionParts& parts);
+    Leveller(const world::TownT& town, std::uint32_t junction, const JunctionParts& parts);
 
     /// Do paths disagree anywhere?
     bool is_needed() const;
 
-    void apply(TownT& town) const;
+    void apply(world::TownT& town) const;
 
   private:
     void number_samples();
@@ -98,11 +98,11 @@ class Leveller {
     int unknowns_ = 0;
 };
 
-Leveller::Leveller(const TownT& town, std::uint32_t junction, const JunctionParts& parts)
+Leveller::Leveller(const world::TownT& town, std::uint32_t junction, const JunctionParts& parts)
     : slope_(height_of_junction(town, junction, parts).slope()) {
     for (const std::uint32_t lane : parts.paths)
         paths_.push_back(
-            {lane, with_more_points(clean_line(town.lanes[lane].centre), spacing), {}});
+            {lane, with_more_points(clean_line(town.lanes[lane].centre), sample_spacing), {}});
     number_samples();
     find_meetings();
 }
@@ -142,7 +142,7 @@ void Leveller::meet(const Path& one, const Path& other) {
         for (std::size_t k = 0; k < other.samples.size(); ++k) {
             const Eigen::Vector3d apart = other.samples[k] - one.samples[i];
             const double distance = apart.head<2>().norm();
-            if (distance < reach && std::abs(apart.z()) < storey)
+            if (distance < reach && std::abs(apart.z()) < world::level_spacing)
                 meetings_.push_back({one.unknowns[i],
                                      other.unknowns[k],
                                      apart.z() - slope_.dot(apart.head<2>()),
@@ -151,7 +151,7 @@ void Leveller::meet(const Path& one, const Path& other) {
 }
 
 void Leveller::find_meetings() {
-    std::vector<Box> boxes;
+    std::vector<world::Box> boxes;
     for (const Path& path : paths_) {
         boxes.emplace_back();
         for (const Eigen::Vector3d& sample : path.samples)
@@ -191,11 +191,11 @@ Eigen::VectorXd Leveller::changes() const {
     return squares.solve();
 }
 
-void Leveller::apply(TownT& town) const {
+void Leveller::apply(world::TownT& town) const {
     const Eigen::VectorXd change = changes();
     for (const Path& path : paths_) {
-        LaneT& lane = town.lanes[path.lane];
-        std::vector<Vec3> centre;
+        world::LaneT& lane = town.lanes[path.lane];
+        std::vector<world::Vec3> centre;
         double most = 0;
         double length = 0;
         for (std::size_t i = 0; i < path.samples.size(); ++i) {
@@ -204,10 +204,10 @@ void Leveller::apply(TownT& town) const {
             p.z() += by;
             most = std::max(most, std::abs(by));
             if (i > 0)
-                length += (p - to_eigen(centre.back())).norm();
-            centre.push_back(to_vec3(p));
+                length += (p - world::to_eigen(centre.back())).norm();
+            centre.push_back(world::to_vec3(p));
         }
-        if (most < noticed)
+        if (most < least_change)
             continue;
         lane.centre = std::move(centre);
         lane.length = length;
@@ -216,7 +216,7 @@ void Leveller::apply(TownT& town) const {
 
 }  // namespace
 
-void level_paths(TownT& town) {
+void level_paths(world::TownT& town) {
     const std::vector<JunctionParts> parts = parts_of_junctions(town);
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
         const Leveller leveller(town, i, parts[i]);
@@ -225,4 +225,4 @@ void level_paths(TownT& town) {
     }
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

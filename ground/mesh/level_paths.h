@@ -2,7 +2,7 @@
 
 #include "world/town_generated.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// Makes the turning paths of each junction agree on one height wherever they cross. Converters
 /// give every path its own height, a line from one end to the other, so that paths which cross on a
@@ -10,6 +10,6 @@ namespace reprise::world {
 /// can follow both.
 /// The ends stay where they are; between them the change is as smooth as it can be. Paths that
 /// agree already, and lanes outside of junctions, keep every bit. Town04: 30 ms.
-void level_paths(TownT& town);
+void level_paths(world::TownT& town);
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

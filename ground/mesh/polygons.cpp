@@ -7,13 +7,13 @@
 
 #include "ground/mesh/triangulation.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 namespace bp = boost::polygon;
 
 namespace {
 
-using Point = bp::point_data<int>;
+using GridPoint = bp::point_data<int>;
 using Polygon = bp::polygon_data<int>;
 using PolygonWithHoles = bp::polygon_with_holes_data<int>;
 
@@ -25,18 +25,18 @@ struct Area::Set {
     Eigen::Vector2d origin = Eigen::Vector2d::Zero();
     bp::polygon_set_data<int> polygons;
 
-    Point inward(const Eigen::Vector2d& p) const {
+    GridPoint inward(const Eigen::Vector2d& p) const {
         const Eigen::Vector2d local = (p - origin) * units_per_metre;
         return {static_cast<int>(std::lround(local.x())), static_cast<int>(std::lround(local.y()))};
     }
 
-    Eigen::Vector2d outward(const Point& p) const {
+    Eigen::Vector2d outward(const GridPoint& p) const {
         return origin + Eigen::Vector2d(p.x(), p.y()) / units_per_metre;
     }
 
     template <typename Points>
-    Loop loop(const Points& polygon) const {
-        Loop result;
+    world::Loop loop(const Points& polygon) const {
+        world::Loop result;
         for (auto point = polygon.begin(); point != polygon.end(); ++point)
             result.push_back(outward(*point));
         if (result.size() > 1 && result.front() == result.back())
@@ -61,10 +61,10 @@ Area Area::copy() const {
     return other;
 }
 
-void Area::add(const Loop& loop) {
-    std::vector<Point> points;
+void Area::add(const world::Loop& loop) {
+    std::vector<GridPoint> points;
     for (const Eigen::Vector2d& p : loop) {
-        const Point point = set_->inward(p);
+        const GridPoint point = set_->inward(p);
         if (points.empty() || points.back() != point)
             points.push_back(point);
     }
@@ -112,10 +112,10 @@ double Area::size() const {
     return static_cast<double>(bp::area(set_->polygons)) / (units_per_metre * units_per_metre);
 }
 
-std::vector<Loop> Area::pieces() const {
+std::vector<world::Loop> Area::pieces() const {
     std::vector<PolygonWithHoles> polygons;
     set_->polygons.get(polygons);
-    std::vector<Loop> borders;
+    std::vector<world::Loop> borders;
     const auto add = [&](const auto& polygon) {
         borders.emplace_back();
         for (auto point = polygon.begin(); point != polygon.end(); ++point)
@@ -126,7 +126,7 @@ std::vector<Loop> Area::pieces() const {
         for (auto hole = polygon.begin_holes(); hole != polygon.end_holes(); ++hole)
             add(*hole);
     }
-    std::vector<Loop> loops;
+    std::vector<world::Loop> loops;
     for (const auto& triangle : triangulate(borders)) {
         loops.emplace_back();
         for (const Eigen::Vector2d& corner : triangle)
@@ -135,17 +135,17 @@ std::vector<Loop> Area::pieces() const {
     return loops;
 }
 
-std::vector<Loop> Area::borders() const {
+std::vector<world::Loop> Area::borders() const {
     std::vector<PolygonWithHoles> polygons;
     set_->polygons.get(polygons);
-    std::vector<Loop> loops;
+    std::vector<world::Loop> loops;
     for (const PolygonWithHoles& polygon : polygons) {
         loops.push_back(set_->loop(polygon));
-        if (signed_area(loops.back()) < 0)
+        if (world::signed_area(loops.back()) < 0)
             std::reverse(loops.back().begin(), loops.back().end());
         for (auto hole = polygon.begin_holes(); hole != polygon.end_holes(); ++hole) {
             loops.push_back(set_->loop(*hole));
-            if (signed_area(loops.back()) > 0)
+            if (world::signed_area(loops.back()) > 0)
                 std::reverse(loops.back().begin(), loops.back().end());
         }
     }
@@ -166,4 +166,4 @@ std::vector<Area> Area::parts() const {
     return parts;
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -5,7 +5,7 @@
 
 #include "world/geometry2d.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// A region in plan, for unions and differences of whatever road networks hold: shapes may be
 /// concave, cross themselves, repeat points or have no area. Computed on whole millimetres (integer
@@ -23,7 +23,7 @@ class Area {
 
     Area copy() const;
 
-    void add(const Loop& loop);
+    void add(const world::Loop& loop);
     void merge(const Area& other);  ///< as below, of the same origin
     void subtract(const Area& other);
     void intersect(const Area& other);
@@ -34,10 +34,10 @@ class Area {
     double size() const;  ///< [m2]
 
     /// Triangles, counter-clockwise, that meet without cracks: their corners are the borders' own.
-    std::vector<Loop> pieces() const;
+    std::vector<world::Loop> pieces() const;
 
     /// Borders with the area on their left: outer ones counter-clockwise, holes clockwise.
-    std::vector<Loop> borders() const;
+    std::vector<world::Loop> borders() const;
 
     /// Its connected parts, with their holes. None is empty.
     std::vector<Area> parts() const;
@@ -47,4 +47,4 @@ class Area {
     std::unique_ptr<Set> set_;
 };
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -7,8 +7,9 @@
 #include <Eigen/Geometry>
 
 #include "world/frames.h"
+#include "world/geometry2d.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 namespace {
 
@@ -34,7 +35,7 @@ Eigen::Vector3d beside(const Eigen::Vector3d& p, const Eigen::Vector2d& normal, 
 }
 
 double corner_area(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r) {
-    return cross(flat(q) - flat(p), flat(r) - flat(p)) / 2;
+    return world::cross(flat(q) - flat(p), flat(r) - flat(p)) / 2;
 }
 
 bool is_proper(const std::vector<Eigen::Vector3d>& quad) {
@@ -51,7 +52,7 @@ void add_wedges(const Eigen::Vector3d& corner,
                 double offset,
                 std::vector<std::vector<Eigen::Vector3d>>& pieces) {
     constexpr double sharp = 75 * std::numbers::pi / 180;  // [rad]
-    const double turn = std::atan2(cross(first, last), first.dot(last));
+    const double turn = std::atan2(world::cross(first, last), first.dot(last));
     const int count = turn > sharp ? 4 : 1;
     Eigen::Vector2d from = first;
     for (int i = 1; i <= count; ++i) {
@@ -77,7 +78,7 @@ std::vector<std::vector<Eigen::Vector3d>> square_pieces(const Line& line,
         if (i + 2 == line.size())
             break;
         const Eigen::Vector2d next = left_normal(line, i + 1);
-        const bool turns_left = cross(normal, next) > 0;
+        const bool turns_left = world::cross(normal, next) > 0;
         if (turns_left && right < 0)
             add_wedges(line[i + 1], normal, next, right, pieces);
         if (!turns_left && left > 0)
@@ -96,10 +97,10 @@ bool has_hairpin(const Line& line) {
 
 }  // namespace
 
-std::vector<Loop> Ribbon::loops() const {
-    std::vector<Loop> result;
+std::vector<world::Loop> Ribbon::loops() const {
+    std::vector<world::Loop> result;
     if (simple) {
-        Loop loop;
+        world::Loop loop;
         for (const Eigen::Vector3d& p : right)
             loop.push_back(flat(p));
         for (auto p = left.rbegin(); p != left.rend(); ++p)
@@ -108,7 +109,7 @@ std::vector<Loop> Ribbon::loops() const {
         return result;
     }
     for (const auto& piece : pieces) {
-        Loop loop;
+        world::Loop loop;
         for (const Eigen::Vector3d& p : piece)
             loop.push_back(flat(p));
         result.push_back(std::move(loop));
@@ -116,16 +117,16 @@ std::vector<Loop> Ribbon::loops() const {
     return result;
 }
 
-Line clean_line(const std::vector<Vec3>& line, double overlap) {
+Line clean_line(const std::vector<world::Vec3>& line, double overlap) {
     Line clean;
-    for (const Vec3& point : line) {
-        const Eigen::Vector3d p = to_eigen(point);
+    for (const world::Vec3& point : line) {
+        const Eigen::Vector3d p = world::to_eigen(point);
         if (clean.empty() || (flat(p) - flat(clean.back())).norm() >= shortest_segment)
             clean.push_back(p);
     }
     // The last point stands, whatever was dropped before it.
     if (clean.size() > 1)
-        clean.back() = to_eigen(line.back());
+        clean.back() = world::to_eigen(line.back());
     if (clean.size() > 2 &&
         (flat(clean[clean.size() - 2]) - flat(clean.back())).norm() < shortest_segment)
         clean.erase(clean.end() - 2);
@@ -199,4 +200,4 @@ double height_along(const Line& line, const Eigen::Vector2d& p) {
     return height;
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -7,7 +7,7 @@
 #include "world/geometry2d.h"
 #include "world/town_generated.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// The surface that a line sweeps: for lanes, paths and painted lines.
 struct Ribbon {
@@ -22,11 +22,11 @@ struct Ribbon {
     bool simple = false;
 
     /// In plan: one loop when simple, else one for each piece.
-    std::vector<Loop> loops() const;
+    std::vector<world::Loop> loops() const;
 };
 
 /// Points without repeats (closer than 1 cm), at least two, extended by `overlap` at both ends.
-std::vector<Eigen::Vector3d> clean_line(const std::vector<Vec3>& line, double overlap = 0);
+std::vector<Eigen::Vector3d> clean_line(const std::vector<world::Vec3>& line, double overlap = 0);
 
 /// The same line with points between its own, evenly, so that no two are farther apart than
 /// `spacing`. [m]
@@ -42,4 +42,4 @@ std::vector<Eigen::Vector3d> moved_left(const std::vector<Eigen::Vector3d>& line
 /// Height of a clean line at the point nearest to p in plan. [m]
 double height_along(const std::vector<Eigen::Vector3d>& line, const Eigen::Vector2d& p);
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/geometry2d.h"
 #include "world/hash.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 namespace {
 
@@ -16,7 +17,7 @@ constexpr double highest_hip = 5;    // [m]
 constexpr std::size_t most_corners = 8;
 
 /// The line of a side; `inward` is its unit normal.
-struct Side {
+struct RoofSide {
     Vector2d from;
     Vector2d along;
     Vector2d inward;
@@ -29,39 +30,40 @@ float mix(float from, float to, float share) {
 }
 
 /// None: not convex, or with a corner of less than some 40 degrees.
-std::vector<Side> sides_of(const Loop& outline) {
+std::vector<RoofSide> sides_of(const world::Loop& outline) {
     constexpr double sharpest = -0.77;  // cosine of the turn at a corner
     if (outline.size() < 3 || outline.size() > most_corners)
         return {};
-    std::vector<Side> sides;
+    std::vector<RoofSide> sides;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const Vector2d along = (outline[(i + 1) % outline.size()] - outline[i]).normalized();
         sides.push_back({outline[i], along, {-along.y(), along.x()}});
     }
     for (std::size_t i = 0; i < sides.size(); ++i) {
-        const Side& next = sides[(i + 1) % sides.size()];
-        if (cross(sides[i].along, next.along) <= 1e-3 || sides[i].along.dot(next.along) < sharpest)
+        const RoofSide& next = sides[(i + 1) % sides.size()];
+        if (world::cross(sides[i].along, next.along) <= 1e-3 ||
+            sides[i].along.dot(next.along) < sharpest)
             return {};
     }
     return sides;
 }
 
 /// The outline with every side moved outwards.
-Loop widened(const std::vector<Side>& sides, double by) {
-    Loop loop;
+world::Loop widened(const std::vector<RoofSide>& sides, double by) {
+    world::Loop loop;
     for (std::size_t i = 0; i < sides.size(); ++i) {
-        const Side& last = sides[(i + sides.size() - 1) % sides.size()];
-        const Side& next = sides[i];
+        const RoofSide& last = sides[(i + sides.size() - 1) % sides.size()];
+        const RoofSide& next = sides[i];
         // The corner moves along both sides alike.
-        const double share = by / cross(last.along, next.along);
+        const double share = by / world::cross(last.along, next.along);
         loop.push_back(next.from + share * (last.along - next.along));
     }
     return loop;
 }
 
 /// What of a convex loop is nearer to one side than to another one.
-Loop nearer_to(const Side& side, const Side& other, const Loop& loop) {
-    Loop kept;
+world::Loop nearer_to(const RoofSide& side, const RoofSide& other, const world::Loop& loop) {
+    world::Loop kept;
     const auto excess = [&](const Vector2d& p) { return other.distance(p) - side.distance(p); };
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const Vector2d& p = loop[i];
@@ -79,28 +81,28 @@ Loop nearer_to(const Side& side, const Side& other, const Loop& loop) {
 }  // namespace
 
 std::uint32_t building_seed(std::uint32_t style) {
-    return hash(style, 0x5eedu);
+    return world::hash(style, 0x5eedu);
 }
 
-float roof_rise(const BuildingModel& model, float x, float y, std::uint32_t seed) {
+float roof_rise(const world::BuildingModel& model, float x, float y, std::uint32_t seed) {
     const float narrow = std::min(x, y);
-    const float draw = unit(hash(seed, 21));
+    const float draw = world::unit(world::hash(seed, 21));
     switch (model.roof) {
-        case RoofKind::gabled:
+        case world::RoofKind::gabled:
             // Wide halls have flatter roofs.
             return y > 6.5F ? y * mix(0.42F, 0.55F, draw) : y * mix(0.72F, 0.98F, draw);
-        case RoofKind::hipped:
+        case world::RoofKind::hipped:
             return narrow * mix(0.50F, 0.66F, draw);
-        case RoofKind::mansard:
+        case world::RoofKind::mansard:
             return 3.4F;
-        case RoofKind::shed:
+        case world::RoofKind::shed:
             return 2 * y * mix(0.10F, 0.18F, draw);
-        case RoofKind::sawtooth:
+        case world::RoofKind::sawtooth:
             return 2.4F;
-        case RoofKind::spire:
+        case world::RoofKind::spire:
             return y * mix(0.95F, 1.15F, draw);
-        case RoofKind::dome:
-        case RoofKind::flat:
+        case world::RoofKind::dome:
+        case world::RoofKind::flat:
             return 0;
     }
     return 0;
@@ -110,21 +112,22 @@ float tower_half(float half_width) {
     return std::min(half_width * 0.46F, 3.2F);
 }
 
-float spire_rise(const BuildingModel& model, float half_width) {
-    const bool large = (model.parts & part_clock) != 0;
+float spire_rise(const world::BuildingModel& model, float half_width) {
+    const bool large = (model.parts & world::part_clock) != 0;
     return (large ? 5.5F : 2.5F) + 0.2F + tower_half(half_width) * (large ? 4.2F : 3.0F);
 }
 
-std::vector<std::vector<Eigen::Vector3d>> hipped_faces(const Loop& outline, double overhang) {
-    const std::vector<Side> sides = sides_of(outline);
+std::vector<std::vector<Eigen::Vector3d>> hipped_faces(const world::Loop& outline,
+                                                       double overhang) {
+    const std::vector<RoofSide> sides = sides_of(outline);
     if (sides.empty())
         return {};
-    const Loop wide = widened(sides, overhang);
-    std::vector<Loop> plans;
+    const world::Loop wide = widened(sides, overhang);
+    std::vector<world::Loop> plans;
     double deepest = 0;  // [m] from the nearest side
-    for (const Side& side : sides) {
-        Loop plan = wide;
-        for (const Side& other : sides)
+    for (const RoofSide& side : sides) {
+        world::Loop plan = wide;
+        for (const RoofSide& other : sides)
             if (&other != &side)
                 plan = nearer_to(side, other, plan);
         for (const Vector2d& p : plan)
@@ -148,7 +151,7 @@ std::vector<std::vector<Eigen::Vector3d>> hipped_faces(const Loop& outline, doub
     return faces;
 }
 
-double hipped_rise(const Loop& outline) {
+double hipped_rise(const world::Loop& outline) {
     double highest = 0;
     for (const auto& face : hipped_faces(outline, 0))
         for (const Eigen::Vector3d& p : face)
@@ -156,4 +159,4 @@ double hipped_rise(const Loop& outline) {
     return highest;
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -8,7 +8,7 @@
 #include "world/geometry2d.h"
 #include "world/models/building_models.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// How high roofs are: what reads a map's heights and what draws them agree through these. [m]
 
@@ -16,7 +16,7 @@ namespace reprise::world {
 std::uint32_t building_seed(std::uint32_t style);
 
 /// Height of a model's roof over the eaves, on a footprint with these half sizes; 0 when flat.
-float roof_rise(const BuildingModel& model,
+float roof_rise(const world::BuildingModel& model,
                 float half_length,
                 float half_width,
                 std::uint32_t seed);
@@ -25,14 +25,14 @@ float roof_rise(const BuildingModel& model,
 float tower_half(float half_width);
 
 /// Tip of a church's spire over the ridge.
-float spire_rise(const BuildingModel& model, float half_width);
+float spire_rise(const world::BuildingModel& model, float half_width);
 
 /// Slopes over any convex outline of at most eight corners, all at one pitch that keeps the ridge
 /// low: one convex face for each side, counter-clockwise from above, z over the eaves. The outer
 /// edge hangs over by `overhang`. Empty when the outline is not convex, or pointed.
-std::vector<std::vector<Eigen::Vector3d>> hipped_faces(const Loop& outline, double overhang);
+std::vector<std::vector<Eigen::Vector3d>> hipped_faces(const world::Loop& outline, double overhang);
 
 /// Highest z of hipped_faces(); 0 without any.
-double hipped_rise(const Loop& outline);
+double hipped_rise(const world::Loop& outline);
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

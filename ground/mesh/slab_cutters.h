@@ -4,18 +4,18 @@
 
 #include "world/geometry2d.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// Something that a sidewalk must not cover.
 struct SlabCutter {
-    Loop loop;
-    Box box;
+    world::Loop loop;
+    world::Box box;
     double z = 0;              ///< [m] of its middle
     bool is_crossing = false;  ///< else cars drive over it
 };
 
 /// What the lanes of a town keep clear of sidewalks: the width of every lane and path, the corners
 /// between a lane and the path that leaves it sideways, and crossings.
-std::vector<SlabCutter> slab_cutters(const TownT& town);
+std::vector<SlabCutter> slab_cutters(const world::TownT& town);
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -3,7 +3,8 @@
 //   (in real networks they lie on driving lanes by the dozen), and every crossing; close their
 //   sides with kerb faces.
 // Assumes: nothing of the outlines, which cross themselves or have no area in real networks.
-// Goes: each slab on its own - what cuts it is looked up by place and by storey, so that a bridge's
+// Goes: each slab on its own - what cuts it is looked up by place and by world::level_spacing, so
+// that a bridge's
 //   lanes do not cut the sidewalk below; only a slab that something cuts, or that is no plain
 //   ribbon, goes through polygon differences. Splinters that are left over are dropped.
 // Keeps: slab tops disjoint from car_clearance around every centre line.
@@ -19,48 +20,42 @@
 #include "ground/mesh/surface_height.h"
 #include "world/frames.h"
 #include "world/town.h"
+#include "world/units.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 namespace {
 
-constexpr double storey = 2.5;      ///< [m] what lies farther above or below is another level
-constexpr double noticed = 0.002;   ///< [m2] smaller cuts are rounding
-constexpr double kerb_depth = 0.3;  ///< [m] of the kerb faces below the road: no gap on slopes
+constexpr double least_cut = 0.002;  ///< [m2] smaller cuts are rounding
+constexpr double kerb_depth = 0.3;   ///< [m] of the kerb faces below the road: no gap on slopes
 
 struct Slab {
-    std::vector<Loop> loops;
-    std::vector<Box> boxes;  ///< of the loops, or of their parts: for looking up what is near
-    Ribbon ribbon;           ///< sidewalks only
-    SurfaceHeight height;    ///< of the road beside it
-    Area top;                ///< what is left of it
+    std::vector<world::Loop> loops;
+    std::vector<world::Box>
+        boxes;             ///< of the loops, or of their parts: for looking up what is near
+    Ribbon ribbon;         ///< sidewalks only
+    SurfaceHeight height;  ///< of the road beside it
+    Area top;              ///< what is left of it
     bool is_cut = false;
 };
 
-bool overlap(const Box& one, const Box& other) {
+bool overlap(const world::Box& one, const world::Box& other) {
     return (one.low.array() < other.high.array()).all() &&
            (other.low.array() < one.high.array()).all();
 }
 
-Loop flat_loop(const std::vector<Eigen::Vector3d>& corners) {
-    Loop loop;
-    for (const Eigen::Vector3d& p : corners)
-        loop.push_back(p.head<2>());
-    return loop;
-}
-
-Slab make_slab(const LaneT& lane) {
+Slab make_slab(const world::LaneT& lane) {
     Slab slab;
-    if (lane.kind == LaneKind::walking_area) {
-        slab.loops.push_back(in_plan(lane.outline));
-        slab.boxes.push_back(box_around(slab.loops[0]));
+    if (lane.kind == world::LaneKind::walking_area) {
+        slab.loops.push_back(world::in_plan(lane.outline));
+        slab.boxes.push_back(world::box_around(slab.loops[0]));
         slab.height = SurfaceHeight({lane.outline});
         return slab;
     }
     slab.ribbon = make_ribbon(clean_line(lane.centre), -lane.width / 2, lane.width / 2);
     slab.loops = slab.ribbon.loops();
     for (const auto& piece : slab.ribbon.pieces)
-        slab.boxes.push_back(box_around(flat_loop(piece)));
+        slab.boxes.push_back(world::box_around(world::in_plan(piece)));
     slab.height = SurfaceHeight::along(clean_line(lane.centre));
     return slab;
 }
@@ -68,56 +63,58 @@ Slab make_slab(const LaneT& lane) {
 /// All slabs of a town, and all that may cut them.
 class Slabs {
   public:
-    explicit Slabs(const TownT& town);
+    explicit Slabs(const world::TownT& town);
 
     void add_to(GroundBuilder& ground) const;
 
   private:
-    std::vector<const SlabCutter*> cutters_near(const Box& box, const SurfaceHeight& height) const;
+    std::vector<const SlabCutter*> cutters_near(const world::Box& box,
+                                                const SurfaceHeight& height) const;
     void cut(Slab& slab) const;
-    bool is_at_crossing(const Loop& outline, const SurfaceHeight& height) const;
+    bool is_at_crossing(const world::Loop& outline, const SurfaceHeight& height) const;
     void drop_splinters();
     bool is_hidden(std::size_t slab, const Eigen::Vector3d& p) const;
-    void add_kerb(std::size_t slab, const Loop& border, GroundBuilder& ground) const;
+    void add_kerb(std::size_t slab, const world::Loop& border, GroundBuilder& ground) const;
     void add_slab(std::size_t slab, GroundBuilder& ground) const;
 
     Eigen::Vector2d origin_;
     std::vector<Slab> slabs_;
     std::vector<SlabCutter> cutters_;
-    BoxGrid slabs_by_place_;
-    BoxGrid cutters_by_place_;
+    world::BoxGrid slabs_by_place_;
+    world::BoxGrid cutters_by_place_;
 };
 
-Slabs::Slabs(const TownT& town)
+Slabs::Slabs(const world::TownT& town)
     : origin_(std::floor(town.low.x()), std::floor(town.low.y())),
       cutters_(slab_cutters(town)) {
-    for (const LaneT& lane : town.lanes) {
-        const bool is_area = lane.kind == LaneKind::walking_area && lane.outline.size() >= 3;
-        if (lane.kind == LaneKind::sidewalk || is_area)
+    for (const world::LaneT& lane : town.lanes) {
+        const bool is_area = lane.kind == world::LaneKind::walking_area && lane.outline.size() >= 3;
+        if (lane.kind == world::LaneKind::sidewalk || is_area)
             slabs_.push_back(make_slab(lane));
     }
-    std::vector<BoxGrid::Entry> entries;
+    std::vector<world::BoxGrid::Entry> entries;
     for (std::uint32_t i = 0; i < cutters_.size(); ++i)
         entries.push_back({cutters_[i].box, i});
-    cutters_by_place_ = BoxGrid(entries);
+    cutters_by_place_ = world::BoxGrid(entries);
     entries.clear();
     for (std::uint32_t i = 0; i < slabs_.size(); ++i)
-        for (const Box& box : slabs_[i].boxes)
+        for (const world::Box& box : slabs_[i].boxes)
             entries.push_back({box, i});
-    slabs_by_place_ = BoxGrid(entries);
+    slabs_by_place_ = world::BoxGrid(entries);
     for (Slab& slab : slabs_)
         cut(slab);
     drop_splinters();
 }
 
 /// Those of the same level whose box overlaps, in their order.
-std::vector<const SlabCutter*> Slabs::cutters_near(const Box& box,
+std::vector<const SlabCutter*> Slabs::cutters_near(const world::Box& box,
                                                    const SurfaceHeight& height) const {
     std::vector<const SlabCutter*> found;
     for (const std::uint32_t index : cutters_by_place_.near(box)) {
         const SlabCutter& cutter = cutters_[index];
         const Eigen::Vector2d middle = (cutter.box.low + cutter.box.high) / 2;
-        if (overlap(box, cutter.box) && std::abs(height.at(middle) - cutter.z) < storey)
+        if (overlap(box, cutter.box) &&
+            std::abs(height.at(middle) - cutter.z) < world::level_spacing)
             found.push_back(&cutter);
     }
     return found;
@@ -125,10 +122,10 @@ std::vector<const SlabCutter*> Slabs::cutters_near(const Box& box,
 
 void Slabs::cut(Slab& slab) const {
     slab.top = Area(origin_);
-    for (const Loop& loop : slab.loops)
+    for (const world::Loop& loop : slab.loops)
         slab.top.add(loop);
     std::vector<const SlabCutter*> cutters;
-    for (const Box& box : slab.boxes)
+    for (const world::Box& box : slab.boxes)
         for (const SlabCutter* cutter : cutters_near(box, slab.height))
             cutters.push_back(cutter);
     if (cutters.empty())
@@ -141,12 +138,12 @@ void Slabs::cut(Slab& slab) const {
         clear.add(cutter->loop);
     const double before = slab.top.size();
     slab.top.subtract(clear);
-    slab.is_cut = before - slab.top.size() > noticed;
+    slab.is_cut = before - slab.top.size() > least_cut;
 }
 
-bool Slabs::is_at_crossing(const Loop& outline, const SurfaceHeight& height) const {
+bool Slabs::is_at_crossing(const world::Loop& outline, const SurfaceHeight& height) const {
     const std::vector<const SlabCutter*> near =
-        cutters_near(box_around(outline, joined_within), height);
+        cutters_near(world::box_around(outline, joined_within), height);
     return std::any_of(near.begin(), near.end(), [&](const SlabCutter* cutter) {
         return cutter->is_crossing && distance_between(outline, cutter->loop) <= joined_within;
     });
@@ -163,12 +160,12 @@ void Slabs::drop_splinters() {
         }
     std::vector<Patch> patches;
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        const std::vector<Loop> borders = parts[i].borders();
+        const std::vector<world::Loop> borders = parts[i].borders();
         const SurfaceHeight& height = slabs_[slab_of_part[i]].height;
         patches.push_back({&parts[i],
                            &height,
                            borders,
-                           box_around(borders[0]),
+                           world::box_around(borders[0]),
                            is_at_crossing(borders[0], height)});
     }
     const std::vector<bool> is_splinter = find_splinters(patches);
@@ -182,11 +179,12 @@ void Slabs::drop_splinters() {
 /// Is a place beside a slab covered by another one, so that no face shows there?
 bool Slabs::is_hidden(std::size_t slab, const Eigen::Vector3d& p) const {
     const Eigen::Vector2d flat = p.head<2>();
-    Box box;
+    world::Box box;
     box.take(flat);
-    const auto holds = [&](const Loop& loop) { return contains(loop, flat); };
+    const auto holds = [&](const world::Loop& loop) { return world::contains(loop, flat); };
     for (const std::uint32_t index : cutters_by_place_.near(box))
-        if (std::abs(cutters_[index].z - p.z()) < storey && holds(cutters_[index].loop))
+        if (std::abs(cutters_[index].z - p.z()) < world::level_spacing &&
+            holds(cutters_[index].loop))
             return false;
     constexpr double level = 0.05;  // [m]
     for (const std::uint32_t index : slabs_by_place_.near(box)) {
@@ -198,7 +196,7 @@ bool Slabs::is_hidden(std::size_t slab, const Eigen::Vector3d& p) const {
     return false;
 }
 
-void Slabs::add_kerb(std::size_t slab, const Loop& border, GroundBuilder& ground) const {
+void Slabs::add_kerb(std::size_t slab, const world::Loop& border, GroundBuilder& ground) const {
     const SurfaceHeight& height = slabs_[slab].height;
     for (std::size_t i = 0; i < border.size(); ++i) {
         const Eigen::Vector2d start = border[i];
@@ -244,9 +242,9 @@ void Slabs::add_slab(std::size_t index, GroundBuilder& ground) const {
     }
     const auto top = [&](const Eigen::Vector2d& p) { return slab.height.at(p) + kerb_height; };
     const double cell = slab.height.is_plane() ? 0 : surface_cell;
-    for (const Loop& piece : slab.top.pieces())
+    for (const world::Loop& piece : slab.top.pieces())
         ground.add_face(piece, top, cell, Surface::sidewalk);
-    for (const Loop& border : slab.top.borders())
+    for (const world::Loop& border : slab.top.borders())
         add_kerb(index, border, ground);
 }
 
@@ -257,8 +255,8 @@ void Slabs::add_to(GroundBuilder& ground) const {
 
 }  // namespace
 
-void add_slabs(const TownT& town, GroundBuilder& ground) {
+void add_slabs(const world::TownT& town, GroundBuilder& ground) {
     Slabs(town).add_to(ground);
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

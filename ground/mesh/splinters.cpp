@@ -9,20 +9,20 @@
 #include <cmath>
 #include <limits>
 
-namespace reprise::world {
+namespace reprise::ground {
 
 namespace {
 
-constexpr double level = 0.25;  ///< [m] patches that meet and differ by more are not joined
+constexpr double joined_step = 0.25;  ///< [m] patches that meet and differ by more are not joined
 
 /// Clear of the border of a hole in which it lies?
 bool lies_in_a_hole(const Patch& inner, const Patch& outer) {
-    const Loop& outline = inner.borders[0];
-    const auto holds = [&](const Loop& hole) {
-        if (!contains(hole, outline[0]))
+    const world::Loop& outline = inner.borders[0];
+    const auto holds = [&](const world::Loop& hole) {
+        if (!world::contains(hole, outline[0]))
             return false;
         for (std::size_t i = 0; i < hole.size(); ++i)
-            if (distance_to(outline, hole[i], hole[(i + 1) % hole.size()]) <= joined_within)
+            if (world::distance_to(outline, hole[i], hole[(i + 1) % hole.size()]) <= joined_within)
                 return false;
         return true;
     };
@@ -30,13 +30,13 @@ bool lies_in_a_hole(const Patch& inner, const Patch& outer) {
 }
 
 bool are_joined(const Patch& one, const Patch& other) {
-    Box shared;
+    world::Box shared;
     shared.low = one.box.low.cwiseMax(other.box.low);
     shared.high = one.box.high.cwiseMin(other.box.high);
     if (((shared.low - shared.high).array() > joined_within).any())
         return false;
     const Eigen::Vector2d middle = (shared.low + shared.high) / 2;
-    return std::abs(one.height->at(middle) - other.height->at(middle)) < level &&
+    return std::abs(one.height->at(middle) - other.height->at(middle)) < joined_step &&
            distance_between(one.borders[0], other.borders[0]) <= joined_within &&
            !lies_in_a_hole(one, other) && !lies_in_a_hole(other, one);
 }
@@ -51,7 +51,7 @@ struct Island {
 /// Of the strip with the same area and circumference. [m]
 double mean_width(const Area& area) {
     double around = 0;
-    for (const Loop& border : area.borders())
+    for (const world::Loop& border : area.borders())
         for (std::size_t i = 0; i < border.size(); ++i)
             around += (border[(i + 1) % border.size()] - border[i]).norm();
     return around > 0 ? 2 * area.size() / around : 0;
@@ -67,14 +67,14 @@ class Finder {
     Island island_of(std::uint32_t first) const;
 
     const std::vector<Patch>& patches_;
-    BoxGrid by_place_;
+    world::BoxGrid by_place_;
 };
 
 Finder::Finder(const std::vector<Patch>& patches) : patches_(patches) {
-    std::vector<BoxGrid::Entry> entries;
+    std::vector<world::BoxGrid::Entry> entries;
     for (std::uint32_t i = 0; i < patches.size(); ++i)
         entries.push_back({patches[i].box, i});
-    by_place_ = BoxGrid(entries);
+    by_place_ = world::BoxGrid(entries);
 }
 
 Island Finder::island_of(std::uint32_t first) const {
@@ -86,7 +86,7 @@ Island Finder::island_of(std::uint32_t first) const {
             island.area.merge(*patch.area);
         if (island.area.size() >= most_strip)
             break;
-        Box reach = patch.box;
+        world::Box reach = patch.box;
         reach.take(patch.box.low, joined_within);
         reach.take(patch.box.high, joined_within);
         for (const std::uint32_t other : by_place_.near(reach))
@@ -119,12 +119,12 @@ bool is_splinter(const Area& island, bool at_crossing) {
            (size < most_strip && mean_width(island) < least_island_width);
 }
 
-double distance_between(const Loop& one, const Loop& other) {
-    if (other.size() > 2 && contains(other, one[0]))
+double distance_between(const world::Loop& one, const world::Loop& other) {
+    if (other.size() > 2 && world::contains(other, one[0]))
         return 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < other.size(); ++i)
-        least = std::min(least, distance_to(one, other[i], other[(i + 1) % other.size()]));
+        least = std::min(least, world::distance_to(one, other[i], other[(i + 1) % other.size()]));
     return least;
 }
 
@@ -132,4 +132,4 @@ std::vector<bool> find_splinters(const std::vector<Patch>& patches) {
     return Finder(patches).find();
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

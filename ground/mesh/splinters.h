@@ -5,7 +5,7 @@
 #include "ground/mesh/polygons.h"
 #include "ground/mesh/surface_height.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// Less than this of sidewalk, joined to nothing else, is no place to walk. [m2]
 inline constexpr double least_island = 4.0;
@@ -26,13 +26,13 @@ inline constexpr double joined_within = 0.05;
 struct Patch {
     const Area* area = nullptr;
     const SurfaceHeight* height = nullptr;  ///< of the road beside it
-    std::vector<Loop> borders;              ///< of the area: the outer one first, then holes
-    Box box;
+    std::vector<world::Loop> borders;       ///< of the area: the outer one first, then holes
+    world::Box box;
     bool at_crossing = false;
 };
 
 /// In plan; 0 where they overlap. [m]
-double distance_between(const Loop& one, const Loop& other);
+double distance_between(const world::Loop& one, const world::Loop& other);
 
 /// Is all of an island too small or too narrow to be one?
 bool is_splinter(const Area& island, bool at_crossing);
@@ -41,4 +41,4 @@ bool is_splinter(const Area& island, bool at_crossing);
 /// are joined to, a splinter. One for each patch; areas of one origin.
 std::vector<bool> find_splinters(const std::vector<Patch>& patches);
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -8,7 +8,7 @@
 #include "ground/mesh/ribbon.h"
 #include "world/frames.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 namespace {
 
@@ -24,16 +24,16 @@ bool is_level(const std::vector<Eigen::Vector3d>& points) {
     return high - low <= flatness;
 }
 
-void sample(const std::vector<Vec3>& line, std::vector<Eigen::Vector3d>& samples) {
+void sample(const std::vector<world::Vec3>& line, std::vector<Eigen::Vector3d>& samples) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        const Eigen::Vector3d start = to_eigen(line[i]);
-        const Eigen::Vector3d along = to_eigen(line[i + 1]) - start;
+        const Eigen::Vector3d start = world::to_eigen(line[i]);
+        const Eigen::Vector3d along = world::to_eigen(line[i + 1]) - start;
         const int count = 1 + static_cast<int>(along.head<2>().norm());
         for (int k = 0; k < count; ++k)
             samples.push_back(start + along * (static_cast<double>(k) / count));
     }
     if (!line.empty())
-        samples.push_back(to_eigen(line.back()));
+        samples.push_back(world::to_eigen(line.back()));
 }
 
 /// Slope of the plane through `base` that fits best. Points on one line say nothing about the slope
@@ -52,8 +52,8 @@ Eigen::Vector2d fitted_slope(const std::vector<Eigen::Vector3d>& points,
 
 }  // namespace
 
-SurfaceHeight::SurfaceHeight(const std::vector<std::vector<Vec3>>& lines) {
-    for (const std::vector<Vec3>& line : lines)
+SurfaceHeight::SurfaceHeight(const std::vector<std::vector<world::Vec3>>& lines) {
+    for (const std::vector<world::Vec3>& line : lines)
         sample(line, residues_);
     if (residues_.empty())
         return;
@@ -98,4 +98,4 @@ double SurfaceHeight::at(const Eigen::Vector2d& p) const {
     return plane + sum / weights;
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

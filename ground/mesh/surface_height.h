@@ -6,7 +6,7 @@
 
 #include "world/town_generated.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// Where a surface is not flat it is cut into cells of this size. [m]
 inline constexpr double surface_cell = 2.0;
@@ -19,7 +19,7 @@ class SurfaceHeight {
     /// Through all of these lines, smooth between them: mean of points on the lines, weighted by
     /// distance^-4 (Shepard, "A two-dimensional interpolation function for irregularly-spaced
     /// data", 1968).
-    explicit SurfaceHeight(const std::vector<std::vector<Vec3>>& lines);
+    explicit SurfaceHeight(const std::vector<std::vector<world::Vec3>>& lines);
 
     /// That of the nearest point of one clean line (see ribbon.h): level across it.
     static SurfaceHeight along(std::vector<Eigen::Vector3d> line);
@@ -40,4 +40,4 @@ class SurfaceHeight {
     std::vector<Eigen::Vector3d> line_;      ///< as given to along()
 };
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

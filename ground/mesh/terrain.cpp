@@ -14,8 +14,9 @@
 #include <numeric>
 
 #include "world/frames.h"
+#include "world/geometry2d.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 namespace {
 
@@ -29,7 +30,7 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 
 class Terrain {
   public:
-    Terrain(const Box& box, double cell);
+    Terrain(const world::Box& box, double cell);
 
     void push_below(const std::array<Eigen::Vector3d, 3>& triangle, double depth);
     void fill_unknown();
@@ -54,7 +55,7 @@ class Terrain {
     std::vector<double> heights_;
 };
 
-Terrain::Terrain(const Box& box, double cell)
+Terrain::Terrain(const world::Box& box, double cell)
     : low_(box.low),
       cell_(cell),
       columns_(2 + static_cast<std::size_t>((box.high.x() - box.low.x()) / cell)),
@@ -71,7 +72,7 @@ bool touches(const std::array<Eigen::Vector3d, 3>& triangle,
         const Eigen::Vector2d start = triangle[i].head<2>();
         const Eigen::Vector2d along = triangle[(i + 1) % 3].head<2>() - start;
         const double reach = (std::abs(along.x()) + std::abs(along.y())) * cell / 2;
-        if (cross(along, middle - start) < -reach)
+        if (world::cross(along, middle - start) < -reach)
             return false;
     }
     return true;
@@ -86,7 +87,7 @@ void Terrain::push_below(const std::array<Eigen::Vector3d, 3>& triangle, double 
         slope.setZero();
         base.z() = std::min({triangle[0].z(), triangle[1].z(), triangle[2].z()});
     }
-    Box box;
+    world::Box box;
     for (const Eigen::Vector3d& p : triangle)
         box.take(p.head<2>());
     const auto cell_index = [&](double offset) { return static_cast<std::size_t>(offset / cell_); };
@@ -165,7 +166,7 @@ void Terrain::add_to(GroundBuilder& ground) const {
                 Surface::terrain);
 }
 
-bool is_flat(const GroundMesh& mesh) {
+bool is_mesh_flat(const GroundMesh& mesh) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -181,15 +182,15 @@ bool is_flat(const GroundMesh& mesh) {
 
 /// What stands gets its height from hilly ground, so that it may not change that: all heights
 /// depend on where the cells begin.
-Box extent(const TownT& town, const GroundMesh& mesh, bool flat) {
-    Box box;
+world::Box extent(const world::TownT& town, const GroundMesh& mesh, bool flat) {
+    world::Box box;
     for (const Eigen::Vector3d& vertex : mesh.vertices)
         box.take(vertex.head<2>(), flat ? border : hilly_border);
     if (flat) {
-        for (const Building& building : town.buildings)
-            box.take(in_plan(building.centre()), border);
-        for (const Tree& tree : town.trees)
-            box.take(in_plan(tree.position()), border);
+        for (const world::Building& building : town.buildings)
+            box.take(world::in_plan(building.centre()), border);
+        for (const world::Tree& tree : town.trees)
+            box.take(world::in_plan(tree.position()), border);
     }
     // Whole metres, and one to spare.
     box.low = box.low.array().floor() - 1;
@@ -199,12 +200,12 @@ Box extent(const TownT& town, const GroundMesh& mesh, bool flat) {
 
 }  // namespace
 
-void add_terrain(const TownT& town, GroundBuilder& ground) {
+void add_terrain(const world::TownT& town, GroundBuilder& ground) {
     const GroundMesh& mesh = ground.mesh();
     if (mesh.triangles.empty())
         return;
-    const bool flat = is_flat(mesh);
-    const Box box = extent(town, mesh, flat);
+    const bool flat = is_mesh_flat(mesh);
+    const world::Box box = extent(town, mesh, flat);
     const Eigen::Vector2d size = box.high - box.low;
     const double cell =
         flat ? flat_cell : std::max(smallest_cell, std::sqrt(size.prod() / most_cells));
@@ -221,4 +222,4 @@ void add_terrain(const TownT& town, GroundBuilder& ground) {
     terrain.add_to(ground);
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -8,7 +8,9 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 
-namespace reprise::world {
+#include "world/geometry2d.h"
+
+namespace reprise::ground {
 
 namespace {
 
@@ -64,12 +66,12 @@ struct Kernel : CGAL::Simple_cartesian<double> {
 };
 
 /// Whether a face lies inside; not known at first.
-enum class Side { unknown, outside, inside };
+enum class Location { unknown, outside, inside };
 
 using Vertices = CGAL::Triangulation_vertex_base_2<Kernel>;
 using Faces = CGAL::Constrained_triangulation_face_base_2<
     Kernel,
-    CGAL::Triangulation_face_base_with_info_2<Side, Kernel>>;
+    CGAL::Triangulation_face_base_with_info_2<Location, Kernel>>;
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
     Kernel,
     CGAL::Triangulation_data_structure_2<Vertices, Faces>,
@@ -78,18 +80,19 @@ using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
 /// From the outside inwards: whoever crosses a border changes sides.
 void find_sides(Triangulation& triangulation) {
     for (const auto face : triangulation.all_face_handles())
-        face->info() = Side::unknown;
-    triangulation.infinite_face()->info() = Side::outside;
+        face->info() = Location::unknown;
+    triangulation.infinite_face()->info() = Location::outside;
     std::vector<Triangulation::Face_handle> open{triangulation.infinite_face()};
     while (!open.empty()) {
         const Triangulation::Face_handle face = open.back();
         open.pop_back();
         for (int i = 0; i < 3; ++i) {
             const Triangulation::Face_handle next = face->neighbor(i);
-            if (next->info() != Side::unknown)
+            if (next->info() != Location::unknown)
                 continue;
             const bool crosses = face->is_constrained(i);
-            next->info() = (face->info() == Side::inside) != crosses ? Side::inside : Side::outside;
+            next->info() = (face->info() == Location::inside) != crosses ? Location::inside
+                                                                         : Location::outside;
             open.push_back(next);
         }
     }
@@ -97,9 +100,9 @@ void find_sides(Triangulation& triangulation) {
 
 }  // namespace
 
-std::vector<std::array<Eigen::Vector2d, 3>> triangulate(const std::vector<Loop>& borders) {
+std::vector<std::array<Eigen::Vector2d, 3>> triangulate(const std::vector<world::Loop>& borders) {
     Triangulation triangulation;
-    for (const Loop& border : borders) {
+    for (const world::Loop& border : borders) {
         if (border.size() < 3)
             continue;
         Triangulation::Vertex_handle first = triangulation.insert({border[0].x(), border[0].y()});
@@ -119,7 +122,7 @@ std::vector<std::array<Eigen::Vector2d, 3>> triangulate(const std::vector<Loop>&
     find_sides(triangulation);
     std::vector<std::array<Eigen::Vector2d, 3>> triangles;
     for (const auto face : triangulation.finite_face_handles()) {
-        if (face->info() != Side::inside)
+        if (face->info() != Location::inside)
             continue;
         std::array<Eigen::Vector2d, 3> triangle;
         for (int i = 0; i < 3; ++i) {
@@ -131,4 +134,4 @@ std::vector<std::array<Eigen::Vector2d, 3>> triangulate(const std::vector<Loop>&
     return triangles;
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -17,7 +17,7 @@
 #include "world/tick.h"
 #include "world/town.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 namespace {
 
@@ -31,18 +31,18 @@ constexpr double bend_ahead = 12.0;      ///< [m] looked at, either way
 constexpr double bend = 0.3;             ///< [rad] of turn over twice that: radius 80 m
 
 /// Junctions where roads meet; the others only join two pieces of one road.
-std::vector<bool> meeting_places(const TownT& town) {
+std::vector<bool> meeting_places(const world::TownT& town) {
     std::vector<std::set<std::string_view>> edges(town.junctions.size());
     std::vector<bool> meets(town.junctions.size());
     for (std::size_t i = 0; i < meets.size(); ++i)
         meets[i] = town.junctions[i].lit;
-    for (const LaneT& lane : town.lanes) {
+    for (const world::LaneT& lane : town.lanes) {
         if (lane.junction >= meets.size())
             continue;
-        if (lane.kind == LaneKind::crossing)
+        if (lane.kind == world::LaneKind::crossing)
             meets[lane.junction] = true;
-        if (lane.kind == LaneKind::driving && edges[lane.junction].insert(lane.edge).second &&
-            edges[lane.junction].size() > 2)
+        if (lane.kind == world::LaneKind::driving &&
+            edges[lane.junction].insert(lane.edge).second && edges[lane.junction].size() > 2)
             meets[lane.junction] = true;
     }
     return meets;
@@ -50,7 +50,7 @@ std::vector<bool> meeting_places(const TownT& town) {
 
 class Painter {
   public:
-    explicit Painter(const TownT& town);
+    explicit Painter(const world::TownT& town);
 
     void paint_lane(std::uint32_t index);
     void paint_crossings();
@@ -59,12 +59,12 @@ class Painter {
 
   private:
     void paint_dashed(const Line& line);
-    void paint_centre_line(const LaneT& lane, const Line& line);
+    void paint_centre_line(const world::LaneT& lane, const Line& line);
     void paint_inner_edge(std::uint32_t index, const Line& centre);
-    void paint_outer_edge(const LaneT& lane, const Line& centre);
-    void paint_zebra(const LaneT& lane, const SurfaceHeight& road);
+    void paint_outer_edge(const world::LaneT& lane, const Line& centre);
+    void paint_zebra(const world::LaneT& lane, const SurfaceHeight& road);
 
-    const TownT& town_;
+    const world::TownT& town_;
     std::set<std::string_view> edges_with_sidewalk_;
     std::vector<bool> roads_meet_;  ///< by junction
     double inward_;                 ///< sign of the side where the road's middle is: +1 left
@@ -72,13 +72,13 @@ class Painter {
     Paint paint_;
 };
 
-Painter::Painter(const TownT& town)
+Painter::Painter(const world::TownT& town)
     : town_(town),
       roads_meet_(meeting_places(town)),
       inward_(town.left_hand ? -1 : 1),
       stop_lines_(town) {
-    for (const LaneT& lane : town.lanes)
-        if (lane.kind == LaneKind::sidewalk)
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind == world::LaneKind::sidewalk)
             edges_with_sidewalk_.insert(lane.edge);
 }
 
@@ -91,8 +91,8 @@ void Painter::paint_dashed(const Line& line) {
 
 /// Between opposite directions: dashed in towns on roads of one lane each way; solid near
 /// junctions, in bends, and on all other roads.
-void Painter::paint_centre_line(const LaneT& lane, const Line& line) {
-    const bool is_wide = lane.left != none || lane.right != none;
+void Painter::paint_centre_line(const world::LaneT& lane, const Line& line) {
+    const bool is_wide = lane.left != world::none || lane.right != world::none;
     if (is_wide || lane.speed_limit > town_limit) {
         paint_.line(line, line_width);
         return;
@@ -106,9 +106,9 @@ void Painter::paint_centre_line(const LaneT& lane, const Line& line) {
     const double first_dash = meets(town_.lanes[lane.opposite].junction) ? near_junction : 0;
     const double last_dash = length - (meets(lane.junction) ? near_junction : 0);
     const auto is_bend = [&](double s) {
-        const double before = point_at(lane, (s - bend_ahead) * scale).yaw;
-        const double after = point_at(lane, (s + bend_ahead) * scale).yaw;
-        return std::abs(wrap_angle(after - before)) > bend;
+        const double before = world::point_at(lane, (s - bend_ahead) * scale).yaw;
+        const double after = world::point_at(lane, (s + bend_ahead) * scale).yaw;
+        return std::abs(world::wrap_angle(after - before)) > bend;
     };
     constexpr double margin = (dash_period - dash_length) / 2;
     double solid_from = 0;
@@ -128,10 +128,10 @@ void Painter::paint_centre_line(const LaneT& lane, const Line& line) {
 }
 
 void Painter::paint_inner_edge(std::uint32_t index, const Line& centre) {
-    const LaneT& lane = town_.lanes[index];
+    const world::LaneT& lane = town_.lanes[index];
     const std::uint32_t inner = town_.left_hand ? lane.right : lane.left;
     const double edge = inward_ * lane.width / 2;
-    if (inner != none) {
+    if (inner != world::none) {
         paint_dashed(moved_left(centre, edge));
     } else if (lane.opposite >= town_.lanes.size()) {
         paint_.line(moved_left(centre, edge - inward_ * edge_inset), line_width);
@@ -143,16 +143,16 @@ void Painter::paint_inner_edge(std::uint32_t index, const Line& centre) {
     }
 }
 
-void Painter::paint_outer_edge(const LaneT& lane, const Line& centre) {
+void Painter::paint_outer_edge(const world::LaneT& lane, const Line& centre) {
     const std::uint32_t outer = town_.left_hand ? lane.left : lane.right;
-    if (outer != none || edges_with_sidewalk_.contains(lane.edge))
+    if (outer != world::none || edges_with_sidewalk_.contains(lane.edge))
         return;
     paint_.line(moved_left(centre, -inward_ * (lane.width / 2 - edge_inset)), line_width);
 }
 
 void Painter::paint_lane(std::uint32_t index) {
-    const LaneT& lane = town_.lanes[index];
-    if (lane.kind != LaneKind::driving)
+    const world::LaneT& lane = town_.lanes[index];
+    if (lane.kind != world::LaneKind::driving)
         return;
     const Line centre = clean_line(lane.centre);
     paint_inner_edge(index, centre);
@@ -161,7 +161,7 @@ void Painter::paint_lane(std::uint32_t index) {
     paint_turn_arrows(town_, index, centre, paint_);
 }
 
-void Painter::paint_zebra(const LaneT& lane, const SurfaceHeight& road) {
+void Painter::paint_zebra(const world::LaneT& lane, const SurfaceHeight& road) {
     const Line centre = clean_line(lane.centre);
     const double length = length_of(centre);
     const auto height = [&](const Eigen::Vector2d& p) { return road.at(p) + paint_height; };
@@ -171,7 +171,7 @@ void Painter::paint_zebra(const LaneT& lane, const SurfaceHeight& road) {
         if (stripe.size() < 2)
             continue;
         const Ribbon ribbon = make_ribbon(stripe, -lane.width / 2, lane.width / 2);
-        for (const Loop& loop : ribbon.loops())
+        for (const world::Loop& loop : ribbon.loops())
             paint_.builder().add_face(loop, height, cell, Surface::marking);
     }
 }
@@ -183,14 +183,14 @@ void Painter::paint_crossings() {
         for (const std::uint32_t crossing : parts[i].crossings)
             paint_zebra(town_.lanes[crossing], road);
     }
-    for (const LaneT& lane : town_.lanes)
-        if (lane.kind == LaneKind::crossing && lane.junction >= parts.size())
+    for (const world::LaneT& lane : town_.lanes)
+        if (lane.kind == world::LaneKind::crossing && lane.junction >= parts.size())
             paint_zebra(lane, SurfaceHeight::along(clean_line(lane.centre)));
 }
 
 }  // namespace
 
-GroundMesh build_markings(const TownT& town) {
+GroundMesh build_markings(const world::TownT& town) {
     Painter painter(town);
     for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
         painter.paint_lane(i);
@@ -198,4 +198,4 @@ GroundMesh build_markings(const TownT& town) {
     return painter.take();
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

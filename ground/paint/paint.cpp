@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace reprise::world {
+namespace reprise::ground {
 
 double length_of(const Line& line) {
     double length = 0;
@@ -40,7 +40,7 @@ void Paint::line(const Line& line, double width) {
     }
 }
 
-void Paint::shape(const Line& centre, const Loop& corners) {
+void Paint::shape(const Line& centre, const world::Loop& corners) {
     std::vector<Eigen::Vector3d> raised;
     for (const Eigen::Vector2d& corner : corners) {
         // The segment that holds s.
@@ -60,4 +60,4 @@ void Paint::shape(const Line& centre, const Loop& corners) {
     builder_.add_face(raised, Surface::marking);
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

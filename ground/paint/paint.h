@@ -5,7 +5,7 @@
 #include "ground/mesh/ground_builder.h"
 #include "ground/mesh/ribbon.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// Of painted lines over the road: nearer, and a depth picture cannot tell them apart. [m]
 inline constexpr double paint_height = 0.005;
@@ -26,7 +26,7 @@ class Paint {
 
     /// A convex polygon on a lane: corners (s, t) are metres along its clean centre line (may lie
     /// between 0 and its length only) and to the left of it. Follows bends and slopes.
-    void shape(const Line& centre, const Loop& corners);
+    void shape(const Line& centre, const world::Loop& corners);
 
     GroundBuilder& builder() { return builder_; }
 
@@ -34,4 +34,4 @@ class Paint {
     GroundBuilder builder_;
 };
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

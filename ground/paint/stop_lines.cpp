@@ -7,7 +7,7 @@
 #include "world/tick.h"
 #include "world/town.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 namespace {
 
@@ -18,47 +18,49 @@ constexpr double tooth_length = 0.6;     ///< [m] along the lane
 constexpr double tooth_width = 0.4;      ///< [m]
 constexpr double tooth_period = 0.6;     ///< [m]
 
-bool must_yield(const LaneT& lane) {
-    return !lane.links.empty() && std::all_of(lane.links.begin(),
-                                              lane.links.end(),
-                                              [](const Link& link) { return link.yields(); });
+bool must_yield(const world::LaneT& lane) {
+    return !lane.links.empty() &&
+           std::all_of(lane.links.begin(), lane.links.end(), [](const world::Link& link) {
+               return link.yields();
+           });
 }
 
 /// Does a sign of this kind stand beside the lane's end, for those who drive on it?
-bool has_sign(const TownT& town, const LaneT& lane, PropKind kind) {
+bool has_sign(const world::TownT& town, const world::LaneT& lane, world::PropKind kind) {
     constexpr double reach = 10;   // [m]
     constexpr double askew = 0.6;  // [rad]
-    const Vec3& end = lane.centre.back();
-    const double yaw = point_at(lane, lane.length).yaw;
-    return std::any_of(town.props.begin(), town.props.end(), [&](const Prop& prop) {
-        return prop.kind() == kind && (to_eigen(prop.position()) - to_eigen(end)).norm() < reach &&
-               std::abs(wrap_angle(prop.yaw() - yaw)) < askew;
+    const world::Vec3& end = lane.centre.back();
+    const double yaw = world::point_at(lane, lane.length).yaw;
+    return std::any_of(town.props.begin(), town.props.end(), [&](const world::Prop& prop) {
+        return prop.kind() == kind &&
+               (world::to_eigen(prop.position()) - world::to_eigen(end)).norm() < reach &&
+               std::abs(world::wrap_angle(prop.yaw() - yaw)) < askew;
     });
 }
 
 }  // namespace
 
-StopLines::StopLines(const TownT& town)
+StopLines::StopLines(const world::TownT& town)
     : town_(&town),
       has_priority_road_(town.junctions.size(), false) {
-    for (const LaneT& lane : town.lanes)
-        if (lane.kind == LaneKind::driving && lane.junction < has_priority_road_.size() &&
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind == world::LaneKind::driving && lane.junction < has_priority_road_.size() &&
             !lane.links.empty() && !must_yield(lane))
             has_priority_road_[lane.junction] = true;
 }
 
-StopLines::Kind StopLines::kind_of(const LaneT& lane) const {
+StopLines::Kind StopLines::kind_of(const world::LaneT& lane) const {
     // A left turn that gives way to oncoming traffic does not make a priority road stop.
-    if (std::any_of(lane.links.begin(), lane.links.end(), [](const Link& link) {
-            return link.signal() != none;
+    if (std::any_of(lane.links.begin(), lane.links.end(), [](const world::Link& link) {
+            return link.signal() != world::none;
         }))
         return Kind::stop;
     if (!must_yield(lane))
         return Kind::none;
-    if (has_sign(*town_, lane, PropKind::stop_sign))
+    if (has_sign(*town_, lane, world::PropKind::stop_sign))
         return Kind::stop;
     // A main road with a crossing gives way as well, to walkers: the sign tells who is meant.
-    if (has_sign(*town_, lane, PropKind::yield_sign))
+    if (has_sign(*town_, lane, world::PropKind::yield_sign))
         return Kind::give_way;
     const bool is_minor =
         lane.junction < has_priority_road_.size() && has_priority_road_[lane.junction];
@@ -66,7 +68,7 @@ StopLines::Kind StopLines::kind_of(const LaneT& lane) const {
 }
 
 void StopLines::paint(std::uint32_t index, const Line& centre, Paint& paint) const {
-    const LaneT& lane = town_->lanes[index];
+    const world::LaneT& lane = town_->lanes[index];
     const double length = length_of(centre);
     const Kind kind = kind_of(lane);
     if (kind == Kind::none || length < shortest_marked)
@@ -86,4 +88,4 @@ void StopLines::paint(std::uint32_t index, const Line& centre, Paint& paint) con
     }
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -6,7 +6,7 @@
 #include "ground/paint/paint.h"
 #include "world/town_generated.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 /// The line across the end of a lane: a stop line before a signal or a stop sign, a row of
 /// triangles that point at the driver ("shark's teeth", Vienna Convention on Road Signs, annex 8)
@@ -15,7 +15,7 @@ namespace reprise::world {
 class StopLines {
   public:
     /// Looks into `town`, which must outlive it.
-    explicit StopLines(const TownT& town);
+    explicit StopLines(const world::TownT& town);
 
     /// `centre` is the lane's clean line.
     void paint(std::uint32_t lane, const Line& centre, Paint& paint) const;
@@ -23,10 +23,10 @@ class StopLines {
   private:
     enum class Kind { none, stop, give_way };
 
-    Kind kind_of(const LaneT& lane) const;
+    Kind kind_of(const world::LaneT& lane) const;
 
-    const TownT* town_;
+    const world::TownT* town_;
     std::vector<bool> has_priority_road_;  ///< by junction: does somebody not have to yield?
 };
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -6,7 +6,7 @@
 
 #include "world/tick.h"
 
-namespace reprise::world {
+namespace reprise::ground {
 
 namespace {
 
@@ -37,24 +37,26 @@ struct Turns {
     }
 };
 
-Turns turns_of(const LaneT& lane) {
+Turns turns_of(const world::LaneT& lane) {
     Turns turns;
-    for (const Link& link : lane.links) {
-        const Turn turn = link.turn();
-        turns.left = turns.left || turn == Turn::left || turn == Turn::partially_left;
-        turns.right = turns.right || turn == Turn::right || turn == Turn::partially_right;
-        turns.straight = turns.straight || turn == Turn::straight;
+    for (const world::Link& link : lane.links) {
+        const world::Turn turn = link.turn();
+        turns.left = turns.left || turn == world::Turn::left || turn == world::Turn::partially_left;
+        turns.right =
+            turns.right || turn == world::Turn::right || turn == world::Turn::partially_right;
+        turns.straight = turns.straight || turn == world::Turn::straight;
     }
     return turns;
 }
 
 /// Do lanes side by side lead to different turns? Neighbours are found from lane to lane.
-bool has_a_choice(const TownT& town, std::uint32_t lane) {
+bool has_a_choice(const world::TownT& town, std::uint32_t lane) {
     Turns all = turns_of(town.lanes[lane]);
     int lanes = 1;
-    for (std::uint32_t i = town.lanes[lane].left; i != none; i = town.lanes[i].left, ++lanes)
+    for (std::uint32_t i = town.lanes[lane].left; i != world::none; i = town.lanes[i].left, ++lanes)
         all.take(turns_of(town.lanes[i]));
-    for (std::uint32_t i = town.lanes[lane].right; i != none; i = town.lanes[i].right, ++lanes)
+    for (std::uint32_t i = town.lanes[lane].right; i != world::none;
+         i = town.lanes[i].right, ++lanes)
         all.take(turns_of(town.lanes[i]));
     return lanes > 1 && all.count() > 1;
 }
@@ -91,7 +93,10 @@ void paint_arrow(const Line& centre, double tip, const Turns& turns, Paint& pain
 
 }  // namespace
 
-void paint_turn_arrows(const TownT& town, std::uint32_t lane, const Line& centre, Paint& paint) {
+void paint_turn_arrows(const world::TownT& town,
+                       std::uint32_t lane,
+                       const Line& centre,
+                       Paint& paint) {
     const Turns turns = turns_of(town.lanes[lane]);
     if (turns.count() == 0 || !has_a_choice(town, lane))
         return;
@@ -101,4 +106,4 @@ void paint_turn_arrows(const TownT& town, std::uint32_t lane, const Line& centre
             paint_arrow(centre, tip, turns, paint);
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -30,7 +30,7 @@ class FirstTriangle : public btTriangleRaycastCallback {
 
 }  // namespace
 
-Ground::Ground(const world::GroundMesh& mesh, btDynamicsWorld& world)
+Ground::Ground(const ground::GroundMesh& mesh, btDynamicsWorld& world)
     : surfaces_(mesh.surfaces),
       world_(&world) {
     REPRISE_CHECK(!mesh.triangles.empty(), "the town has no ground");
@@ -81,8 +81,8 @@ bool Ground::cast(const btVector3& from, const btVector3& to, Hit& hit) const {
 void* WheelRays::castRay(const btVector3& from,
                          const btVector3& to,
                          btVehicleRaycasterResult& result) {
-    world::Surface& surface = surfaces_[next_++ % surfaces_.size()];
-    surface = world::Surface::terrain;
+    ground::Surface& surface = surfaces_[next_++ % surfaces_.size()];
+    surface = ground::Surface::terrain;
     Ground::Hit hit;
     if (!ground_->cast(from, to, hit))
         return nullptr;

@@ -14,7 +14,7 @@ namespace reprise::kernel {
 class Ground {
   public:
     /// Copies the mesh and adds one body to `world`, which must outlive this.
-    Ground(const world::GroundMesh& mesh, btDynamicsWorld& world);
+    Ground(const ground::GroundMesh& mesh, btDynamicsWorld& world);
     ~Ground();
     Ground(const Ground&) = delete;
     Ground& operator=(const Ground&) = delete;
@@ -22,7 +22,7 @@ class Ground {
     struct Hit {
         double fraction;   ///< of the way from -> to
         btVector3 normal;  ///< of the triangle, towards `from`
-        world::Surface surface;
+        ground::Surface surface;
     };
 
     /// The first triangle on the way. Ties go to the lower triangle index, so that the answer does
@@ -32,7 +32,7 @@ class Ground {
   private:
     std::vector<std::array<double, 3>> vertices_;
     std::vector<std::array<int, 3>> triangles_;
-    std::vector<world::Surface> surfaces_;
+    std::vector<ground::Surface> surfaces_;
     btTriangleIndexVertexArray arrays_;
     std::unique_ptr<btBvhTriangleMeshShape> shape_;
     std::unique_ptr<btRigidBody> body_;
@@ -48,7 +48,7 @@ class WheelRays : public btVehicleRaycaster {
     /// Before the four rays of a substep, which btRaycastVehicle casts in the order of the wheels.
     void begin() { next_ = 0; }
 
-    world::Surface surface(int wheel) const { return surfaces_[static_cast<std::size_t>(wheel)]; }
+    ground::Surface surface(int wheel) const { return surfaces_[static_cast<std::size_t>(wheel)]; }
 
     void* castRay(const btVector3& from,
                   const btVector3& to,
@@ -56,7 +56,7 @@ class WheelRays : public btVehicleRaycaster {
 
   private:
     const Ground* ground_;
-    std::array<world::Surface, 4> surfaces_{};
+    std::array<ground::Surface, 4> surfaces_{};
     std::size_t next_ = 0;
 };
 

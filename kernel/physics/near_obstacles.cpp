@@ -4,10 +4,34 @@
 
 namespace reprise::kernel {
 
-NearObstacles::NearObstacles(const world::TownT& town, btDynamicsWorld& world)
+namespace {
+
+/// Its middle is half its height above its lower end.
+std::unique_ptr<btCollisionShape> make_shape(const world::Obstacle& obstacle) {
+    using Shape = world::Obstacle::Shape;
+    switch (obstacle.shape) {
+        case Shape::cylinder:
+            return std::make_unique<btCylinderShapeZ>(to_bullet(obstacle.half));
+        case Shape::prism: {
+            auto hull = std::make_unique<btConvexHullShape>();
+            for (const Eigen::Vector3d& corner : obstacle.corners)
+                for (const double side : {-1.0, 1.0})
+                    hull->addPoint(to_bullet(corner) + btVector3(0, 0, side * obstacle.half.z()),
+                                   false);
+            hull->recalcLocalAabb();
+            return hull;
+        }
+        default:
+            return std::make_unique<btBoxShape>(to_bullet(obstacle.half));
+    }
+}
+
+}  // namespace
+
+NearObstacles::NearObstacles(std::span<const world::Obstacle> obstacles, btDynamicsWorld& world)
     : world_(&world),
-      obstacles_(obstacles_of(town)) {
-    for (const Obstacle& obstacle : obstacles_)
+      obstacles_(obstacles.begin(), obstacles.end()) {
+    for (const world::Obstacle& obstacle : obstacles_)
         largest_radius_ = std::max(largest_radius_, obstacle.radius);
 }
 
@@ -19,23 +43,23 @@ NearObstacles::~NearObstacles() {
 bool NearObstacles::within(std::size_t index,
                            std::span<const btVector3> centres,
                            double distance) const {
-    const Obstacle& obstacle = obstacles_[index];
+    const world::Obstacle& obstacle = obstacles_[index];
     const double reach = obstacle.radius + distance;
     return std::any_of(centres.begin(), centres.end(), [&](const btVector3& centre) {
-        const btVector3 way = centre - obstacle.position;
+        const btVector3 way = centre - to_bullet(obstacle.position);
         return way.x() * way.x() + way.y() * way.y() <= reach * reach;
     });
 }
 
 NearObstacles::Body NearObstacles::make(std::size_t index) const {
-    const Obstacle& obstacle = obstacles_[index];
+    const world::Obstacle& obstacle = obstacles_[index];
     Body near{index, make_shape(obstacle), nullptr};
     btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, near.shape.get());
     info.m_friction = 0.6;
     info.m_restitution = 0.3;
-    info.m_startWorldTransform =
-        btTransform(btQuaternion(btVector3(0, 0, 1), obstacle.yaw),
-                    obstacle.position + btVector3(0, 0, obstacle.half.z() - obstacle.depth));
+    info.m_startWorldTransform = btTransform(
+        btQuaternion(btVector3(0, 0, 1), obstacle.yaw),
+        to_bullet(obstacle.position) + btVector3(0, 0, obstacle.half.z() - obstacle.depth));
     near.body = std::make_unique<btRigidBody>(info);
     tag(*near.body, obstacle_body, 0);
     return near;
@@ -57,7 +81,7 @@ void NearObstacles::choose(std::span<const btVector3> centres) {
             obstacles_.begin(),
             obstacles_.end(),
             centre.x() - reach,
-            [](const Obstacle& obstacle, double x) { return obstacle.position.x() < x; });
+            [](const world::Obstacle& obstacle, double x) { return obstacle.position.x() < x; });
         for (; at != obstacles_.end() && at->position.x() <= centre.x() + reach; ++at) {
             const auto index = static_cast<std::size_t>(at - obstacles_.begin());
             if (!within(index, {&centre, 1}, enter_distance))

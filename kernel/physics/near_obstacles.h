@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "kernel/physics/bullet.h"
-#include "kernel/physics/obstacle.h"
 #include "world/digest.h"
-#include "world/town_generated.h"
+#include "world/obstacle.h"
 
 namespace reprise::kernel {
 
@@ -21,7 +20,8 @@ class NearObstacles {
     static constexpr double enter_distance = 12;
     static constexpr double leave_distance = 18;
 
-    NearObstacles(const world::TownT& town, btDynamicsWorld& world);
+    /// `obstacles` are sorted by x.
+    NearObstacles(std::span<const world::Obstacle> obstacles, btDynamicsWorld& world);
     ~NearObstacles();
     NearObstacles(const NearObstacles&) = delete;
     NearObstacles& operator=(const NearObstacles&) = delete;
@@ -44,7 +44,7 @@ class NearObstacles {
     Body make(std::size_t index) const;
 
     btDynamicsWorld* world_;
-    std::vector<Obstacle> obstacles_;  ///< sorted by x, then by their order in the town
+    std::vector<world::Obstacle> obstacles_;  ///< sorted by x
     double largest_radius_ = 0;
     std::vector<Body> near_;  ///< sorted by index
 };

@@ -87,13 +87,15 @@ void add_manifolds(world::Hasher& hasher, btCollisionDispatcher& dispatcher) {
 }  // namespace
 
 struct Physics::World {
-    World(const world::EpisodeT& episode, const world::TownT& town, const world::GroundMesh& mesh)
+    World(const world::EpisodeT& episode,
+          const ground::GroundMesh& mesh,
+          std::span<const world::Obstacle> standing)
         : seed(episode.seed),
           substeps(static_cast<int>(episode.substeps)),
           step(static_cast<double>(episode.step_ns) * 1e-9),
           substep(step / substeps),
           ground(mesh, bullet.world),
-          obstacles(town, bullet.world),
+          obstacles(standing, bullet.world),
           cars(bullet.world) {
         REPRISE_CHECK(substeps >= 1, std::to_string(substeps) + " substeps");
     }
@@ -123,13 +125,10 @@ struct Physics::World {
     std::vector<btVector3> centres;                  ///< of the vehicles, at the start of the tick
 };
 
-Physics::Physics(const world::EpisodeT& episode, const world::TownT& town)
-    : Physics(episode, town, world::build_ground(town)) {}
-
 Physics::Physics(const world::EpisodeT& episode,
-                 const world::TownT& town,
-                 const world::GroundMesh& ground)
-    : world_(std::make_unique<World>(episode, town, ground)) {}
+                 const ground::GroundMesh& ground,
+                 std::span<const world::Obstacle> obstacles)
+    : world_(std::make_unique<World>(episode, ground, obstacles)) {}
 
 Physics::~Physics() = default;
 

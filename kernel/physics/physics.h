@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 
 #include <Eigen/Geometry>
 
 #include "ground/mesh/ground.h"
 #include "world/episode_generated.h"
+#include "world/obstacle.h"
 #include "world/tick.h"
 #include "world/town.h"
 
@@ -21,13 +23,10 @@ namespace reprise::kernel {
 /// a tick of 10 substeps and one vehicle: 20 us; 28 us beside 10 near cars, 50 us beside 50.
 class Physics {
   public:
-    /// Builds the town's ground. Town 1: about 100 ms.
-    Physics(const world::EpisodeT& episode, const world::TownT& town);
-
-    /// With a ground that exists already. Copies what it needs; nothing must outlive this.
+    /// `obstacles` are sorted by x. Copies what it needs; nothing must outlive this.
     Physics(const world::EpisodeT& episode,
-            const world::TownT& town,
-            const world::GroundMesh& ground);
+            const ground::GroundMesh& ground,
+            std::span<const world::Obstacle> obstacles);
     ~Physics();
     Physics(const Physics&) = delete;
     Physics& operator=(const Physics&) = delete;

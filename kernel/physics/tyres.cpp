@@ -157,7 +157,8 @@ int RaycastCar::find_contacts(double step, std::array<Contact, 4>& contacts) {
         const btVector3 velocity = body.getVelocityInLocalPoint(arm);
         const double slip =
             velocity.dot(contact.left.direction) / std::max(std::abs(velocity.dot(ahead)), slow);
-        contact.side_limit = contact.limit * brush_share(slip, wheel.cornering_stiffness, grip);
+        contact.side_limit =
+            contact.limit * world::brush_share(slip, wheel.cornering_stiffness, grip);
     }
     if (total_load > 0)
         for (Contact& contact : std::span(contacts).first(static_cast<std::size_t>(count)))
@@ -168,7 +169,7 @@ int RaycastCar::find_contacts(double step, std::array<Contact, 4>& contacts) {
 void RaycastCar::updateFriction(btScalar step) {
     btRigidBody& body = *getRigidBody();
     twist_anti_roll_bars(step);
-    body.setLinearVelocity(body.getLinearVelocity() - btVector3(0, 0, gravity * step));
+    body.setLinearVelocity(body.getLinearVelocity() - btVector3(0, 0, world::gravity * step));
     std::array<Contact, 4> all;
     const int count = find_contacts(step, all);
     const std::span<Contact> contacts(all.data(), static_cast<std::size_t>(count));

@@ -35,11 +35,11 @@ double wrap_turn(double angle) {
 }  // namespace
 
 struct Vehicle::Chassis {
-    Chassis(const CarModel& model, btDynamicsWorld& bullet, const Ground& ground);
+    Chassis(const world::CarModel& model, btDynamicsWorld& bullet, const Ground& ground);
 
     ~Chassis() { world->removeRigidBody(&body); }
 
-    void hang_wheels(const CarModel& model);
+    void hang_wheels(const world::CarModel& model);
 
     btDynamicsWorld* world;
     btBoxShape box;
@@ -51,7 +51,7 @@ struct Vehicle::Chassis {
 
 namespace {
 
-btRigidBody::btRigidBodyConstructionInfo chassis_info(const CarModel& model,
+btRigidBody::btRigidBodyConstructionInfo chassis_info(const world::CarModel& model,
                                                       btCollisionShape& shape) {
     btRigidBody::btRigidBodyConstructionInfo info(
         model.catalogue->mass, nullptr, &shape, to_bullet(model.inertia));
@@ -63,7 +63,9 @@ btRigidBody::btRigidBodyConstructionInfo chassis_info(const CarModel& model,
 
 }  // namespace
 
-Vehicle::Chassis::Chassis(const CarModel& model, btDynamicsWorld& bullet, const Ground& ground)
+Vehicle::Chassis::Chassis(const world::CarModel& model,
+                          btDynamicsWorld& bullet,
+                          const Ground& ground)
     : world(&bullet),
       box(to_bullet(model.box_half)),
       shape(false),
@@ -76,10 +78,10 @@ Vehicle::Chassis::Chassis(const CarModel& model, btDynamicsWorld& bullet, const 
     hang_wheels(model);
 }
 
-void Vehicle::Chassis::hang_wheels(const CarModel& model) {
+void Vehicle::Chassis::hang_wheels(const world::CarModel& model) {
     const world::VehicleModel& m = *model.catalogue;
     const double omega = model.spring_frequency;
-    const double sag = gravity / (omega * omega);  // of the springs under the car's weight
+    const double sag = world::gravity / (omega * omega);  // of the springs under the car's weight
     const double height = m.wheel_radius + wheel_travel - model.com_height;
     for (int i = 0; i < 4; ++i) {
         const bool front = i < 2;
@@ -98,14 +100,14 @@ void Vehicle::Chassis::hang_wheels(const CarModel& model) {
         wheel.m_wheelsDampingCompression = 2 * compression_damping * omega * share;
         wheel.m_wheelsDampingRelaxation = 2 * rebound_damping * omega * share;
         wheel.m_maxSuspensionTravelCm = 100 * (wheel_travel + sag);
-        wheel.m_maxSuspensionForce = 6 * share * m.mass * gravity;
+        wheel.m_maxSuspensionForce = 6 * share * m.mass * world::gravity;
         wheel.m_wheelsSuspensionForce = 0;
         wheel.m_skidInfo = 1;
         const auto index = static_cast<std::size_t>(i);
         car.wheels[index].cornering_stiffness = front ? front_cornering : rear_cornering;
         car.anti_roll[index / 2] = anti_roll_share * share * omega * omega * m.mass / 2;
     }
-    car.gravity = gravity;
+    car.gravity = world::gravity;
     car.rolling_resistance = model.rolling_resistance;
     car.resetSuspension();
 }
@@ -118,7 +120,7 @@ Vehicle::Vehicle(std::uint32_t id,
                  double speed)
     : id_(id),
       model_index_(model),
-      model_(car_model(world::vehicle_models()[model])),
+      model_(world::car_model(world::vehicle_models()[model])),
       chassis_(std::make_unique<Chassis>(model_, bullet, ground)),
       last_position_(world::to_vec3(pose_world_vehicle.translation())) {
     const Eigen::Isometry3d pose_world_body =
@@ -146,12 +148,12 @@ void Vehicle::set_control(const world::Control& control) {
 void Vehicle::steer(double step) {
     const world::VehicleModel& m = *model_.catalogue;
     const double wanted = std::clamp(control_.steer(), -1.0, 1.0) * m.max_steering_angle;
-    const double turn =
-        std::clamp(wanted - steering_angle_, -steering_rate * step, steering_rate * step);
+    const double turn = std::clamp(
+        wanted - steering_angle_, -world::steering_rate * step, world::steering_rate * step);
     if (turn == 0)
         return;
     steering_angle_ += turn;
-    const AckermannAngles angles = ackermann(steering_angle_, m.wheelbase, m.track);
+    const world::AckermannAngles angles = world::ackermann(steering_angle_, m.wheelbase, m.track);
     chassis_->car.setSteeringValue(angles.left, 0);
     chassis_->car.setSteeringValue(angles.right, 1);
 }
@@ -164,9 +166,9 @@ void Vehicle::press_pedals(double road_friction) {
     const btVector3 x_ahead = body().getCenterOfMassTransform().getBasis().getColumn(0);
     const double speed = x_ahead.dot(body().getLinearVelocity());
     const double throttle = std::clamp(control_.throttle(), 0.0, 1.0);
-    const double force = drive_force(m, throttle, control_.reverse(), speed);
+    const double force = world::drive_force(m, throttle, control_.reverse(), speed);
     // The hand brake is strong enough to lock the rear wheels under any load.
-    const double hand_brake = control_.hand_brake() ? model_.grip * m.mass * gravity : 0;
+    const double hand_brake = control_.hand_brake() ? model_.grip * m.mass * world::gravity : 0;
     for (std::size_t i = 0; i < 4; ++i) {
         const bool front = i < 2;
         car.wheels[i].engine = front == model_.front_driven ? force / 2 : 0;
@@ -177,7 +179,7 @@ void Vehicle::press_pedals(double road_friction) {
 
 void Vehicle::drive(double road_friction, double step) {
     const btVector3 velocity = body().getLinearVelocity();
-    const double drag = 0.5 * air_density * model_.catalogue->drag_area * velocity.length();
+    const double drag = 0.5 * world::air_density * model_.catalogue->drag_area * velocity.length();
     body().setLinearVelocity(velocity * (1 - drag * step / model_.catalogue->mass));
 
     steer(step);
@@ -221,7 +223,7 @@ world::VehicleState Vehicle::state_after(double step) {
 
 world::WheelState Vehicle::wheel(int index) const {
     const btWheelInfo& wheel = chassis_->car.getWheelInfo(index);
-    const world::Surface surface = chassis_->rays.surface(index);
+    const ground::Surface surface = chassis_->rays.surface(index);
     return {wheel.m_raycastInfo.m_suspensionLength,
             wheel.m_rotation,
             wheel.m_steering,

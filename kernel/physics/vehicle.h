@@ -60,7 +60,7 @@ class Vehicle {
 
     std::uint32_t id() const { return id_; }
 
-    const CarModel& model() const { return model_; }
+    const world::CarModel& model() const { return model_; }
 
     btRigidBody& body() const;
 
@@ -95,7 +95,7 @@ class Vehicle {
 
     std::uint32_t id_;
     std::uint16_t model_index_;
-    CarModel model_;
+    world::CarModel model_;
     std::unique_ptr<Chassis> chassis_;
     world::Control control_;
     double steering_angle_ = 0;

@@ -21,7 +21,7 @@ struct WallPoint {
 };
 
 /// The opening of a window or door, in the wall's coordinates.
-struct Opening {
+struct FacadeOpening {
     float left;
     float right;
     float low;
@@ -57,7 +57,7 @@ WallPoint wall_point(const BuildingFrame& building, const Surface& at) {
     return point;
 }
 
-Opening opening_at(const Facade& facade, const WallPoint& point) {
+FacadeOpening opening_at(const Facade& facade, const WallPoint& point) {
     const int bays = facade.bays(point.length);
     const float bay = point.length / static_cast<float>(bays);
     const int column = std::min(bays - 1, std::max(0, floor_int(point.u / bay)));
@@ -69,7 +69,7 @@ Opening opening_at(const Facade& facade, const WallPoint& point) {
     const float base =
         ground ? 0 : facade.ground_floor + facade.floor_height * static_cast<float>(floor);
     const float middle = bay * (static_cast<float>(column) + 0.5F);
-    Opening opening;
+    FacadeOpening opening;
     opening.seed =
         hash(point.seed, static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(floor + 1));
     float half = 0.5F * std::min(1.25F, bay * 0.5F);
@@ -169,12 +169,12 @@ Color wall_texture(const Facade& facade, const WallPoint& point, const Surface& 
 }
 
 /// Glass with what is behind it: a curtain, a dark room, or a lit one at dusk.
-void glaze(Look& look,
-           const Stage& stage,
-           const Opening& opening,
-           const WallPoint& point,
-           float u,
-           float z) {
+void glaze_facade(Look& look,
+                  const Stage& stage,
+                  const FacadeOpening& opening,
+                  const WallPoint& point,
+                  float u,
+                  float z) {
     const float width = opening.right - opening.left;
     const float share = (u - opening.left) / width;
     const float fate = unit(hash(opening.seed, 2));
@@ -205,7 +205,7 @@ void glaze(Look& look,
     look.emission = lamp * 0.8F;
 }
 
-Look wall_look(const Stage& stage, const Surface& at, const BuildingFrame& building) {
+Look facade_wall_look(const Stage& stage, const Surface& at, const BuildingFrame& building) {
     const Facade& facade = building.facade;
     const WallPoint point = wall_point(building, at);
     Look look;
@@ -213,7 +213,7 @@ Look wall_look(const Stage& stage, const Surface& at, const BuildingFrame& build
     look.albedo = wall_texture(facade, point, at);
     if (point.z < 0 || point.z > facade.eaves)
         return look;
-    const Opening opening = opening_at(facade, point);
+    const FacadeOpening opening = opening_at(facade, point);
     if (!opening.holds(point.u, point.z)) {
         // Lintel and sill are of another stone.
         const bool frame = facade.kind != FacadeKind::glass && !opening.shop &&
@@ -263,7 +263,7 @@ Look wall_look(const Stage& stage, const Surface& at, const BuildingFrame& build
         look.albedo = bars ? Color(.66F, .65F, .62F) : Color(.06F, .065F, .07F);
         look.roughness = 0.4F;
     } else {
-        glaze(look, stage, opening, point, u, z);
+        glaze_facade(look, stage, opening, point, u, z);
     }
     return look;
 }
@@ -306,7 +306,7 @@ Look roof_look(const Surface& at, const BuildingFrame& building) {
 Look building_look(const Stage& stage, const Surface& at) {
     const BuildingFrame& building = stage.scene.buildings()[at.tag];
     const bool wall = at.material == Material::facade && std::abs(at.flat.z()) < 0.3F;
-    Look look = wall ? wall_look(stage, at, building) : roof_look(at, building);
+    Look look = wall ? facade_wall_look(stage, at, building) : roof_look(at, building);
     const float wetness = stage.sky.weather().wetness();
     if (wetness > 0 && look.gloss <= 0) {
         look.albedo *= 1 - 0.28F * wetness;

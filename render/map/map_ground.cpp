@@ -12,8 +12,8 @@ namespace reprise::render {
 
 namespace {
 
-using world::GroundMesh;
-using world::Surface;
+using ground::GroundMesh;
+using ground::Surface;
 
 constexpr Ink junction_ink{128, 133, 140};
 constexpr Ink other_lane_ink{164, 138, 128};

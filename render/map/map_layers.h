@@ -25,15 +25,15 @@ Ink plot_ink(world::PlotKind kind);
 Ink road_ink(double speed_limit);
 
 /// The terrain, brighter where it slopes to the north-west, and on it parks, squares, water...
-void draw_land(const world::TownT& town, const world::GroundMesh& ground, MapCanvas& canvas);
+void draw_land(const world::TownT& town, const ground::GroundMesh& ground, MapCanvas& canvas);
 
 /// Roads, sidewalks and kerbs, lower storeys first.
-void draw_roads(const world::TownT& town, const world::GroundMesh& ground, MapCanvas& canvas);
+void draw_roads(const world::TownT& town, const ground::GroundMesh& ground, MapCanvas& canvas);
 
 /// Painted lines that no bridge hides, and an arrow here and there for the way that lanes go.
 void draw_markings(const world::TownT& town,
-                   const world::GroundMesh& ground,
-                   const world::GroundMesh& markings,
+                   const ground::GroundMesh& ground,
+                   const ground::GroundMesh& markings,
                    MapCanvas& canvas);
 
 void draw_buildings(const world::TownT& town, MapCanvas& canvas);

@@ -2,6 +2,7 @@
 
 #include "ground/mesh/ground_probe.h"
 #include "render/map/map_layers.h"
+#include "world/geometry2d.h"
 
 namespace reprise::render {
 
@@ -13,7 +14,7 @@ constexpr Ink paint_ink{244, 244, 240};
 constexpr Ink arrow_ink{226, 229, 233};
 
 /// Is a place in the open, as seen from above?
-bool is_in_the_open(const world::GroundProbe& probe, const Eigen::Vector3d& p) {
+bool is_in_the_open(const ground::GroundProbe& probe, const Eigen::Vector3d& p) {
     constexpr double clearance = 1.0;  // [m]
     const auto top = probe.below({p.x(), p.y(), p.z() + 1000});
     return !top || top->z < p.z() + clearance;
@@ -22,7 +23,7 @@ bool is_in_the_open(const world::GroundProbe& probe, const Eigen::Vector3d& p) {
 /// Is something painted in the middle of a lane there, such as an arrow or a crossing?
 class Painted {
   public:
-    explicit Painted(const world::GroundMesh& markings) : markings_(&markings) {
+    explicit Painted(const ground::GroundMesh& markings) : markings_(&markings) {
         std::vector<world::BoxGrid::Entry> entries;
         for (std::uint32_t i = 0; i < markings.vertices.size(); ++i) {
             world::Box box;
@@ -49,7 +50,7 @@ class Painted {
     }
 
   private:
-    const world::GroundMesh* markings_;
+    const ground::GroundMesh* markings_;
     world::BoxGrid by_place_;
 };
 
@@ -66,12 +67,12 @@ void draw_arrow(const world::LaneT& lane, const world::LanePoint& at, MapCanvas&
 }  // namespace
 
 void draw_markings(const world::TownT& town,
-                   const world::GroundMesh& ground,
-                   const world::GroundMesh& markings,
+                   const ground::GroundMesh& ground,
+                   const ground::GroundMesh& markings,
                    MapCanvas& canvas) {
     if (canvas.pixels_per_metre() < smallest_scale * canvas.unit())
         return;
-    const world::GroundProbe probe(ground);
+    const ground::GroundProbe probe(ground);
     for (const auto& [p, q, r] : markings.triangles) {
         const Eigen::Vector3d corners[] = {
             markings.vertices[p], markings.vertices[q], markings.vertices[r]};

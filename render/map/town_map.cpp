@@ -39,8 +39,8 @@ world::SensorFrame frame_of(const cv::Mat& sheet, const std::string& name) {
 }  // namespace
 
 world::SensorFrame town_map(const world::TownT& town,
-                            const world::GroundMesh& ground,
-                            const world::GroundMesh& markings,
+                            const ground::GroundMesh& ground,
+                            const ground::GroundMesh& markings,
                             const MapView& view) {
     const std::vector<LegendEntry> legend = legend_of(town);
     MapCanvas canvas(

@@ -18,8 +18,8 @@ struct MapView {
 /// Line widths are the town's own; symbols and letters keep their size whatever the scale is.
 /// An rgb frame. Town 1 at 1600 pixels: 0.5 s.
 world::SensorFrame town_map(const world::TownT& town,
-                            const world::GroundMesh& ground,
-                            const world::GroundMesh& markings,
+                            const ground::GroundMesh& ground,
+                            const ground::GroundMesh& markings,
                             const MapView& view);
 
 }  // namespace reprise::render

@@ -15,28 +15,28 @@ using Eigen::Vector3d;
 
 constexpr double skirt = 2000;  // [m] of grass around the town, up to the horizon
 
-Material ground_material(world::Surface surface) {
+Material ground_material(ground::Surface surface) {
     switch (surface) {
-        case world::Surface::terrain:
+        case ground::Surface::terrain:
             return Material::grass;
-        case world::Surface::sidewalk:
+        case ground::Surface::sidewalk:
             return Material::pavement;
-        case world::Surface::kerb:
-        case world::Surface::deck:
+        case ground::Surface::kerb:
+        case ground::Surface::deck:
             return Material::kerb;
-        case world::Surface::marking:
+        case ground::Surface::marking:
             return Material::marking;
         default:
             return Material::asphalt;
     }
 }
 
-Mesh mesh_of(const world::GroundMesh& ground, const Vector3d& origin) {
+Mesh mesh_of(const ground::GroundMesh& ground, const Vector3d& origin) {
     Mesh mesh;
     for (const Vector3d& vertex : ground.vertices)
         mesh.vertices.emplace_back((vertex - origin).cast<float>());
     mesh.triangles = ground.triangles;
-    for (const world::Surface surface : ground.surfaces)
+    for (const ground::Surface surface : ground.surfaces)
         mesh.materials.push_back(ground_material(surface));
     mesh.tags.assign(mesh.triangles.size(), 0);
     drop_degenerate(mesh);
@@ -75,11 +75,11 @@ void Scene::build_town(const world::TownT& town) {
         instance.kind = kind;
         instance.mask = mask;
     };
-    const world::GroundMesh levels = world::build_ground(town);
+    const ground::GroundMesh levels = ground::build_ground(town);
     Mesh ground = mesh_of(levels, origin_);
     add_skirt(ground, town, origin_);
     add(std::move(ground), Kind::ground, solid_bit);
-    Mesh markings = mesh_of(world::build_markings(town), origin_);
+    Mesh markings = mesh_of(ground::build_markings(town), origin_);
     if (!markings.triangles.empty())
         add(std::move(markings), Kind::marking, marking_bit);
 

@@ -49,7 +49,7 @@ void shade(const Stage& stage,
            const std::vector<Hit>& hits,
            Frame& frame);
 
-/// Draws falling drops over the colours: streaks, each a function of (tick, number).
+/// HashDraws falling drops over the colours: streaks, each a function of (tick, number).
 void draw_rain(const Stage& stage,
                const Camera& camera,
                const std::vector<Hit>& hits,

@@ -7,7 +7,7 @@ namespace reprise::render {
 
 using Eigen::Vector3f;
 
-Vector3f Draws::direction() {
+Vector3f HashDraws::direction() {
     const float z = 2 * next() - 1;
     const double angle = 2 * std::numbers::pi * static_cast<double>(next());
     const float wide = std::sqrt(1 - z * z);
@@ -15,7 +15,7 @@ Vector3f Draws::direction() {
         wide * static_cast<float>(std::cos(angle)), wide * static_cast<float>(std::sin(angle)), z};
 }
 
-void add_leaves(Mesh& mesh, const LeafBunch& bunch, Draws& draws) {
+void add_leaves(Mesh& mesh, const LeafBunch& bunch, HashDraws& draws) {
     const auto in_bough = [&](const Vector3f& round) {
         return Vector3f(round.x(), round.y(), round.z() * bunch.slenderness * bunch.lie);
     };

@@ -6,9 +6,9 @@
 namespace reprise::render {
 
 /// Numbers in [0, 1) one after the other.
-class Draws {
+class HashDraws {
   public:
-    explicit Draws(std::uint32_t seed) : seed_(seed) {}
+    explicit HashDraws(std::uint32_t seed) : seed_(seed) {}
 
     float next() { return unit(hash(seed_, count_++)); }
 
@@ -35,6 +35,6 @@ struct LeafBunch {
 };
 
 /// Appends leaves with normals of their own: the mesh's other triangles must have theirs.
-void add_leaves(Mesh& mesh, const LeafBunch& bunch, Draws& draws);
+void add_leaves(Mesh& mesh, const LeafBunch& bunch, HashDraws& draws);
 
 }  // namespace reprise::render

@@ -8,13 +8,11 @@ namespace reprise::render {
 
 namespace {
 
-constexpr std::size_t lanes = Bundle::lanes;
-
 struct Pairs {
     __m128d x, y, z;  ///< of two lanes
 };
 
-Pairs load(const std::array<std::array<double, lanes>, 3>& from, std::size_t lane) {
+Pairs load(const std::array<std::array<double, Bundle::lanes>, 3>& from, std::size_t lane) {
     return {_mm_load_pd(&from[0][lane]), _mm_load_pd(&from[1][lane]), _mm_load_pd(&from[2][lane])};
 }
 
@@ -42,14 +40,14 @@ Pairs cross(const Pairs& left, const Pairs& right) {
 
 unsigned Bundle::seeing(std::uint32_t mask) const {
     unsigned set = 0;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
+    for (std::size_t lane = 0; lane < Bundle::lanes; ++lane)
         set |= static_cast<unsigned>((masks[lane] & mask) != 0) << lane;
     return set;
 }
 
 void Bundle::prepare() {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
+        for (std::size_t lane = 0; lane < Bundle::lanes; ++lane) {
             const auto along = static_cast<float>(direction[axis][lane]);
             constexpr float least = 1e-18F;  // so that the inverse is finite
             packet.origin[axis][lane] = static_cast<float>(origin[axis][lane]);
@@ -70,7 +68,7 @@ unsigned find_crossings(const MeshTree::Triangle& triangle,
     const __m128d zero = _mm_setzero_pd();
     const __m128d sign_bit = _mm_set1_pd(-0.0);
     unsigned found = 0;
-    for (std::size_t lane = 0; lane < lanes; lane += 2) {
+    for (std::size_t lane = 0; lane < Bundle::lanes; lane += 2) {
         if ((wanted >> lane & 3U) == 0)
             continue;
         const Pairs direction = load(bundle.direction, lane);

@@ -71,7 +71,7 @@ void compare_ends(const Golden& expected, const Golden& found, GoldenDifference&
     }
 }
 
-std::string event_text(const GoldenEvent& event, std::uint64_t step_ns) {
+std::string event_line(const GoldenEvent& event, std::uint64_t step_ns) {
     std::string text = golden_seconds(event.tick, step_ns) + " s " + event.kind;
     const auto add = [&](const std::string& before, const std::string& value) {
         if (!value.empty())
@@ -109,8 +109,8 @@ Tally compare_events(const Golden& expected, const Golden& found) {
             const GoldenEvent& any = now != nullptr ? *now : *before;
             Changed change =
                 changed(any.kind,
-                        before == nullptr ? nothing : event_text(*before, expected.step_ns),
-                        now == nullptr ? nothing : event_text(*now, found.step_ns));
+                        before == nullptr ? nothing : event_line(*before, expected.step_ns),
+                        now == nullptr ? nothing : event_line(*now, found.step_ns));
             change.tick =
                 before != nullptr && now != nullptr ? std::min(before->tick, now->tick) : any.tick;
             change.line = any.line;

@@ -39,7 +39,7 @@ void add(std::map<std::size_t, std::uint32_t>& sizes, std::size_t size) {
     ++sizes[size];
 }
 
-void remove(std::map<std::size_t, std::uint32_t>& sizes, std::size_t size) {
+void remove_size(std::map<std::size_t, std::uint32_t>& sizes, std::size_t size) {
     const auto found = sizes.find(size);
     if (--found->second == 0)
         sizes.erase(found);
@@ -159,9 +159,9 @@ void Memory::forget(void* block, std::size_t size) {
         return;
     --blocks_[static_cast<std::size_t>(std::bit_width(size))];
     if (texts_.erase(block) != 0)
-        remove(text_sizes_, size);
+        remove_size(text_sizes_, size);
     if (stacks_.erase(block) != 0)
-        remove(stack_sizes_, size);
+        remove_size(stack_sizes_, size);
     if (is_key_part(size))
         forget_keys(block);
     set_rate();
@@ -174,7 +174,7 @@ void Memory::inspect() {
         due_.erase(due_.begin());
         KeyPart& part = key_parts_.at(block);
         const std::size_t entries = part.size / key_slot;
-        remove(chains_, part.chain);
+        remove_size(chains_, part.chain);
         part.chain = longest_chain(block, entries);
         add(chains_, part.chain);
         part.due = inspections_ + interval(part.size);
@@ -194,7 +194,7 @@ void Memory::remember_keys(const void* block, std::size_t size) {
 void Memory::forget_keys(const void* block) {
     const auto found = key_parts_.find(block);
     due_.erase({found->second.due, block});
-    remove(chains_, found->second.chain);
+    remove_size(chains_, found->second.chain);
     key_parts_.erase(found);
 }
 

@@ -14,7 +14,8 @@ namespace reprise::bench {
 /// number of kinematic boxes that move on a circle around it. Nothing of Reprise's in the loop.
 class BareBullet {
   public:
-    BareBullet(const world::GroundMesh& ground, int boxes, const btVector3& place) : place_(place) {
+    BareBullet(const ground::GroundMesh& ground, int boxes, const btVector3& place)
+        : place_(place) {
         for (const Eigen::Vector3d& v : ground.vertices)
             vertices_.insert(vertices_.end(), {v.x(), v.y(), v.z()});
         for (const auto& triangle : ground.triangles)

@@ -32,7 +32,7 @@ int main(int, char** argv) {
     using namespace reprise;
     constexpr int warm_up = 200;
     constexpr int measured = 1200;
-    const replay::Recording recording = bench::free_drive(100);
+    const world::Recording recording = bench::free_drive(100);
     replay::TraceWriter trace(argv[1], recording);
     kernel::Kernel kernel(recording);
     for (int i = 0; i < warm_up; ++i)

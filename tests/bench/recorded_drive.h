@@ -1,9 +1,10 @@
 #pragma once
 
-#include <benchmark/benchmark.h>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <benchmark/benchmark.h>
 #include <zstd.h>
 
 #include "kernel/kernel.h"
@@ -26,7 +27,7 @@ inline std::filesystem::path trace_path() {
 
 /// One minute in the crowd, recorded once for all benchmarks here; and its bytes, in chunks.
 struct Drive {
-    replay::Recording recording = crowd();
+    world::Recording recording = crowd();
     std::vector<std::string> chunks;
     std::vector<std::string> packed;
 

@@ -22,7 +22,7 @@ constexpr int width = 800;
 constexpr int height = 600;
 
 struct Scene {
-    replay::Recording recording = bench::free_drive(100);
+    world::Recording recording = bench::free_drive(100);
     kernel::Kernel kernel{recording};
     const world::SealedTick* tick = nullptr;
     render::Sensors sensors{recording.town};
@@ -69,7 +69,7 @@ struct BareEmbree {
     RTCDevice device = rtcNewDevice("threads=1,isa=avx2");
     RTCScene ground = rtcNewScene(device);
 
-    explicit BareEmbree(const world::GroundMesh& mesh) {
+    explicit BareEmbree(const ground::GroundMesh& mesh) {
         const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry,
                                                                      RTC_BUFFER_TYPE_VERTEX,
@@ -101,7 +101,7 @@ struct BareEmbree {
 };
 
 void BareEmbreePrimaryRays(benchmark::State& state) {
-    const BareEmbree embree(world::build_ground(scene().recording.town));
+    const BareEmbree embree(ground::build_ground(scene().recording.town));
     const world::VehicleState& ego = scene().tick->view().vehicles().front();
     const Eigen::Isometry3d pose_world_ego = world::pose(ego.position(), ego.orientation());
     const Eigen::Vector3f eye = (pose_world_ego * Eigen::Vector3d(1, 0, 1.4)).cast<float>();

@@ -1,13 +1,13 @@
 // A whole tick, recorded, beside its bare parts in the same run: one bare libsumo step with the
 // same cars, and ten bare Bullet substeps with the same bodies.
 #include <algorithm>
-#include <benchmark/benchmark.h>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
 #include <vector>
 
+#include <benchmark/benchmark.h>
 #include <libsumo/libsumo.h>
 
 #include "kernel/kernel.h"
@@ -86,8 +86,8 @@ int near_cars(const world::TickView& tick) {
     return count;
 }
 
-void whole_tick(const replay::Recording& recording,
-                const world::GroundMesh& ground,
+void whole_tick(const world::Recording& recording,
+                const ground::GroundMesh& ground,
                 const std::filesystem::path& path,
                 Run& run) {
     replay::TraceWriter trace(path, recording);
@@ -116,7 +116,7 @@ void whole_tick(const replay::Recording& recording,
 }
 
 /// The same cars in the same town over the same ticks, stepped by libsumo alone.
-void sumo_alone(const replay::Recording& recording, Run& run) {
+void sumo_alone(const world::Recording& recording, Run& run) {
     traffic::Background background(recording.episode, recording.town, recording.network);
     world::TickDraft genesis;
     world::SealedTick last = world::seal(genesis, {});
@@ -134,8 +134,8 @@ void sumo_alone(const replay::Recording& recording, Run& run) {
 }
 
 void Tick(benchmark::State& state) {
-    const replay::Recording recording = bench::free_drive(static_cast<unsigned>(state.range(0)));
-    const world::GroundMesh ground = world::build_ground(recording.town);
+    const world::Recording recording = bench::free_drive(static_cast<unsigned>(state.range(0)));
+    const ground::GroundMesh ground = ground::build_ground(recording.town);
     const auto path = std::filesystem::temp_directory_path() / "reprise_tick_bench.mcap";
     for (auto _ : state) {
         Run run;

@@ -20,25 +20,25 @@ namespace {
 
 using Chain = std::vector<std::string>;  ///< [i] after tick i + 1, hexadecimal
 
-std::unique_ptr<replay::Recording> load(const std::string& scenario,
-                                        const std::string& town,
-                                        double seconds) {
-    auto recording = std::make_unique<replay::Recording>();
+std::unique_ptr<world::Recording> load(const std::string& scenario,
+                                       const std::string& town,
+                                       double seconds) {
+    auto recording = std::make_unique<world::Recording>();
     const std::string folder = REPRISE_SOURCE;
     recording->episode = scripting::load_episode(folder + scenario, {town, 7, seconds, {}});
-    traffic::Network network =
-        traffic::load_network(folder + "/scenarios/towns/" + town + "/" + town + ".net.xml");
-    recording->town = traffic::read_town(network);
+    towns::Network network =
+        towns::load_network(folder + "/scenarios/towns/" + town + "/" + town + ".net.xml");
+    recording->town = towns::read_town(network);
     recording->network = std::move(network.xml);
     return recording;
 }
 
 /// The run that is repeated: everything happens in it, see there.
-std::unique_ptr<replay::Recording> crash() {
+std::unique_ptr<world::Recording> crash() {
     return load("/tests/determinism/collision.lua", "town1", 6);
 }
 
-std::unique_ptr<replay::Recording> drive() {
+std::unique_ptr<world::Recording> drive() {
     return load("/scenarios/free_drive.lua", "town2", 5);
 }
 
@@ -51,7 +51,7 @@ void finish(kernel::Kernel& kernel, Chain& chain) {
         step(kernel, chain);
 }
 
-Chain run(const replay::Recording& recording) {
+Chain run(const world::Recording& recording) {
     kernel::Kernel kernel(recording);
     Chain chain;
     finish(kernel, chain);
@@ -117,7 +117,7 @@ class WarmProcess : public ::testing::Test {
   protected:
     WarmProcess() : crash_(crash()), alone_(in_child([this] { return run(*crash_); })) {}
 
-    std::unique_ptr<replay::Recording> crash_;
+    std::unique_ptr<world::Recording> crash_;
     Chain alone_;  ///< of the crash, in a process in which nothing ran before
 };
 

@@ -13,7 +13,7 @@ TEST(BandEquations, StepIsThatOfADenseLeastSquares) {
     const auto number = [](std::uint64_t row, std::uint64_t item) {
         return 2 * world::draw(7, row, world::Purpose::scenario, item) - 1;
     };
-    kernel::BandEquations band(count);
+    drivers::BandEquations band(count);
     Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(40, count);
     Eigen::VectorXd residuals(40);
     double sum = 0;

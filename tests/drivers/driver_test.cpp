@@ -355,25 +355,26 @@ TEST(Autopilot, WandersWithoutLeavingTheLanesOrEnteringBlindAlleys) {
 
 TEST(LaneGraph, TurnsAroundOnlyWhereNothingElseIsLeft) {
     world::TownT town = ring();
-    EXPECT_EQ(kernel::LaneGraph(town).choices(2), std::vector<std::uint32_t>{0}) << "blind alley";
+    EXPECT_EQ(drivers::LaneGraph(town).choices(2), std::vector<std::uint32_t>{0}) << "blind alley";
     town.lanes[4].links = {make_link(0, world::none, Turn::around)};
-    EXPECT_EQ(kernel::LaneGraph(town).choices(2), std::vector<std::uint32_t>{0}) << "turning place";
+    EXPECT_EQ(drivers::LaneGraph(town).choices(2), std::vector<std::uint32_t>{0})
+        << "turning place";
     town.lanes[4].links = {make_link(0, world::none, Turn::right)};
-    EXPECT_EQ(kernel::LaneGraph(town).choices(2), (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(drivers::LaneGraph(town).choices(2), (std::vector<std::uint32_t>{0, 1}));
     town.lanes[2].links = {make_link(4, 11, Turn::right)};
     town.lanes[4].links = {make_link(0, world::none, Turn::around)};
-    EXPECT_EQ(kernel::LaneGraph(town).choices(4), std::vector<std::uint32_t>{0});
+    EXPECT_EQ(drivers::LaneGraph(town).choices(4), std::vector<std::uint32_t>{0});
 }
 
 TEST(LaneGraph, PlansTheShorterWayThroughAllStops) {
     const world::TownT town = ring();
-    const kernel::LaneGraph graph(town);
+    const drivers::LaneGraph graph(town);
     using Lanes = std::vector<std::uint32_t>;
     EXPECT_EQ(graph.plan({0, 0}, Lanes{2}, 150).lanes, (Lanes{5, 2}));
     EXPECT_EQ(graph.plan({0, 0}, Lanes{1, 5}, 36).lanes, (Lanes{1, 2, 3, 0, 5}));
     EXPECT_EQ(graph.plan({4, 0}, Lanes{0}, 150).unreachable, 0u);
     const world::TownT two_lanes = ring_with_turning_lane();
-    const kernel::LaneGraph wide(two_lanes);
+    const drivers::LaneGraph wide(two_lanes);
     EXPECT_EQ(wide.plan({0, 100}, Lanes{5}, 20).lanes, (Lanes{13, 5}));
     EXPECT_EQ(wide.plan({0, 140}, Lanes{5}, 20).lanes, (Lanes{1, 2, 3, 0, 13, 5}));
     const auto around = wide.detour(0, Lanes{5}, 20);

@@ -71,10 +71,11 @@ class Drive {
     explicit Drive(world::TownT town_of_test, std::uint64_t seed = 7, std::uint16_t model = 0)
         : town(std::move(town_of_test)),
           lanes(town),
+          map(town, lanes, {}),
           start(episode()) {
         start.seed = seed;
         car.model = model;
-        autopilot.emplace(1u, model, start, town, lanes);
+        autopilot.emplace(1u, model, start, map);
     }
 
     void place(std::uint32_t lane, double s, double speed) {
@@ -116,9 +117,10 @@ class Drive {
 
     world::TownT town;
     world::LaneMap lanes;
+    drivers::RoadMap map;
     world::EpisodeT start;
     KinematicCar car;
-    std::optional<kernel::Autopilot> autopilot;
+    std::optional<drivers::Autopilot> autopilot;
     std::vector<world::CarState> cars;
     std::vector<world::WalkerState> walkers;
     std::vector<world::SignalColor> signals;

@@ -11,8 +11,8 @@
 namespace reprise::test {
 namespace {
 
-using kernel::Path;
-using kernel::Swing;
+using drivers::Path;
+using drivers::Swing;
 
 constexpr double quarter = std::numbers::pi / 2;
 
@@ -31,8 +31,8 @@ Path path_along(const Turtle& turtle) {
 }
 
 /// A bus and the like on the first metres of a path that starts eastwards.
-kernel::Ego ego_at(const world::VehicleModel& model, double x, double y) {
-    kernel::Ego ego;
+drivers::Ego ego_at(const world::VehicleModel& model, double x, double y) {
+    drivers::Ego ego;
     ego.model = &model;
     ego.position = {x, y, 0};
     ego.direction = {1, 0};
@@ -91,7 +91,7 @@ TEST_P(LongVehicles, CutACircleByWhatTheTextbookSays) {
         const Path path = path_along(Turtle(0, 0, 0).turn(1.5 * std::numbers::pi, radius));
         Swing swing(model, town, lanes);
         swing.plan(path, ego_at(model, 0, 0));
-        const kernel::SwingPoint middle = swing.at(path.end() / 2);
+        const drivers::SwingPoint middle = swing.at(path.end() / 2);
         const double rear = std::sqrt(radius * radius - model.wheelbase * model.wheelbase / 4);
         const Eigen::Vector2d centre(0, radius);
         EXPECT_NEAR((middle.position - centre).norm(), rear, 0.03) << "radius " << radius;
@@ -157,7 +157,7 @@ TEST(Swing, LeavesRoomForAPoleBesideTheLane) {
     swing.plan(path, ego_at(bus, 0, 0));
     double nearest = 100;
     for (double s = 40; s < 80; s += 0.1) {
-        const kernel::SwingPoint point = swing.at(s);
+        const drivers::SwingPoint point = swing.at(s);
         for (const Eigen::Vector2d& place : outline_of(bus, point.position, point.yaw))
             nearest = std::min(nearest, (place - Eigen::Vector2d(60, -1.4)).norm());
     }
@@ -182,7 +182,7 @@ TEST(Swing, GoesOnFromWhereTheVehicleIs) {
     const world::LaneMap lanes(town);
     const world::VehicleModel& bus = model_of("bus");
     Swing swing(bus, town, lanes);
-    kernel::Ego ego = ego_at(bus, 50, -1.0);
+    drivers::Ego ego = ego_at(bus, 50, -1.0);
     ego.steering_angle = -0.1;
     swing.plan(path_along(Turtle(0, -1.75, 0).ahead(200)), ego);
     EXPECT_NEAR(swing.at(50).position.y(), -1.0, 0.02);
@@ -201,7 +201,7 @@ TEST(Swing, DependsOnPathAndPlaceNotOnWhatWasPlannedBefore) {
     ASSERT_GT(line.size(), 12u);
     path.append(std::span(line).first(8), 10);
     path.finish({});
-    kernel::Ego ego = ego_at(model_of("bus"), 5, 0);
+    drivers::Ego ego = ego_at(model_of("bus"), 5, 0);
     Swing experienced(model_of("bus"), town, lanes);
     experienced.plan(path, ego);
     path.append(std::span(line).subspan(7), 10);

@@ -113,7 +113,7 @@ TEST(TurnAround, IsForStreetsThatAreTooNarrowToDriveAroundIn) {
     const auto street = [](double lane_width, const char* name) {
         const world::TownT town = dead_end(lane_width);
         const world::LaneT& lane = town.lanes[1];
-        return kernel::TurnAround::street_of(
+        return drivers::TurnAround::street_of(
             town, 1, lane.links[0], world::vehicle_models()[*world::find_vehicle_model(name)]);
     };
     ASSERT_TRUE(street(3.5, "sedan"));

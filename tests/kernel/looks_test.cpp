@@ -27,7 +27,7 @@ void expect_looks(std::span<const Actor> actors,
 }
 
 TEST(Looks, AreRecordedForEverybodyAsDrawn) {
-    const replay::Recording recording = in_town1(street, 12, 0.5);
+    const world::Recording recording = in_town1(street, 12, 0.5);
     const std::uint64_t seed = recording.episode.seed;
     std::size_t seen = 0;
     for (const KeptTick& kept : run(recording)) {
@@ -42,7 +42,7 @@ TEST(Looks, AreRecordedForEverybodyAsDrawn) {
 }
 
 TEST(Looks, ChangeWithTheSeedAndNotWithTheRun) {
-    replay::Recording recording = in_town1(street, 12, 0.2);
+    world::Recording recording = in_town1(street, 12, 0.2);
     const auto first = run(recording);
     const auto second = run(recording);
     ASSERT_EQ(first.size(), second.size());

@@ -117,7 +117,7 @@ TEST(Pedestrians, StandOnTheSidewalkAndOnTheRoadBesideIt) {
     const auto& walkers = street.next.traffic.walkers;
     EXPECT_NEAR(walkers[0].position().x(), 50, grid);
     EXPECT_NEAR(walkers[0].position().y(), -3.5 - 1.25 + 0.5, grid);
-    EXPECT_NEAR(walkers[0].position().z(), world::kerb_height, grid);
+    EXPECT_NEAR(walkers[0].position().z(), ground::kerb_height, grid);
     EXPECT_NEAR(walkers[1].position().z(), 0, grid);
     // And step down from one to the other.
     street.step({walk_to(1, 50, 0)});

@@ -24,7 +24,7 @@ class Verify : public testing::Test {
 
     ~Verify() override { std::filesystem::remove(path_); }
 
-    void record(const replay::Recording& recording, const std::string& nudge = "") {
+    void record(const world::Recording& recording, const std::string& nudge = "") {
         replay::TraceWriter trace(path_, recording);
         kernel::Kernel kernel(recording);
         if (!nudge.empty())
@@ -67,7 +67,7 @@ TEST_F(Verify, SaysWhoWhatWhenAndWhatTheScenarioSaidLast) {
 }
 
 TEST_F(Verify, RefusesATraceWithAnotherNetworkInIt) {
-    replay::Recording other = in_town1(drive, 0, 1);
+    world::Recording other = in_town1(drive, 0, 1);
     other.network.replace(other.network.find("13.89"), 5, "13.88");
     replay::TraceWriter(path_, other).close({"completed", "", 0});
     const auto found = verified();

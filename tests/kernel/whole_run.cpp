@@ -11,19 +11,19 @@
 
 namespace reprise::test {
 
-replay::Recording in_town1(const std::string& body, unsigned cars, double seconds) {
-    static const traffic::Network network =
-        traffic::load_network(std::string(REPRISE_SOURCE) + "/scenarios/towns/town1/town1.net.xml");
+world::Recording in_town1(const std::string& body, unsigned cars, double seconds) {
+    static const towns::Network network =
+        towns::load_network(std::string(REPRISE_SOURCE) + "/scenarios/towns/town1/town1.net.xml");
     const auto path = std::filesystem::temp_directory_path() /
                       ("reprise_whole_run_" + std::to_string(getpid()) + ".lua");
     std::ofstream(path) << "return scenario 'test' { town = 'town1', seed = 7, cars = " << cars
                         << ",\nrun = function()\n"
                         << body << "\nend }\n";
-    replay::Recording recording;
+    world::Recording recording;
     recording.episode = scripting::load_episode(path, {{}, {}, seconds, {}});
     recording.episode.scenario_path = "test.lua";
     std::filesystem::remove(path);
-    recording.town = traffic::read_town(network);
+    recording.town = towns::read_town(network);
     recording.network = network.xml;
     recording.episode.town_digest = world::digest128(recording.network);
     return recording;
@@ -37,7 +37,7 @@ replay::RecordedTick KeptTick::recorded() const {
     return {{world::GetTick(tick_.data()), world::GetTraffic(traffic_.data())}, tick_, traffic_};
 }
 
-std::vector<KeptTick> run(const replay::Recording& recording,
+std::vector<KeptTick> run(const world::Recording& recording,
                           const std::function<void(kernel::Kernel&)>& prepare) {
     kernel::Kernel kernel(recording);
     if (prepare)

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "kernel/kernel.h"
-#include "replay/recording.h"
 #include "replay/trace_reader.h"
+#include "world/recording.h"
 
 /// Whole runs in Town 1, from a scenario's text.
 namespace reprise::test {
 
 /// Town 1 with this scenario; `body` is what its run function does.
-replay::Recording in_town1(const std::string& body, unsigned cars, double seconds);
+world::Recording in_town1(const std::string& body, unsigned cars, double seconds);
 
 /// A tick's bytes, kept.
 class KeptTick {
@@ -28,7 +28,7 @@ class KeptTick {
 };
 
 /// Runs it to its end. `prepare` may ask the kernel for a drill.
-std::vector<KeptTick> run(const replay::Recording& recording,
+std::vector<KeptTick> run(const world::Recording& recording,
                           const std::function<void(kernel::Kernel&)>& prepare = {});
 
 /// What `action` throws as world::Error, or "" when it does not.

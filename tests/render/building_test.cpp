@@ -197,7 +197,7 @@ TEST(DrawnBuilding, PlainConvexOutlinesHaveThePitchedRoofOfTheirModel) {
     Eigen::AlignedBox3f box;
     for (const Vector3f& vertex : built.mesh.vertices)
         box.extend(vertex);
-    const double rise = world::hipped_rise(world::in_plan(drawn.outline));
+    const double rise = ground::hipped_rise(world::in_plan(drawn.outline));
     EXPECT_GT(rise, 2);
     EXPECT_NEAR(static_cast<double>(box.max().z()), 6 + rise, 0.2);
 }
@@ -218,8 +218,8 @@ TEST(ModelBuilding, IsAsHighAsItsRoofRises) {
         float top = 0;
         for (const Vector3f& vertex : build(building).mesh.vertices)
             top = std::max(top, vertex.z());
-        const float rise = world::roof_rise(model, x, y, world::building_seed(building.style())) +
-                           (spire ? world::spire_rise(model, y) : 0);
+        const float rise = ground::roof_rise(model, x, y, ground::building_seed(building.style())) +
+                           (spire ? ground::spire_rise(model, y) : 0);
         const double cross = spire ? 1.3 : 0;
         EXPECT_NEAR(
             static_cast<double>(top), building.height() + static_cast<double>(rise) + cross, 0.25)

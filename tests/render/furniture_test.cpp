@@ -201,7 +201,7 @@ TEST(Plots, CoverTheirOutlineJustAboveTheTerrain) {
     town.plots = {test::plot(world::PlotKind::lawn, 60, 12, 81, 33),
                   test::plot(world::PlotKind::water, 100, -40, 120, -15),
                   test::plot(world::PlotKind::gravel, 65, 17, 75, 40)};
-    const world::GroundMesh ground = world::build_ground(town);
+    const ground::GroundMesh ground = ground::build_ground(town);
     const Mesh mesh = render::plot_mesh(town, ground, Eigen::Vector3d::Zero());
     std::array<double, 3> area{};
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -40,7 +40,7 @@ class Levels : public testing::Test {
     }
 
     void write(Level level, const SyntheticRun& run, const std::string& name = "run") const {
-        const replay::Recording start = recording(run.seed);
+        const world::Recording start = recording(run.seed);
         replay::TraceWriter writer(path(level, name), start, level);
         for (const world::SealedTick& tick : drive(run))
             writer.append(tick);

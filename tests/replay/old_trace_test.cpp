@@ -59,7 +59,7 @@ class OldTrace : public testing::Test {
 };
 
 TEST_F(OldTrace, TellsWhatItStartedFrom) {
-    const replay::Recording& recording = trace_.recording();
+    const world::Recording& recording = trace_.recording();
     EXPECT_EQ(recording.episode.name, "v1_small");
     EXPECT_EQ(recording.episode.scenario, text_of("v1_small.lua"));
     EXPECT_EQ(recording.network, text_of("small.net.xml"));

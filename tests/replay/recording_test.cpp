@@ -1,9 +1,10 @@
-#include "replay/recording.h"
+#include "world/recording.h"
 
 #include <set>
 
 #include <gmock/gmock.h>
 
+#include "replay/chain_seed.h"
 #include "tests/replay/synthetic_run.h"
 #include "world/digest.h"
 
@@ -11,41 +12,43 @@ namespace reprise::test {
 
 namespace {
 
-using replay::Recording;
+using world::Recording;
 
 /// The chain's start after one change.
-std::string seed_with(const std::function<void(Recording&)>& change) {
-    Recording changed = recording();
+std::string seed_with(const std::function<void(world::Recording&)>& change) {
+    world::Recording changed = recording();
     change(changed);
     return world::to_hex(replay::chain_seed(changed));
 }
 
 TEST(ChainSeed, DependsOnAllThatDecidesTheRun) {
     const std::vector<std::string> seeds{
-        seed_with([](Recording&) {}),
-        seed_with([](Recording& r) { r.episode.seed = 8; }),
-        seed_with([](Recording& r) { r.episode.step_ns = 20'000'000; }),
-        seed_with([](Recording& r) { r.episode.substeps = 3; }),
-        seed_with([](Recording& r) { r.episode.max_ticks += 1; }),
-        seed_with([](Recording& r) { r.episode.cars = 1; }),
-        seed_with([](Recording& r) { r.episode.road_friction = 0.5; }),
-        seed_with([](Recording& r) { r.episode.weather.mutate_rain(3); }),
-        seed_with([](Recording& r) { r.episode.scenario += " "; }),
-        seed_with([](Recording& r) {
+        seed_with([](world::Recording&) {}),
+        seed_with([](world::Recording& r) { r.episode.seed = 8; }),
+        seed_with([](world::Recording& r) { r.episode.step_ns = 20'000'000; }),
+        seed_with([](world::Recording& r) { r.episode.substeps = 3; }),
+        seed_with([](world::Recording& r) { r.episode.max_ticks += 1; }),
+        seed_with([](world::Recording& r) { r.episode.cars = 1; }),
+        seed_with([](world::Recording& r) { r.episode.road_friction = 0.5; }),
+        seed_with([](world::Recording& r) { r.episode.weather.mutate_rain(3); }),
+        seed_with([](world::Recording& r) { r.episode.scenario += " "; }),
+        seed_with([](world::Recording& r) {
             r.episode.parameters.emplace_back();
             r.episode.parameters.back().key = "gap";
         }),
-        seed_with([](Recording& r) { r.network += " "; }),
-        seed_with([](Recording& r) { r.town.lanes[1].width = 3; }),
+        seed_with([](world::Recording& r) { r.network += " "; }),
+        seed_with([](world::Recording& r) { r.town.lanes[1].width = 3; }),
     };
     EXPECT_THAT(std::set<std::string>(seeds.begin(), seeds.end()), testing::SizeIs(seeds.size()));
 }
 
 TEST(ChainSeed, IgnoresPathsAndTheBuild) {
-    const std::string same = seed_with([](Recording&) {});
-    EXPECT_EQ(seed_with([](Recording& r) { r.episode.scenario_path = "/elsewhere/x.lua"; }), same);
-    EXPECT_EQ(seed_with([](Recording& r) { r.episode.town_path = "/elsewhere/net.xml"; }), same);
-    EXPECT_EQ(seed_with([](Recording& r) {
+    const std::string same = seed_with([](world::Recording&) {});
+    EXPECT_EQ(seed_with([](world::Recording& r) { r.episode.scenario_path = "/elsewhere/x.lua"; }),
+              same);
+    EXPECT_EQ(seed_with([](world::Recording& r) { r.episode.town_path = "/elsewhere/net.xml"; }),
+              same);
+    EXPECT_EQ(seed_with([](world::Recording& r) {
                   r.episode.fingerprint.emplace_back();
                   r.episode.fingerprint.back().key = "compiler";
               }),

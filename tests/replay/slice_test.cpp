@@ -134,7 +134,7 @@ TEST_F(Slice, HoldsNoTickThatItsRunDidNotHave) {
                            trace.recording(),
                            Level::full,
                            Unfinished::remove,
-                           SliceStart{100, 120, trace.chain(99)});
+                           world::SliceStart{100, 120, trace.chain(99)});
         for (std::uint64_t index = 100; index <= 121; ++index)
             writer.append(trace.recorded(index));
         writer.close(trace.outcome());

@@ -89,8 +89,8 @@ void digest_stages(world::TickDraft& draft) {
 
 }  // namespace
 
-replay::Recording recording(std::uint64_t seed) {
-    replay::Recording recording;
+world::Recording recording(std::uint64_t seed) {
+    world::Recording recording;
     recording.episode = episode("spawn{ model = 'sedan' }\nfinish('arrived')\n");
     recording.episode.seed = seed;
     recording.town = straight_road_with_signal();
@@ -118,7 +118,7 @@ std::vector<world::SealedTick> drive(const SyntheticRun& run) {
 }
 
 void write_trace(const std::filesystem::path& path, const SyntheticRun& run) {
-    const replay::Recording start = recording(run.seed);
+    const world::Recording start = recording(run.seed);
     replay::TraceWriter writer(path, start);
     for (const world::SealedTick& tick : drive(run))
         writer.append(tick);

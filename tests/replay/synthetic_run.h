@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "replay/recording.h"
 #include "replay/trace_reader.h"
+#include "world/recording.h"
 #include "world/tick.h"
 
 /// Runs made up without a kernel: a vehicle and some cars that drive about.
 namespace reprise::test {
 
 /// The straight road with its signal, seed 7, and a few bytes for a network.
-replay::Recording recording(std::uint64_t seed = 7);
+world::Recording recording(std::uint64_t seed = 7);
 
 /// Changes a tick before it is sealed. Stage digests are computed before this.
 using Change = std::function<void(world::TickDraft&)>;

@@ -31,7 +31,7 @@ TEST(TraceReader, GivesBackWhatTheRunStartedFrom) {
     const Folder folder;
     write_trace(folder / "run.mcap");
     TraceReader trace(folder / "run.mcap");
-    const replay::Recording written = recording();
+    const world::Recording written = recording();
     EXPECT_EQ(trace.episode(), written.episode);
     EXPECT_EQ(trace.recording().town, written.town);
     EXPECT_EQ(trace.recording().network, written.network);

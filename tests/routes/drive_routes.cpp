@@ -14,7 +14,6 @@
 #include "cli/town/towns.h"
 #include "drivers/swing.h"
 #include "kernel/kernel.h"
-#include "replay/recording.h"
 #include "scripting/scenario.h"
 #include "towns/town_reader.h"
 #include "world/check.h"
@@ -23,6 +22,7 @@
 #include "world/lanes/planner.h"
 #include "world/models/catalogue.h"
 #include "world/random.h"
+#include "world/recording.h"
 
 // Drives routes through an empty town with the built-in driver, and watches it:
 //     drive_routes TOWN TASKS.json [--every N]     every pair of every task, or every N-th
@@ -107,12 +107,12 @@ std::vector<Pair> random_pairs(const TownT& town, int count, std::uint64_t seed)
     return pairs;
 }
 
-replay::Recording recording_of(const traffic::Network& network,
-                               const TownT& town,
-                               const Pair& pair,
-                               const std::string& model) {
+world::Recording recording_of(const towns::Network& network,
+                              const TownT& town,
+                              const Pair& pair,
+                              const std::string& model) {
     const auto number = [](double value) { return fmt::format("{}", value); };
-    replay::Recording recording;
+    world::Recording recording;
     recording.episode =
         scripting::load_episode(std::string(REPRISE_SOURCE) + "/scenarios/drive_route.lua",
                                 {{},
@@ -178,16 +178,16 @@ void look(const TownT& town, const world::Tick& tick, Watch& watch) {
         watch.where = lane;
 }
 
-Watch drive(const traffic::Network& network,
+Watch drive(const towns::Network& network,
             const TownT& town,
             const Pair& pair,
             const std::string& model) {
     Watch watch;
     watch.length = world::Planner(town).plan(pair.from, pair.to)->length;
     const auto index = world::find_vehicle_model(model);
-    if (index && kernel::Swing::is_needed(world::vehicle_models()[*index]))
+    if (index && drivers::Swing::is_needed(world::vehicle_models()[*index]))
         watch.most_opposite = most_across;
-    const replay::Recording recording = recording_of(network, town, pair, model);
+    const world::Recording recording = recording_of(network, town, pair, model);
     kernel::Kernel kernel(recording);
     std::uint64_t ticks = 0;
     while (!kernel.finished()) {
@@ -229,7 +229,7 @@ void print_row(const std::string& task, const std::vector<Watch>& ways) {
                most(&Watch::height));
 }
 
-bool drive_all(const traffic::Network& network,
+bool drive_all(const towns::Network& network,
                const TownT& town,
                const std::vector<Pair>& pairs,
                const std::string& model) {
@@ -283,7 +283,7 @@ int main(int count, char** words) {
     CLI11_PARSE(app, count, words);
     try {
         const auto network = reprise::cli::load_town(town_name);
-        const auto town = reprise::traffic::read_town(network);
+        const auto town = reprise::towns::read_town(network);
         const bool random = what.find_first_not_of("0123456789") == std::string::npos;
         const auto pairs = random ? reprise::random_pairs(town, std::stoi(what), seed)
                                   : reprise::pairs_of(town, what, every);

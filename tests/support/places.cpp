@@ -163,7 +163,7 @@ TownT bridge() {
     return town;
 }
 
-std::optional<Hit> plumb(const world::GroundMesh& mesh, const Eigen::Vector3d& from) {
+std::optional<Hit> plumb(const ground::GroundMesh& mesh, const Eigen::Vector3d& from) {
     std::optional<Hit> first;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const Eigen::Vector3d& p = mesh.vertices[mesh.triangles[i][0]];
@@ -187,7 +187,7 @@ std::optional<Hit> plumb(const world::GroundMesh& mesh, const Eigen::Vector3d& f
     return first;
 }
 
-std::string bytes_of(const world::GroundMesh& mesh) {
+std::string bytes_of(const ground::GroundMesh& mesh) {
     world::Hasher hasher;
     for (const Eigen::Vector3d& vertex : mesh.vertices)
         hasher.add_bytes(vertex.data(), 3 * sizeof(double));

@@ -28,13 +28,13 @@ world::TownT bridge();
 
 struct Hit {
     double z = 0;
-    world::Surface surface = world::Surface::terrain;
+    ground::Surface surface = ground::Surface::terrain;
 };
 
 /// What a plumb line that starts at `from` meets first. Slow and simple, on purpose.
-std::optional<Hit> plumb(const world::GroundMesh& mesh, const Eigen::Vector3d& from);
+std::optional<Hit> plumb(const ground::GroundMesh& mesh, const Eigen::Vector3d& from);
 
 /// Digest of all bytes of a mesh.
-std::string bytes_of(const world::GroundMesh& mesh);
+std::string bytes_of(const ground::GroundMesh& mesh);
 
 }  // namespace reprise::test

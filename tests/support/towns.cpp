@@ -8,8 +8,8 @@ namespace reprise::test {
 
 Loaded load(const std::filesystem::path& network) {
     Loaded loaded;
-    loaded.network = traffic::load_network(network);
-    loaded.town = traffic::read_town(loaded.network);
+    loaded.network = towns::load_network(network);
+    loaded.town = towns::read_town(loaded.network);
     return loaded;
 }
 

@@ -12,7 +12,7 @@ namespace reprise::test {
 
 /// A network with the town read out of it.
 struct Loaded {
-    traffic::Network network;
+    towns::Network network;
     world::TownT town;
 };
 

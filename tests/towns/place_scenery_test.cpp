@@ -9,7 +9,7 @@
 #include "world/geometry2d.h"
 #include "world/models/building_models.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using Eigen::Vector2d;
@@ -245,4 +245,4 @@ TEST(PlaceScenery, SignsStandOnTheSideWhereOneDrives) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

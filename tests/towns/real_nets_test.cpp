@@ -6,7 +6,7 @@
 
 #include "tests/traffic/stage.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,4 +56,4 @@ TEST_P(RealNets, CarryACityOfCars) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -10,13 +10,13 @@
 #include <gtest/gtest.h>
 
 #include "ground/mesh/ground.h"
-#include "tests/towns/sampled_town.h"
 #include "tests/support/towns.h"
+#include "tests/towns/sampled_town.h"
 #include "towns/check/standing_check.h"
 #include "towns/furnish/clearance.h"
 #include "world/models/building_models.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using Eigen::Vector2d;
@@ -90,8 +90,8 @@ TEST_P(AnyScenery, NothingStandsOnALaneOrTurningPath) {
 }
 
 TEST_P(AnyScenery, EverythingStandsOnTheGround) {
-    for (const world::Criterion& criterion :
-         world::check_standing(town(), world::build_ground(town())))
+    for (const towns::Criterion& criterion :
+         towns::check_standing(town(), ground::build_ground(town())))
         EXPECT_TRUE(criterion.passed()) << criterion.name << ": " << criterion.figure;
 }
 
@@ -223,4 +223,4 @@ TEST(StreetFurniture, OfOurTownsHasBusStopsAndAFewPoles) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

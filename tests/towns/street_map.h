@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 using Tagged = std::vector<std::pair<std::string, std::string>>;
 
@@ -62,4 +62,4 @@ class StreetMap {
     std::string nodes_, ways_, relations_;
 };
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -8,7 +8,7 @@
 
 #include "tests/support/towns.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using test::lane;
@@ -263,4 +263,4 @@ TEST(TownReader, KindsFollowWhoMayUseTheLane) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

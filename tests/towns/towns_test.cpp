@@ -1,3 +1,5 @@
+#include "tests/support/towns.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -14,10 +16,9 @@
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
-#include "tests/support/towns.h"
 #include "towns/network/network_xml.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 namespace fs = std::filesystem;
@@ -180,4 +181,4 @@ TEST_P(Towns, OnlyMinorRoadsStop) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

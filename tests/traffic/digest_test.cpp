@@ -6,6 +6,7 @@
 #include "traffic/road_graph.h"
 #include "traffic/trail.h"
 #include "world/models/catalogue.h"
+#include "world/models/vehicle_classes.h"
 
 // What decides the future is in the digest as soon as it is there, before it shows in the record.
 namespace reprise::traffic {
@@ -63,7 +64,8 @@ TEST(TrafficDigest, KnowsHowLongALaneChangeWillTake) {
 /// tells them apart.
 TEST(TrafficDigest, KnowsWhichWayACarWillTake) {
     const auto& town = own_town("town1").town;
-    const RoadGraph graph(town, std::vector<ClassSet>(town.lanes.size(), permitted("", "")));
+    const RoadGraph graph(
+        town, std::vector<world::ClassSet>(town.lanes.size(), world::permitted("", "")));
     const auto way_to = [&](std::uint32_t from, std::uint32_t to) {
         return graph.shortest(graph.edge_of(from), graph.edge_of(to)).size();
     };

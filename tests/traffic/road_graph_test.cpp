@@ -6,6 +6,7 @@
 
 #include "tests/support/towns.h"
 #include "traffic/walk.h"
+#include "world/models/vehicle_classes.h"
 
 namespace reprise::traffic {
 namespace {
@@ -15,7 +16,8 @@ using test::own_town;
 using world::TownT;
 
 RoadGraph graph_of(const TownT& town) {
-    return {town, std::vector<ClassSet>(town.lanes.size(), permitted("", "pedestrian"))};
+    return {town,
+            std::vector<world::ClassSet>(town.lanes.size(), world::permitted("", "pedestrian"))};
 }
 
 TEST(RoadGraph, InternalLanesKnowWhereTheyComeFromAndLead) {
@@ -67,7 +69,7 @@ TEST(RoadGraph, WalksFollowConnections) {
     const RoadGraph graph = graph_of(town);
     Car car;
     car.id = 1'000'003;
-    walk_from(lane(town, "a1_a2_1"), car, graph, class_bit("passenger"), 7, 5000);
+    walk_from(lane(town, "a1_a2_1"), car, graph, world::class_bit("passenger"), 7, 5000);
     EXPECT_FALSE(car.dead_end);
     double length = 0;
     for (std::size_t i = 1; i < car.route.size(); ++i) {
@@ -77,7 +79,7 @@ TEST(RoadGraph, WalksFollowConnections) {
     }
     EXPECT_GE(length, 5000);
     Car other = car;
-    walk_from(lane(town, "a1_a2_1"), other, graph, class_bit("passenger"), 8, 5000);
+    walk_from(lane(town, "a1_a2_1"), other, graph, world::class_bit("passenger"), 8, 5000);
     EXPECT_NE(car.route, other.route);
 }
 

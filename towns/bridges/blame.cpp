@@ -5,12 +5,12 @@
 
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
-constexpr double around = 20;  ///< [m] of a place: its own roads and those that it conflicts with
-constexpr double noticed = 0.01;   ///< [m] of height
+constexpr double around = 20;    ///< [m] of a place: its own roads and those that it conflicts with
+constexpr double raised = 0.01;  ///< [m] of height
 constexpr double farthest = 1000;  ///< [m] longer than all ramps
 
 }  // namespace
@@ -38,8 +38,8 @@ std::uint32_t Blame::at(const Eigen::Vector2d& place) const {
     std::uint32_t found = world::none;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < roads_.places.size(); ++i)
-        if (std::abs(heights_[i]) > noticed && nearest_[i] != world::none &&
-            distances_[i] < least && (roads_.places[i] - place).norm() < around) {
+        if (std::abs(heights_[i]) > raised && nearest_[i] != world::none && distances_[i] < least &&
+            (roads_.places[i] - place).norm() < around) {
             least = distances_[i];
             found = nearest_[i];
         }
@@ -54,4 +54,4 @@ std::uint32_t Blame::at(const Eigen::Vector2d& place) const {
     return found;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

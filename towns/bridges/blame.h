@@ -5,7 +5,7 @@
 
 #include "towns/bridges/levels.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// The bridge or tunnel (an index into levels.spans, of which one at least has points) whose ramps
 /// are about a place: from its raised points there, the nearest along the roads. Where none is
@@ -25,4 +25,4 @@ class Blame {
     std::vector<double> distances_;       ///< [m] of each point to it
 };
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

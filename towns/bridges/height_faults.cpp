@@ -18,11 +18,11 @@
 #include "world/frames.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
-using world::Criterion;
+using towns::Criterion;
 
 constexpr double steepest_ramp = 0.15;
 constexpr double step = 1;        ///< [m] between plumb lines along a lane
@@ -44,13 +44,13 @@ void find_ramps(const world::TownT& town, std::vector<HeightFault>& faults) {
 
 /// The first place of each lane that has something too low above it.
 void find_low_roads(const world::TownT& town,
-                    const world::GroundProbe& probe,
+                    const ground::GroundProbe& probe,
                     std::vector<HeightFault>& faults) {
     for (const world::LaneT& lane : town.lanes)
         for (double s = step / 2; s < lane.length; s += step) {
             const Eigen::Vector3d p = world::point_at(lane, s).position;
             const auto hit = probe.below(p + headroom * Eigen::Vector3d::UnitZ());
-            if (!hit || hit->surface == world::Surface::terrain || hit->z < p.z() + surface)
+            if (!hit || hit->surface == ground::Surface::terrain || hit->z < p.z() + surface)
                 continue;
             faults.push_back({HeightFault::Kind::low, p.head<2>()});
             break;
@@ -69,10 +69,10 @@ bool all_pass(const std::vector<Criterion>& criteria) {
 bool HeightJudge::was_there(const Criterion& criterion, const Criterion::Place& place) {
     if (!criteria_of_flat_) {
         const world::TownT town = read_town(flat_);
-        const world::GroundMesh ground = world::build_ground(town);
-        criteria_of_flat_ = world::check_ground(town, ground);
+        const ground::GroundMesh ground = ground::build_ground(town);
+        criteria_of_flat_ = towns::check_ground(town, ground);
         criteria_of_flat_->push_back(check_walking(town, WalkMap(ground)));
-        for (Criterion& each : world::check_furniture(town))
+        for (Criterion& each : towns::check_furniture(town))
             criteria_of_flat_->push_back(std::move(each));
     }
     for (const Criterion& flat : *criteria_of_flat_)
@@ -89,12 +89,12 @@ std::vector<HeightFault> HeightJudge::faults(const std::string& xml) {
     find_ramps(town, found);
     if (!found.empty())
         return found;
-    const world::GroundMesh ground = world::build_ground(town);
-    find_low_roads(town, world::GroundProbe(ground), found);
-    std::vector<Criterion> criteria = world::check_ground(town, ground);
+    const ground::GroundMesh ground = ground::build_ground(town);
+    find_low_roads(town, ground::GroundProbe(ground), found);
+    std::vector<Criterion> criteria = towns::check_ground(town, ground);
     if (found.empty() && all_pass(criteria)) {
         criteria.push_back(check_walking(town, WalkMap(ground)));
-        for (Criterion& each : world::check_furniture(town))
+        for (Criterion& each : towns::check_furniture(town))
             criteria.push_back(std::move(each));
     }
     for (const Criterion& criterion : criteria)
@@ -105,4 +105,4 @@ std::vector<HeightFault> HeightJudge::faults(const std::string& xml) {
     return found;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

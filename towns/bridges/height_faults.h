@@ -8,7 +8,7 @@
 #include "towns/check/criterion.h"
 #include "towns/town_reader.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// A place of a town that its bridges, tunnels and ramps spoil.
 struct HeightFault {
@@ -34,10 +34,10 @@ class HeightJudge {
     std::vector<HeightFault> faults(const std::string& xml);
 
   private:
-    bool was_there(const world::Criterion& criterion, const world::Criterion::Place& place);
+    bool was_there(const towns::Criterion& criterion, const towns::Criterion::Place& place);
 
     Network flat_;
-    std::optional<std::vector<world::Criterion>> criteria_of_flat_;
+    std::optional<std::vector<towns::Criterion>> criteria_of_flat_;
 };
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

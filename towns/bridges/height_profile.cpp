@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::string shape_text(const std::vector<Vector3d>& line) {
     return line.size() == 1 ? text + " " + text : text;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

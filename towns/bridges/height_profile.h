@@ -5,7 +5,7 @@
 
 #include "towns/bridges/road_chains.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// The heights of one road, from its start to its end, for all of its lanes: lanes beside each
 /// other have the same height where they are beside each other.
@@ -35,4 +35,4 @@ double steepest(const std::vector<Eigen::Vector3d>& line);
 /// with two at the same place: SUMO loads no lane with fewer.
 std::string shape_text(const std::vector<Eigen::Vector3d>& line);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

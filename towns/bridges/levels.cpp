@@ -15,9 +15,10 @@
 
 #include "towns/bridges/pieces.h"
 #include "towns/bridges/spans.h"
+#include "world/geometry2d.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -261,4 +262,4 @@ Levels find_levels(const RoadChains& roads,
     return LevelFinder(roads, ways, flat).find();
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

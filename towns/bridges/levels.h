@@ -8,7 +8,7 @@
 #include "towns/bridges/road_chains.h"
 #include "towns/maps/map_shapes.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Which points of a road network lie over or under others, as the ways of its map say.
 struct Levels {
@@ -33,4 +33,4 @@ Levels find_levels(const RoadChains& roads,
                    const std::vector<MapShape>& ways,
                    const std::set<std::uint32_t>& flat);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 using Eigen::Vector2d;
 using world::Box;
@@ -44,4 +44,4 @@ BoxGrid grid_of(const std::vector<Piece>& pieces) {
     return BoxGrid(entries);
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

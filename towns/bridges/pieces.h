@@ -6,7 +6,7 @@
 
 #include "world/geometry2d.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// A straight piece of a track or of a way.
 struct Piece {
@@ -28,4 +28,4 @@ world::Box box_of(const Piece& piece, double margin);
 /// Finds pieces, by their index, near a place.
 world::BoxGrid grid_of(const std::vector<Piece>& pieces);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -24,16 +24,17 @@
 #include "towns/bridges/road_heights.h"
 #include "towns/network/network_xml.h"
 #include "world/check.h"
+#include "world/models/vehicle_classes.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
 using Eigen::Vector2d;
 using world::Loop;
 
-constexpr double steep_slope = 0.12;  ///< is worth a word
-constexpr double noticed = 0.0005;    ///< [m] less is 0
+constexpr double steep_slope = 0.12;     ///< is worth a word
+constexpr double least_height = 0.0005;  ///< [m] less is 0
 
 Loop plan_of(const pugi::xml_attribute& shape) {
     return world::in_plan(parse_shape(shape.value()));
@@ -85,7 +86,7 @@ void Writer::write_junctions() {
         const std::string id = junction.attribute("id").value();
         const double z =
             height_of(id.starts_with(':') ? junction_around(junction_around(id) + "_") : id);
-        if (std::abs(z) < noticed)
+        if (std::abs(z) < least_height)
             continue;
         if (!junction.attribute("z"))
             junction.insert_attribute_after("z", junction.attribute("y"));
@@ -95,7 +96,7 @@ void Writer::write_junctions() {
 }
 
 void Writer::write_inside(pugi::xml_node edge, double z) {
-    if (std::abs(z) < noticed)
+    if (std::abs(z) < least_height)
         return;
     for (pugi::xml_node lane : edge.children("lane")) {
         set_level(lane.attribute("shape"), z);
@@ -124,9 +125,9 @@ void Writer::write_road(pugi::xml_node edge, const HeightProfile& profile, Raise
     for (pugi::xml_node lane : edge.children("lane")) {
         const auto line = profile.lift(plan_of(lane.attribute("shape")));
         lane.attribute("shape").set_value(shape_text(line).c_str());
-        const ClassSet classes =
-            permitted(lane.attribute("allow").value(), lane.attribute("disallow").value());
-        if ((classes & class_bit("passenger")) == 0)
+        const world::ClassSet classes =
+            world::permitted(lane.attribute("allow").value(), lane.attribute("disallow").value());
+        if ((classes & world::class_bit("passenger")) == 0)
             continue;
         const double slope = steepest(line);
         report.steepest = std::max(report.steepest, slope);
@@ -235,4 +236,4 @@ RaisedRoads raise_roads(std::string& network,
     return report;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

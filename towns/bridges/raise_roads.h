@@ -8,7 +8,7 @@
 #include "towns/bridges/height_faults.h"
 #include "towns/maps/map_shapes.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// What became of the bridges and tunnels of a map.
 struct RaisedRoads {
@@ -32,4 +32,4 @@ RaisedRoads raise_roads(std::string& network,
                         const std::vector<MapShape>& ways,
                         const FindFaults& find_faults);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

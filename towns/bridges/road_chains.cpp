@@ -12,16 +12,18 @@
 #include <pugixml.hpp>
 
 #include "towns/network/network_xml.h"
+#include "world/geometry2d.h"
 #include "world/town.h"
+#include "world/words.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
 using Eigen::Vector2d;
 using world::Loop;
 
-constexpr double spacing = 5;          ///< [m] of points along a chain
+constexpr double point_spacing = 5;    ///< [m] of points along a chain
 constexpr double taper = 10;           ///< [m] from a junction, within which a ramp gets its slope
 constexpr double shortest_paths = 3;   ///< [m] a mere joint of two roads has no longer ones
 constexpr double least_share = 0.05;   ///< of a step: also where it should be level
@@ -55,7 +57,7 @@ std::vector<std::string> ways_of(const pugi::xml_node& edge) {
     std::vector<std::string> ways;
     const pugi::xml_node param =
         edge.child("lane").find_child_by_attribute("param", "key", "origId");
-    for (const std::string_view way : words(param.attribute("value").value()))
+    for (const std::string_view way : world::words(param.attribute("value").value()))
         ways.emplace_back(way);
     return ways;
 }
@@ -125,7 +127,7 @@ void ChainReader::read_paths() {
 
 void ChainReader::add_chain(const pugi::xml_node& edge, const Loop& line) {
     const double length = plan_length(line);
-    const int count = std::max(1, static_cast<int>(std::ceil(length / spacing)));
+    const int count = std::max(1, static_cast<int>(std::ceil(length / point_spacing)));
     Chain chain;
     for (int i = 0; i <= count; ++i)
         chain.places.push_back(spot_along(line, static_cast<double>(i) / count).place);
@@ -279,4 +281,4 @@ LineSpot spot_along(const Loop& line, double share) {
     return {line.back(), Vector2d::UnitX()};
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

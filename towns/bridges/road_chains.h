@@ -11,7 +11,7 @@ namespace pugi {
 class xml_node;
 }
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// A road between two junctions, cut into steps of at most 5 m. Both directions of a road are one.
 struct Chain {
@@ -79,4 +79,4 @@ struct LineSpot {
 /// At a share of an open line's length, 0 to 1.
 LineSpot spot_along(const world::Loop& line, double share);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -15,7 +15,7 @@
 
 #include <Eigen/SparseCholesky>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -191,4 +191,4 @@ std::vector<double> find_heights(const RoadChains& roads, const Levels& levels) 
     return heights;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

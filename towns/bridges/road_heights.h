@@ -5,7 +5,7 @@
 #include "towns/bridges/levels.h"
 #include "towns/bridges/road_chains.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// From one level to the next: 4.5 m for lorries and 1.5 m for a deck. [m]
 inline constexpr double storey_height = 6.0;
@@ -15,4 +15,4 @@ inline constexpr double storey_height = 6.0;
 /// kinks. Far from every bridge and tunnel heights are 0.
 std::vector<double> find_heights(const RoadChains& roads, const Levels& levels);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 using Eigen::Vector2d;
 using world::Box;
@@ -78,4 +78,4 @@ std::uint32_t Spans::at(const Vector2d& place,
     return found;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -8,7 +8,7 @@
 #include "towns/maps/map_shapes.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// The bridges and tunnels of a map: what was drawn as several ways is one span.
 class Spans {
@@ -34,4 +34,4 @@ class Spans {
     world::BoxGrid by_place_;
 };
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -8,7 +8,7 @@
 #include "world/models/building_models.h"
 #include "world/random.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -131,4 +131,4 @@ std::uint32_t choose_model(BuildingStyle style, Situation situation, double draw
     return *world::find_building_model(from.back().model);
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

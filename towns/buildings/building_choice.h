@@ -7,7 +7,7 @@
 
 #include "towns/furnish/land.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// How a part of a town is built: the styles of Place::District.
 enum class BuildingStyle : std::uint8_t { village, old, brick, modern, centre };
@@ -46,4 +46,4 @@ enum class Situation : std::uint8_t {
 /// Index in world::building_models(); `drawn` in [0, 1).
 std::uint32_t choose_model(BuildingStyle style, Situation situation, double drawn);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -18,7 +18,7 @@
 #include "world/check.h"
 #include "world/models/building_models.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -312,4 +312,4 @@ std::vector<Lot> place_buildings(Land& land) {
     return builder.take_lots();
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -4,7 +4,7 @@
 
 #include "towns/furnish/land.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// A building that looks at a street, for what is laid out around it.
 struct Lot {
@@ -21,4 +21,4 @@ struct Lot {
 /// junctions.
 std::vector<Lot> place_buildings(Land& land);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -10,7 +10,7 @@
 #include "towns/furnish/draws.h"
 #include "world/models/building_models.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -91,4 +91,4 @@ void keep_drawn_buildings(Land& land) {
     }
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

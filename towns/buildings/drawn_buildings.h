@@ -2,7 +2,7 @@
 
 #include "towns/furnish/land.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Sets up the buildings of the place, but for those that reach more than 0.5 m into a lane: then
 /// the map is wrong, or the lane. What the map leaves open - model, style - is drawn.
@@ -11,4 +11,4 @@ namespace reprise::traffic {
 /// town.drawn_buildings.
 void keep_drawn_buildings(Land& land);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

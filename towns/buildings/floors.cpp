@@ -5,7 +5,7 @@
 
 #include "ground/mesh/terrain.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -49,7 +49,7 @@ std::optional<double> floor_on(const Footing& footing, const Footprint& footprin
     const auto ground = footing.at(door, road_z);
     if (!ground)
         return std::nullopt;
-    const double floor = *ground + world::terrain_depth;
+    const double floor = *ground + ground::terrain_depth;
     const auto under = footing.under(footprint, *ground);
     const auto front = footing.under({door, footprint.yaw, footprint.length, 0}, *ground);
     if (!under || !front || under->low < floor - off_floor || under->high > floor + off_floor ||
@@ -67,7 +67,7 @@ void set_floor(const Land& land, world::DrawnBuildingT& drawn) {
     if (!ground)
         return;
     for (world::Vec3& corner : drawn.outline)
-        corner.mutate_z(*ground + world::terrain_depth);
+        corner.mutate_z(*ground + ground::terrain_depth);
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

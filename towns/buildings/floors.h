@@ -4,7 +4,7 @@
 
 #include "towns/furnish/land.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Height of the ground floor of a building whose front is at -y: a step over the ground before the
 /// door, in the middle of the front. `road_z`: of the road beside it; the floor in a level town.
@@ -16,4 +16,4 @@ std::optional<double> floor_on(const Footing& footing, const Footprint& footprin
 /// in a level town and beyond the terrain.
 void set_floor(const Land& land, world::DrawnBuildingT& drawn);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

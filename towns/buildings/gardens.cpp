@@ -11,7 +11,7 @@
 #include "towns/furnish/props.h"
 #include "world/models/building_models.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -249,4 +249,4 @@ void lay_out_gardens(Land& land, std::span<const Lot> lots) {
     }
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

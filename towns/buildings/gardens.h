@@ -4,11 +4,11 @@
 
 #include "towns/buildings/buildings.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// What lies around houses: lawns, fences, walls and hedges along the street, bushes before the
 /// walls, here and there a driveway with a car; paving before shops and terraces, and car parks
 /// behind shops and offices.
 void lay_out_gardens(Land& land, std::span<const Lot> lots);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

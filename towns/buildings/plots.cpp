@@ -10,7 +10,7 @@
 #include "towns/furnish/plants.h"
 #include "towns/furnish/props.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -22,7 +22,7 @@ using world::PlotT;
 using world::PropKind;
 using world::Purpose;
 
-constexpr double smallest = 4;  ///< [m2]
+constexpr double smallest_plot = 4;  ///< [m2]
 
 /// One plot with all that is put on it.
 class Layout {
@@ -211,7 +211,7 @@ void lay_out_plots(Land& land) {
     for (std::size_t i = 0; i < land.place.plots.size(); ++i) {
         PlotT plot = land.place.plots[i];
         const double area = world::signed_area(world::in_plan(plot.outline));
-        if (std::abs(area) < smallest)
+        if (std::abs(area) < smallest_plot)
             continue;
         if (area < 0)
             std::reverse(plot.outline.begin(), plot.outline.end());
@@ -222,4 +222,4 @@ void lay_out_plots(Land& land) {
     }
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -2,10 +2,10 @@
 
 #include "towns/furnish/land.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// The place's plots, into town.plots, with what belongs on them: trees, benches and bins in parks,
 /// a fountain and benches in squares, swings on playgrounds, cars on car parks, trees in forests.
 void lay_out_plots(Land& land);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -9,7 +9,7 @@
 #include "world/geometry2d.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -130,4 +130,4 @@ std::optional<Footprint> fit(const BuildingModel& model,
     return std::nullopt;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

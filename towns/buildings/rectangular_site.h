@@ -7,7 +7,7 @@
 #include "world/models/building_models.h"
 #include "world/town_generated.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Where a town's streets and sidewalks are, for buildings that a map draws.
 struct Streets {
@@ -35,4 +35,4 @@ std::optional<Footprint> fit(const world::BuildingModel& model,
                              const RectangularSite& site,
                              const Streets& streets);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace reprise::world {
+namespace reprise::towns {
 
 namespace {
 
@@ -56,4 +56,8 @@ Criterion none_of(std::string name, std::vector<Criterion::Place> faults, std::s
     return criterion;
 }
 
-}  // namespace reprise::world
+std::string numbered(const char* what, std::size_t index) {
+    return std::string(what) + " " + std::to_string(index);
+}
+
+}  // namespace reprise::towns

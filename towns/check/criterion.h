@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-namespace reprise::world {
+namespace reprise::towns {
 
 /// One promise of a town, with what was found. `town check` prints a table of them.
 struct Criterion {
@@ -54,4 +54,7 @@ class Measured {
 /// A criterion that nothing may break: `faults` in the order in which they were found.
 Criterion none_of(std::string name, std::vector<Criterion::Place> faults, std::string looked_at);
 
-}  // namespace reprise::world
+/// "building 12": how a thing without a name is called.
+std::string numbered(const char* what, std::size_t index);
+
+}  // namespace reprise::towns

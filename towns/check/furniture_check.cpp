@@ -12,7 +12,7 @@
 #include "world/geometry2d.h"
 #include "world/town.h"
 
-namespace reprise::world {
+namespace reprise::towns {
 
 namespace {
 
@@ -26,16 +26,16 @@ using Place = Criterion::Place;
 /// Something that stands in town.
 struct Footprint {
     std::string name;
-    Loop loop;          ///< one point: round
+    world::Loop loop;   ///< one point: round
     double radius = 0;  ///< [m] around the loop
     double low = 0;     ///< [m] world
     double high = 0;
 };
 
-Loop rectangle(const Vec3& centre, double yaw, double length, double width) {
+world::Loop rectangle(const world::Vec3& centre, double yaw, double length, double width) {
     const Eigen::Vector2d along = Eigen::Vector2d(std::cos(yaw), std::sin(yaw)) * length / 2;
     const Eigen::Vector2d across = Eigen::Vector2d(-std::sin(yaw), std::cos(yaw)) * width / 2;
-    const Eigen::Vector2d middle = in_plan(centre);
+    const Eigen::Vector2d middle = world::in_plan(centre);
     return {middle - along - across,
             middle + along - across,
             middle + along + across,
@@ -43,27 +43,23 @@ Loop rectangle(const Vec3& centre, double yaw, double length, double width) {
 }
 
 /// Do people walk and drive around its pole only?
-bool is_on_a_pole(PropKind kind) {
+bool is_on_a_pole(world::PropKind kind) {
     switch (kind) {
-        case PropKind::speed_limit_sign:
-        case PropKind::stop_sign:
-        case PropKind::yield_sign:
-        case PropKind::crossing_sign:
-        case PropKind::street_light:
-        case PropKind::pole:
+        case world::PropKind::speed_limit_sign:
+        case world::PropKind::stop_sign:
+        case world::PropKind::yield_sign:
+        case world::PropKind::crossing_sign:
+        case world::PropKind::street_light:
+        case world::PropKind::pole:
             return true;
         default:
             return false;
     }
 }
 
-std::string numbered(const char* what, std::size_t index) {
-    return std::string(what) + " " + std::to_string(index);
-}
-
-void add_buildings(const TownT& town, std::vector<Footprint>& standing) {
+void add_buildings(const world::TownT& town, std::vector<Footprint>& standing) {
     for (std::size_t i = 0; i < town.buildings.size(); ++i) {
-        const Building& b = town.buildings[i];
+        const world::Building& b = town.buildings[i];
         const double low = b.centre().z();
         standing.push_back({numbered("building", i),
                             rectangle(b.centre(), b.yaw(), b.length(), b.width()),
@@ -72,17 +68,19 @@ void add_buildings(const TownT& town, std::vector<Footprint>& standing) {
                             low + b.height()});
     }
     for (std::size_t i = 0; i < town.drawn_buildings.size(); ++i) {
-        const DrawnBuildingT& b = town.drawn_buildings[i];
+        const world::DrawnBuildingT& b = town.drawn_buildings[i];
         const double low = b.outline.empty() ? 0 : b.outline[0].z();
         standing.push_back(
-            {numbered("drawn building", i), in_plan(b.outline), 0, low, low + b.height});
+            {numbered("drawn building", i), world::in_plan(b.outline), 0, low, low + b.height});
     }
 }
 
-void add_furniture(const TownT& town, std::vector<Footprint>& standing) {
-    const auto add_round = [&](std::string name, const Vec3& foot, double radius, double height) {
-        standing.push_back({std::move(name), {in_plan(foot)}, radius, foot.z(), foot.z() + height});
-    };
+void add_furniture(const world::TownT& town, std::vector<Footprint>& standing) {
+    const auto add_round =
+        [&](std::string name, const world::Vec3& foot, double radius, double height) {
+            standing.push_back(
+                {std::move(name), {world::in_plan(foot)}, radius, foot.z(), foot.z() + height});
+        };
     for (std::size_t i = 0; i < town.trees.size(); ++i)
         add_round(
             numbered("plant", i), town.trees[i].position(), trunk_radius, town.trees[i].height());
@@ -90,7 +88,7 @@ void add_furniture(const TownT& town, std::vector<Footprint>& standing) {
         add_round(
             numbered("signal head", i), town.heads[i].foot, pole_radius, town.heads[i].height);
     for (std::size_t i = 0; i < town.props.size(); ++i) {
-        const Prop& prop = town.props[i];
+        const world::Prop& prop = town.props[i];
         const std::string name = numbered(EnumNamePropKind(prop.kind()), i);
         const double low = prop.position().z();
         if (is_on_a_pole(prop.kind()))
@@ -107,44 +105,50 @@ void add_furniture(const TownT& town, std::vector<Footprint>& standing) {
 /// Everything that stands, by place.
 class Standing {
   public:
-    explicit Standing(const TownT& town) {
+    explicit Standing(const world::TownT& town) {
         add_buildings(town, things_);
         add_furniture(town, things_);
-        std::vector<BoxGrid::Entry> entries;
+        std::vector<world::BoxGrid::Entry> entries;
         for (std::uint32_t i = 0; i < things_.size(); ++i)
             if (!things_[i].loop.empty())
-                entries.push_back({box_around(things_[i].loop, things_[i].radius), i});
-        by_place_ = BoxGrid(entries);
+                entries.push_back({world::box_around(things_[i].loop, things_[i].radius), i});
+        by_place_ = world::BoxGrid(entries);
     }
 
     std::size_t size() const { return things_.size(); }
 
     /// Calls `visit(thing)` for all that stands nearer than `clear` to a segment of a way.
     template <typename Visit>
-    void for_each_on(const Vec3& from, const Vec3& to, double clear, Visit&& visit) const {
-        Box box;
-        box.take(in_plan(from), clear);
-        box.take(in_plan(to), clear);
+    void for_each_on(const world::Vec3& from,
+                     const world::Vec3& to,
+                     double clear,
+                     Visit&& visit) const {
+        world::Box box;
+        box.take(world::in_plan(from), clear);
+        box.take(world::in_plan(to), clear);
         const double road = std::min(from.z(), to.z());
         for (const std::uint32_t i : by_place_.near(box)) {
             const Footprint& thing = things_[i];
             const bool is_on_level = thing.low < road + headroom && thing.high > road;
             if (is_on_level &&
-                distance_to(thing.loop, in_plan(from), in_plan(to)) - thing.radius < clear)
+                world::distance_to(thing.loop, world::in_plan(from), world::in_plan(to)) -
+                        thing.radius <
+                    clear)
                 visit(thing);
         }
     }
 
   private:
     std::vector<Footprint> things_;
-    BoxGrid by_place_;
+    world::BoxGrid by_place_;
 };
 
-Criterion check_ways(const TownT& town, const Standing& standing) {
+Criterion check_ways(const world::TownT& town, const Standing& standing) {
     std::map<std::string, Place> faults;
-    for (const LaneT& lane : town.lanes) {
-        const bool is_sidewalk = lane.kind == LaneKind::sidewalk || lane.kind == LaneKind::crossing;
-        if (!is_for_cars(lane) && !is_sidewalk)
+    for (const world::LaneT& lane : town.lanes) {
+        const bool is_sidewalk =
+            lane.kind == world::LaneKind::sidewalk || lane.kind == world::LaneKind::crossing;
+        if (!world::is_for_cars(lane) && !is_sidewalk)
             continue;
         for (std::size_t i = 0; i + 1 < lane.centre.size(); ++i)
             standing.for_each_on(lane.centre[i],
@@ -163,16 +167,16 @@ Criterion check_ways(const TownT& town, const Standing& standing) {
 }
 
 /// A group is what one lane (or crossing) sees of one program.
-Criterion check_heads(const TownT& town) {
+Criterion check_heads(const world::TownT& town) {
     std::vector<bool> is_shown(town.signals.size(), false);
-    for (const SignalHeadT& head : town.heads)
+    for (const world::SignalHeadT& head : town.heads)
         for (const std::uint32_t signal : head.signals)
             if (signal < is_shown.size())
                 is_shown[signal] = true;
     std::map<std::string, Place> dark;
     std::map<std::string, int> groups;
     for (std::size_t i = 0; i < town.signals.size(); ++i) {
-        const SignalT& signal = town.signals[i];
+        const world::SignalT& signal = town.signals[i];
         std::string name = signal.program + " for ";
         if (signal.lane < town.lanes.size())
             name += town.lanes[signal.lane].name;
@@ -180,7 +184,7 @@ Criterion check_heads(const TownT& town) {
             name += "walkers, link " + std::to_string(signal.index);
         ++groups[name];
         if (!is_shown[i])
-            dark.try_emplace(name, Place{name, in_plan(signal.position), 1});
+            dark.try_emplace(name, Place{name, world::in_plan(signal.position), 1});
     }
     std::vector<Place> listed;
     for (const auto& [name, place] : dark)
@@ -190,25 +194,26 @@ Criterion check_heads(const TownT& town) {
 }
 
 /// What is wrong with a spawn point; "": nothing.
-std::string fault_of(const TownT& town, const SpawnPoint& point) {
+std::string fault_of(const world::TownT& town, const world::SpawnPoint& point) {
     if (point.lane() >= town.lanes.size())
         return "no such lane";
-    const LaneT& lane = town.lanes[point.lane()];
-    if (lane.kind != (point.for_walkers() ? LaneKind::sidewalk : LaneKind::driving))
+    const world::LaneT& lane = town.lanes[point.lane()];
+    if (lane.kind != (point.for_walkers() ? world::LaneKind::sidewalk : world::LaneKind::driving))
         return "is not for " + std::string(point.for_walkers() ? "walkers" : "cars");
     if (!(point.s() >= 0 && point.s() <= lane.length))
         return "beyond the lane's end";
     // A walker's stands on the sidewalk, a kerb above the lane's line.
-    const Eigen::Vector3d off = to_eigen(point.position()) - point_at(lane, point.s()).position;
+    const Eigen::Vector3d off =
+        world::to_eigen(point.position()) - world::point_at(lane, point.s()).position;
     const double aside = off.head<2>().norm();
     const double reach = point.for_walkers() ? lane.width / 2 : spawn_reach;
     return aside <= reach && std::abs(off.z()) <= 0.25 ? "" : "not on its lane";
 }
 
-Criterion check_spawn_points(const TownT& town, const Standing& standing) {
+Criterion check_spawn_points(const world::TownT& town, const Standing& standing) {
     std::vector<Place> faults;
     for (std::size_t i = 0; i < town.spawn_points.size(); ++i) {
-        const SpawnPoint& point = town.spawn_points[i];
+        const world::SpawnPoint& point = town.spawn_points[i];
         std::string fault = fault_of(town, point);
         standing.for_each_on(point.position(),
                              point.position(),
@@ -216,10 +221,10 @@ Criterion check_spawn_points(const TownT& town, const Standing& standing) {
                              [&](const Footprint& thing) { fault = thing.name + " stands there"; });
         if (!fault.empty())
             faults.push_back(
-                {numbered("spawn point", i) + ": " + fault, in_plan(point.position()), 1});
+                {numbered("spawn point", i) + ": " + fault, world::in_plan(point.position()), 1});
     }
     if (town.spawn_points.empty())
-        faults.push_back({"there is no spawn point", in_plan(town.low), 1});
+        faults.push_back({"there is no spawn point", world::in_plan(town.low), 1});
     return none_of("bad spawn points",
                    std::move(faults),
                    std::to_string(town.spawn_points.size()) + " points");
@@ -227,9 +232,9 @@ Criterion check_spawn_points(const TownT& town, const Standing& standing) {
 
 }  // namespace
 
-std::vector<Criterion> check_furniture(const TownT& town) {
+std::vector<Criterion> check_furniture(const world::TownT& town) {
     const Standing standing(town);
     return {check_heads(town), check_spawn_points(town, standing), check_ways(town, standing)};
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::towns

@@ -5,7 +5,7 @@
 #include "towns/check/criterion.h"
 #include "world/town_generated.h"
 
-namespace reprise::world {
+namespace reprise::towns {
 
 /// Half the width of the way along the middle of a sidewalk in which nothing stands. [m]
 inline constexpr double clear_for_walkers = 0.3;
@@ -17,6 +17,6 @@ inline constexpr double pole_radius = 0.15;
 /// actors can start at every spawn point, and no building, plant or piece of furniture stands where
 /// cars drive (0.9 m either side of a centre line) or in the middle of a sidewalk
 /// (clear_for_walkers).
-std::vector<Criterion> check_furniture(const TownT& town);
+std::vector<Criterion> check_furniture(const world::TownT& town);
 
-}  // namespace reprise::world
+}  // namespace reprise::towns

@@ -19,8 +19,9 @@
 #include "towns/check/island_check.h"
 #include "world/frames.h"
 #include "world/town.h"
+#include "world/units.h"
 
-namespace reprise::world {
+namespace reprise::towns {
 
 namespace {
 
@@ -32,7 +33,6 @@ constexpr double kerb_limit = 0.9;  ///< [m]
 constexpr double gap_limit = 0.05;  ///< [m]
 constexpr double above = 1.0;       ///< [m] plumb lines start: under the next bridge, over kerbs
 constexpr double no_road = 1.0;     ///< [m] said of a place over terrain or nothing
-constexpr double storey = 2.5;      ///< [m] what lies farther above or below is another level
 constexpr double most_holes_looked_for = 400000;
 
 std::string places_on_lanes(std::size_t places, std::size_t lanes) {
@@ -48,18 +48,18 @@ struct LaneLevels {
 };
 
 /// Distance of the road below `p` from `p`, either way.
-double off_level(const GroundProbe& probe, const Eigen::Vector3d& p) {
+double off_level(const ground::GroundProbe& probe, const Eigen::Vector3d& p) {
     const auto hit = probe.below(p + above * Eigen::Vector3d::UnitZ());
-    return hit && hit->surface != Surface::terrain ? hit->z - p.z() : -no_road;
+    return hit && hit->surface != ground::Surface::terrain ? hit->z - p.z() : -no_road;
 }
 
 /// Lanes for cars that join it, at either end. [lane]
-std::vector<std::vector<std::uint32_t>> joined_lanes(const TownT& town) {
+std::vector<std::vector<std::uint32_t>> joined_lanes(const world::TownT& town) {
     std::vector<std::vector<std::uint32_t>> joined(town.lanes.size());
     for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
-        for (const Link& link : town.lanes[i].links) {
-            const std::uint32_t next = link.via() != none ? link.via() : link.to();
-            if (!is_for_cars(town.lanes[i]) || !is_for_cars(town.lanes[next]))
+        for (const world::Link& link : town.lanes[i].links) {
+            const std::uint32_t next = link.via() != world::none ? link.via() : link.to();
+            if (!world::is_for_cars(town.lanes[i]) || !world::is_for_cars(town.lanes[next]))
                 continue;
             joined[i].push_back(next);
             joined[next].push_back(i);
@@ -69,14 +69,14 @@ std::vector<std::vector<std::uint32_t>> joined_lanes(const TownT& town) {
 
 /// As off_level, beside the centre line. Where lanes meet at an angle the inner wheel is on the
 /// other lane already, which may be a slope: the nearer height counts there.
-double off_wheel(const TownT& town,
-                 const GroundProbe& probe,
+double off_wheel(const world::TownT& town,
+                 const ground::GroundProbe& probe,
                  const Eigen::Vector3d& wheel,
                  std::span<const std::uint32_t> joined) {
     double best = off_level(probe, wheel);
     for (const std::uint32_t other : joined) {
-        const LaneProjection on = project(town.lanes[other], wheel);
-        const double z = point_at(town.lanes[other], on.s).position.z();
+        const world::LaneProjection on = world::project(town.lanes[other], wheel);
+        const double z = world::point_at(town.lanes[other], on.s).position.z();
         const double off = off_level(probe, {wheel.x(), wheel.y(), z});
         if (std::abs(z - wheel.z()) < above && std::abs(off) < std::abs(best))
             best = off;
@@ -87,7 +87,7 @@ double off_wheel(const TownT& town,
 /// What a wheel feels of being `off` its lane's level: the greatest step of the ground on the way
 /// from below the middle. Who crosses a slope is banked, and how much he may be is a criterion of
 /// its own; what is steeper than that is a step.
-double felt(const GroundProbe& probe,
+double felt(const ground::GroundProbe& probe,
             const Eigen::Vector3d& middle,
             const Eigen::Vector3d& wheel,
             double off) {
@@ -107,10 +107,10 @@ double felt(const GroundProbe& probe,
     return std::min(std::abs(off), greatest);
 }
 
-void measure_lane(const TownT& town,
-                  const LaneT& lane,
+void measure_lane(const world::TownT& town,
+                  const world::LaneT& lane,
                   std::span<const std::uint32_t> joined,
-                  const GroundProbe& probe,
+                  const ground::GroundProbe& probe,
                   LaneLevels& levels) {
     ++levels.lanes;
     const int count = 1 + static_cast<int>(lane.length / step);
@@ -118,7 +118,7 @@ void measure_lane(const TownT& town,
         // The very ends belong to the next lane as much as to this one.
         const double s =
             std::clamp(i * lane.length / count, 0.01, std::max(0.01, lane.length - 0.01));
-        const LanePoint at = point_at(lane, s);
+        const world::LanePoint at = world::point_at(lane, s);
         const Eigen::Vector3d left(-std::sin(at.yaw), std::cos(at.yaw), 0);
         const double middle = off_level(probe, at.position);
         const bool at_end = s < track || s > lane.length - track;
@@ -137,11 +137,13 @@ void measure_lane(const TownT& town,
     }
 }
 
-void check_levels(const TownT& town, const GroundProbe& probe, std::vector<Criterion>& criteria) {
+void check_levels(const world::TownT& town,
+                  const ground::GroundProbe& probe,
+                  std::vector<Criterion>& criteria) {
     LaneLevels levels;
     const auto joined = joined_lanes(town);
     for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
-        if (is_for_cars(town.lanes[i]))
+        if (world::is_for_cars(town.lanes[i]))
             measure_lane(town, town.lanes[i], joined[i], probe, levels);
     const std::string looked_at = places_on_lanes(levels.centre.count(), levels.lanes);
     criteria.push_back(std::move(levels.centre).verdict(looked_at));
@@ -161,43 +163,46 @@ double height_near(const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::
 }
 
 /// The raised triangle nearest to a short segment of a centre line; `reach` when none is nearer.
-double clear_width(const GroundMesh& ground,
-                   const GroundProbe& probe,
+double clear_width(const ground::GroundMesh& ground,
+                   const ground::GroundProbe& probe,
                    const Eigen::Vector3d& from,
                    const Eigen::Vector3d& to,
                    double reach) {
-    Box box;
+    world::Box box;
     box.take(from.head<2>(), reach);
     box.take(to.head<2>(), reach);
     const Eigen::Vector3d middle = (from + to) / 2;
     double least = reach;
     for (const std::uint32_t i : probe.near(box)) {
-        if (ground.surfaces[i] != Surface::kerb && ground.surfaces[i] != Surface::sidewalk)
+        if (ground.surfaces[i] != ground::Surface::kerb &&
+            ground.surfaces[i] != ground::Surface::sidewalk)
             continue;
         const auto& [first, second, third] = ground.triangles[i];
         const std::array<Eigen::Vector3d, 3> triangle = {
             ground.vertices[first], ground.vertices[second], ground.vertices[third]};
-        if (std::abs(height_near(triangle, middle.head<2>()) - middle.z()) >= storey)
+        if (std::abs(height_near(triangle, middle.head<2>()) - middle.z()) >= world::level_spacing)
             continue;
-        Loop outline;
+        world::Loop outline;
         for (const Eigen::Vector3d& p : triangle)
             outline.push_back(p.head<2>());
-        least = std::min(least, distance_to(outline, from.head<2>(), to.head<2>()));
+        least = std::min(least, world::distance_to(outline, from.head<2>(), to.head<2>()));
     }
     return least;
 }
 
-Criterion check_kerbs(const TownT& town, const GroundMesh& ground, const GroundProbe& probe) {
+Criterion check_kerbs(const world::TownT& town,
+                      const ground::GroundMesh& ground,
+                      const ground::GroundProbe& probe) {
     constexpr double reach = 3.0;    // [m]
     constexpr double longest = 4.0;  // [m] piece of a centre line
     Measured clear("kerbs clear of lanes", kerb_limit, "m", true);
     std::size_t lanes = 0;
-    for (const LaneT& lane : town.lanes) {
-        if (!is_for_cars(lane))
+    for (const world::LaneT& lane : town.lanes) {
+        if (!world::is_for_cars(lane))
             continue;
         ++lanes;
         // On a slope a long piece has no one height to compare.
-        const auto line = with_more_points(clean_line(lane.centre), longest);
+        const auto line = ground::with_more_points(ground::clean_line(lane.centre), longest);
         for (std::size_t i = 0; i + 1 < line.size(); ++i)
             clear.take(lane.name,
                        ((line[i] + line[i + 1]) / 2).head<2>(),
@@ -207,9 +212,9 @@ Criterion check_kerbs(const TownT& town, const GroundMesh& ground, const GroundP
 }
 
 /// Is there something under every place of the town's box?
-Criterion check_holes(const TownT& town, const GroundProbe& probe) {
-    const Eigen::Vector2d low = in_plan(town.low);
-    const Eigen::Vector2d size = in_plan(town.high) - low;
+Criterion check_holes(const world::TownT& town, const ground::GroundProbe& probe) {
+    const Eigen::Vector2d low = world::in_plan(town.low);
+    const Eigen::Vector2d size = world::in_plan(town.high) - low;
     const double spacing = std::max(1.0, std::sqrt(size.prod() / most_holes_looked_for));
     std::vector<Criterion::Place> holes;
     std::size_t looked = 0;
@@ -224,19 +229,19 @@ Criterion check_holes(const TownT& town, const GroundProbe& probe) {
 }
 
 /// From lane to lane along every link, through the lanes inside the junction.
-Criterion check_joints(const TownT& town) {
+Criterion check_joints(const world::TownT& town) {
     Measured gaps("lanes join", gap_limit, "m");
-    const auto take = [&](const LaneT& lane, const LaneT& next) {
-        const Eigen::Vector3d end = to_eigen(lane.centre.back());
+    const auto take = [&](const world::LaneT& lane, const world::LaneT& next) {
+        const Eigen::Vector3d end = world::to_eigen(lane.centre.back());
         gaps.take(lane.name + " -> " + next.name,
                   end.head<2>(),
-                  (to_eigen(next.centre.front()) - end).norm());
+                  (world::to_eigen(next.centre.front()) - end).norm());
     };
-    for (const LaneT& lane : town.lanes)
-        if (is_for_cars(lane))
-            for (const Link& link : lane.links) {
-                const std::uint32_t next = link.via() != none ? link.via() : link.to();
-                if (is_for_cars(town.lanes[next]))
+    for (const world::LaneT& lane : town.lanes)
+        if (world::is_for_cars(lane))
+            for (const world::Link& link : lane.links) {
+                const std::uint32_t next = link.via() != world::none ? link.via() : link.to();
+                if (world::is_for_cars(town.lanes[next]))
                     take(lane, town.lanes[next]);
             }
     const std::string looked_at = std::to_string(gaps.count()) + " joints";
@@ -245,8 +250,8 @@ Criterion check_joints(const TownT& town) {
 
 }  // namespace
 
-std::vector<Criterion> check_ground(const TownT& town, const GroundMesh& ground) {
-    const GroundProbe probe(ground);
+std::vector<Criterion> check_ground(const world::TownT& town, const ground::GroundMesh& ground) {
+    const ground::GroundProbe probe(ground);
     std::vector<Criterion> criteria;
     check_levels(town, probe, criteria);
     criteria.push_back(check_kerbs(town, ground, probe));
@@ -256,8 +261,8 @@ std::vector<Criterion> check_ground(const TownT& town, const GroundMesh& ground)
     return criteria;
 }
 
-Digest128 digest_of(const GroundMesh& mesh) {
-    Hasher hasher;
+world::Digest128 digest_of(const ground::GroundMesh& mesh) {
+    world::Hasher hasher;
     for (const Eigen::Vector3d& vertex : mesh.vertices)
         hasher.add_bytes(vertex.data(), 3 * sizeof(double));
     hasher.add(std::span(mesh.triangles));
@@ -265,4 +270,4 @@ Digest128 digest_of(const GroundMesh& mesh) {
     return hasher.digest128();
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::towns

@@ -13,7 +13,7 @@
 #include "world/geometry2d.h"
 #include "world/models/building_models.h"
 
-namespace reprise::world {
+namespace reprise::towns {
 
 namespace {
 
@@ -27,7 +27,7 @@ constexpr double before_door = 0.3;    ///< [m]
 constexpr double at_edge = 0.05;       ///< [m] from a wall to the ground that it stands on
 
 /// How far a thing is above the ground. [m]
-double gap(const GroundProbe& probe, const Vector2d& p, double z) {
+double gap(const ground::GroundProbe& probe, const Vector2d& p, double z) {
     const auto ground = probe.nearest({p.x(), p.y(), z});
     return ground ? z - ground->z : no_ground;
 }
@@ -41,23 +41,24 @@ Vector2d left_of(const Vector2d& direction) {
 }
 
 /// Those that are as long as they look: the foot of all others is their middle.
-bool has_ends(PropKind kind) {
-    return kind == PropKind::fence || kind == PropKind::wall || kind == PropKind::hedge ||
-           kind == PropKind::bench || kind == PropKind::bus_stop;
+bool has_ends(world::PropKind kind) {
+    return kind == world::PropKind::fence || kind == world::PropKind::wall ||
+           kind == world::PropKind::hedge || kind == world::PropKind::bench ||
+           kind == world::PropKind::bus_stop;
 }
 
 /// Of its middle and, where it has them, its ends. A wall may stand at the edge of a bridge: the
 /// ground beside it counts as well.
-double gap_of(const GroundProbe& probe, const Prop& prop) {
+double gap_of(const ground::GroundProbe& probe, const world::Prop& prop) {
     const Vector2d x = along(prop.yaw());
     const Vector2d aside = left_of(x) * (prop.width() / 2 + at_edge);
     double worst = 0;
     for (const double share : {0.0, -0.5, 0.5}) {
         if (share != 0 && !has_ends(prop.kind()))
             continue;
-        const Vector2d p = in_plan(prop.position()) + x * (share * prop.length());
+        const Vector2d p = world::in_plan(prop.position()) + x * (share * prop.length());
         double least = std::abs(gap(probe, p, prop.position().z()));
-        if (prop.kind() == PropKind::wall)
+        if (prop.kind() == world::PropKind::wall)
             for (const double side : {-1.0, 1.0})
                 least =
                     std::min(least, std::abs(gap(probe, p + side * aside, prop.position().z())));
@@ -66,23 +67,19 @@ double gap_of(const GroundProbe& probe, const Prop& prop) {
     return worst;
 }
 
-std::string numbered(const char* what, std::size_t index) {
-    return std::string(what) + " " + std::to_string(index);
-}
-
-Criterion check_things(const TownT& town, const GroundProbe& probe) {
+Criterion check_things(const world::TownT& town, const ground::GroundProbe& probe) {
     Measured off("things on the ground", things_limit, "m");
-    const auto take = [&](const std::string& name, const Vec3& foot) {
-        off.take(name, in_plan(foot), std::abs(gap(probe, in_plan(foot), foot.z())));
+    const auto take = [&](const std::string& name, const world::Vec3& foot) {
+        off.take(name, world::in_plan(foot), std::abs(gap(probe, world::in_plan(foot), foot.z())));
     };
     for (std::size_t i = 0; i < town.trees.size(); ++i)
         take(numbered("plant", i), town.trees[i].position());
     for (std::size_t i = 0; i < town.heads.size(); ++i)
         take(numbered("signal head", i), town.heads[i].foot);
     for (std::size_t i = 0; i < town.props.size(); ++i) {
-        const Prop& prop = town.props[i];
+        const world::Prop& prop = town.props[i];
         off.take(numbered(EnumNamePropKind(prop.kind()), i),
-                 in_plan(prop.position()),
+                 world::in_plan(prop.position()),
                  gap_of(probe, prop));
     }
     const std::string looked_at = std::to_string(off.count()) + " things";
@@ -91,8 +88,8 @@ Criterion check_things(const TownT& town, const GroundProbe& probe) {
 
 /// How far the door on one of its sides is off the ground, at best; more where a wall's foundation
 /// does not reach down.
-double door_gap(const GroundProbe& probe,
-                const Loop& outline,
+double door_gap(const ground::GroundProbe& probe,
+                const world::Loop& outline,
                 double floor,
                 std::size_t first_side,
                 std::size_t sides) {
@@ -104,25 +101,25 @@ double door_gap(const GroundProbe& probe,
         door = std::min(door, std::abs(gap(probe, place, floor)));
     }
     for (const Vector2d& corner : outline)
-        door = std::max(door, gap(probe, corner, floor) - foundation_depth);
+        door = std::max(door, gap(probe, corner, floor) - world::foundation_depth);
     return door;
 }
 
-Criterion check_doors(const TownT& town, const GroundProbe& probe) {
+Criterion check_doors(const world::TownT& town, const ground::GroundProbe& probe) {
     Measured off("doors on the ground", doors_limit, "m");
     for (std::size_t i = 0; i < town.buildings.size(); ++i) {
-        const Building& b = town.buildings[i];
+        const world::Building& b = town.buildings[i];
         const Vector2d x = along(b.yaw()) * b.length() / 2;
         const Vector2d y = left_of(along(b.yaw())) * b.width() / 2;
-        const Vector2d c = in_plan(b.centre());
-        const Loop outline{c - x - y, c + x - y, c + x + y, c - x + y};
+        const Vector2d c = world::in_plan(b.centre());
+        const world::Loop outline{c - x - y, c + x - y, c + x + y, c - x + y};
         off.take(numbered("building", i), c, door_gap(probe, outline, b.centre().z(), 0, 1));
     }
     for (std::size_t i = 0; i < town.drawn_buildings.size(); ++i) {
-        const DrawnBuildingT& b = town.drawn_buildings[i];
+        const world::DrawnBuildingT& b = town.drawn_buildings[i];
         if (b.outline.size() < 3)
             continue;
-        const Loop outline = in_plan(b.outline);
+        const world::Loop outline = world::in_plan(b.outline);
         off.take(numbered("drawn building", i),
                  outline[0],
                  door_gap(probe, outline, b.outline[0].z(), 0, outline.size()));
@@ -133,9 +130,9 @@ Criterion check_doors(const TownT& town, const GroundProbe& probe) {
 
 }  // namespace
 
-std::vector<Criterion> check_standing(const TownT& town, const GroundMesh& ground) {
-    const GroundProbe probe(ground);
+std::vector<Criterion> check_standing(const world::TownT& town, const ground::GroundMesh& ground) {
+    const ground::GroundProbe probe(ground);
     return {check_things(town, probe), check_doors(town, probe)};
 }
 
-}  // namespace reprise::world
+}  // namespace reprise::towns

@@ -11,7 +11,7 @@
 
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -117,7 +117,7 @@ void add_way(const std::vector<WalkMap::Step>& steps, Walked& walked) {
     for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
         const double metres = (steps[i + 1].position - steps[i].position).norm();
         walked.metres += metres;
-        if (steps[i].surface == world::Surface::road)
+        if (steps[i].surface == ground::Surface::road)
             walked.on_road += metres;
     }
 }
@@ -140,8 +140,8 @@ std::string among(double looked_at, double all) {
 
 }  // namespace
 
-world::Criterion check_walking(const world::TownT& town, const WalkMap& map) {
-    world::Criterion connected{"sidewalks connected", 100, connected_limit, "%", true, "", {}};
+towns::Criterion check_walking(const world::TownT& town, const WalkMap& map) {
+    towns::Criterion connected{"sidewalks connected", 100, connected_limit, "%", true, "", {}};
     const Sidewalks sidewalks(town, largest_component(town));
     if (sidewalks.count() == 0) {
         connected.looked_at = "no sidewalks";
@@ -174,4 +174,4 @@ world::Criterion check_walking(const world::TownT& town, const WalkMap& map) {
     return connected;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

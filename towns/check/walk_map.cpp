@@ -10,10 +10,11 @@
 #include <recastnavigation/DetourNavMesh.h>
 #include <recastnavigation/DetourNavMeshQuery.h>
 
+#include "towns/check/owned.h"
 #include "towns/check/walk_tiles.h"
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -25,23 +26,17 @@ constexpr float road_cost = 10;
 
 using Point = std::array<float, 3>;
 
-world::Surface surface_of(unsigned char area) {
+ground::Surface surface_of(unsigned char area) {
     if (area == walk_sidewalk)
-        return world::Surface::sidewalk;
-    return area == walk_crossing ? world::Surface::crossing : world::Surface::road;
+        return ground::Surface::sidewalk;
+    return area == walk_crossing ? ground::Surface::crossing : ground::Surface::road;
 }
-
-template <typename T, void (*release)(T*)>
-struct Release {
-    void operator()(T* thing) const { release(thing); }
-};
 
 }  // namespace
 
 struct WalkMap::Mesh {
-    std::unique_ptr<dtNavMesh, Release<dtNavMesh, dtFreeNavMesh>> tiles{dtAllocNavMesh()};
-    std::unique_ptr<dtNavMeshQuery, Release<dtNavMeshQuery, dtFreeNavMeshQuery>> query{
-        dtAllocNavMeshQuery()};
+    Owned<dtNavMesh, dtFreeNavMesh> tiles{dtAllocNavMesh()};
+    Owned<dtNavMeshQuery, dtFreeNavMeshQuery> query{dtAllocNavMeshQuery()};
     dtQueryFilter filter;
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();
     world::Hasher hasher;
@@ -117,14 +112,14 @@ std::vector<WalkMap::Step> WalkMap::Mesh::corners(const std::vector<dtPolyRef>& 
         // The last corner leads nowhere and has no polygon: it keeps the surface of the one before.
         if (references[i] != 0)
             tiles->getPolyArea(references[i], &area);
-        const world::Surface surface =
+        const ground::Surface surface =
             references[i] == 0 && !steps.empty() ? steps.back().surface : surface_of(area);
         steps.push_back({from_recast(points[i].data(), origin), surface});
     }
     return steps;
 }
 
-WalkMap::WalkMap(const world::GroundMesh& ground) : mesh_(std::make_unique<Mesh>()) {
+WalkMap::WalkMap(const ground::GroundMesh& ground) : mesh_(std::make_unique<Mesh>()) {
     const WalkTiles source(ground);
     if (source.columns() == 0)
         return;
@@ -171,4 +166,4 @@ world::Digest128 WalkMap::digest() const {
     return mesh_->hasher.digest128();
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

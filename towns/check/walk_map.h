@@ -10,7 +10,7 @@
 #include "ground/mesh/ground.h"
 #include "world/digest.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Where people can walk, and which way they would go: sidewalks first, crossings where there are
 /// any, across the road only where it saves a lot. A navigation mesh (Recast, Detour) of the town's
@@ -18,7 +18,7 @@ namespace reprise::traffic {
 /// Equal ground gives equal bytes. One thread at a time. Town 1: 0.5 s, 300 kB.
 class WalkMap {
   public:
-    explicit WalkMap(const world::GroundMesh& ground);
+    explicit WalkMap(const ground::GroundMesh& ground);
     ~WalkMap();
     WalkMap(WalkMap&&) noexcept;
     WalkMap& operator=(WalkMap&&) noexcept;
@@ -26,7 +26,7 @@ class WalkMap {
     /// A corner of a way, and what one walks on from here to the next.
     struct Step {
         Eigen::Vector3d position;  ///< world
-        world::Surface surface = world::Surface::sidewalk;
+        ground::Surface surface = ground::Surface::sidewalk;
     };
 
     /// The cheapest way, corner by corner, with one at every change of surface: a metre of crossing
@@ -44,4 +44,4 @@ class WalkMap {
     std::unique_ptr<Mesh> mesh_;
 };
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -14,21 +14,14 @@
 #include <recastnavigation/DetourNavMeshBuilder.h>
 #include <recastnavigation/Recast.h>
 
+#include "towns/check/owned.h"
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
 constexpr float cell_height = 0.05F;  // [m]
-
-template <typename T, void (*release)(T*)>
-struct Release {
-    void operator()(T* thing) const { release(thing); }
-};
-
-template <typename T, void (*release)(T*)>
-using Owned = std::unique_ptr<T, Release<T, release>>;
 
 void require(bool done, const char* step) {
     REPRISE_CHECK(done, std::string("walk map: ") + step);
@@ -161,4 +154,4 @@ WalkTile make_walk_tile(const TileTriangles& triangles, const TilePlace& place) 
     return {pack(*polygons, *details, place), static_cast<std::size_t>(polygons->npolys)};
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

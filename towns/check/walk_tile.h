@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Areas of the navigation mesh; where surfaces meet at one height the highest number wins, so that
 /// sidewalks do.
@@ -43,4 +43,4 @@ struct WalkTile {
 
 WalkTile make_walk_tile(const TileTriangles& triangles, const TilePlace& place);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

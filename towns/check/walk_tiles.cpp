@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
-using world::Surface;
+using ground::Surface;
 
 constexpr int smallest_tile = 256;  ///< [cells]
 constexpr double most_tiles = 900;  ///< a reference of Detour has 22 bits for tile and polygon
@@ -28,7 +28,7 @@ unsigned char area_of(Surface surface) {
 }
 
 /// The ground in and around a tile.
-TileTriangles triangles_in(const world::GroundMesh& ground,
+TileTriangles triangles_in(const ground::GroundMesh& ground,
                            const world::BoxGrid& by_place,
                            const world::Box& box,
                            const Eigen::Vector3d& origin) {
@@ -63,7 +63,7 @@ Eigen::Vector3d from_recast(const float* p, const Eigen::Vector3d& origin) {
                                     static_cast<double>(p[1]));
 }
 
-WalkTiles::WalkTiles(const world::GroundMesh& ground) : ground_(&ground) {
+WalkTiles::WalkTiles(const ground::GroundMesh& ground) : ground_(&ground) {
     std::vector<world::BoxGrid::Entry> entries;
     world::Box all;
     double lowest = std::numeric_limits<double>::infinity();
@@ -116,4 +116,4 @@ WalkTile WalkTiles::build(int column, int row) const {
     return make_walk_tile(triangles, place);
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -6,7 +6,7 @@
 #include "towns/check/walk_tile.h"
 #include "world/geometry2d.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Recast's coordinates: x east, y up, z south, from `origin`; single precision.
 std::array<float, 3> to_recast(const Eigen::Vector3d& p_world, const Eigen::Vector3d& origin);
@@ -17,7 +17,7 @@ Eigen::Vector3d from_recast(const float* p, const Eigen::Vector3d& origin);
 class WalkTiles {
   public:
     /// Looks into `ground`, which must outlive it.
-    explicit WalkTiles(const world::GroundMesh& ground);
+    explicit WalkTiles(const ground::GroundMesh& ground);
 
     const Eigen::Vector3d& origin() const { return origin_; }  ///< least corner of all ground
 
@@ -31,7 +31,7 @@ class WalkTiles {
     WalkTile build(int column, int row) const;
 
   private:
-    const world::GroundMesh* ground_;
+    const ground::GroundMesh* ground_;
     world::BoxGrid by_place_;
     Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
     double edge_ = 0;
@@ -39,4 +39,4 @@ class WalkTiles {
     int rows_ = 0;
 };
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

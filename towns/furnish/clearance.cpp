@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -145,4 +145,4 @@ double Clearance::nearest(const Footprint& footprint, double reach, double enoug
     return nearest;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -8,7 +8,7 @@
 
 #include "world/geometry2d.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// A rectangle on the ground. Metres and radians.
 struct Footprint {
@@ -78,4 +78,4 @@ class Clearance {
     std::unordered_map<std::uint64_t, Cell> cells_;  ///< looked up, never walked through
 };
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

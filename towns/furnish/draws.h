@@ -4,7 +4,7 @@
 
 #include "world/random.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Draws for one item of one kind of thing, one after the other. Another item's draws never shift
 /// these. One draw in an argument list at most: compilers choose the order there.
@@ -36,4 +36,4 @@ class Draws {
     std::uint64_t count_ = 0;
 };
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

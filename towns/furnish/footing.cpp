@@ -7,7 +7,7 @@
 #include "ground/mesh/ground.h"
 #include "ground/mesh/ground_probe.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -28,10 +28,10 @@ bool lies_level(const world::TownT& town) {
 }  // namespace
 
 struct Footing::Hills {
-    explicit Hills(const world::TownT& town) : ground(world::build_ground(town)), probe(ground) {}
+    explicit Hills(const world::TownT& town) : ground(ground::build_ground(town)), probe(ground) {}
 
-    world::GroundMesh ground;
-    world::GroundProbe probe;
+    ground::GroundMesh ground;
+    ground::GroundProbe probe;
 };
 
 Footing::Footing(const world::TownT& town)
@@ -65,4 +65,4 @@ std::optional<Footing::Span> Footing::under(const Footprint& footprint, double n
     return span;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -6,9 +6,9 @@
 #include "towns/furnish/clearance.h"
 #include "world/town_generated.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
-/// Heights of the ground that a town's things stand on: those of world::build_ground, which wheels
+/// Heights of the ground that a town's things stand on: those of ground::build_ground, which wheels
 /// roll on and cameras see. Where all lanes lie at one height there is nothing to look up, and
 /// nothing is built.
 class Footing {
@@ -41,4 +41,4 @@ class Footing {
     std::unique_ptr<const Hills> hills_;
 };
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

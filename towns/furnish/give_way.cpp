@@ -10,7 +10,7 @@
 #include "towns/network/network_xml.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -121,4 +121,4 @@ std::vector<GiveWay> read_give_way(const pugi::xml_node& net, const world::TownT
     return found;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

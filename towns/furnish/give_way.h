@@ -9,7 +9,7 @@ namespace pugi {
 class xml_node;
 }
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// What a sign at the end of a driving lane would say, at junctions without lights. All lanes of a
 /// road say the same.
@@ -23,4 +23,4 @@ enum class GiveWay : std::uint8_t {
 /// included, or stops; which of them yield to vehicles is in the network's <request> elements.
 std::vector<GiveWay> read_give_way(const pugi::xml_node& net, const world::TownT& town);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -8,7 +8,7 @@
 
 #include "world/frames.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -20,10 +20,10 @@ using world::Vec3;
 constexpr double height_at_kerb = 3.2;
 constexpr double height_over_road = 5.2;  ///< lorries pass below
 constexpr double walker_height = 2.3;
-constexpr double from_kerb = 0.6;  ///< of the middle of the pole
+constexpr double pole_from_kerb = 0.6;  ///< of the middle of the pole
 constexpr double longest_arm = 8;
-constexpr double on_pole = 1.7;  ///< [m] beside its lane a housing needs no arm
-constexpr double search = 30;    ///< farther from its lane no pole makes sense
+constexpr double on_pole = 1.7;     ///< [m] beside its lane a housing needs no arm
+constexpr double pole_search = 30;  ///< farther from its lane no pole makes sense
 constexpr double pole_radius = 0.1;
 constexpr double lowest = 2.1;  ///< [m] of a housing over its foot: heads pass below
 
@@ -147,9 +147,9 @@ Vector2d Heads::foot_beside(const LaneT& lane, double side) {
         return pole->second;
     const world::LanePoint end = world::point_at(lane, lane.length);
     const Vector2d wish = end.position.head<2>() +
-                          left_of(end.yaw) * (side * (lane.width / 2 + from_kerb)) -
+                          left_of(end.yaw) * (side * (lane.width / 2 + pole_from_kerb)) -
                           Vector2d(std::cos(end.yaw), std::sin(end.yaw)) * 0.3;
-    pole->second = land_.pole_place(wish, search, end.position.z()).value_or(wish);
+    pole->second = land_.pole_place(wish, pole_search, end.position.z()).value_or(wish);
     stand(pole->second);
     return pole->second;
 }
@@ -186,7 +186,7 @@ void Heads::add_at_crossing(const Group& group, bool at_end) {
     const Vector2d ahead(std::cos(yaw), std::sin(yaw));
     const Vector2d wish =
         point.position.head<2>() + ahead * 0.5 - left_of(yaw) * (crossing.width / 2 + 0.4);
-    const Vector2d foot = land_.pole_place(wish, search, point.position.z()).value_or(wish);
+    const Vector2d foot = land_.pole_place(wish, pole_search, point.position.z()).value_or(wish);
     SignalHeadT head;
     head.signals = group.signals;
     head.yaw = world::wrap_angle(yaw);
@@ -216,4 +216,4 @@ void place_heads(Land& land) {
                      });
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

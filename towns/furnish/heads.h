@@ -2,7 +2,7 @@
 
 #include "towns/furnish/land.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Fills town.heads: a lamp housing for the signals that one lane faces, two for those of a
 /// crossing. Poses that the place knows are kept, where the pole does not stand on a road; others
@@ -10,4 +10,4 @@ namespace reprise::traffic {
 /// lanes on arms over the road.
 void place_heads(Land& land);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -8,7 +8,7 @@
 #include "ground/mesh/terrain.h"
 #include "world/digest.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -49,7 +49,7 @@ Land::Land(world::TownT& target, const Place& source, const std::vector<GiveWay>
       place(source),
       right_of_way(signed_lanes),
       seed(world::digest128(target.name).low()),
-      roadsides(traffic::roadsides(target)),
+      roadsides(towns::roadsides(target)),
       footing(target) {
     add_lanes();
     for (const world::JunctionT& junction : town.junctions)
@@ -147,7 +147,7 @@ bool Land::is_country(const Roadside& roadside) const {
 }
 
 double Land::level_ground(const Vector2d& p, double road_z) const {
-    return road_z + (walks.is_clear(p, 0) ? -world::terrain_depth : world::kerb_height);
+    return road_z + (walks.is_clear(p, 0) ? -ground::terrain_depth : ground::kerb_height);
 }
 
 double Land::ground(const Vector2d& p, double road_z) const {
@@ -171,7 +171,7 @@ bool Land::leaves_way(const Vector2d& p) const {
     constexpr double at_edge = 0.35;
     if (walks.is_clear(p, 0))
         return true;
-    if (!ways.is_clear(p, world::pole_radius))
+    if (!ways.is_clear(p, towns::pole_radius))
         return false;
     if (!roads.is_clear(p, at_kerb))
         return true;
@@ -202,4 +202,4 @@ std::optional<Vector2d> Land::pole_place(const Vector2d& wish, double reach, dou
     return std::nullopt;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -14,7 +14,7 @@
 #include "towns/network/place.h"
 #include "world/town_generated.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// What all that fills a town with scenery works on: the town so far, and what its land is taken
 /// by.
@@ -94,7 +94,7 @@ inline constexpr double kerb_margin = 0.5;
 inline constexpr double pole_margin = 0.3;
 
 /// Beside the middle of a sidewalk nothing stands: a little more than what is checked. [m]
-inline constexpr double middle_half = world::clear_for_walkers + 0.02;
+inline constexpr double middle_half = towns::clear_for_walkers + 0.02;
 
 /// What walkers need to pass by. [m]
 inline constexpr double walking_width = 1.2;
@@ -102,4 +102,4 @@ inline constexpr double walking_width = 1.2;
 /// Nothing higher than 1 m stands nearer to the kerbs of an unlit junction, poles excepted. [m]
 inline constexpr double sight_distance = 8;
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

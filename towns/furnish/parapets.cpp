@@ -7,8 +7,9 @@
 #include "towns/furnish/roadside.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
+#include "world/units.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -20,7 +21,6 @@ using world::LaneT;
 constexpr double step = 1;          // [m] along a road
 constexpr std::size_t piece = 2;    // steps of wall: each is level
 constexpr std::size_t beyond = 6;   // steps before and behind what passes below
-constexpr double storey = 3;        // [m] of height, at least
 constexpr double beside = 2;        // [m] from a lane below: a fall onto its verge counts
 constexpr double thickness = 0.2;   // [m]
 constexpr double height = 0.9;      // [m]
@@ -47,7 +47,7 @@ class Roads {
 
     bool passes_below(const Vector3d& p) const {
         return any_near(p, [&](const LaneT& lane, double aside, double above) {
-            return above < -storey && aside < lane.width / 2 + beside;
+            return above < -world::reach_of_level && aside < lane.width / 2 + beside;
         });
     }
 
@@ -56,7 +56,8 @@ class Roads {
         return any_near(p, [&](const LaneT& lane, double aside, double above) {
             const double half =
                 lane.kind == LaneKind::internal ? clear + thickness / 2 : lane.width / 2;
-            return std::abs(above) < storey && lane.kind != LaneKind::sidewalk && aside < half;
+            return std::abs(above) < world::reach_of_level && lane.kind != LaneKind::sidewalk &&
+                   aside < half;
         });
     }
 
@@ -126,4 +127,4 @@ void place_parapets(Land& land) {
     }
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

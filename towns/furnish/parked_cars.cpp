@@ -8,7 +8,7 @@
 #include "towns/furnish/props.h"
 #include "world/models/catalogue.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -20,8 +20,8 @@ constexpr double longest_car = 5;
 constexpr double bay = 2.5;  ///< [m] between the middles of two bays
 constexpr double bay_depth = 5;
 constexpr double aisle = 6;
-constexpr double taken = 0.6;       ///< share of the bays
-constexpr double from_kerb = 0.25;  ///< [m] of a car parked along it
+constexpr double taken = 0.6;           ///< share of the bays
+constexpr double car_from_kerb = 0.25;  ///< [m] of a car parked along it
 
 std::uint32_t longest_side(const world::Loop& loop) {
     std::uint32_t best = 0;
@@ -106,12 +106,12 @@ void park_along_wide_lanes(Land& land) {
         for (double s = 20; s < lane.length - 20; s += 6.5) {
             const std::uint16_t model = choose_parked_model(draws);
             const VehicleModel& car = world::vehicle_models()[model];
-            const double offset = lane.width / 2 - from_kerb - car.width / 2;
+            const double offset = lane.width / 2 - car_from_kerb - car.width / 2;
             const world::LanePoint at = world::point_at(lane, s);
             const Vector2d middle = at.position.head<2>() +
                                     Vector2d(-std::sin(at.yaw), std::cos(at.yaw)) * (side * offset);
             const Footprint footprint{middle, at.yaw, car.length, car.width};
-            if (offset - car.width / 2 < world::car_clearance + 0.2 || draws.chance(0.4) ||
+            if (offset - car.width / 2 < ground::car_clearance + 0.2 || draws.chance(0.4) ||
                 !land.solid.is_clear(footprint, 0.8) || !land.crossings.is_clear(footprint, 5))
                 continue;
             const auto ground = land.footing.under(footprint, at.position.z());
@@ -132,4 +132,4 @@ void park_along_wide_lanes(Land& land) {
     }
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -5,7 +5,7 @@
 #include "towns/furnish/draws.h"
 #include "towns/furnish/land.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// A car of the catalogue that people park: its index in world::vehicle_models().
 std::uint16_t choose_parked_model(Draws& draws);
@@ -19,4 +19,4 @@ void fill_car_park(Land& land, const world::Loop& outline, double road_z, Draws&
 /// Cars along the kerbs of lanes so wide that a path of 2.5 m stays free beside them.
 void park_along_wide_lanes(Land& land);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

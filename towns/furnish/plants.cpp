@@ -6,7 +6,7 @@
 
 #include "world/tick.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -56,13 +56,13 @@ Growth growth(PlantKind kind) {
     }
 }
 
-void add(Land& land,
-         PlantKind kind,
-         const Vector2d& foot,
-         double road_z,
-         double height,
-         double crown,
-         Draws& draws) {
+void add_plant(Land& land,
+               PlantKind kind,
+               const Vector2d& foot,
+               double road_z,
+               double height,
+               double crown,
+               Draws& draws) {
     land.town.trees.emplace_back(world::Vec3(foot.x(), foot.y(), land.ground(foot, road_z)),
                                  height,
                                  crown,
@@ -154,7 +154,7 @@ bool place_tree(
     const double crown = crown_there(land, foot, height, wish);
     if (crown < std::max(smallest_crown, 0.5 * wish))
         return false;
-    add(land, kind, foot, road_z, height, crown, draws);
+    add_plant(land, kind, foot, road_z, height, crown, draws);
     land.solid.add_point(foot, 0.3);
     return true;
 }
@@ -169,7 +169,7 @@ bool place_bush(Land& land, PlantKind kind, const Vector2d& foot, double road_z,
         !land.walks.is_clear(foot, crown + 0.1) || !land.solid.is_clear(foot, crown * 0.8) ||
         !land.may_stand(foot, 0.5) || land.is_steep(foot) || !land.footing.at(foot, road_z))
         return false;
-    add(land, kind, foot, road_z, height, crown, draws);
+    add_plant(land, kind, foot, road_z, height, crown, draws);
     land.solid.add_point(foot, crown * 0.6);
     return true;
 }
@@ -188,4 +188,4 @@ void place_street_trees(Land& land) {
     }
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

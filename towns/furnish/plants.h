@@ -3,7 +3,7 @@
 #include "towns/furnish/draws.h"
 #include "towns/furnish/land.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// A tree of that kind there, when its trunk is clear of roads, sidewalks and all that stands, and
 /// its crown clear of buildings; over a road the crown begins above lorries. `on_walk`: the caller
@@ -23,4 +23,4 @@ bool place_bush(
 /// else stands, and a wood around the town.
 void place_street_trees(Land& land);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <optional>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
 constexpr double sight_height = 1.0;  ///< [m] drivers look over what is lower
 constexpr double even = 0.24;         ///< [m] of ground under what stands level
-constexpr double step = 0.15;         ///< [m] under each piece of a fence that goes down in steps
+constexpr double fence_step = 0.15;   ///< [m] under each piece of a fence that goes down in steps
 constexpr double shortest = 0.5;      ///< [m] of such a piece
 
 bool is_pole(world::PropKind kind) {
@@ -55,7 +55,8 @@ std::optional<int> pieces_on(const Land& land, const Item& item, const Footprint
         return std::nullopt;
     for (int count = 2; foot.length >= count * shortest; ++count) {
         int even_ones = 0;
-        while (even_ones < count && is_even(land, piece_of(foot, even_ones, count), near, step))
+        while (even_ones < count &&
+               is_even(land, piece_of(foot, even_ones, count), near, fence_step))
             ++even_ones;
         if (even_ones == count)
             return count;
@@ -92,7 +93,7 @@ bool place_prop(Land& land, const Item& item) {
     const bool pole = is_pole(item.kind);
     if (!land.roads.is_clear(foot, pole ? pole_margin : kerb_margin) ||
         !land.crossings.is_clear(foot, 0.3) ||
-        !land.ways.is_clear(foot, pole ? world::pole_radius : 0) ||
+        !land.ways.is_clear(foot, pole ? towns::pole_radius : 0) ||
         !land.solid.is_clear(foot, item.from_solid) || land.is_steep(foot.centre))
         return false;
     if (item.from_walk >= 0 && !land.walks.is_clear(foot, item.from_walk))
@@ -115,4 +116,4 @@ bool place_prop(Land& land, const Item& item) {
     return true;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

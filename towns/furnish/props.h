@@ -4,7 +4,7 @@
 
 #include "towns/furnish/land.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Something that could stand somewhere: its footprint, and how far that must be from what.
 struct Item {
@@ -26,4 +26,4 @@ inline constexpr double car_slope = 0.3;
 /// Fences, walls and hedges go down a slope in steps. False: it does not stand.
 bool place_prop(Land& land, const Item& item);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

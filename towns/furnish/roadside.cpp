@@ -7,7 +7,7 @@
 
 #include "towns/network/lanes.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -82,4 +82,4 @@ double facing_yaw(const Roadside& roadside, const Site& at) {
     return roadside.side > 0 ? at.yaw : at.yaw + std::numbers::pi;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -7,7 +7,7 @@
 
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// One side of a road: its outer border, behind which the land begins, and what lies on the way
 /// there from the outermost lane that cars use.
@@ -37,4 +37,4 @@ Site site(const Roadside& roadside, double s, double away);
 /// The yaw of a building whose front looks at the road: x along the street, front at -y.
 double facing_yaw(const Roadside& roadside, const Site& at);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -240,4 +240,4 @@ void place_signs(Land& land) {
     signs.add_limits();
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

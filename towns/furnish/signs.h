@@ -2,7 +2,7 @@
 
 #include "towns/furnish/land.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Signs beside the roads, into town.props. Those that the place knows are kept. Where it knows no
 /// speed-limit signs at all, they are derived: at the start of every road that is entered from one
@@ -11,4 +11,4 @@ namespace reprise::traffic {
 /// sign makes drivers give way already. No derived sign hides another.
 void place_signs(Land& land);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -5,7 +5,7 @@
 
 #include "ground/mesh/ground.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -17,16 +17,16 @@ constexpr double vehicle_spacing = 25;
 constexpr double after_junction = 12;
 constexpr double before_end = 15;
 constexpr double walker_spacing = 20;
-constexpr double walker_end = 3;     ///< [m] before the ends of a sidewalk
-constexpr double longest_car = 5.5;  ///< [m] what starts there without asking
+constexpr double walker_end = 3;       ///< [m] before the ends of a sidewalk
+constexpr double longest_start = 5.5;  ///< [m] what starts there without asking
 constexpr double car_width = 2.1;
 
-void add(Land& land,
-         std::uint32_t lane,
-         double s,
-         const world::LanePoint& at,
-         const Vector2d& p,
-         double raised) {
+void add_spawn_point(Land& land,
+                     std::uint32_t lane,
+                     double s,
+                     const world::LanePoint& at,
+                     const Vector2d& p,
+                     double raised) {
     land.town.spawn_points.emplace_back(world::Vec3(p.x(), p.y(), at.position.z() + raised),
                                         at.yaw,
                                         s,
@@ -40,8 +40,8 @@ void add_on_driving_lane(Land& land, std::uint32_t index) {
     const LaneT& lane = land.town.lanes[index];
     for (double s = after_junction; s <= lane.length - before_end; s += vehicle_spacing) {
         const world::LanePoint at = world::point_at(lane, s);
-        if (land.solid.is_clear({at.position.head<2>(), at.yaw, longest_car, car_width}, 0.3))
-            add(land, index, s, at, at.position.head<2>(), 0);
+        if (land.solid.is_clear({at.position.head<2>(), at.yaw, longest_start, car_width}, 0.3))
+            add_spawn_point(land, index, s, at, at.position.head<2>(), 0);
     }
 }
 
@@ -56,7 +56,7 @@ void add_on_sidewalk(Land& land, std::uint32_t index) {
             if (std::abs(t) > lane.width / 2 - 0.3 || !land.solid.is_clear(p, 0.4) ||
                 !land.roads.is_clear(p, 0.2))
                 continue;
-            add(land, index, s, at, p, world::kerb_height);
+            add_spawn_point(land, index, s, at, p, ground::kerb_height);
             break;
         }
     }
@@ -76,4 +76,4 @@ void place_spawn_points(Land& land) {
         }
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -9,7 +9,7 @@
 #include "towns/furnish/draws.h"
 #include "towns/furnish/props.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -56,7 +56,7 @@ std::optional<Item> on_walk(const Land& land,
 /// How far inside of a road's border its poles stand in line: on narrow sidewalks at their very
 /// edge, beside roads without one behind it. [m]
 double pole_line(const Roadside& roadside) {
-    const double off_way = roadside.walk / 2 - middle_half - world::pole_radius - off_border;
+    const double off_way = roadside.walk / 2 - middle_half - towns::pole_radius - off_border;
     return roadside.walk > 0 ? std::min(roadside.walk / 6, off_way) : -0.9;
 }
 
@@ -222,4 +222,4 @@ void place_small_furniture(Land& land) {
     }
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -2,7 +2,7 @@
 
 #include "towns/furnish/land.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Street lights every 30 m on alternating sides; bus stops some 400 m apart.
 void place_street_lights(Land& land);
@@ -12,4 +12,4 @@ void place_bus_stops(Land& land);
 /// keep 1.2 m; telephone poles along roads without sidewalks and along some streets.
 void place_small_furniture(Land& land);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -26,7 +26,7 @@
 #include "towns/maps/map_area.h"
 #include "world/digest.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -230,4 +230,4 @@ FootprintReport place_footprints(const std::vector<MapShape>& shapes,
     return report;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -5,7 +5,7 @@
 #include "towns/maps/map_shapes.h"
 #include "towns/network/place.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// What became of the areas of an OpenStreetMap map.
 struct FootprintReport {
@@ -24,4 +24,4 @@ FootprintReport place_footprints(const std::vector<MapShape>& areas,
                                  const world::TownT& roads,
                                  Place& place);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

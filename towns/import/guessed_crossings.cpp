@@ -10,7 +10,7 @@
 #include "world/check.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -120,4 +120,4 @@ int lost_crossings(const world::TownT& town, const std::vector<Vector3d>& mapped
     }));
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -7,7 +7,7 @@
 
 #include "world/town_generated.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// netconvert guesses crossings wherever sidewalks meet a junction: at real ones, and also where
 /// one road goes on as another, such as at a change of its limit.
@@ -28,4 +28,4 @@ std::vector<Eigen::Vector3d> places_of_crossings(const world::TownT& town);
 /// within 15 m.
 int lost_crossings(const world::TownT& town, const std::vector<Eigen::Vector3d>& mapped);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -9,7 +9,7 @@
 #include "towns/town_reader.h"
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -105,4 +105,4 @@ std::string check_import(const fs::path& network, const fs::path& work, const st
     return summary;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

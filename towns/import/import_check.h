@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Reads a network that an import has written, as a run will do, and lets SUMO load it; `work` is a
 /// folder for scratch files. Returns what there is to say of the town, in lines. Throws
@@ -13,4 +13,4 @@ std::string check_import(const std::filesystem::path& network,
                          const std::filesystem::path& work,
                          const std::string& map);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

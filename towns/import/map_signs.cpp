@@ -14,7 +14,7 @@
 #include "world/geometry2d.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -106,4 +106,4 @@ std::vector<LaneSign> lane_signs(const std::vector<MapShape>& signs, const world
     return found;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

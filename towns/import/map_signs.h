@@ -5,7 +5,7 @@
 #include "towns/import/right_of_way.h"
 #include "towns/maps/map_shapes.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// The signs of an OpenStreetMap map: nodes on their road (MapShapes::signs), each for those who
 /// drive over it towards a junction within 50 m. A tag `direction` says along or against the way;
@@ -13,4 +13,4 @@ namespace reprise::traffic {
 /// stop sign tagged `stop=all`, which is for all roads there. In the map's order.
 std::vector<LaneSign> lane_signs(const std::vector<MapShape>& signs, const world::TownT& town);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -6,7 +6,7 @@
 #include "ground/mesh/roofs.h"
 #include "world/geometry2d.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -28,9 +28,9 @@ std::optional<double> eaves_below(double ridge,
     const auto x = static_cast<float>(f.length / 2);
     const auto y = static_cast<float>(f.width / 2);
     const double nave =
-        ridge - static_cast<double>(world::roof_rise(model, x, y, world::building_seed(style)));
+        ridge - static_cast<double>(ground::roof_rise(model, x, y, ground::building_seed(style)));
     if (model.roof == RoofKind::spire) {
-        const double tower = nave - static_cast<double>(world::spire_rise(model, y));
+        const double tower = nave - static_cast<double>(ground::spire_rise(model, y));
         if (is_high_enough(tower, nave))
             return tower;
         // The map knows the nave only: the tower stands over it.
@@ -41,7 +41,7 @@ std::optional<double> eaves_below(double ridge,
 /// What stands on an outline that no model fits: see render/shapes/buildings/drawn_building.cpp.
 double eaves_of_prism(double ridge, const BuildingModel& model, const world::Loop& outline) {
     const bool pitched = model.roof == RoofKind::gabled || model.roof == RoofKind::hipped;
-    const double eaves = ridge - (pitched ? world::hipped_rise(outline) : 0);
+    const double eaves = ridge - (pitched ? ground::hipped_rise(outline) : 0);
     return std::max(eaves, std::min(ridge, lowest_eaves));
 }
 
@@ -77,4 +77,4 @@ world::DrawnBuildingT mapped_building(const Tags& tags,
     return building;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

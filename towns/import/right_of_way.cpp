@@ -12,7 +12,7 @@
 #include "world/check.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -126,4 +126,4 @@ SignsThatBind signs_that_bind(const std::vector<LaneSign>& signs, const world::T
     return bind;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

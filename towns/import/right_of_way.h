@@ -7,7 +7,7 @@
 
 #include "towns/import/signal_sites.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// A stop sign, or one to give way, at the end of a driving lane. It is for the whole road.
 struct LaneSign {
@@ -45,4 +45,4 @@ struct SignsThatBind {
 
 SignsThatBind signs_that_bind(const std::vector<LaneSign>& signs, const world::TownT& town);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

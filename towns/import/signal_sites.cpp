@@ -17,8 +17,9 @@
 #include "world/check.h"
 #include "world/frames.h"
 #include "world/town.h"
+#include "world/words.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -89,7 +90,7 @@ Lights read_lights(const pugi::xml_node& net) {
             continue;
         for (const pugi::xml_node param : connection.children("param"))
             if (std::string_view(param.attribute("key").value()) == "signalID")
-                for (const std::string_view id : words(param.attribute("value").value()))
+                for (const std::string_view id : world::words(param.attribute("value").value()))
                     lights[{program.value(), connection.attribute("linkIndex").as_uint()}]
                         .emplace_back(id);
     }
@@ -108,7 +109,7 @@ bool on_the_road(const world::TownT& town, const Vec3& point) {
 
 /// Is it in the middle of a sidewalk or crossing?
 bool in_the_way_of_walkers(const world::TownT& town, const Vec3& point) {
-    constexpr double pole_radius = 0.2, way = world::clear_for_walkers + pole_radius;  // [m]
+    constexpr double pole_radius = 0.2, way = towns::clear_for_walkers + pole_radius;  // [m]
     return std::any_of(town.lanes.begin(), town.lanes.end(), [&](const LaneT& lane) {
         return (lane.kind == LaneKind::sidewalk || lane.kind == LaneKind::crossing) &&
                world::project(lane, vector(point)).distance < way;
@@ -325,4 +326,4 @@ SignalReport place_signals(const OpenDrive& map, const ImportedRoads& roads, Pla
     return report;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

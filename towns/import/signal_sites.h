@@ -10,7 +10,7 @@
 #include "towns/maps/opendrive.h"
 #include "towns/network/place.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// The roads of a network that netconvert made of an OpenDRIVE map.
 struct ImportedRoads {
@@ -54,4 +54,4 @@ struct SignalReport {
 /// Puts a head for each light that controls something, and the signs, into the place.
 SignalReport place_signals(const OpenDrive& map, const ImportedRoads& roads, Place& place);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

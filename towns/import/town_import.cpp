@@ -26,7 +26,7 @@
 #include "towns/town_reader.h"
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -347,4 +347,4 @@ std::string import_town(const TownImport& wish, const fs::path& folder) {
     return report;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

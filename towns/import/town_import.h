@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// A town to be made of a map.
 struct TownImport {
@@ -20,4 +20,4 @@ struct TownImport {
 /// Cost: Town07.xodr 0.7 s.
 std::string import_town(const TownImport& wish, const std::filesystem::path& folder);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -150,7 +150,7 @@ std::string tasks_json(const TownT& town) {
 }
 
 void make_tasks(const char* network, const char* file) {
-    const std::string all = tasks_json(traffic::read_town(traffic::load_network(network)));
+    const std::string all = tasks_json(towns::read_town(towns::load_network(network)));
     std::ofstream out(file);
     out << all << std::flush;
     if (!out)

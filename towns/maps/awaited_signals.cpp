@@ -7,7 +7,7 @@
 
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 AwaitedSignals::AwaitedSignals() {
     sigemptyset(&awaited_);
@@ -42,4 +42,4 @@ int AwaitedSignals::wait_for(pid_t child, pid_t target) const {
     return status;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

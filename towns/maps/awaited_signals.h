@@ -3,7 +3,7 @@
 #include <csignal>
 #include <sys/types.h>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// While a child runs, what would end us (SIGINT, SIGTERM, SIGHUP) comes here first, so that
 /// neither the child nor what was begun is left behind. One thread at a time.
@@ -27,4 +27,4 @@ class AwaitedSignals {
     sigset_t before_{};
 };
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

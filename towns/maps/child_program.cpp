@@ -15,7 +15,7 @@
 #include "towns/maps/awaited_signals.h"
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -132,4 +132,4 @@ ProgramResult run_program(const std::string& name,
     return result;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// What another program may use before it is stopped.
 struct ProgramLimits {
@@ -32,4 +32,4 @@ ProgramResult run_program(const std::string& name,
 /// Where Debian's SUMO keeps its type maps. Not SUMO_HOME: equal maps make equal towns everywhere.
 std::filesystem::path sumo_folder();
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

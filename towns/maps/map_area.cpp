@@ -8,8 +8,9 @@
 
 #include "towns/network/network_xml.h"
 #include "world/models/building_models.h"
+#include "world/words.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -114,7 +115,7 @@ constexpr std::array<Land, 30> lands{{
 std::optional<double> length_of(const std::string& text) {
     const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
     const double length = number(std::string_view(text).substr(0, end), 0);
-    const std::vector<std::string_view> rest = words(std::string_view(text).substr(end));
+    const std::vector<std::string_view> rest = world::words(std::string_view(text).substr(end));
     const std::string_view unit = rest.empty() ? "" : rest.front();
     const double factor = unit == "'" || unit == "ft" || unit == "feet" ? 0.3048 : 1;
     if (length <= 0 || (factor == 1 && !unit.empty() && unit != "m"))
@@ -185,4 +186,4 @@ std::optional<PlotKind> plot_kind(const Tags& tags) {
     return std::nullopt;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -8,7 +8,7 @@
 
 #include "world/town_generated.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Tags of an OpenStreetMap area.
 using Tags = std::map<std::string, std::string>;
@@ -35,4 +35,4 @@ std::vector<std::vector<std::uint32_t>> suitable_models(const Tags& tags);
 /// What the land is, if it is something that a town shows.
 std::optional<world::PlotKind> plot_kind(const Tags& tags);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -19,7 +19,7 @@
 
 #include "towns/maps/map_area.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -238,4 +238,4 @@ MapRings read_rings(const std::filesystem::path& map) {
     return found;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// The outlines of an OpenStreetMap map's multipolygons that are drawn as several ways, put
 /// together.
@@ -17,4 +17,4 @@ struct MapRings {
 /// through twice, in little memory.
 MapRings read_rings(const std::filesystem::path& map);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

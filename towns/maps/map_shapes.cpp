@@ -13,7 +13,7 @@
 #include "towns/network/network_xml.h"
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -135,4 +135,4 @@ MapShapes read_shapes(const std::string& map,
     return shapes;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

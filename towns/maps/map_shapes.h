@@ -9,7 +9,7 @@
 #include "towns/maps/map_area.h"
 #include "world/town_generated.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Something that an OpenStreetMap map shows, in the coordinates of the network made of it.
 struct MapShape {
@@ -39,4 +39,4 @@ MapShapes read_shapes(const std::string& map,
 /// a bridge and -1 for a tunnel.
 int layer_of(const Tags& tags);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -13,7 +13,7 @@
 
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -177,4 +177,4 @@ MapSource open_map(const fs::path& path, const fs::path& scratch) {
     return source;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

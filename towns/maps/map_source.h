@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 enum class MapKind { opendrive, openstreetmap, network };
 
@@ -22,4 +22,4 @@ MapSource open_map(const std::filesystem::path& path, const std::filesystem::pat
 /// Letters, digits, '_', '-' and '.' of a text; whatever else is a '_'. At least one character.
 std::string harmless_name(const std::string& text);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -7,7 +7,7 @@
 #include "towns/maps/child_program.h"
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -127,4 +127,4 @@ std::vector<std::string> openstreetmap_words(const std::string& file, bool left_
     return words;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

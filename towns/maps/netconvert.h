@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Runs netconvert, polyconvert or sumo in the folder `scratch`, with schema checks off, within
 /// bounds of memory and processor time. Returns how many warnings it gave. Throws world::Error
@@ -23,4 +23,4 @@ std::vector<std::string> opendrive_words(const std::string& file, bool left_hand
 /// What suits an OpenStreetMap map in `file`.
 std::vector<std::string> openstreetmap_words(const std::string& file, bool left_hand);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -16,7 +16,7 @@
 #include "towns/network/network_xml.h"
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -224,4 +224,4 @@ OpenDrive read_opendrive(const std::string& xml, const std::string& file) {
     return map;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

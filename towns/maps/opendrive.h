@@ -8,7 +8,7 @@
 
 #include "world/town_generated.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// A signal or sign of an OpenDRIVE road.
 struct RoadSignal {
@@ -44,4 +44,4 @@ struct OpenDrive {
 /// `file` is for messages. Throws world::Error "file:line: what" when it is not XML or has no road.
 OpenDrive read_opendrive(const std::string& xml, const std::string& file);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -10,7 +10,7 @@
 #include "towns/network/network_xml.h"
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -85,4 +85,4 @@ void check_opendrive(const pugi::xml_node& root, std::string_view xml, const std
     whole.traverse(checker);
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

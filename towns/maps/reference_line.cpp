@@ -7,15 +7,15 @@
 
 #include "towns/network/network_xml.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
-double real(const pugi::xml_node& node, const char* name, double fallback = 0) {
+double real_attribute(const pugi::xml_node& node, const char* name, double fallback = 0) {
     return number(node.attribute(name).value(), fallback);
 }
 
-double value(const double (&c)[4], double p) {
+double polynomial(const double (&c)[4], double p) {
     return c[0] + p * (c[1] + p * (c[2] + p * c[3]));
 }
 
@@ -41,28 +41,29 @@ ReferenceLine::ReferenceLine(const pugi::xml_node& plan_view) {
 
 ReferenceLine::Piece ReferenceLine::read(const pugi::xml_node& geometry) {
     Piece piece;
-    piece.s = real(geometry, "s");
-    piece.length = real(geometry, "length");
-    piece.start = {{real(geometry, "x"), real(geometry, "y")}, real(geometry, "hdg")};
+    piece.s = real_attribute(geometry, "s");
+    piece.length = real_attribute(geometry, "length");
+    piece.start = {{real_attribute(geometry, "x"), real_attribute(geometry, "y")},
+                   real_attribute(geometry, "hdg")};
     if (const pugi::xml_node arc = geometry.child("arc")) {
         piece.kind = Kind::arc;
-        piece.curvature_start = piece.curvature_end = real(arc, "curvature");
+        piece.curvature_start = piece.curvature_end = real_attribute(arc, "curvature");
     } else if (const pugi::xml_node spiral = geometry.child("spiral")) {
         piece.kind = Kind::spiral;
-        piece.curvature_start = real(spiral, "curvStart");
-        piece.curvature_end = real(spiral, "curvEnd");
+        piece.curvature_start = real_attribute(spiral, "curvStart");
+        piece.curvature_end = real_attribute(spiral, "curvEnd");
     } else if (const pugi::xml_node poly = geometry.child("poly3")) {
         piece.kind = Kind::poly3;
         const char* names[] = {"a", "b", "c", "d"};
         for (int i = 0; i < 4; ++i)
-            piece.v[i] = real(poly, names[i]);
+            piece.v[i] = real_attribute(poly, names[i]);
     } else if (const pugi::xml_node param = geometry.child("paramPoly3")) {
         piece.kind = Kind::param_poly3;
         const char* u[] = {"aU", "bU", "cU", "dU"};
         const char* v[] = {"aV", "bV", "cV", "dV"};
         for (int i = 0; i < 4; ++i) {
-            piece.u[i] = real(param, u[i]);
-            piece.v[i] = real(param, v[i]);
+            piece.u[i] = real_attribute(param, u[i]);
+            piece.v[i] = real_attribute(param, v[i]);
         }
         piece.normalised = std::string_view(param.attribute("pRange").value()) != "arcLength";
     }
@@ -113,7 +114,7 @@ RoadPose ReferenceLine::along_polynomial(const Piece& piece, double ds) {
         }
     }
     const double turn = std::atan2(slope(piece.v, p), slope(piece.u, p));
-    return placed(piece.start, value(piece.u, p), value(piece.v, p), turn);
+    return placed(piece.start, polynomial(piece.u, p), polynomial(piece.v, p), turn);
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -8,7 +8,7 @@ namespace pugi {
 class xml_node;
 }
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// A place on a road's reference line.
 struct RoadPose {
@@ -48,4 +48,4 @@ class ReferenceLine {
     std::vector<Piece> pieces_;
 };
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

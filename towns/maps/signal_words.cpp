@@ -8,7 +8,7 @@
 
 #include "towns/network/network_xml.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -101,4 +101,4 @@ double limit_kmh(const SignalWords& signal) {
     return limit > 0 && limit * factor < 300 ? limit * factor : 0;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

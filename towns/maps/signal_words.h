@@ -5,7 +5,7 @@
 
 #include "towns/maps/opendrive.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// What an OpenDRIVE signal says of itself, as written in the map.
 struct SignalWords {
@@ -20,4 +20,4 @@ std::optional<RoadSignal::Kind> kind_of(const SignalWords& signal);
 /// The limit that it shows. [km/h]; 0 when it does not say, or is no limit.
 double limit_kmh(const SignalWords& signal);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -9,10 +9,11 @@
 #include <pugixml.hpp>
 
 #include "towns/network/network_xml.h"
+#include "world/models/vehicle_classes.h"
 #include "world/tick.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -74,17 +75,19 @@ std::vector<Vec3> longest_diagonal(const std::vector<Vec3>& polygon) {
     return {polygon[best.first], polygon[best.second]};
 }
 
-LaneKind kind_of(std::string_view function, ClassSet classes) {
-    static const ClassSet motor = class_bit("passenger") | class_bit("bus") |
-                                  class_bit("delivery") | class_bit("truck") | class_bit("tram") |
-                                  class_bit("rail") | class_bit("rail_urban") | class_bit("ship");
+LaneKind kind_of(std::string_view function, world::ClassSet classes) {
+    static const world::ClassSet motor = world::class_bit("passenger") | world::class_bit("bus") |
+                                         world::class_bit("delivery") | world::class_bit("truck") |
+                                         world::class_bit("tram") | world::class_bit("rail") |
+                                         world::class_bit("rail_urban") | world::class_bit("ship");
     if (function == "crossing")
         return LaneKind::crossing;
     if (function == "walkingarea")
         return LaneKind::walking_area;
-    if ((classes & class_bit("passenger")) != 0)
+    if ((classes & world::class_bit("passenger")) != 0)
         return function == "internal" ? LaneKind::internal : LaneKind::driving;
-    const bool for_walkers = (classes & class_bit("pedestrian")) != 0 && (classes & motor) == 0;
+    const bool for_walkers =
+        (classes & world::class_bit("pedestrian")) != 0 && (classes & motor) == 0;
     return for_walkers && function != "internal" ? LaneKind::sidewalk : LaneKind::other;
 }
 
@@ -129,8 +132,8 @@ LaneT read_lane(const pugi::xml_node& edge, const pugi::xml_node& lane_xml, cons
     LaneT lane;
     lane.name = lane_xml.attribute("id").value();
     lane.edge = edge.attribute("id").value();
-    const ClassSet classes =
-        permitted(lane_xml.attribute("allow").value(), lane_xml.attribute("disallow").value());
+    const world::ClassSet classes = world::permitted(lane_xml.attribute("allow").value(),
+                                                     lane_xml.attribute("disallow").value());
     lane.kind = kind_of(edge.attribute("function").value(), classes);
     lane.index = static_cast<std::uint8_t>(lane_xml.attribute("index").as_uint());
     read_geometry(lane_xml, lane);
@@ -266,4 +269,4 @@ void read_lanes(const pugi::xml_node& net, TownT& town) {
     link_opposites(net, town);
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

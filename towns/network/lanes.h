@@ -6,7 +6,7 @@ namespace pugi {
 class xml_node;
 }
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Fills town.junctions, sorted by name. `net` is the network's root element.
 void read_junctions(const pugi::xml_node& net, world::TownT& town);
@@ -19,4 +19,4 @@ void read_lanes(const pugi::xml_node& net, world::TownT& town);
 /// offset.
 std::vector<world::Vec3> offset_line(const std::vector<world::Vec3>& centre, double offset);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -11,7 +11,7 @@
 #include "world/tick.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -137,4 +137,4 @@ void read_links(const pugi::xml_node& net, TownT& town) {
     }
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -6,10 +6,10 @@ namespace pugi {
 class xml_node;
 }
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// Fills the lanes' links and town.signals, sorted by (program, index), out of the network's
 /// <connection> elements. Lanes must be there.
 void read_links(const pugi::xml_node& net, world::TownT& town);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -1,3 +1,5 @@
+#include "towns/network/network.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,10 +15,11 @@
 
 #include "towns/network/network_xml.h"
 #include "towns/network/place.h"
-#include "towns/town_reader.h"
 #include "world/check.h"
+#include "world/models/vehicle_classes.h"
+#include "world/words.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -111,8 +114,8 @@ std::string root_hint(std::string_view root, const fs::path& path) {
 /// The classes that SUMO 1.15 knows of a list, in their order. Unknown ones are counted.
 std::string known_classes(std::string_view list, std::map<std::string, int>& unknown) {
     std::string known;
-    for (const std::string_view word : words(list)) {
-        if (word != "all" && class_bit(word) == 0)
+    for (const std::string_view word : world::words(list)) {
+        if (word != "all" && world::class_bit(word) == 0)
             ++unknown[std::string(word)];
         else
             known += (known.empty() ? "" : " ") + std::string(word);
@@ -125,7 +128,7 @@ std::string known_classes(std::string_view list, std::map<std::string, int>& unk
 void strip_unknown_classes(pugi::xml_node node, std::map<std::string, int>& unknown) {
     for (const char* name : {"allow", "disallow", "changeLeft", "changeRight", "vClasses"}) {
         pugi::xml_attribute list = node.attribute(name);
-        if (list.empty() || words(list.value()).empty())
+        if (list.empty() || world::words(list.value()).empty())
             continue;
         const std::string known = known_classes(list.value(), unknown);
         if (known == list.value())
@@ -157,13 +160,14 @@ void refuse_newer_format(const fs::path& path, std::size_t line, std::string_vie
 }
 
 bool has_car_lane(pugi::xml_node net) {
-    const ClassSet passenger = class_bit("passenger");
+    const world::ClassSet passenger = world::class_bit("passenger");
     for (const pugi::xml_node edge : net.children("edge")) {
         if (*edge.attribute("function").value() != '\0' &&
             std::string_view(edge.attribute("function").value()) != "normal")
             continue;
         for (const pugi::xml_node lane : edge.children("lane"))
-            if (permitted(lane.attribute("allow").value(), lane.attribute("disallow").value()) &
+            if (world::permitted(lane.attribute("allow").value(),
+                                 lane.attribute("disallow").value()) &
                 passenger)
                 return true;
     }
@@ -184,7 +188,7 @@ std::string fault_of(pugi::xml_node lane) {
         if (number(lane.attribute(name).value(), nothing) == nothing)
             return fmt::format(
                 "<lane>: {}=\"{}\" is not a number", name, lane.attribute(name).value());
-    for (const std::string_view point : words(lane.attribute("shape").value()))
+    for (const std::string_view point : world::words(lane.attribute("shape").value()))
         for (std::size_t from = 0, to = 0, k = 0; to != std::string_view::npos;
              from = to + 1, ++k) {
             to = point.find(',', from);
@@ -198,7 +202,7 @@ std::string fault_of(pugi::xml_node lane) {
                 return fmt::format("<lane>: '{}' in its shape is more than 10 km high or deep",
                                    point);
         }
-    if (words(lane.attribute("shape").value()).size() < 2)
+    if (world::words(lane.attribute("shape").value()).size() < 2)
         return "<lane>: its shape needs two points at least";
     for (const char* name : {"speed", "length", "width"}) {
         const char* text = lane.attribute(name).value();
@@ -292,4 +296,4 @@ Network load_network(const std::filesystem::path& path) {
     return network;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

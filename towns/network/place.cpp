@@ -14,8 +14,10 @@
 #include "towns/network/sign_words.h"
 #include "world/check.h"
 #include "world/models/building_models.h"
+#include "world/units.h"
+#include "world/words.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
@@ -23,8 +25,6 @@ using world::PlotKind;
 using world::PropKind;
 using world::Vec3;
 using Outline = std::vector<Vec3>;
-
-constexpr double deg = std::numbers::pi / 180;
 
 constexpr std::array<const char*, 5> district_styles{"village", "old", "brick", "modern", "centre"};
 
@@ -93,7 +93,7 @@ class Element {
   private:
     void check_points() const {
         const double nothing = std::numeric_limits<double>::infinity();
-        for (const std::string_view point : words(text("shape")))
+        for (const std::string_view point : world::words(text("shape")))
             for (std::size_t from = 0, to = 0; to != std::string_view::npos; from = to + 1) {
                 to = point.find(',', from);
                 if (std::abs(number(point.substr(from, to - from), nothing)) > 1e9)
@@ -117,12 +117,12 @@ std::vector<std::string> names_of(const Table& table) {
 Place::Head read_head(const Element& element) {
     Place::Head head;
     head.program = element.text("program");
-    for (const std::string_view link : words(element.text("links")))
+    for (const std::string_view link : world::words(element.text("links")))
         head.links.push_back(element.whole("links", link));
     if (head.program.empty() || head.links.empty())
         element.fail("needs a program and its links");
     head.foot = element.position();
-    head.yaw = element.real("yaw") * deg;
+    head.yaw = element.real("yaw") * world::degree;
     head.height = element.real("height");
     head.arm = element.real("arm");
     return head;
@@ -134,7 +134,7 @@ world::Prop read_sign(const Element& element) {
     if (value > 999)
         element.fail(fmt::format("value=\"{}\": expected km/h, 999 at most", value));
     return {element.position(),
-            element.real("yaw") * deg,
+            element.real("yaw") * world::degree,
             element.real("length"),
             element.real("width"),
             element.real("height"),
@@ -217,4 +217,4 @@ Place read_place(std::string_view xml, const std::string& file) {
     return place;
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

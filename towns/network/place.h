@@ -7,7 +7,7 @@
 
 #include "world/town_generated.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// What a road network does not hold about its town. It lies beside NAME.net.xml as NAME.place.xml:
 /// written by `town import` from what the source knew (signs, signal poses, footprints), or by hand
@@ -56,4 +56,4 @@ Place read_place(std::string_view xml, const std::string& file);
 /// Equal places give equal bytes; read_place(place_xml(p)) == p to a millimetre.
 std::string place_xml(const Place& place);
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -13,15 +13,15 @@
 #include "towns/network/sign_words.h"
 #include "world/check.h"
 #include "world/models/building_models.h"
+#include "world/units.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 namespace {
 
 using world::Vec3;
 using Outline = std::vector<Vec3>;
 
-constexpr double deg = std::numbers::pi / 180;
 constexpr int millimetres = 3;     ///< decimals
 constexpr int of_long_sights = 6;  ///< decimals of degrees: a millimetre at 10 km is 6e-6
 
@@ -59,7 +59,7 @@ void set_pose(pugi::xml_node node, const Vec3& at, double yaw) {
     set(node, "x", text_of(at.x()));
     set(node, "y", text_of(at.y()));
     set(node, "z", text_of(at.z()));
-    set(node, "yaw", text_of(yaw / deg, of_long_sights));
+    set(node, "yaw", text_of(yaw / world::degree, of_long_sights));
 }
 
 void add_head(pugi::xml_node root, const Place::Head& head) {
@@ -124,4 +124,4 @@ std::string place_xml(const Place& place) {
     return std::move(text).str();
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -5,7 +5,7 @@
 
 #include "world/town_generated.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 
 /// The signs of a place file: its word for each.
 inline constexpr std::array<std::pair<const char*, world::PropKind>, 3> sign_words{
@@ -13,4 +13,4 @@ inline constexpr std::array<std::pair<const char*, world::PropKind>, 3> sign_wor
      {"stop", world::PropKind::stop_sign},
      {"yield", world::PropKind::yield_sign}}};
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -11,7 +11,7 @@ using Facade = FacadeKind;
 using Roof = RoofKind;
 
 // clang-format off
-constexpr std::array<BuildingModel, 40> models{{
+constexpr std::array<BuildingModel, 40> buildings{{
     // name               use      facade           roof           length     depth     floors  heights    bay   parts
     {"cottage",           house,   Facade::plaster, Roof::gabled,   9,  12,   8,  10,   1,  2,  2.8, 2.6,  2.8, part_porch | part_chimney},
     {"brick_house",       house,   Facade::brick,   Roof::gabled,  10,  14,   9,  12,   2,  2,  2.9, 2.7,  2.8, part_porch | part_chimney},
@@ -59,12 +59,12 @@ constexpr std::array<BuildingModel, 40> models{{
 }  // namespace
 
 std::span<const BuildingModel> building_models() {
-    return models;
+    return buildings;
 }
 
 std::optional<std::uint32_t> find_building_model(std::string_view name) {
-    for (std::uint32_t i = 0; i < models.size(); ++i)
-        if (name == models[i].name)
+    for (std::uint32_t i = 0; i < buildings.size(); ++i)
+        if (name == buildings[i].name)
             return i;
     return std::nullopt;
 }

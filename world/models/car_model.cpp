@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace reprise::kernel {
+namespace reprise::world {
 
 namespace {
 
@@ -21,31 +21,31 @@ struct Kind {
     double frequency;           // [Hz] body on its springs
 };
 
-Kind kind_of(world::BodyStyle body) {
+Kind kind_of(BodyStyle body) {
     switch (body) {
-        case world::BodyStyle::hatchback:
+        case BodyStyle::hatchback:
             return {0.54, 0.60, true, 0.22, 1.05, 9.5, 0.012, 1.4};
-        case world::BodyStyle::sedan:
+        case BodyStyle::sedan:
             return {0.54, 0.57, true, 0.22, 1.05, 9.5, 0.012, 1.4};
-        case world::BodyStyle::suv:
+        case BodyStyle::suv:
             return {0.66, 0.55, true, 0.26, 1.05, 9.5, 0.012, 1.4};
-        case world::BodyStyle::van:
+        case BodyStyle::van:
             return {0.75, 0.55, true, 0.24, 1.00, 9.0, 0.012, 1.5};
-        case world::BodyStyle::lorry:
+        case BodyStyle::lorry:
             return {1.15, 0.42, false, 0.45, 0.85, 7.5, 0.008, 1.7};
-        case world::BodyStyle::bus:
+        case BodyStyle::bus:
             return {1.15, 0.36, false, 0.32, 0.85, 7.5, 0.008, 1.6};
-        case world::BodyStyle::wagon:
+        case BodyStyle::wagon:
             return {0.56, 0.54, true, 0.22, 1.05, 9.5, 0.012, 1.4};
-        case world::BodyStyle::coupe:
+        case BodyStyle::coupe:
             return {0.46, 0.48, false, 0.19, 1.10, 10.2, 0.012, 1.7};
-        case world::BodyStyle::pickup:
+        case BodyStyle::pickup:
             return {0.72, 0.55, false, 0.28, 1.00, 9.0, 0.012, 1.5};
-        case world::BodyStyle::minibus:
+        case BodyStyle::minibus:
             return {0.85, 0.50, false, 0.26, 0.95, 8.5, 0.011, 1.5};
-        case world::BodyStyle::motorcycle:
+        case BodyStyle::motorcycle:
             return {0.18, 0.50, false, 0.22, 1.00, 8.8, 0.015, 2.4};
-        case world::BodyStyle::bicycle:
+        case BodyStyle::bicycle:
             return {0.16, 0.45, false, 0.22, 0.80, 7.0, 0.006, 2.4};
     }
     return {};
@@ -55,7 +55,7 @@ constexpr double wrong_gear_speed = 2.0;  // [m/s]
 
 }  // namespace
 
-CarModel car_model(const world::VehicleModel& m) {
+CarModel car_model(const VehicleModel& m) {
     const Kind kind = kind_of(m.body);
     CarModel car;
     car.catalogue = &m;
@@ -81,7 +81,7 @@ CarModel car_model(const world::VehicleModel& m) {
     return car;
 }
 
-double drive_force(const world::VehicleModel& model, double throttle, bool reverse, double speed) {
+double drive_force(const VehicleModel& model, double throttle, bool reverse, double speed) {
     const double along = reverse ? -speed : speed;
     if (along < -wrong_gear_speed)
         return 0;
@@ -105,4 +105,4 @@ double brush_share(double slip, double cornering_stiffness, double grip) {
     return z >= 1 ? 1 : z * (3 - z * (3 - z));
 }
 
-}  // namespace reprise::kernel
+}  // namespace reprise::world

@@ -4,7 +4,7 @@
 
 #include "world/models/catalogue.h"
 
-namespace reprise::kernel {
+namespace reprise::world {
 
 /// A two-wheeler is a narrow car here: four wheels on a track of 0.4 m, and a centre of mass so low
 /// that it slides before it tips. It neither leans (pictures show the lean that its speed and yaw
@@ -13,7 +13,7 @@ namespace reprise::kernel {
 /// Constants of one model, derived from the catalogue. SI; body frame: x ahead, y left, z up,
 /// origin in the centre of mass.
 struct CarModel {
-    const world::VehicleModel* catalogue;
+    const VehicleModel* catalogue;
     double com_ahead;    ///< of the rear axle [m]
     double com_height;   ///< above the ground at rest [m]
     double front_share;  ///< of the weight, on the front axle
@@ -27,7 +27,7 @@ struct CarModel {
     Eigen::Vector3d box_centre;  ///< in the body frame
 };
 
-CarModel car_model(const world::VehicleModel& model);
+CarModel car_model(const VehicleModel& model);
 
 inline constexpr double gravity = 9.81;       ///< [m/s^2]
 inline constexpr double air_density = 1.225;  ///< [kg/m^3] ICAO standard atmosphere, sea level
@@ -36,7 +36,7 @@ inline constexpr double reverse_speed = 8.0;  ///< [m/s] fastest speed backwards
 
 /// Force of the engine at the wheels along x. [N]; throttle in [0, 1], speed along x.
 /// Zero while the car still rolls faster than 2 m/s against the chosen gear.
-double drive_force(const world::VehicleModel& model, double throttle, bool reverse, double speed);
+double drive_force(const VehicleModel& model, double throttle, bool reverse, double speed);
 
 /// Angles of the left and the right front wheel that turn the car about one centre. [rad]
 struct AckermannAngles {
@@ -53,4 +53,4 @@ AckermannAngles ackermann(double steering_angle, double wheelbase, double track)
 /// force per radian and load, `grip` the largest force per load.
 double brush_share(double slip, double cornering_stiffness, double grip);
 
-}  // namespace reprise::kernel
+}  // namespace reprise::world

@@ -11,7 +11,7 @@ using enum BodyStyle;
 // Typical vehicles of their kind: kerb weight plus 150 kg of people and luggage (two-wheelers: a
 // rider of 80 kg). Power of a cyclist: what a fit one gives for some minutes.
 // clang-format off
-constexpr std::array<VehicleModel, 16> models{{
+constexpr std::array<VehicleModel, 16> vehicles{{
     // name          body        livery             length width heigh w.bas overh wheel  track mass   power  force  steer drag  SUMO class
     {"sedan",      sedan,      Livery::plain,     4.70,  1.82, 1.45, 2.80, 1.00, 0.32,  1.57, 1550,  110e3, 6500,  0.61, 0.64, "passenger"},
     {"hatchback",  hatchback,  Livery::plain,     4.05,  1.75, 1.47, 2.55, 0.70, 0.31,  1.50, 1250,  75e3,  5200,  0.63, 0.66, "passenger"},
@@ -35,7 +35,7 @@ constexpr std::array<VehicleModel, 16> models{{
 }  // namespace
 
 std::span<const VehicleModel> vehicle_models() {
-    return models;
+    return vehicles;
 }
 
 }  // namespace reprise::world

@@ -10,7 +10,7 @@ namespace {
 // 95 %), walking speeds after Weidmann, "Transporttechnik der Fussgaenger", 1993: 1.34 m/s in the
 // mean, less for children and the old.
 // clang-format off
-constexpr std::array<WalkerModel, 50> models{{
+constexpr std::array<WalkerModel, 50> walkers{{
     // name              heigh shoul mas speed girth age          clothing              hair
     {"adult",          1.74, 0.46, 74, 1.35, 0.86, Age::adult,  Clothing::casual,     Hair::cropped},
     {"child",          1.22, 0.32, 24, 1.10, 0.58, Age::child,  Clothing::casual,     Hair::cropped},
@@ -68,7 +68,7 @@ constexpr std::array<WalkerModel, 50> models{{
 }  // namespace
 
 std::span<const WalkerModel> walker_models() {
-    return models;
+    return walkers;
 }
 
 }  // namespace reprise::world

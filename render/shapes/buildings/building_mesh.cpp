@@ -28,7 +28,7 @@ struct Half {
     float y;
 };
 
-void add_walls(Builder& build, Half half, float top, Finish wall) {
+void add_facade_walls(Builder& build, Half half, float top, Finish wall) {
     const float foot = -0.4F;
     const std::array<Vector3f, 4> plan{
         {{-half.x, -half.y, 0}, {half.x, -half.y, 0}, {half.x, half.y, 0}, {-half.x, half.y, 0}}};
@@ -98,7 +98,7 @@ void add_gabled_roof(
 }
 
 /// Slabs with a railing in front of every other bay.
-void add_balconies(Builder& build, Half half, const Facade& facade, Finish finish) {
+void add_facade_balconies(Builder& build, Half half, const Facade& facade, Finish finish) {
     const int bays = facade.bays(2 * half.x);
     const float bay = 2 * half.x / static_cast<float>(bays);
     for (int floor = 0; floor < facade.floors; ++floor) {
@@ -157,7 +157,7 @@ void add_building(Mesh& mesh,
     const Finish wall{Material::facade, index};
     const Finish roof{Material::roof, index};
     Builder build(mesh, pose_of(building, origin));
-    add_walls(build, half, facade.eaves, wall);
+    add_facade_walls(build, half, facade.eaves, wall);
     if (facade.gabled)
         add_gabled_roof(build, half, facade, static_cast<float>(building.height()), roof, wall);
     else
@@ -167,7 +167,7 @@ void add_building(Mesh& mesh,
     if (facade.kind == FacadeKind::stone || facade.kind == FacadeKind::office)
         add_ledge(build, half, 0.16F, facade.ground_floor - 0.3F, facade.ground_floor - .05F, roof);
     if (facade.kind == FacadeKind::plaster && !facade.gabled)
-        add_balconies(build, half, facade, roof);
+        add_facade_balconies(build, half, facade, roof);
 }
 
 }  // namespace reprise::render

@@ -145,7 +145,7 @@ BuildingPaint::BuildingPaint(const world::BuildingModel& of, std::uint32_t seed_
 BuildingPlan::BuildingPlan(
     const world::BuildingModel& of, double length, double width, double height, std::uint32_t style)
     : model(of),
-      seed(world::building_seed(style)),
+      seed(ground::building_seed(style)),
       x(static_cast<float>(length / 2)),
       y(static_cast<float>(width / 2)),
       eaves(static_cast<float>(height)),
@@ -160,7 +160,7 @@ BuildingPlan::BuildingPlan(
     floor_height = floors == 0 ? wish : above / static_cast<float>(floors);
     if (floors == 0)
         ground_floor = eaves - (flat ? 0.6F : 0.15F);
-    rise = world::roof_rise(of, x, y, seed);
+    rise = ground::roof_rise(of, x, y, seed);
 }
 
 const world::BuildingModel& BuildingPlan::model_of(std::uint32_t model,

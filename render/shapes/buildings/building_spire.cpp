@@ -66,7 +66,7 @@ void add_dome(BuildingSite& site) {
 void add_church(BuildingSite& site) {
     const BuildingPlan& plan = site.plan;
     const bool large = plan.has(world::part_clock);
-    const float half = world::tower_half(plan.y);
+    const float half = ground::tower_half(plan.y);
     const float tower = plan.eaves + plan.rise + (large ? 5.5F : 2.5F);
     add_gabled_roof(site, {0, 0, plan.eaves}, {plan.x, plan.y}, plan.rise);
     const float x = -plan.x + half - 0.02F;

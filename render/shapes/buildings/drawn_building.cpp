@@ -27,7 +27,7 @@ bool add_hips(BuildingSite& site, const Outline& outline) {
     world::Loop loop;
     for (const Vector2f& p : outline)
         loop.push_back(p.cast<double>());
-    const auto faces = world::hipped_faces(loop, overhang);
+    const auto faces = ground::hipped_faces(loop, overhang);
     for (const auto& face : faces) {
         std::vector<Vector3f> corners;
         for (const Eigen::Vector3d& p : face)
@@ -40,7 +40,7 @@ bool add_hips(BuildingSite& site, const Outline& outline) {
 
 /// A deck below the walls' upper end, and a coping along them.
 void add_deck(BuildingSite& site, const Outline& outline, float eaves) {
-    world::Area area(Eigen::Vector2d::Zero());
+    ground::Area area(Eigen::Vector2d::Zero());
     world::Loop loop;
     for (const Vector2f& p : outline)
         loop.push_back(p.cast<double>());

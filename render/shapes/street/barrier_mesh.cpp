@@ -82,7 +82,7 @@ void add_hedge(Mesh& mesh, Builder& build, const PropSize& size) {
               {half.x() - .08F, half.y() - .08F, size.height - .08F},
               leaf);
     smooth(mesh, 0.3);
-    Draws draws(hash(static_cast<std::uint32_t>(size.length * 10), 81));
+    HashDraws draws(hash(static_cast<std::uint32_t>(size.length * 10), 81));
     const float area = 2 * size.height * (size.length + size.width) + size.length * size.width;
     const int leaves = std::min(2600, static_cast<int>(area * 95));
     for (int i = 0; i < leaves; ++i) {

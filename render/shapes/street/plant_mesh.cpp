@@ -62,7 +62,7 @@ float crown_radius(const Habit& habit, float up) {
 
 /// Rings of branches that hang a little, narrower upwards, around a dark core.
 Mesh spruce_mesh() {
-    Draws draws(hash(8, 78));
+    HashDraws draws(hash(8, 78));
     Mesh mesh;
     constexpr float slenderness = 0.24F;
     const Finish bark{Material::bark};
@@ -119,7 +119,7 @@ Mesh plant_mesh(PlantKind kind) {
         return spruce_mesh();
     const Habit habit = habit_of(kind);
     const auto number = static_cast<std::uint32_t>(kind);
-    Draws draws(hash(number, 77));
+    HashDraws draws(hash(number, 77));
     Mesh mesh;
     const Finish bark{Material::bark};
     if (habit.trunk > 0) {

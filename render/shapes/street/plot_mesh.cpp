@@ -6,6 +6,7 @@
 
 #include "ground/mesh/polygons.h"
 #include "render/shapes/fast_math.h"
+#include "world/geometry2d.h"
 
 namespace reprise::render {
 
@@ -61,10 +62,10 @@ void drape(Mesh& mesh,
 
 /// The terrain's triangles that are not upright, by place.
 struct TerrainGrid {
-    explicit TerrainGrid(const world::GroundMesh& ground) {
+    explicit TerrainGrid(const ground::GroundMesh& ground) {
         std::vector<world::BoxGrid::Entry> entries;
         for (std::size_t i = 0; i < ground.triangles.size(); ++i) {
-            if (ground.surfaces[i] != world::Surface::terrain)
+            if (ground.surfaces[i] != ground::Surface::terrain)
                 continue;
             Corners corners;
             world::Box box;
@@ -85,7 +86,7 @@ struct TerrainGrid {
 };
 
 /// The outline of each plot, less what later ones cover: two cloths at one height would flicker.
-std::vector<world::Area> visible_parts(const world::TownT& town) {
+std::vector<ground::Area> visible_parts(const world::TownT& town) {
     std::vector<Loop> outlines;
     std::vector<world::BoxGrid::Entry> entries;
     for (std::uint32_t i = 0; i < town.plots.size(); ++i) {
@@ -94,13 +95,13 @@ std::vector<world::Area> visible_parts(const world::TownT& town) {
             entries.push_back({world::box_around(outlines[i]), i});
     }
     const world::BoxGrid by_place(entries);
-    std::vector<world::Area> parts(outlines.size());
+    std::vector<ground::Area> parts(outlines.size());
     for (const auto& [box, i] : entries) {
-        world::Area covers(outlines[i].front());
+        ground::Area covers(outlines[i].front());
         for (const std::uint32_t later : by_place.near(box))
             if (later > i)
                 covers.add(outlines[later]);
-        parts[i] = world::Area(outlines[i].front());
+        parts[i] = ground::Area(outlines[i].front());
         parts[i].add(outlines[i]);
         parts[i].subtract(covers);
     }
@@ -137,14 +138,14 @@ float PlotFrame::edge_distance(const Vector2f& p) const {
     return std::sqrt(least);
 }
 
-Mesh plot_mesh(const world::TownT& town, const world::GroundMesh& ground, const Vector3d& origin) {
+Mesh plot_mesh(const world::TownT& town, const ground::GroundMesh& ground, const Vector3d& origin) {
     Mesh mesh;
     if (town.plots.empty())
         return mesh;
     const TerrainGrid terrain(ground);
     // Low enough that its edge throws no shadow to be seen.
     constexpr double lift = 0.01;  // [m]
-    const std::vector<world::Area> parts = visible_parts(town);
+    const std::vector<ground::Area> parts = visible_parts(town);
     for (std::uint32_t i = 0; i < parts.size(); ++i)
         for (const Loop& piece : parts[i].pieces())
             for (const std::uint32_t item : terrain.grid.near(world::box_around(piece)))

@@ -24,7 +24,7 @@ struct PlotFrame {
 /// The plots as a cloth over the terrain, 1 cm above it; where two overlap there is the later one
 /// only. In world coordinates less `origin`; Material::plot, tagged with the plot's index.
 Mesh plot_mesh(const world::TownT& town,
-               const world::GroundMesh& ground,
+               const ground::GroundMesh& ground,
                const Eigen::Vector3d& origin);
 
 }  // namespace reprise::render

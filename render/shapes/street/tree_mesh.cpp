@@ -33,7 +33,7 @@ void fill_normals(Mesh& mesh) {
 Mesh tree_mesh(std::uint32_t kind) {
     constexpr std::array<Crown, 3> crowns{{{.30F, .45F, 17}, {.16F, .38F, 20}, {.36F, .55F, 15}}};
     const Crown crown = crowns[kind % crowns.size()];
-    Draws draws(hash(kind, 77));
+    HashDraws draws(hash(kind, 77));
     Mesh mesh;
     const Finish bark{Material::bark};
     add_tube(mesh, {{0, 0, -.03F}, {.02F, .01F, crown.low + .12F}, .085F, .055F, 9}, bark);

@@ -14,12 +14,12 @@ namespace reprise {
 
 namespace {
 
+using ground::GroundMesh;
+using ground::Surface;
 using test::Hit;
 using test::plumb;
-using world::GroundMesh;
 using world::LaneKind;
 using world::LaneT;
-using world::Surface;
 using world::TownT;
 using world::Vec3;
 
@@ -41,7 +41,7 @@ void for_each_wheel(const TownT& town, Visit&& visit) {
 }
 
 void expect_road_under_every_wheel(const TownT& town) {
-    const GroundMesh mesh = world::build_ground(town);
+    const GroundMesh mesh = ground::build_ground(town);
     for_each_wheel(town, [&](const LaneT& lane, const Eigen::Vector3d& p) {
         const auto hit = plumb(mesh, p + Eigen::Vector3d(0, 0, 1));
         ASSERT_TRUE(hit) << lane.name << " at " << p.transpose();
@@ -87,7 +87,7 @@ Surface surface_at(const GroundMesh& mesh, double x, double y, double z = 0) {
 }
 
 TEST(Ground, BridgesHaveSidesAndUndersidesClearOfTheRoadBelow) {
-    const GroundMesh mesh = world::build_ground(test::bridge());
+    const GroundMesh mesh = ground::build_ground(test::bridge());
     double lowest = 100;
     double underside = 0;  // [m2] that faces down
     double sides = 0;
@@ -109,7 +109,7 @@ TEST(Ground, BridgesHaveSidesAndUndersidesClearOfTheRoadBelow) {
 
 TEST(Ground, RoadsOnTheGroundHaveNoDeck) {
     for (const TownT& town : {test::t_junction(0), test::t_junction(0.05)}) {
-        const GroundMesh mesh = world::build_ground(town);
+        const GroundMesh mesh = ground::build_ground(town);
         EXPECT_EQ(std::count(mesh.surfaces.begin(), mesh.surfaces.end(), Surface::deck), 0);
     }
 }
@@ -132,7 +132,7 @@ TEST(Ground, GivesEveryWheelRoadThroughAJunctionOnASlope) {
 TEST(Ground, GivesEveryWheelRoadOnAndBelowABridge) {
     const TownT town = test::bridge();
     expect_road_under_every_wheel(town);
-    const GroundMesh mesh = world::build_ground(town);
+    const GroundMesh mesh = ground::build_ground(town);
     EXPECT_NEAR(plumb(mesh, {0, 0, 9})->z, 6, 1e-9);
     EXPECT_NEAR(plumb(mesh, {0, 0, 3})->z, 0, 1e-9);
 }
@@ -146,7 +146,7 @@ TEST(Ground, AFootpathAcrossASlopeLeavesTheRoadClear) {
     town.low = {0, -30, 0};
     town.high = {150, 30, 12};
     expect_road_under_every_wheel(town);
-    EXPECT_EQ(surface_at(world::build_ground(town), 140, 10, 11.2), Surface::sidewalk);
+    EXPECT_EQ(surface_at(ground::build_ground(town), 140, 10, 11.2), Surface::sidewalk);
 }
 
 TEST(Ground, AFootpathUnderASlopeStaysWhole) {
@@ -157,7 +157,7 @@ TEST(Ground, AFootpathUnderASlopeStaysWhole) {
                   test::lane("up_0", LaneKind::driving, {{0, 0, 0}, {150, 0, 12}})};
     town.low = {0, -30, 0};
     town.high = {150, 30, 12};
-    const GroundMesh mesh = world::build_ground(town);
+    const GroundMesh mesh = ground::build_ground(town);
     EXPECT_EQ(surface_at(mesh, 149.5, 0, 6), Surface::sidewalk);
 }
 
@@ -172,7 +172,7 @@ TEST(Ground, FillsAJunctionWhoseOutlineIsUseless) {
     for (const std::vector<Vec3>& outline : outlines) {
         town.junctions[0].outline = outline;
         expect_road_under_every_wheel(town);
-        expect_well_formed(world::build_ground(town));
+        expect_well_formed(ground::build_ground(town));
     }
 }
 
@@ -182,21 +182,21 @@ TEST(Ground, CutsASidewalkThatLiesOnADrivingLane) {
     for (world::Vec3& p : town.lanes[0].centre)
         p = world::Vec3(p.x(), p.y() + 2, p.z());
     expect_road_under_every_wheel(town);
-    EXPECT_EQ(surface_at(world::build_ground(town), 50, -3.7), Surface::sidewalk);
+    EXPECT_EQ(surface_at(ground::build_ground(town), 50, -3.7), Surface::sidewalk);
 }
 
 TEST(Ground, CutsOnlyWhatLiesOnTheSameLevel) {
     TownT town = test::bridge();
     LaneT sidewalk = test::lane("walk_0", LaneKind::sidewalk, {{-80, 3, 0}, {80, 3, 0}});
     town.lanes.push_back(sidewalk);
-    const GroundMesh mesh = world::build_ground(town);
+    const GroundMesh mesh = ground::build_ground(town);
     EXPECT_EQ(plumb(mesh, {0, 3, 9})->surface, Surface::road);
     EXPECT_EQ(plumb(mesh, {0, 3, 3})->surface, Surface::sidewalk);
 }
 
 TEST(Ground, RaisesSidewalksByAKerb) {
     for (const double slope : {0.0, 0.05}) {
-        const GroundMesh mesh = world::build_ground(test::t_junction(slope));
+        const GroundMesh mesh = ground::build_ground(test::t_junction(slope));
         const Eigen::Vector2d on_sidewalk(20, -4.75);
         const Eigen::Vector2d on_walking_area(50, 5);
         for (const Eigen::Vector2d& p : {on_sidewalk, on_walking_area}) {
@@ -204,13 +204,13 @@ TEST(Ground, RaisesSidewalksByAKerb) {
             const auto hit = plumb(mesh, {p.x(), p.y(), road + 1});
             ASSERT_TRUE(hit);
             EXPECT_EQ(hit->surface, Surface::sidewalk);
-            EXPECT_NEAR(hit->z, road + world::kerb_height, 0.01);
+            EXPECT_NEAR(hit->z, road + ground::kerb_height, 0.01);
         }
     }
 }
 
 TEST(Ground, LeavesCrossingsAtRoadLevel) {
-    const GroundMesh mesh = world::build_ground(test::t_junction());
+    const GroundMesh mesh = ground::build_ground(test::t_junction());
     for (double x = 46.6; x < 53.5; x += 0.4)
         for (double y = -13.9; y < -11; y += 0.4) {
             const auto hit = plumb(mesh, {x, y, 1});
@@ -221,7 +221,7 @@ TEST(Ground, LeavesCrossingsAtRoadLevel) {
 }
 
 TEST(Ground, TurnsKerbFacesAwayFromTheSlab) {
-    const GroundMesh mesh = world::build_ground(test::t_junction());
+    const GroundMesh mesh = ground::build_ground(test::t_junction());
     int faces = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (mesh.surfaces[i] != Surface::kerb)
@@ -238,7 +238,7 @@ TEST(Ground, TurnsKerbFacesAwayFromTheSlab) {
 
 TEST(Ground, ClosesEveryEdgeOfASlab) {
     // Along the road's edge of the northern sidewalk a face stands wherever one looks.
-    const GroundMesh mesh = world::build_ground(test::t_junction());
+    const GroundMesh mesh = ground::build_ground(test::t_junction());
     for (double x = 1; x < 99; x += 1) {
         bool closed = false;
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -258,7 +258,7 @@ TEST(Ground, ClosesEveryEdgeOfASlab) {
 }
 
 TEST(Ground, LeavesNoFaceBetweenSlabsThatMeet) {
-    const GroundMesh mesh = world::build_ground(test::t_junction());
+    const GroundMesh mesh = ground::build_ground(test::t_junction());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (mesh.surfaces[i] != Surface::kerb)
             continue;
@@ -272,7 +272,7 @@ TEST(Ground, LeavesNoFaceBetweenSlabsThatMeet) {
 TEST(Ground, KeepsTerrainBelowEveryRoad) {
     const std::vector<TownT> towns{test::bridge(), test::t_junction(0.1), test::t_junction(-0.03)};
     for (const TownT& town : towns) {
-        const GroundMesh mesh = world::build_ground(town);
+        const GroundMesh mesh = ground::build_ground(town);
         GroundMesh terrain{mesh.vertices, {}, {}};
         GroundMesh roads{mesh.vertices, {}, {}};
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -291,7 +291,7 @@ TEST(Ground, KeepsTerrainBelowEveryRoad) {
 
 TEST(Ground, FollowsASlopeWithItsTerrain) {
     const double slope = 0.1;
-    const GroundMesh mesh = world::build_ground(test::t_junction(slope));
+    const GroundMesh mesh = ground::build_ground(test::t_junction(slope));
     for (double x = 5; x < 95; x += 5) {
         const auto beside = plumb(mesh, {x, 6.3, slope * x + 1});
         ASSERT_TRUE(beside);
@@ -302,7 +302,7 @@ TEST(Ground, FollowsASlopeWithItsTerrain) {
 
 TEST(Ground, CatchesWhoeverLeavesTheRoad) {
     for (const TownT& town : {test::straight_road(100), test::bridge(), test::t_junction(0.05)}) {
-        const GroundMesh mesh = world::build_ground(town);
+        const GroundMesh mesh = ground::build_ground(town);
         for (double x = town.low.x() - 59; x < town.high.x() + 59; x += 13.3)
             for (double y = town.low.y() - 59; y < town.high.y() + 59; y += 13.3)
                 EXPECT_TRUE(plumb(mesh, {x, y, 50})) << town.name << ' ' << x << ' ' << y;
@@ -312,7 +312,7 @@ TEST(Ground, CatchesWhoeverLeavesTheRoad) {
 TEST(Ground, FacesUpAndHasNoSlivers) {
     for (const TownT& town :
          {test::straight_road(300, 3), test::bridge(), test::t_junction(), test::t_junction(0.05)})
-        expect_well_formed(world::build_ground(town));
+        expect_well_formed(ground::build_ground(town));
 }
 
 TEST(Ground, CoversABendThatIsTighterThanTheLaneIsWide) {
@@ -322,12 +322,12 @@ TEST(Ground, CoversABendThatIsTighterThanTheLaneIsWide) {
                    LaneKind::driving,
                    {{0, 0, 0}, {30, 0, 0}, {30.5, 0.5, 0}, {30, 1, 0}, {0, 4, 0}}));
     expect_road_under_every_wheel(town);
-    expect_well_formed(world::build_ground(town));
+    expect_well_formed(ground::build_ground(town));
 }
 
 TEST(Ground, LeavesNoKerbBetweenThePathsOfABend) {
     const TownT town = test::bend();
-    const GroundMesh mesh = world::build_ground(town);
+    const GroundMesh mesh = ground::build_ground(town);
     // Between the paths, and behind the ends of the lanes, which the paths leave at an angle.
     for (const Eigen::Vector2d& p :
          std::vector<Eigen::Vector2d>{{3.6, 1.5}, {1.4, 5.7}, {8.6, 1.07}, {8.86, -1.95}})
@@ -353,7 +353,7 @@ TownT sharp_turn() {
 }
 
 TEST(Ground, KerbsKeepClearOfTheCornerWhereAPathTurnsOffItsLane) {
-    const GroundMesh mesh = world::build_ground(sharp_turn());
+    const GroundMesh mesh = ground::build_ground(sharp_turn());
     EXPECT_EQ(surface_at(mesh, 55, -3), Surface::sidewalk);
     EXPECT_NE(surface_at(mesh, 50.8, -1.2), Surface::sidewalk);
 }
@@ -377,26 +377,26 @@ TownT refuge(double width) {
 }
 
 TEST(Ground, RefugesOnCrossingsStayWhenTheyHoldAPerson) {
-    EXPECT_EQ(surface_at(world::build_ground(refuge(1.2)), 50, 0.6), Surface::sidewalk);
-    EXPECT_NE(surface_at(world::build_ground(refuge(0.4)), 50, 0.2), Surface::sidewalk);
+    EXPECT_EQ(surface_at(ground::build_ground(refuge(1.2)), 50, 0.6), Surface::sidewalk);
+    EXPECT_NE(surface_at(ground::build_ground(refuge(0.4)), 50, 0.2), Surface::sidewalk);
     TownT without = refuge(1.2);
     without.lanes.erase(without.lanes.begin(), without.lanes.begin() + 2);
-    EXPECT_NE(surface_at(world::build_ground(without), 50, 0.6), Surface::sidewalk);
+    EXPECT_NE(surface_at(ground::build_ground(without), 50, 0.6), Surface::sidewalk);
 }
 
 TEST(Ground, IsTheSameBytesEveryTime) {
     const TownT town = test::t_junction(0.07);
-    const std::string first = test::bytes_of(world::build_ground(town));
-    const std::string markings = test::bytes_of(world::build_markings(town));
-    world::build_ground(test::bridge());
-    EXPECT_EQ(test::bytes_of(world::build_ground(town)), first);
-    EXPECT_EQ(test::bytes_of(world::build_markings(town)), markings);
-    EXPECT_NE(test::bytes_of(world::build_ground(test::t_junction(0.06))), first);
+    const std::string first = test::bytes_of(ground::build_ground(town));
+    const std::string markings = test::bytes_of(ground::build_markings(town));
+    ground::build_ground(test::bridge());
+    EXPECT_EQ(test::bytes_of(ground::build_ground(town)), first);
+    EXPECT_EQ(test::bytes_of(ground::build_markings(town)), markings);
+    EXPECT_NE(test::bytes_of(ground::build_ground(test::t_junction(0.06))), first);
 }
 
 TEST(Ground, OfNothingIsNothing) {
-    EXPECT_TRUE(world::build_ground(TownT()).triangles.empty());
-    EXPECT_TRUE(world::build_markings(TownT()).triangles.empty());
+    EXPECT_TRUE(ground::build_ground(TownT()).triangles.empty());
+    EXPECT_TRUE(ground::build_markings(TownT()).triangles.empty());
 }
 
 }  // namespace reprise

@@ -36,14 +36,14 @@ double height_in_the_middle(const TownT& town, std::size_t lane) {
 
 TEST(LevelPaths, MakesCrossingPathsMeet) {
     TownT town = crossing_paths(0.2);
-    world::level_paths(town);
+    ground::level_paths(town);
     EXPECT_NEAR(height_in_the_middle(town, 0), height_in_the_middle(town, 1), 0.01);
     EXPECT_NEAR(height_in_the_middle(town, 0), 0.1, 0.02);
 }
 
 TEST(LevelPaths, LeavesTheEndsWithoutAStepOrAKink) {
     TownT town = crossing_paths(0.2);
-    world::level_paths(town);
+    ground::level_paths(town);
     for (std::size_t lane = 0; lane < 2; ++lane) {
         const auto& centre = town.lanes[lane].centre;
         EXPECT_EQ(centre.front().z(), lane == 0 ? 0.0 : 0.2);
@@ -58,8 +58,8 @@ TEST(LevelPaths, LetsOneSurfaceCarryBoth) {
     for (const bool levelled : {false, true}) {
         TownT town = crossing_paths(0.2);
         if (levelled)
-            world::level_paths(town);
-        const auto criteria = world::check_ground(town, world::build_ground(town));
+            ground::level_paths(town);
+        const auto criteria = towns::check_ground(town, ground::build_ground(town));
         EXPECT_EQ(criteria[0].passed(), levelled) << criteria[0].name << ' ' << criteria[0].figure;
     }
 }
@@ -68,7 +68,7 @@ TEST(LevelPaths, KeepsEveryBitWherePathsAgree) {
     for (const double slope : {0.0, 0.05}) {
         TownT town = test::t_junction(slope);
         const TownT before = town;
-        world::level_paths(town);
+        ground::level_paths(town);
         EXPECT_EQ(town, before);
     }
 }
@@ -76,7 +76,7 @@ TEST(LevelPaths, KeepsEveryBitWherePathsAgree) {
 TEST(LevelPaths, KeepsBridgesApart) {
     TownT town = crossing_paths(6);
     const TownT before = town;
-    world::level_paths(town);
+    ground::level_paths(town);
     EXPECT_EQ(town, before);
 }
 
@@ -86,7 +86,7 @@ TEST(LevelPaths, MovesPathsThatFollowEachOtherTogether) {
     town.lanes[1].centre = {{0, -15, 0.2}, {0, 3, 0.2}};
     town.lanes.push_back(test::lane(":j_2_0", LaneKind::internal, {{0, 3, 0.2}, {0, 15, 0.2}}));
     town.lanes[2].junction = 0;
-    world::level_paths(town);
+    ground::level_paths(town);
     EXPECT_EQ(town.lanes[1].centre.back(), town.lanes[2].centre.front());
     EXPECT_LT(town.lanes[1].centre.back().z(), 0.19);
 }

@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "world/geometry2d.h"
+
 namespace reprise {
 
 namespace {
 
-using world::Area;
+using ground::Area;
 using world::Loop;
 
 const Eigen::Vector2d origin(0, 0);

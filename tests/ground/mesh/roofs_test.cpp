@@ -5,34 +5,34 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-namespace reprise::world {
+namespace reprise::ground {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-Loop in_plan(const std::vector<Vector3d>& face) {
-    Loop loop;
+world::Loop in_plan(const std::vector<Vector3d>& face) {
+    world::Loop loop;
     for (const Vector3d& p : face)
         loop.push_back(p.head<2>());
     return loop;
 }
 
-double covered(const Loop& outline, double overhang) {
+double covered(const world::Loop& outline, double overhang) {
     double area = 0;
     for (const auto& face : hipped_faces(outline, overhang))
-        area += signed_area(in_plan(face));
+        area += world::signed_area(world::in_plan(face));
     return area;
 }
 
-const Loop rectangle{{0, 0}, {12, 0}, {12, 8}, {0, 8}};
-const Loop pentagon{{0, 0}, {10, 0}, {13, 6}, {6, 11}, {-1, 7}};
+const world::Loop rectangle{{0, 0}, {12, 0}, {12, 8}, {0, 8}};
+const world::Loop pentagon{{0, 0}, {10, 0}, {13, 6}, {6, 11}, {-1, 7}};
 
 TEST(HippedRoof, CoversTheOutlineAndItsEaves) {
     EXPECT_NEAR(covered(rectangle, 0), 12 * 8, 1e-9);
     EXPECT_NEAR(covered(rectangle, 0.5), 13 * 9, 1e-9);
-    EXPECT_NEAR(covered(pentagon, 0), signed_area(pentagon), 1e-9);
-    EXPECT_GT(covered(pentagon, 0.5), signed_area(pentagon) + 0.5 * 30);
+    EXPECT_NEAR(covered(pentagon, 0), world::signed_area(pentagon), 1e-9);
+    EXPECT_GT(covered(pentagon, 0.5), world::signed_area(pentagon) + 0.5 * 30);
 }
 
 TEST(HippedRoof, OfARectangleHasItsRidgeInTheMiddle) {
@@ -64,10 +64,10 @@ TEST(HippedRoof, OddOutlinesHaveNone) {
     EXPECT_TRUE(hipped_faces({{0, 0}, {12, 0}, {12, 8}, {6, 2}, {0, 8}}, 0.4).empty()) << "concave";
     EXPECT_TRUE(hipped_faces({{0, 0}, {20, 0}, {0, 4}}, 0.4).empty()) << "pointed";
     EXPECT_TRUE(hipped_faces({{0, 0}, {20, 0}}, 0.4).empty());
-    Loop clockwise = rectangle;
+    world::Loop clockwise = rectangle;
     std::reverse(clockwise.begin(), clockwise.end());
     EXPECT_TRUE(hipped_faces(clockwise, 0.4).empty());
 }
 
 }  // namespace
-}  // namespace reprise::world
+}  // namespace reprise::ground

@@ -5,7 +5,7 @@
 namespace reprise {
 namespace {
 
-using world::Area;
+using ground::Area;
 using world::Loop;
 
 Loop rectangle(double x, double y, double length, double width) {
@@ -18,12 +18,12 @@ Area filled(const Loop& loop) {
     return area;
 }
 
-const world::SurfaceHeight level;
-const world::SurfaceHeight upstairs({{world::Vec3(0, 0, 3), world::Vec3(50, 50, 3)}});
+const ground::SurfaceHeight level;
+const ground::SurfaceHeight upstairs({{world::Vec3(0, 0, 3), world::Vec3(50, 50, 3)}});
 
-world::Patch patch(const Area& area,
-                   bool at_crossing = false,
-                   const world::SurfaceHeight& height = level) {
+ground::Patch patch(const Area& area,
+                    bool at_crossing = false,
+                    const ground::SurfaceHeight& height = level) {
     const std::vector<Loop> borders = area.borders();
     return {&area, &height, borders, world::box_around(borders[0]), at_crossing};
 }
@@ -34,10 +34,10 @@ TEST(Splinters, JoinWhatTheyTouchOnTheirLevel) {
     const Area small = filled(rectangle(0, 0, 1, 1));
     const Area beside = filled(rectangle(1.04, 0, 4, 1));
     const Area apart = filled(rectangle(1.06, 0, 4, 1));
-    EXPECT_EQ(world::find_splinters({patch(small)}), Found({true}));
-    EXPECT_EQ(world::find_splinters({patch(small), patch(beside)}), Found({false, false}));
-    EXPECT_EQ(world::find_splinters({patch(small), patch(apart)}), Found({true, false}));
-    EXPECT_EQ(world::find_splinters({patch(small), patch(beside, false, upstairs)}),
+    EXPECT_EQ(ground::find_splinters({patch(small)}), Found({true}));
+    EXPECT_EQ(ground::find_splinters({patch(small), patch(beside)}), Found({false, false}));
+    EXPECT_EQ(ground::find_splinters({patch(small), patch(apart)}), Found({true, false}));
+    EXPECT_EQ(ground::find_splinters({patch(small), patch(beside, false, upstairs)}),
               Found({true, false}));
 }
 
@@ -45,10 +45,10 @@ TEST(Splinters, AreWholeIslands) {
     const Area first = filled(rectangle(0, 0, 1.9, 1));
     const Area second = filled(rectangle(1.9, 0, 1.9, 1));
     const Area third = filled(rectangle(3.8, 0, 1.9, 1));
-    EXPECT_EQ(world::find_splinters({patch(third), patch(first)}), Found({true, true}));
-    EXPECT_EQ(world::find_splinters({patch(third), patch(first), patch(second)}),
+    EXPECT_EQ(ground::find_splinters({patch(third), patch(first)}), Found({true, true}));
+    EXPECT_EQ(ground::find_splinters({patch(third), patch(first), patch(second)}),
               Found({false, false, false}));
-    EXPECT_EQ(world::find_splinters({patch(second), patch(second), patch(second)}),
+    EXPECT_EQ(ground::find_splinters({patch(second), patch(second), patch(second)}),
               Found({true, true, true}))
         << "drawn thrice is not thrice as large";
 }
@@ -57,16 +57,16 @@ TEST(Splinters, AreNarrowUnlessLong) {
     const Area narrow = filled(rectangle(0, 0, 9, 0.5));
     const Area wider = filled(rectangle(0, 0, 9, 0.7));
     const Area longer = filled(rectangle(0, 0, 30, 0.4));
-    EXPECT_EQ(world::find_splinters({patch(narrow)}), Found({true}));
-    EXPECT_EQ(world::find_splinters({patch(wider)}), Found({false}));
-    EXPECT_EQ(world::find_splinters({patch(longer)}), Found({false}));
+    EXPECT_EQ(ground::find_splinters({patch(narrow)}), Found({true}));
+    EXPECT_EQ(ground::find_splinters({patch(wider)}), Found({false}));
+    EXPECT_EQ(ground::find_splinters({patch(longer)}), Found({false}));
 }
 
 TEST(Splinters, AreNotRefugesOnCrossings) {
     const Area refuge = filled(rectangle(0, 0, 1.5, 1));
     const Area corner = filled(rectangle(0, 0, 0.9, 1));
-    EXPECT_EQ(world::find_splinters({patch(refuge), patch(refuge, true)}), Found({false, false}));
-    EXPECT_EQ(world::find_splinters({patch(corner, true)}), Found({true}));
+    EXPECT_EQ(ground::find_splinters({patch(refuge), patch(refuge, true)}), Found({false, false}));
+    EXPECT_EQ(ground::find_splinters({patch(corner, true)}), Found({true}));
 }
 
 TEST(Splinters, InAHoleOfASidewalkAreNotJoinedToIt) {
@@ -74,8 +74,8 @@ TEST(Splinters, InAHoleOfASidewalkAreNotJoinedToIt) {
     ring.subtract(filled(rectangle(2, 2, 4, 4)));
     const Area inside = filled(rectangle(3, 3, 1, 1));
     const Area at_its_edge = filled(rectangle(2.03, 3, 1, 1));
-    EXPECT_EQ(world::find_splinters({patch(ring), patch(inside)}), Found({false, true}));
-    EXPECT_EQ(world::find_splinters({patch(ring), patch(at_its_edge)}), Found({false, false}));
+    EXPECT_EQ(ground::find_splinters({patch(ring), patch(inside)}), Found({false, true}));
+    EXPECT_EQ(ground::find_splinters({patch(ring), patch(at_its_edge)}), Found({false, false}));
 }
 
 }  // namespace

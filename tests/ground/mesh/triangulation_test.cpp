@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "ground/mesh/polygons.h"
+#include "world/geometry2d.h"
 
 namespace reprise {
 namespace {
@@ -26,15 +27,15 @@ const Loop square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
 const Loop hole{{3, 3}, {3, 6}, {6, 6}, {6, 3}};
 
 TEST(Triangulation, CoversWhatTheBordersEnclose) {
-    EXPECT_DOUBLE_EQ(area_of(world::triangulate({square})), 100);
-    EXPECT_DOUBLE_EQ(area_of(world::triangulate({square, hole})), 91);
+    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({square})), 100);
+    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({square, hole})), 91);
     const Loop island{{4, 4}, {5, 4}, {5, 5}, {4, 5}};
-    EXPECT_DOUBLE_EQ(area_of(world::triangulate({square, hole, island})), 92);
+    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({square, hole, island})), 92);
 }
 
 TEST(Triangulation, AddsNoCorners) {
     const Loop star{{0, 0}, {10, 3}, {20, 0}, {17, 10}, {20, 20}, {10, 17}, {0, 20}, {3, 10}};
-    const auto triangles = world::triangulate({star});
+    const auto triangles = ground::triangulate({star});
     EXPECT_EQ(triangles.size(), star.size() - 2);
     for (const auto& triangle : triangles)
         for (const Eigen::Vector2d& corner : triangle)
@@ -43,20 +44,20 @@ TEST(Triangulation, AddsNoCorners) {
 
 TEST(Triangulation, TakesRepeatedPointsAndBordersThatTouch) {
     const Loop repeated{{0, 0}, {10, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}};
-    EXPECT_DOUBLE_EQ(area_of(world::triangulate({repeated})), 100);
+    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({repeated})), 100);
     const Loop touching{{0, 5}, {4, 3}, {4, 7}};
-    EXPECT_DOUBLE_EQ(area_of(world::triangulate({square, touching})), 92);
+    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({square, touching})), 92);
 }
 
 TEST(Triangulation, OfNothingIsNothing) {
-    EXPECT_TRUE(world::triangulate({}).empty());
-    EXPECT_TRUE(world::triangulate({{{0, 0}, {1, 1}}}).empty());
-    EXPECT_TRUE(world::triangulate({{{0, 0}, {1, 1}, {2, 2}}}).empty());
+    EXPECT_TRUE(ground::triangulate({}).empty());
+    EXPECT_TRUE(ground::triangulate({{{0, 0}, {1, 1}}}).empty());
+    EXPECT_TRUE(ground::triangulate({{{0, 0}, {1, 1}, {2, 2}}}).empty());
 }
 
 TEST(Polygons, LeaveNoCracksBetweenTheirPieces) {
     // Slanted bars: every inner edge belongs to two pieces that meet in the same two corners.
-    world::Area area;
+    ground::Area area;
     for (int i = 0; i < 12; ++i)
         area.add({{i * 1.3, 0}, {i * 1.3 + 0.7, 0.1}, {20 - i * 1.1, 17.3}, {19.2 - i * 1.1, 17}});
     std::multiset<std::array<double, 4>> edges;

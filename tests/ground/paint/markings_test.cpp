@@ -11,7 +11,7 @@ namespace reprise {
 
 namespace {
 
-using world::GroundMesh;
+using ground::GroundMesh;
 using world::LaneT;
 using world::TownT;
 
@@ -36,8 +36,8 @@ constexpr double line_width = 0.12;
 TEST(Markings, LieFiveMillimetresAboveTheRoad) {
     for (const double slope : {0.0, 0.06}) {
         const TownT town = test::t_junction(slope);
-        const GroundMesh ground = world::build_ground(town);
-        const GroundMesh markings = world::build_markings(town);
+        const GroundMesh ground = ground::build_ground(town);
+        const GroundMesh markings = ground::build_markings(town);
         ASSERT_FALSE(markings.triangles.empty());
         for (const auto& [p, q, r] : markings.triangles) {
             const Eigen::Vector3d middle =
@@ -50,7 +50,7 @@ TEST(Markings, LieFiveMillimetresAboveTheRoad) {
 }
 
 TEST(Markings, DashTheCentreLineInTownWhereNothingMeets) {
-    const GroundMesh mesh = world::build_markings(test::straight_road(90));
+    const GroundMesh mesh = ground::build_markings(test::straight_road(90));
     EXPECT_NEAR(painted(mesh, 0, 90, -0.5, 0.5), 90 * line_width / 3, 1e-6);
 }
 
@@ -58,7 +58,7 @@ TEST(Markings, KeepTheCentreLineSolidOnFastRoads) {
     TownT town = test::straight_road(90);
     for (world::LaneT& lane : town.lanes)
         lane.speed_limit = 70 / 3.6;
-    const GroundMesh mesh = world::build_markings(town);
+    const GroundMesh mesh = ground::build_markings(town);
     EXPECT_NEAR(painted(mesh, 0, 90, -0.5, 0.5), 90 * line_width, 1e-6);
 }
 
@@ -69,7 +69,7 @@ TEST(Markings, KeepTheCentreLineSolidNearJunctions) {
     for (world::LaneT& lane : town.lanes)
         if (lane.kind == world::LaneKind::driving && lane.centre.back().x() > 80)
             lane.junction = 0;
-    const GroundMesh mesh = world::build_markings(town);
+    const GroundMesh mesh = ground::build_markings(town);
     // 20 m, and the rest of the dash and gap that begin before.
     EXPECT_GE(painted(mesh, 60, 90, -0.5, 0.5), 20 * line_width - 1e-6);
     EXPECT_LE(painted(mesh, 60, 90, -0.5, 0.5), 29 * line_width);
@@ -93,7 +93,7 @@ TEST(Markings, KeepTheCentreLineSolidInABend) {
     town.lanes.push_back(test::lane("back_0", world::LaneKind::driving, back));
     town.lanes[0].opposite = 1;
     town.lanes[1].opposite = 0;
-    const GroundMesh mesh = world::build_markings(town);
+    const GroundMesh mesh = ground::build_markings(town);
     // Both lanes lie on one line here: the edge line of the way back is 0.15 m off the centre line.
     const double straight = painted(mesh, 20, 80, 1.69, 1.81);
     EXPECT_NEAR(straight, 60 * line_width / 3, 0.5);
@@ -112,20 +112,20 @@ TEST(Markings, KeepTheCentreLineSolidInABend) {
 }
 
 TEST(Markings, DashTheLineBetweenLanesOfOneDirection) {
-    const GroundMesh mesh = world::build_markings(test::straight_road(90, 2));
+    const GroundMesh mesh = ground::build_markings(test::straight_road(90, 2));
     EXPECT_NEAR(painted(mesh, 0, 90, -4, -3), 90 * line_width / 3, 1e-6);
 }
 
 TEST(Markings, LeaveKerbsUnpaintedAndEdgeOpenRoads) {
     TownT town = test::straight_road(90);
-    EXPECT_EQ(painted(world::build_markings(town), 0, 90, -3.5, -3), 0);
+    EXPECT_EQ(painted(ground::build_markings(town), 0, 90, -3.5, -3), 0);
     town.lanes[0].kind = world::LaneKind::other;
-    EXPECT_NEAR(painted(world::build_markings(town), 0, 90, -3.5, -3), 90 * line_width, 1e-6);
+    EXPECT_NEAR(painted(ground::build_markings(town), 0, 90, -3.5, -3), 90 * line_width, 1e-6);
 }
 
 TEST(Markings, StopBeforeASignal) {
-    const GroundMesh with = world::build_markings(test::straight_road_with_signal(100));
-    const GroundMesh without = world::build_markings(test::straight_road(100));
+    const GroundMesh with = ground::build_markings(test::straight_road_with_signal(100));
+    const GroundMesh without = ground::build_markings(test::straight_road(100));
     EXPECT_EQ(painted(without, 98, 100, -3.4, -0.2), 0);
     EXPECT_NEAR(painted(with, 99.2, 99.6, -3.5, -0.1), 0.4 * (3.5 - 2 * line_width), 1e-6);
     EXPECT_EQ(painted(with, 99.61, 100, -3.4, -0.2), 0);
@@ -152,7 +152,7 @@ TownT meeting(bool first_yields, bool second_yields) {
 
 /// On the first of them, less its edge lines.
 double painted_before_end(const TownT& town) {
-    return painted(world::build_markings(town), 98, 100, -1.5, 1.5);
+    return painted(ground::build_markings(town), 98, 100, -1.5, 1.5);
 }
 
 }  // namespace
@@ -167,7 +167,7 @@ TEST(Markings, ShowTeethWhereOneMustGiveWay) {
 }
 
 TEST(Markings, PointTeethAtTheDriver) {
-    const GroundMesh mesh = world::build_markings(meeting(true, false));
+    const GroundMesh mesh = ground::build_markings(meeting(true, false));
     const double near_half = painted(mesh, 98.9, 99.3, -1.5, 1.5);
     EXPECT_EQ(near_half, 0) << "middles of triangles lie towards their bases";
     EXPECT_GT(painted(mesh, 99.3, 99.6, -1.5, 1.5), 0.5);
@@ -195,7 +195,7 @@ TEST(Markings, StopBeforeAStopSign) {
     town.props.push_back(sign);
     const double line = 0.4 * (3.5 - 2 * line_width);
     const auto whole = [](const TownT& painted_town) {
-        return painted(world::build_markings(painted_town), 99.2, 99.6, -2, 2);
+        return painted(ground::build_markings(painted_town), 99.2, 99.6, -2, 2);
     };
     EXPECT_NEAR(whole(town), line, 0.1);
     // Not those of others: turned away from this lane, or far away.
@@ -216,7 +216,7 @@ TEST(Markings, ShowArrowsOnlyWhereLanesLeadToDifferentTurns) {
     town.lanes.insert(town.lanes.begin() + 1, inner);
     town.lanes[0].left = 1;
     const auto arrows = [&](double y) {
-        return painted(world::build_markings(town), 60, 94, y - 1.3, y + 1.3);
+        return painted(ground::build_markings(town), 60, 94, y - 1.3, y + 1.3);
     };
     EXPECT_EQ(arrows(0), 0) << "both lanes lead straight on";
     EXPECT_EQ(arrows(3.5), 0);
@@ -225,13 +225,13 @@ TEST(Markings, ShowArrowsOnlyWhereLanesLeadToDifferentTurns) {
     EXPECT_GT(arrows(0), 1) << "two arrows";
     EXPECT_GT(arrows(3.5), 1);
     // To the right of the lane's middle is more paint than to its left; straight on is even.
-    const GroundMesh mesh = world::build_markings(town);
+    const GroundMesh mesh = ground::build_markings(town);
     EXPECT_GT(painted(mesh, 60, 94, -1.3, -0.1), 2 * painted(mesh, 60, 94, 0.1, 1.3));
     EXPECT_NEAR(painted(mesh, 60, 94, 3.5, 4.8), painted(mesh, 60, 94, 2.2, 3.5), 0.2);
 }
 
 TEST(Markings, StripeHalfOfACrossing) {
-    const GroundMesh mesh = world::build_markings(test::t_junction());
+    const GroundMesh mesh = ground::build_markings(test::t_junction());
     EXPECT_NEAR(painted(mesh, 46.5, 53.5, -14, -11), 7 * 3 / 2.0, 1e-6);
 }
 

@@ -35,8 +35,8 @@ void PrintTo(const Drill& drill, std::ostream* out) {
     *out << drill.target;
 }
 
-const replay::Recording& street() {
-    static const replay::Recording recording = in_town1(R"(
+const world::Recording& street() {
+    static const world::Recording recording = in_town1(R"(
         local lane = pick_lane{ length = 80, right = false, left = true }
         local ego = spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = lane, s = 20,
                            speed_kmh = 30 }
@@ -47,8 +47,8 @@ const replay::Recording& street() {
         wait(0.9)
         ego:set_speed_kmh(20)
         wait(60))",
-                                                        10,
-                                                        2);
+                                                       10,
+                                                       2);
     return recording;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "ground/obstacles.h"
 #include "tests/support/worlds.h"
 #include "world/frames.h"
 #include "world/models/catalogue.h"
@@ -12,9 +13,9 @@ namespace {
 
 constexpr double reach = 2000;
 
-void add_quad(world::GroundMesh& mesh,
+void add_quad(ground::GroundMesh& mesh,
               const std::array<Eigen::Vector3d, 4>& corners,
-              world::Surface surface) {
+              ground::Surface surface) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
     mesh.triangles.push_back({first, first + 1, first + 2});
@@ -24,38 +25,38 @@ void add_quad(world::GroundMesh& mesh,
 
 }  // namespace
 
-world::GroundMesh inclined_ground(double slope) {
-    world::GroundMesh mesh;
+ground::GroundMesh inclined_ground(double slope) {
+    ground::GroundMesh mesh;
     const double rise = slope * reach;
     add_quad(mesh,
              {Eigen::Vector3d(-reach, -reach, -rise),
               {reach, -reach, rise},
               {reach, reach, rise},
               {-reach, reach, -rise}},
-             world::Surface::road);
+             ground::Surface::road);
     return mesh;
 }
 
-world::GroundMesh flat_ground() {
+ground::GroundMesh flat_ground() {
     return inclined_ground(0);
 }
 
-world::GroundMesh kerb_ground(double x, double height) {
-    world::GroundMesh mesh;
+ground::GroundMesh kerb_ground(double x, double height) {
+    ground::GroundMesh mesh;
     add_quad(
         mesh,
         {Eigen::Vector3d(-reach, -reach, 0), {x, -reach, 0}, {x, reach, 0}, {-reach, reach, 0}},
-        world::Surface::road);
+        ground::Surface::road);
     add_quad(
         mesh,
         {Eigen::Vector3d(x, -reach, 0), {x, -reach, height}, {x, reach, height}, {x, reach, 0}},
-        world::Surface::kerb);
+        ground::Surface::kerb);
     add_quad(mesh,
              {Eigen::Vector3d(x, -reach, height),
               {reach, -reach, height},
               {reach, reach, height},
               {x, reach, height}},
-             world::Surface::sidewalk);
+             ground::Surface::sidewalk);
     return mesh;
 }
 
@@ -67,9 +68,9 @@ world::Control drive(double throttle, double brake, double steer) {
     return {throttle, brake, steer, 1, 0, false, false};
 }
 
-ProvingGround::ProvingGround(const world::GroundMesh& ground, const world::TownT& town)
+ProvingGround::ProvingGround(const ground::GroundMesh& ground, const world::TownT& town)
     : episode_(episode()),
-      physics_(episode_, town, ground) {}
+      physics_(episode_, ground, ground::obstacles_of(town)) {}
 
 void ProvingGround::add_vehicle(const char* model, double speed, double x, double y, double yaw) {
     physics_.add_vehicle(

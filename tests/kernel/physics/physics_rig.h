@@ -12,13 +12,13 @@
 namespace reprise::test {
 
 /// Level square of 4 km at z = 0 around the origin, as road.
-world::GroundMesh flat_ground();
+ground::GroundMesh flat_ground();
 
 /// As above, rising by `slope` (tangent) towards +x.
-world::GroundMesh inclined_ground(double slope);
+ground::GroundMesh inclined_ground(double slope);
 
 /// Road up to x, and a sidewalk of `height` behind its upright kerb.
-world::GroundMesh kerb_ground(double x, double height);
+ground::GroundMesh kerb_ground(double x, double height);
 
 /// All hands off.
 world::Control coasting(std::uint32_t actor = 1);
@@ -28,7 +28,7 @@ world::Control drive(double throttle, double brake, double steer = 0);
 
 class ProvingGround {
   public:
-    explicit ProvingGround(const world::GroundMesh& ground = flat_ground(),
+    explicit ProvingGround(const ground::GroundMesh& ground = flat_ground(),
                            const world::TownT& town = {});
 
     /// Vehicle 1.

@@ -26,8 +26,8 @@ const world::VehicleModel& sedan() {
     return world::vehicle_models()[world::find_vehicle_model("sedan").value()];
 }
 
-CarModel sedan_model() {
-    return car_model(sedan());
+world::CarModel sedan_model() {
+    return world::car_model(sedan());
 }
 
 std::vector<world::EventT> collisions(const ProvingGround& ground) {
@@ -44,7 +44,7 @@ world::WalkerState adult_at(std::uint32_t id, double x, double y, bool down = fa
 
 /// Of the vehicle's mass, not of its rear axle. [m/s]
 Eigen::Vector3d velocity_of_mass(const world::VehicleState& state) {
-    const CarModel car = sedan_model();
+    const world::CarModel car = sedan_model();
     const Eigen::Vector3d arm =
         world::to_eigen(state.orientation()) * Eigen::Vector3d(car.com_ahead, 0, car.com_height);
     return world::to_eigen(state.velocity()) + world::to_eigen(state.angular_velocity()).cross(arm);
@@ -72,7 +72,8 @@ TEST(Physics, CollisionImpulseIsTheMomentumThatTheVehicleLost) {
     const double before = velocity_of_mass(ground.vehicle()).x();
     const double impulse = impulse_against(ground, 9, 20);
     const double after = velocity_of_mass(ground.vehicle()).x();
-    const double resistance = sedan_model().rolling_resistance * sedan().mass * gravity * 1.0;
+    const double resistance =
+        sedan_model().rolling_resistance * sedan().mass * world::gravity * 1.0;
     EXPECT_GT(impulse, 10'000);
     EXPECT_NEAR(impulse, sedan().mass * (before - after), 0.02 * impulse + resistance);
 }
@@ -163,7 +164,7 @@ struct Scene {
         ground.cars = {car_at(9, 8 + 0.3 * tick, 2.2, 0.05, 6), car_at(11, 50, 0, 1)};
         world::Control control = drive(0.6, 0, 0.1 * std::sin(0.2 * tick));
         if (tick == 10)
-            control.mutate_steer(control.steer() + nudge);
+            control.mutate_steer(control.drivers::steer() + nudge);
         ground.step(control);
     }
 
@@ -270,7 +271,7 @@ TEST(Physics, TwoVehiclesWithMassKeepTheirMomentumAndEachFindsTheHit) {
 }
 
 TEST(Physics, KerbsAndSpringsMakeNoCollisions) {
-    ProvingGround ground(test::kerb_ground(12, world::kerb_height));
+    ProvingGround ground(test::kerb_ground(12, ground::kerb_height));
     ground.add_vehicle("sedan", 5);
     EXPECT_EQ(impulse_against(ground, 0, 60), 0);
 }
@@ -283,7 +284,7 @@ TEST(Physics, VehicleThatFallsOnItsRoofHitsTheGround) {
     ground.physics().add_vehicle(1, 0, upside_down, 0);
     const double impulse = impulse_against(ground, 0, 30);
     const double fallen = 3 - sedan().height;
-    EXPECT_GT(impulse, 0.9 * sedan().mass * std::sqrt(2 * gravity * fallen));
+    EXPECT_GT(impulse, 0.9 * sedan().mass * std::sqrt(2 * world::gravity * fallen));
     for (int tick = 0; tick < 100; ++tick)
         ground.step(coasting());
     EXPECT_LT(world::to_eigen(ground.vehicle().velocity()).norm(), 0.05);

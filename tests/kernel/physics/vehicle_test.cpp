@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue,
 
 /// Gillespie, eq. 4-2 and 4-12: m dv/dt = -(0.5 rho cdA v^2 + f m g).
 TEST_P(EveryModel, CoastsDownByAirAndRollingResistance) {
-    const CarModel car = car_model(model(GetParam()));
+    const world::CarModel car = world::car_model(model(GetParam()));
     for (const double speed : {10.0, 20.0, 30.0}) {
         ProvingGround ground;
         ground.add_vehicle(GetParam(), speed);
@@ -50,9 +50,9 @@ TEST_P(EveryModel, CoastsDownByAirAndRollingResistance) {
             ground.step(coasting());
         const double after = speed_of(ground.vehicle());
         const double mean = (before + after) / 2;
-        const double expected =
-            0.5 * air_density * car.catalogue->drag_area * mean * mean / car.catalogue->mass +
-            car.rolling_resistance * gravity;
+        const double expected = 0.5 * world::air_density * car.catalogue->drag_area * mean * mean /
+                                    car.catalogue->mass +
+                                car.rolling_resistance * world::gravity;
         EXPECT_NEAR((before - after) / (20 * tick_seconds), expected, 0.01 * expected) << speed;
     }
 }
@@ -60,16 +60,17 @@ TEST_P(EveryModel, CoastsDownByAirAndRollingResistance) {
 /// Gillespie, ch. 3: a is the lesser of what brakes and tyres can do, and the air brakes along:
 /// m / (2 k) ln(1 + k v^2 / (m a)), k = 0.5 rho cdA. Only a bicycle is light enough to feel it.
 TEST_P(EveryModel, StopsWithinTheTextbooksDistance) {
-    const CarModel car = car_model(model(GetParam()));
+    const world::CarModel car = world::car_model(model(GetParam()));
     const double speed = 50 / 3.6;
     for (const double friction : {1.0, 0.7, 0.4, 0.15}) {
         ProvingGround ground;
         ground.road_friction = friction;
         ground.add_vehicle(GetParam(), speed);
         const double distance = test::distance_to_stop(ground, drive(0, 1));
-        const double by_tyres = car.grip * friction * gravity;
+        const double by_tyres = car.grip * friction * world::gravity;
         const double deceleration = std::min(car.brake_deceleration, by_tyres);
-        const double air = 0.5 * air_density * car.catalogue->drag_area / car.catalogue->mass;
+        const double air =
+            0.5 * world::air_density * car.catalogue->drag_area / car.catalogue->mass;
         const double expected = std::log1p(air * speed * speed / deceleration) / (2 * air);
         EXPECT_NEAR(distance, expected, 0.05 * expected) << friction;
         const double by_grip = speed * speed / (2 * by_tyres);
@@ -83,7 +84,7 @@ TEST(Vehicle, StopsOnDryRoadWithinTenPercentOfWhatItsTyresAllow) {
     const double speed = 50 / 3.6;
     ProvingGround ground;
     ground.add_vehicle("sedan", speed);
-    const double expected = speed * speed / (2 * 1.05 * gravity);
+    const double expected = speed * speed / (2 * 1.05 * world::gravity);
     EXPECT_NEAR(test::distance_to_stop(ground, drive(0, 1)), expected, 0.1 * expected);
 }
 
@@ -112,7 +113,7 @@ TEST_P(EveryModel, TurnsAboutTheAckermannCentreAtLowSpeed) {
 
 /// Gillespie, ch. 2: force by the lowest gear at first, by power (F = P / v) later.
 TEST_P(EveryModel, AcceleratesByForceThenByPower) {
-    const CarModel car = car_model(model(GetParam()));
+    const world::CarModel car = world::car_model(model(GetParam()));
     const world::VehicleModel& m = *car.catalogue;
     ProvingGround ground;
     ground.add_vehicle(GetParam(), 0);
@@ -121,8 +122,8 @@ TEST_P(EveryModel, AcceleratesByForceThenByPower) {
     for (int tick = 0; tick < 400; ++tick) {
         const double speed = speed_of(ground.step(drive(1, 0)));
         const double mean = (speed + last) / 2;
-        const double drag = 0.5 * air_density * m.drag_area * mean * mean +
-                            car.rolling_resistance * m.mass * gravity;
+        const double drag = 0.5 * world::air_density * m.drag_area * mean * mean +
+                            car.rolling_resistance * m.mass * world::gravity;
         // The body's squat when it starts and when power takes over moves the rear axle's speed.
         if (tick > 20 && mean * m.max_drive_force > 1.2 * m.power) {
             EXPECT_NEAR((speed - last) / tick_seconds, (m.power / mean - drag) / m.mass, 0.1);
@@ -131,7 +132,7 @@ TEST_P(EveryModel, AcceleratesByForceThenByPower) {
         last = speed;
     }
     EXPECT_TRUE(by_power);
-    EXPECT_LT(last, std::cbrt(m.power / (0.5 * air_density * m.drag_area)));
+    EXPECT_LT(last, std::cbrt(m.power / (0.5 * world::air_density * m.drag_area)));
 }
 
 TEST_P(EveryModel, StandsStillForTenSeconds) {
@@ -187,16 +188,16 @@ TEST_P(EveryModel, StandsOnItsSpringsFromTheFirstTick) {
         double load = 0;
         for (const world::WheelState& wheel : ground.tick().tick.wheels) {
             EXPECT_TRUE(wheel.in_contact());
-            EXPECT_EQ(wheel.surface(), static_cast<std::uint8_t>(world::Surface::road));
+            EXPECT_EQ(wheel.surface(), static_cast<std::uint8_t>(ground::Surface::road));
             load += wheel.suspension_force();
         }
-        const double weight = model(GetParam()).mass * gravity;
+        const double weight = model(GetParam()).mass * world::gravity;
         EXPECT_NEAR(load, weight, 0.01 * weight);
     }
 }
 
 TEST_P(EveryModel, ClimbsAKerbWithoutLeavingTheGroundForLong) {
-    ProvingGround ground(test::kerb_ground(12, world::kerb_height));
+    ProvingGround ground(test::kerb_ground(12, ground::kerb_height));
     ground.add_vehicle(GetParam(), 5);
     double highest = 0;
     double fastest_turn = 0;
@@ -207,17 +208,17 @@ TEST_P(EveryModel, ClimbsAKerbWithoutLeavingTheGroundForLong) {
         fastest_turn =
             std::max(fastest_turn, world::to_eigen(ground.vehicle().angular_velocity()).norm());
     }
-    EXPECT_LT(highest, world::kerb_height + 0.15);
+    EXPECT_LT(highest, ground::kerb_height + 0.15);
     EXPECT_LT(fastest_turn, 2);
-    EXPECT_NEAR(ground.vehicle().position().z(), world::kerb_height, 0.02);
+    EXPECT_NEAR(ground.vehicle().position().z(), ground::kerb_height, 0.02);
     EXPECT_GT(ground.vehicle().position().x(), 14);
     for (const world::WheelState& wheel : ground.tick().tick.wheels)
-        EXPECT_EQ(wheel.surface(), static_cast<std::uint8_t>(world::Surface::sidewalk));
+        EXPECT_EQ(wheel.surface(), static_cast<std::uint8_t>(ground::Surface::sidewalk));
 }
 
 /// Gillespie, ch. 9: the rollover threshold t / (2 h) g. Where the tyres slide first, they save it.
 TEST_P(EveryModel, SlidesOrRollsOverInAFastTurn) {
-    const CarModel car = car_model(model(GetParam()));
+    const world::CarModel car = world::car_model(model(GetParam()));
     const double threshold = car.catalogue->track / (2 * car.com_height);
     ProvingGround ground;
     ground.add_vehicle(GetParam(), 20);
@@ -232,7 +233,7 @@ TEST_P(EveryModel, SlidesOrRollsOverInAFastTurn) {
         EXPECT_LT(last, 0.5);
 }
 
-Eigen::Vector3d velocity_of_mass(const CarModel& car, const world::VehicleState& state) {
+Eigen::Vector3d velocity_of_mass(const world::CarModel& car, const world::VehicleState& state) {
     const Eigen::Vector3d arm =
         world::to_eigen(state.orientation()) * Eigen::Vector3d(car.com_ahead, 0, car.com_height);
     return world::to_eigen(state.velocity()) + world::to_eigen(state.angular_velocity()).cross(arm);
@@ -240,7 +241,7 @@ Eigen::Vector3d velocity_of_mass(const CarModel& car, const world::VehicleState&
 
 /// Newton: nothing but the tyres and the air pushes the mass.
 TEST_P(EveryModel, TurnsNoTighterThanItsGripAllows) {
-    const CarModel car = car_model(model(GetParam()));
+    const world::CarModel car = world::car_model(model(GetParam()));
     for (const double friction : {0.7, 0.4, 0.2}) {
         ProvingGround ground;
         ground.road_friction = friction;
@@ -253,8 +254,8 @@ TEST_P(EveryModel, TurnsNoTighterThanItsGripAllows) {
             most = std::max(most, (velocity - last).head<2>().norm() / tick_seconds);
             last = velocity;
         }
-        const double air = 0.5 * air_density * car.catalogue->drag_area * 15 * 15;
-        const double by_tyres = car.grip * friction * gravity;
+        const double air = 0.5 * world::air_density * car.catalogue->drag_area * 15 * 15;
+        const double by_tyres = car.grip * friction * world::gravity;
         EXPECT_LT(most, 1.05 * (by_tyres + air / car.catalogue->mass)) << friction;
         EXPECT_GT(most, 0.85 * by_tyres) << friction;
     }
@@ -264,7 +265,7 @@ TEST(Vehicle, SteersLeftForPositiveSteeringAndAtALimitedRate) {
     ProvingGround ground;
     ground.add_vehicle("sedan", 8);
     ground.step(drive(0, 0, 1));
-    EXPECT_NEAR(ground.vehicle().steering_angle(), steering_rate * tick_seconds, 1e-12);
+    EXPECT_NEAR(ground.vehicle().steering_angle(), world::steering_rate * tick_seconds, 1e-12);
     for (int tick = 0; tick < 40; ++tick)
         ground.step(drive(0.1, 0, 1));
     EXPECT_NEAR(ground.vehicle().steering_angle(), model("sedan").max_steering_angle, 1e-12);
@@ -281,8 +282,8 @@ TEST(Vehicle, DrivesBackwardsUpToItsReverseSpeed) {
     backwards.mutate_reverse(true);
     for (int tick = 0; tick < 300; ++tick)
         ground.step(backwards);
-    EXPECT_LT(speed_of(ground.vehicle()), -0.9 * reverse_speed);
-    EXPECT_GT(speed_of(ground.vehicle()), -1.01 * reverse_speed);
+    EXPECT_LT(speed_of(ground.vehicle()), -0.9 * world::reverse_speed);
+    EXPECT_GT(speed_of(ground.vehicle()), -1.01 * world::reverse_speed);
     EXPECT_EQ(ground.vehicle().lamps(), world::lamp_reverse);
 }
 
@@ -342,7 +343,7 @@ TEST(Ackermann, WheelsStandOnCirclesAboutOneCentre) {
     const double wheelbase = 2.8;
     const double track = 1.57;
     for (const double angle : {-0.6, -0.1, 0.02, 0.5}) {
-        const AckermannAngles angles = ackermann(angle, wheelbase, track);
+        const world::AckermannAngles angles = world::ackermann(angle, wheelbase, track);
         const double centre = wheelbase / std::tan(angle);
         EXPECT_NEAR(wheelbase / std::tan(angles.left) + track / 2, centre, 1e-9);
         EXPECT_NEAR(wheelbase / std::tan(angles.right) - track / 2, centre, 1e-9);
@@ -354,9 +355,10 @@ TEST(BrushTyre, StartsWithItsStiffnessAndEndsAtItsGrip) {
     const double grip = 1.05;
     const double small = 1e-6;
     EXPECT_NEAR(grip * brush_share(small, stiffness, grip), stiffness * small, 1e-9);
-    EXPECT_DOUBLE_EQ(brush_share(3 * grip / stiffness, stiffness, grip), 1);
-    EXPECT_DOUBLE_EQ(brush_share(9, stiffness, grip), 1);
-    EXPECT_DOUBLE_EQ(brush_share(-0.1, stiffness, grip), brush_share(0.1, stiffness, grip));
+    EXPECT_DOUBLE_EQ(world::brush_share(3 * grip / stiffness, stiffness, grip), 1);
+    EXPECT_DOUBLE_EQ(world::brush_share(9, stiffness, grip), 1);
+    EXPECT_DOUBLE_EQ(world::brush_share(-0.1, stiffness, grip),
+                     world::brush_share(0.1, stiffness, grip));
 }
 
 }  // namespace

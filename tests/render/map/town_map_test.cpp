@@ -13,7 +13,7 @@ namespace {
 using Colour = std::array<int, 3>;
 
 world::SensorFrame map_of(const world::TownT& town, const MapView& view) {
-    return town_map(town, world::build_ground(town), world::build_markings(town), view);
+    return town_map(town, ground::build_ground(town), ground::build_markings(town), view);
 }
 
 Colour at(const world::SensorFrame& map, int x, int y) {

@@ -399,7 +399,7 @@ TEST_F(Traces, DifferInTheirEndWhenOneGoesOn) {
 
 TEST_F(Traces, OfOtherBuildsAreEqualWhenTheirRunsAre) {
     const auto write = [&](const std::string& name, const std::string& compiler, double speed) {
-        replay::Recording start = recording();
+        world::Recording start = recording();
         start.episode.fingerprint.emplace_back();
         start.episode.fingerprint.back().key = "compiler";
         start.episode.fingerprint.back().value = compiler;

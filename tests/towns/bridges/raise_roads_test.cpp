@@ -25,7 +25,7 @@
 #include "world/frames.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 namespace fs = std::filesystem;
@@ -121,17 +121,17 @@ double height_of_street(const world::TownT& town, const Vector2d& near) {
 
 TEST_F(RaiseRoads, CarsPassOverAndUnderAtOnePlace) {
     const world::TownT town = import(interchange({{"bridge", "yes"}, {"layer", "1"}}));
-    const world::GroundMesh ground = world::build_ground(town);
-    const world::GroundProbe probe(ground);
+    const ground::GroundMesh ground = ground::build_ground(town);
+    const ground::GroundProbe probe(ground);
     const Vector2d place = crossing(town);
     const auto deck = probe.below({place.x(), place.y(), 100});
     const auto road = probe.below({place.x(), place.y(), 4.5});
     ASSERT_TRUE(deck && road);
     EXPECT_NEAR(deck->z, 6, 0.01);
-    EXPECT_EQ(deck->surface, world::Surface::road);
+    EXPECT_EQ(deck->surface, ground::Surface::road);
     EXPECT_NEAR(road->z, 0, 0.01) << "and nothing hangs lower than a lorry is high";
-    EXPECT_EQ(road->surface, world::Surface::road);
-    for (const world::Criterion& criterion : world::check_ground(town, ground))
+    EXPECT_EQ(road->surface, ground::Surface::road);
+    for (const towns::Criterion& criterion : towns::check_ground(town, ground))
         EXPECT_TRUE(criterion.passed()) << criterion.name << ": " << criterion.figure;
     EXPECT_THAT(report_, HasSubstr("1 places where a road passes over another"));
 }
@@ -181,11 +181,11 @@ TEST_F(RaiseRoads, TunnelsGoDown) {
     const world::TownT town = import(interchange({{"tunnel", "yes"}, {"layer", "-1"}}));
     const Vector2d place = crossing(town);
     EXPECT_NEAR(height_of_street(town, place + Vector2d(0, 15)), -6, 0.01);
-    const world::GroundMesh ground = world::build_ground(town);
-    const world::GroundProbe probe(ground);
+    const ground::GroundMesh ground = ground::build_ground(town);
+    const ground::GroundProbe probe(ground);
     EXPECT_NEAR(probe.below({place.x(), place.y(), 100})->z, 0, 0.01);
     EXPECT_NEAR(probe.below({place.x(), place.y(), -1.5})->z, -6, 0.01);
-    for (const world::Criterion& criterion : world::check_ground(town, ground))
+    for (const towns::Criterion& criterion : towns::check_ground(town, ground))
         EXPECT_TRUE(criterion.passed()) << criterion.name << ": " << criterion.figure;
 }
 
@@ -233,11 +233,11 @@ std::string crowded_city(unsigned seed) {
 }
 
 /// All that `town check` asks for, but for reading twice.
-std::vector<world::Criterion> all_criteria(const world::TownT& town) {
-    const world::GroundMesh ground = world::build_ground(town);
-    std::vector<world::Criterion> criteria = world::check_ground(town, ground);
+std::vector<towns::Criterion> all_criteria(const world::TownT& town) {
+    const ground::GroundMesh ground = ground::build_ground(town);
+    std::vector<towns::Criterion> criteria = towns::check_ground(town, ground);
     criteria.push_back(check_walking(town, WalkMap(ground)));
-    for (const world::Criterion& criterion : world::check_furniture(town))
+    for (const towns::Criterion& criterion : towns::check_furniture(town))
         criteria.push_back(criterion);
     return criteria;
 }
@@ -245,7 +245,7 @@ std::vector<world::Criterion> all_criteria(const world::TownT& town) {
 TEST_F(RaiseRoads, NoTownIsSpoiltByItsBridges) {
     for (const unsigned seed : {2U, 3U}) {
         const world::TownT town = import(crowded_city(seed));
-        for (const world::Criterion& criterion : all_criteria(town))
+        for (const towns::Criterion& criterion : all_criteria(town))
             EXPECT_TRUE(criterion.passed()) << seed << ": " << criterion.name;
         EXPECT_LT(steepest_lane(town), 0.15) << seed;
         EXPECT_THAT(report_, HasSubstr("flat: ")) << seed;
@@ -275,7 +275,7 @@ TEST_F(RaiseRoads, OneOfTwoThatAreTooNearStaysFlat) {
     EXPECT_NEAR(height_of_street(town, west + Vector2d(1100, 24)), 6, 0.01);
     // Its ramp now crosses the second road, which comes up to it.
     EXPECT_GT(height_of_street(town, west + Vector2d(1100, 110)), 1);
-    for (const world::Criterion& criterion : all_criteria(town))
+    for (const towns::Criterion& criterion : all_criteria(town))
         EXPECT_TRUE(criterion.passed()) << criterion.name;
 }
 
@@ -336,4 +336,4 @@ TEST_F(RaiseRoads, LowBridgesAndSteepRampsAreFaults) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

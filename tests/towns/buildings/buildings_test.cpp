@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/towns/sampled_town.h"
 #include "tests/support/towns.h"
+#include "tests/towns/sampled_town.h"
 #include "towns/furnish/clearance.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using Eigen::Vector2d;
@@ -105,4 +105,4 @@ TEST_P(AnyBuildings, SightTrianglesOfUnlitJunctionsAreFree) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

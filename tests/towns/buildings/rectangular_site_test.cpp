@@ -6,7 +6,7 @@
 
 #include "tests/support/worlds.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using Eigen::Vector2d;
@@ -102,4 +102,4 @@ TEST(RectangularSite, PorchesStayOffTheSidewalk) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

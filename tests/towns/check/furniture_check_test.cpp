@@ -9,7 +9,7 @@
 namespace reprise {
 namespace {
 
-using world::Criterion;
+using towns::Criterion;
 using world::TownT;
 
 constexpr std::size_t heads = 0;
@@ -46,21 +46,21 @@ TEST(FurnitureCheck, WantsAHeadForEverySignal) {
         signal.lane = at(town, "west_in_1");
     }
     town.signals[2].lane = at(town, "east_in_1");
-    EXPECT_EQ(world::check_furniture(town)[heads].figure, 2) << "two lanes";
+    EXPECT_EQ(towns::check_furniture(town)[heads].figure, 2) << "two lanes";
     town.heads.resize(1);
     town.heads[0].signals = {0, 1};
-    const Criterion dark = world::check_furniture(town)[heads];
+    const Criterion dark = towns::check_furniture(town)[heads];
     EXPECT_EQ(dark.figure, 1);
     EXPECT_EQ(dark.worst[0].name, "t for east_in_1");
     town.heads[0].signals = {0, 1, 2};
-    EXPECT_TRUE(world::check_furniture(town)[heads].passed());
+    EXPECT_TRUE(towns::check_furniture(town)[heads].passed());
 }
 
 TEST(FurnitureCheck, WantsSpawnPointsOnTheirLanes) {
     TownT town = test::t_junction();
-    EXPECT_FALSE(world::check_furniture(town)[spawn_points].passed()) << "there are none";
+    EXPECT_FALSE(towns::check_furniture(town)[spawn_points].passed()) << "there are none";
     town.spawn_points = {spawn(town, "west_in_1", 20)};
-    EXPECT_TRUE(world::check_furniture(town)[spawn_points].passed());
+    EXPECT_TRUE(towns::check_furniture(town)[spawn_points].passed());
 
     for (const auto& spoil : std::vector<void (*)(world::SpawnPoint&)>{
              [](world::SpawnPoint& point) { point.mutate_s(30); },
@@ -72,21 +72,21 @@ TEST(FurnitureCheck, WantsSpawnPointsOnTheirLanes) {
              }}) {
         town.spawn_points = {spawn(town, "west_in_1", 20)};
         spoil(town.spawn_points[0]);
-        EXPECT_EQ(world::check_furniture(town)[spawn_points].figure, 1);
+        EXPECT_EQ(towns::check_furniture(town)[spawn_points].figure, 1);
     }
 }
 
 TEST(FurnitureCheck, FindsWhatStandsOnALane) {
     TownT town = test::t_junction();
     town.buildings = {house(20, 14)};
-    EXPECT_TRUE(world::check_furniture(town)[ways].passed());
+    EXPECT_TRUE(towns::check_furniture(town)[ways].passed());
     // Its southern face comes down to y = 1: 0.75 m from the lane at 1.75 m.
     town.buildings = {house(20, 6.5)};
-    const Criterion wall = world::check_furniture(town)[ways];
+    const Criterion wall = towns::check_furniture(town)[ways];
     EXPECT_FALSE(wall.passed());
     EXPECT_EQ(wall.worst[0].name, "building 0 on west_out_0");
     town.spawn_points = {spawn(town, "west_out_1", 20)};
-    EXPECT_EQ(world::check_furniture(town)[spawn_points].figure, 1);
+    EXPECT_EQ(towns::check_furniture(town)[spawn_points].figure, 1);
 }
 
 TEST(FurnitureCheck, LetsPolesStandAtTheEdgeOfASidewalk) {
@@ -97,9 +97,9 @@ TEST(FurnitureCheck, LetsPolesStandAtTheEdgeOfASidewalk) {
     pole.mutate_height(7);
     pole.mutable_position() = world::Vec3(20, 4.0, 0);
     town.props = {pole};
-    EXPECT_TRUE(world::check_furniture(town)[ways].passed());
+    EXPECT_TRUE(towns::check_furniture(town)[ways].passed());
     town.props[0].mutable_position() = world::Vec3(20, 4.5, 0);
-    EXPECT_FALSE(world::check_furniture(town)[ways].passed())
+    EXPECT_FALSE(towns::check_furniture(town)[ways].passed())
         << "0.25 m from the sidewalk's middle";
 }
 
@@ -107,9 +107,9 @@ TEST(FurnitureCheck, LetsThingsStandUnderABridge) {
     TownT town = test::bridge();
     town.buildings = {house(0, 12)};
     town.buildings[0].mutate_height(4);
-    EXPECT_TRUE(world::check_furniture(town)[ways].passed());
+    EXPECT_TRUE(towns::check_furniture(town)[ways].passed());
     town.buildings[0].mutate_height(8);
-    EXPECT_FALSE(world::check_furniture(town)[ways].passed());
+    EXPECT_FALSE(towns::check_furniture(town)[ways].passed());
 }
 
 }  // namespace

@@ -10,10 +10,10 @@
 namespace reprise {
 namespace {
 
-using world::Criterion;
-using world::GroundMesh;
+using ground::GroundMesh;
+using ground::Surface;
+using towns::Criterion;
 using world::LaneKind;
-using world::Surface;
 using world::TownT;
 
 const Criterion& find(const std::vector<Criterion>& criteria, const std::string& name) {
@@ -41,7 +41,7 @@ TEST(GroundCheck, PassesTheGroundOfItsTown) {
                               test::bridge(),
                               test::bend(),
                               test::straight_road(100, 2)})
-        for (const Criterion& criterion : world::check_ground(town, world::build_ground(town)))
+        for (const Criterion& criterion : towns::check_ground(town, ground::build_ground(town)))
             EXPECT_TRUE(criterion.passed())
                 << town.name << ": " << criterion.name << ' ' << criterion.figure;
 }
@@ -65,7 +65,7 @@ TownT climb_to_a_junction() {
 
 TEST(GroundCheck, ALevelJunctionDoesNotStickOutOfASlopingRoad) {
     const TownT town = climb_to_a_junction();
-    for (const Criterion& criterion : world::check_ground(town, world::build_ground(town)))
+    for (const Criterion& criterion : towns::check_ground(town, ground::build_ground(town)))
         if (criterion.name.starts_with("ground")) {
             EXPECT_LT(criterion.figure, 0.02) << criterion.name;
         }
@@ -73,8 +73,8 @@ TEST(GroundCheck, ALevelJunctionDoesNotStickOutOfASlopingRoad) {
 
 TEST(GroundCheck, MeasuresHowFarTheGroundIsOffItsLane) {
     const TownT town = test::t_junction();
-    const GroundMesh ground = moved(world::build_ground(town), Surface::road, {0, 0, 0.08});
-    const auto criteria = world::check_ground(town, ground);
+    const GroundMesh ground = moved(ground::build_ground(town), Surface::road, {0, 0, 0.08});
+    const auto criteria = towns::check_ground(town, ground);
     const Criterion& off = find(criteria, "ground under lanes");
     EXPECT_FALSE(off.passed());
     EXPECT_NEAR(off.figure, 0.08, 1e-9);
@@ -99,7 +99,7 @@ Criterion wheels_on(double (*height)(double)) {
         ground.triangles.push_back({first, first + 3, first + 1});
         ground.surfaces.insert(ground.surfaces.end(), 2, Surface::road);
     }
-    return find(world::check_ground(town, ground), "ground under wheels");
+    return find(towns::check_ground(town, ground), "ground under wheels");
 }
 
 TEST(GroundCheck, WheelsMayStandOnABankButNotOnAStep) {
@@ -111,9 +111,9 @@ TEST(GroundCheck, WheelsMayStandOnABankButNotOnAStep) {
 
 TEST(GroundCheck, NamesTheLaneWithoutARoad) {
     TownT town = test::t_junction();
-    const GroundMesh ground = world::build_ground(town);
+    const GroundMesh ground = ground::build_ground(town);
     town.lanes.push_back(test::lane("nowhere_0", LaneKind::driving, {{0, 40, 0}, {40, 40, 0}}));
-    const Criterion off = find(world::check_ground(town, ground), "ground under lanes");
+    const Criterion off = find(towns::check_ground(town, ground), "ground under lanes");
     EXPECT_FALSE(off.passed());
     ASSERT_EQ(off.worst.size(), 1U);
     EXPECT_EQ(off.worst[0].name, "nowhere_0");
@@ -123,12 +123,12 @@ TEST(GroundCheck, NamesTheLaneWithoutARoad) {
 TEST(GroundCheck, MeasuresTheDistanceOfKerbs) {
     // The northern sidewalk starts 1.75 m from the centre line of the lanes that go west.
     const TownT town = test::straight_road(100);
-    const GroundMesh ground = world::build_ground(town);
-    const double clear = find(world::check_ground(town, ground), "kerbs clear of lanes").figure;
+    const GroundMesh ground = ground::build_ground(town);
+    const double clear = find(towns::check_ground(town, ground), "kerbs clear of lanes").figure;
     EXPECT_NEAR(clear, 1.75, 0.01);
     const GroundMesh nearer =
         moved(moved(ground, Surface::kerb, {0, 1.2, 0}), Surface::sidewalk, {0, 1.2, 0});
-    const Criterion kerbs = find(world::check_ground(town, nearer), "kerbs clear of lanes");
+    const Criterion kerbs = find(towns::check_ground(town, nearer), "kerbs clear of lanes");
     EXPECT_FALSE(kerbs.passed());
     EXPECT_NEAR(kerbs.figure, clear - 1.2, 0.01);
 }
@@ -149,9 +149,9 @@ void add_sidewalk(GroundMesh& ground, const Eigen::Vector3d& low, double length,
 
 TEST(GroundCheck, CountsSplintersOfSidewalk) {
     const TownT town = test::bend();
-    GroundMesh ground = world::build_ground(town);
+    GroundMesh ground = ground::build_ground(town);
     const auto splinters = [&] {
-        return find(world::check_ground(town, ground), "splinters of sidewalk");
+        return find(towns::check_ground(town, ground), "splinters of sidewalk");
     };
     EXPECT_TRUE(splinters().passed());
     add_sidewalk(ground, {20, 20, 0.15}, 1.9, 2);
@@ -174,13 +174,13 @@ TEST(GroundCheck, ComparesTheHeightOfKerbsWhereTheyLie) {
     town.low = {0, -2, 0};
     town.high = {150, 2, 12};
     const auto clear_of_kerb = [&](double x, double z) {
-        GroundMesh ground = world::build_ground(town);
+        GroundMesh ground = ground::build_ground(town);
         const auto first = static_cast<std::uint32_t>(ground.vertices.size());
         for (const auto& [dx, y] : {std::pair{0, 0.5}, std::pair{2, 0.5}, std::pair{1, 1.5}})
             ground.vertices.emplace_back(x + dx, y, z);
         ground.triangles.push_back({first, first + 1, first + 2});
         ground.surfaces.push_back(Surface::sidewalk);
-        return find(world::check_ground(town, ground), "kerbs clear of lanes").figure;
+        return find(towns::check_ground(town, ground), "kerbs clear of lanes").figure;
     };
     // On the road at its upper end; then at the road's mean height, 5 m below that end.
     EXPECT_NEAR(clear_of_kerb(140, 11.4), 0.5, 0.01);
@@ -202,35 +202,35 @@ TEST(GroundCheck, HairpinsOverAWalkingAreaAreKeptClear) {
                                      {211.2, 201, 0},
                                      {227.7, 204.6, 0}}));
     town.high = {260, 240, 1};
-    const auto criteria = world::check_ground(town, world::build_ground(town));
+    const auto criteria = towns::check_ground(town, ground::build_ground(town));
     for (const char* name : {"kerbs clear of lanes", "ground under wheels"})
         EXPECT_TRUE(find(criteria, name).passed()) << name << ' ' << find(criteria, name).figure;
 }
 
 TEST(GroundCheck, CountsHolesAndGaps) {
     TownT town = test::t_junction();
-    GroundMesh ground = world::build_ground(town);
+    GroundMesh ground = ground::build_ground(town);
     GroundMesh roads{ground.vertices, {}, {}};
     for (std::size_t i = 0; i < ground.triangles.size(); ++i)
         if (ground.surfaces[i] != Surface::terrain) {
             roads.triangles.push_back(ground.triangles[i]);
             roads.surfaces.push_back(ground.surfaces[i]);
         }
-    EXPECT_GT(find(world::check_ground(town, roads), "holes in the ground").figure, 100);
+    EXPECT_GT(find(towns::check_ground(town, roads), "holes in the ground").figure, 100);
 
-    EXPECT_EQ(find(world::check_ground(town, ground), "lanes join").figure, 0.05) << "no links yet";
+    EXPECT_EQ(find(towns::check_ground(town, ground), "lanes join").figure, 0.05) << "no links yet";
     // east_in_1 leads to west_out_1 by :t_2_0, which starts where it ends.
     const auto at = [&](const char* name) { return *world::find_lane(town, name); };
     town.lanes[at("east_in_1")].links = {
         world::Link(at("west_out_1"), at(":t_2_0"), world::none, world::Turn::straight, false, 0)};
-    EXPECT_EQ(find(world::check_ground(town, ground), "lanes join").figure, 0);
+    EXPECT_EQ(find(towns::check_ground(town, ground), "lanes join").figure, 0);
     town.lanes[at(":t_2_0")].centre[0] = world::Vec3(60, 1.75, 0.2);
-    EXPECT_NEAR(find(world::check_ground(town, ground), "lanes join").figure, 0.2, 1e-9);
+    EXPECT_NEAR(find(towns::check_ground(town, ground), "lanes join").figure, 0.2, 1e-9);
 }
 
 TEST(GroundProbe, AgreesWithAPlumbLineThatAsksEveryTriangle) {
-    const GroundMesh ground = world::build_ground(test::t_junction(0.04));
-    const world::GroundProbe probe(ground);
+    const GroundMesh ground = ground::build_ground(test::t_junction(0.04));
+    const ground::GroundProbe probe(ground);
     int hits = 0;
     // Off every border of a surface: which side of it counts is not promised.
     for (double x = -3.3; x < 105; x += 3.7)
@@ -248,8 +248,8 @@ TEST(GroundProbe, AgreesWithAPlumbLineThatAsksEveryTriangle) {
 }
 
 TEST(GroundProbe, FindsTheNearestLevel) {
-    const GroundMesh ground = world::build_ground(test::bridge());
-    const world::GroundProbe probe(ground);
+    const GroundMesh ground = ground::build_ground(test::bridge());
+    const ground::GroundProbe probe(ground);
     EXPECT_NEAR(probe.nearest({0.5, 0.5, 9})->z, 6, 1e-6);
     EXPECT_NEAR(probe.nearest({0.5, 0.5, 3.1})->z, 6, 1e-6);
     EXPECT_NEAR(probe.nearest({0.5, 0.5, 2.9})->z, 0, 1e-6);
@@ -260,11 +260,11 @@ TEST(GroundProbe, FindsTheNearestLevel) {
 }
 
 TEST(GroundCheck, SeesEveryBitOfAMesh) {
-    const GroundMesh ground = world::build_ground(test::t_junction());
+    const GroundMesh ground = ground::build_ground(test::t_junction());
     GroundMesh other = ground;
-    EXPECT_EQ(world::digest_of(ground), world::digest_of(other));
+    EXPECT_EQ(towns::digest_of(ground), towns::digest_of(other));
     other.vertices[3].z() += 1e-12;
-    EXPECT_NE(world::to_hex(world::digest_of(ground)), world::to_hex(world::digest_of(other)));
+    EXPECT_NE(world::to_hex(towns::digest_of(ground)), world::to_hex(towns::digest_of(other)));
 }
 
 }  // namespace

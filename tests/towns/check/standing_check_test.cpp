@@ -8,7 +8,7 @@
 namespace reprise {
 namespace {
 
-using world::Criterion;
+using towns::Criterion;
 using world::Prop;
 using world::PropKind;
 using world::TownT;
@@ -18,7 +18,7 @@ constexpr std::size_t things = 0;
 constexpr std::size_t doors = 1;
 
 std::vector<Criterion> check(const TownT& town) {
-    return world::check_standing(town, world::build_ground(town));
+    return towns::check_standing(town, ground::build_ground(town));
 }
 
 Prop prop(PropKind kind, const Vec3& foot, double yaw = 0, double length = 1, double width = 1) {
@@ -27,7 +27,7 @@ Prop prop(PropKind kind, const Vec3& foot, double yaw = 0, double length = 1, do
 
 /// What a plumb line that starts at this height meets.
 Vec3 on_ground(const TownT& town, double x, double y, double from = 100) {
-    const auto hit = test::plumb(world::build_ground(town), {x, y, from});
+    const auto hit = test::plumb(ground::build_ground(town), {x, y, from});
     EXPECT_TRUE(hit.has_value());
     return {x, y, hit ? hit->z : 0};
 }

@@ -6,12 +6,12 @@
 #include "towns/check/walk_check.h"
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using Eigen::Vector3d;
-using world::GroundMesh;
-using world::Surface;
+using ground::GroundMesh;
+using ground::Surface;
 
 void add_rectangle(
     GroundMesh& mesh, double x0, double y0, double x1, double y1, double z, Surface surface) {
@@ -123,13 +123,13 @@ TEST(WalkMap, MeansTheSameFarFromTheOrigin) {
 
 TEST(WalkCheck, FindsTheSidewalksOfTown1Connected) {
     const world::TownT& town = test::own_town("town1").town;
-    const WalkMap map(world::build_ground(town));
+    const WalkMap map(ground::build_ground(town));
     EXPECT_EQ(check_walking(town, map).figure, 100);
 }
 
 TEST(WalkCheck, LeavesOutSidewalksThatTheNetworkDoesNotJoin) {
     world::TownT town = test::own_town("town2").town;
-    const WalkMap map(world::build_ground(town));
+    const WalkMap map(ground::build_ground(town));
     // A strip far away, without links: a sixth of all sidewalks.
     world::LaneT strip;
     strip.name = "strip";
@@ -137,7 +137,7 @@ TEST(WalkCheck, LeavesOutSidewalksThatTheNetworkDoesNotJoin) {
     strip.length = 500;
     strip.centre = {{5000, 0, 0}, {5500, 0, 0}};
     town.lanes.push_back(strip);
-    const world::Criterion joined = check_walking(town, map);
+    const towns::Criterion joined = check_walking(town, map);
     EXPECT_EQ(joined.figure, 100);
     EXPECT_NE(joined.looked_at.find("that the network joins"), std::string::npos);
     // Where no two are joined, it counts as well.
@@ -149,18 +149,18 @@ TEST(WalkCheck, LeavesOutSidewalksThatTheNetworkDoesNotJoin) {
 TEST(WalkCheck, CountsPairsWithoutAWay) {
     // Only the ground of a half of the town.
     const world::TownT& town = test::own_town("town2").town;
-    GroundMesh ground = world::build_ground(town);
+    GroundMesh ground = ground::build_ground(town);
     GroundMesh half{ground.vertices, {}, {}};
     for (std::size_t i = 0; i < ground.triangles.size(); ++i)
         if (ground.vertices[ground.triangles[i][0]].x() < 100) {
             half.triangles.push_back(ground.triangles[i]);
             half.surfaces.push_back(ground.surfaces[i]);
         }
-    const world::Criterion connected = check_walking(town, WalkMap(half));
+    const towns::Criterion connected = check_walking(town, WalkMap(half));
     EXPECT_FALSE(connected.passed());
     EXPECT_LT(connected.figure, 60);
     EXPECT_EQ(connected.worst.size(), 5U);
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using world::Vec3;
@@ -40,4 +40,4 @@ TEST(Clearance, FindsWhatCrossesWithoutACornerInside) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

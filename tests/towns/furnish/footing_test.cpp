@@ -12,7 +12,7 @@
 #include "towns/check/standing_check.h"
 #include "towns/scenery.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using Eigen::Vector2d;
@@ -38,7 +38,8 @@ TownT street(double slope, const Place& place = {}) {
 }
 
 double figure(const TownT& town, const std::string& name) {
-    for (const world::Criterion& criterion : world::check_standing(town, world::build_ground(town)))
+    for (const towns::Criterion& criterion :
+         towns::check_standing(town, ground::build_ground(town)))
         if (criterion.name == name)
             return criterion.figure;
     ADD_FAILURE() << "no criterion " << name;
@@ -68,8 +69,8 @@ TEST(Footing, LevelTownsNeedNoGround) {
     EXPECT_TRUE(Footing(town).is_level());
     EXPECT_EQ(Footing(town).at(Vector2d(1e6, 0), 3), 3);
     for (const world::Tree& tree : town.trees)
-        EXPECT_TRUE(tree.position().z() == -world::terrain_depth ||
-                    tree.position().z() == world::kerb_height)
+        EXPECT_TRUE(tree.position().z() == -ground::terrain_depth ||
+                    tree.position().z() == ground::kerb_height)
             << tree.position().z();
     for (const world::Building& building : town.buildings)
         EXPECT_EQ(building.centre().z(), 0);
@@ -159,4 +160,4 @@ TEST(Floors, OfDrawnBuildingsFaceTheStreet) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -10,7 +10,7 @@
 #include "tests/support/towns.h"
 #include "world/frames.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 /// A T: `main` goes through, `side` ends there, with a crossing over it that all must respect.
@@ -110,4 +110,4 @@ TEST(GiveWay, SideStreetsOfOurTownsYield) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

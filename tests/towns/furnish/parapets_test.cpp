@@ -6,7 +6,7 @@
 
 #include "towns/check/furniture_check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using world::LaneT;
@@ -55,7 +55,7 @@ TEST(Parapets, StandOnBothSidesWhereARoadPassesBelow) {
     // The road below, its verges, and some metres before and behind.
     EXPECT_GT(left, 3.5 + 2 * 6);
     EXPECT_NEAR(left, right, 1e-6);
-    for (const world::Criterion& criterion : world::check_furniture(town)) {
+    for (const towns::Criterion& criterion : towns::check_furniture(town)) {
         if (criterion.name == "things in the way") {
             EXPECT_TRUE(criterion.passed()) << criterion.figure;
         }
@@ -78,4 +78,4 @@ TEST(Parapets, LeaveRoomForARoadBeside) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -11,11 +11,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/towns/sampled_town.h"
 #include "tests/support/towns.h"
+#include "tests/towns/sampled_town.h"
 #include "world/frames.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using Eigen::Vector3d;
@@ -193,4 +193,4 @@ TEST(Signs, ShowNoHigherFigureThanTheLimit) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

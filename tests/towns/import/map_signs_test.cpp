@@ -18,7 +18,7 @@
 #include "world/geometry2d.h"
 #include "world/town.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 namespace fs = std::filesystem;
@@ -140,4 +140,4 @@ TEST_F(MapSigns, BridgesAreStillFoundBehindSigns) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

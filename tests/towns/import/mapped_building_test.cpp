@@ -5,7 +5,7 @@
 #include "ground/mesh/roofs.h"
 #include "tests/support/worlds.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using world::RoofKind;
@@ -45,10 +45,10 @@ TEST_F(MappedBuilding, IsAsHighAsTheMapSays) {
                 {{"building", tag}, {"height", std::to_string(ridge)}}, rectangle(12, 9.5), draw);
             const auto f = standing(building);
             ASSERT_TRUE(f) << tag << ridge;
-            const float rise = world::roof_rise(model(building),
-                                                static_cast<float>(f->length / 2),
-                                                static_cast<float>(f->width / 2),
-                                                world::building_seed(building.style));
+            const float rise = ground::roof_rise(model(building),
+                                                 static_cast<float>(f->length / 2),
+                                                 static_cast<float>(f->width / 2),
+                                                 ground::building_seed(building.style));
             EXPECT_NEAR(building.height + static_cast<double>(rise), ridge, 0.01)
                 << model(building).name;
             EXPECT_GT(building.height, 2.2);
@@ -74,10 +74,10 @@ TEST_F(MappedBuilding, SpiresEndWhereTheMapSaysIfANaveIsLeft) {
     const auto f = standing(high);
     ASSERT_TRUE(f);
     const auto y = static_cast<float>(f->width / 2);
-    const double rise = static_cast<double>(world::roof_rise(
-        model(high), static_cast<float>(f->length / 2), y, world::building_seed(high.style)));
+    const double rise = static_cast<double>(ground::roof_rise(
+        model(high), static_cast<float>(f->length / 2), y, ground::building_seed(high.style)));
     EXPECT_NEAR(
-        high.height + rise + static_cast<double>(world::spire_rise(model(high), y)), 45, 0.01);
+        high.height + rise + static_cast<double>(ground::spire_rise(model(high), y)), 45, 0.01);
     const auto low = build({{"building", "church"}, {"height", "14"}}, rectangle(28, 13), 3);
     EXPECT_NEAR(low.height + rise, 14, 0.01) << "of the nave";
 }
@@ -98,9 +98,9 @@ TEST_F(MappedBuilding, OddOutlinesKeepTheirHeightToo) {
         const RoofKind roof = model(building).roof;
         const bool pitched = roof == RoofKind::gabled || roof == RoofKind::hipped;
         EXPECT_NEAR(
-            building.height + (pitched ? world::hipped_rise(world::in_plan(kite)) : 0), 9, 1e-9);
+            building.height + (pitched ? ground::hipped_rise(world::in_plan(kite)) : 0), 9, 1e-9);
     }
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -26,7 +26,7 @@
 #include "world/frames.h"
 #include "world/models/building_models.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 namespace fs = std::filesystem;
@@ -186,10 +186,10 @@ TEST_F(Imports, FootprintsKeepTheirPlaceAndHeight) {
     const auto with_ridge = [&](double height) {
         return std::find_if(place.buildings.begin(), place.buildings.end(), [&](const auto& b) {
             const auto [y, x] = std::minmax({side(b, 0) / 2, side(b, 1) / 2});
-            const float rise = world::roof_rise(world::building_models()[b.model - 1],
-                                                static_cast<float>(x),
-                                                static_cast<float>(y),
-                                                world::building_seed(b.style));
+            const float rise = ground::roof_rise(world::building_models()[b.model - 1],
+                                                 static_cast<float>(x),
+                                                 static_cast<float>(y),
+                                                 ground::building_seed(b.style));
             return std::abs(b.height + static_cast<double>(rise) - height) < 0.01;
         });
     };
@@ -804,4 +804,4 @@ TEST_F(Imports, HugeGarbageIsRefusedBeforeItIsRead) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

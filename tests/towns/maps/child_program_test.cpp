@@ -13,7 +13,7 @@
 #include "towns/maps/netconvert.h"
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,4 +110,4 @@ TEST(Reason, IsTheErrorsInOneLine) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -4,7 +4,7 @@
 
 #include "world/models/building_models.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 TEST(MapArea, ReadsLengthsAsPeopleWriteThem) {
@@ -66,4 +66,4 @@ TEST(MapArea, LandIsKnownByItsTags) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -8,7 +8,7 @@
 
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using ::testing::HasSubstr;
@@ -165,4 +165,4 @@ TEST(OpenDrive, MistakesNameTheLine) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -100,4 +100,4 @@ TEST(ReferenceLine, WithoutPiecesLiesAtTheOrigin) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

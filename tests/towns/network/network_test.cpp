@@ -12,7 +12,7 @@
 #include "towns/town_reader.h"
 #include "world/check.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using ::testing::EndsWith;
@@ -180,4 +180,4 @@ TEST_F(NetworkFiles, WhatSumoRefusesIsSaidInItsWords) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

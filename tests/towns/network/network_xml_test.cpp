@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-namespace reprise::traffic {
+#include "world/models/vehicle_classes.h"
+
+namespace reprise::towns {
 
 TEST(NetworkXml, ReadsShapesThatMixTwoAndThreeDimensions) {
     const auto shape = parse_shape("1.5,-2 3,4,5.25  6,7");
@@ -19,15 +21,15 @@ TEST(NetworkXml, DropsRepeatedPoints) {
 }
 
 TEST(NetworkXml, PermissionsFollowSumosRules) {
-    const ClassSet car = class_bit("passenger");
-    const ClassSet bus = class_bit("bus");
-    EXPECT_NE(permitted("", "") & car, 0U);
-    EXPECT_EQ(permitted("", "all"), 0U);
-    EXPECT_EQ(permitted("bus", ""), bus);
-    EXPECT_EQ(permitted("", "passenger") & car, 0U);
-    EXPECT_EQ(permitted("", "passenger") & bus, bus);
-    EXPECT_NE(permitted("all", "passenger") & car, 0U) << "allow wins";
-    EXPECT_EQ(permitted("drone bus", ""), bus) << "unknown words are ignored";
+    const world::ClassSet car = world::class_bit("passenger");
+    const world::ClassSet bus = world::class_bit("bus");
+    EXPECT_NE(world::permitted("", "") & car, 0U);
+    EXPECT_EQ(world::permitted("", "all"), 0U);
+    EXPECT_EQ(world::permitted("bus", ""), bus);
+    EXPECT_EQ(world::permitted("", "passenger") & car, 0U);
+    EXPECT_EQ(world::permitted("", "passenger") & bus, bus);
+    EXPECT_NE(world::permitted("all", "passenger") & car, 0U) << "allow wins";
+    EXPECT_EQ(world::permitted("drone bus", ""), bus) << "unknown words are ignored";
 }
 
 TEST(NetworkXml, CountsLinesFromOne) {
@@ -44,4 +46,4 @@ TEST(NetworkXml, NumbersAreReadInNoLocale) {
     EXPECT_EQ(number("7x8", 1), 1);
 }
 
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -8,7 +8,7 @@
 #include "world/check.h"
 #include "world/models/building_models.h"
 
-namespace reprise::traffic {
+namespace reprise::towns {
 namespace {
 
 using ::testing::HasSubstr;
@@ -113,4 +113,4 @@ TEST(Place, TellsEveryMistakeWithItsLine) {
 }
 
 }  // namespace
-}  // namespace reprise::traffic
+}  // namespace reprise::towns

@@ -1,15 +1,17 @@
-#include "kernel/physics/obstacle.h"
+#include "ground/obstacles.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "ground/mesh/polygons.h"
+#include "world/frames.h"
 #include "world/models/building_models.h"
 
-namespace reprise::kernel {
+namespace reprise::ground {
 
 namespace {
 
+using world::Obstacle;
 using world::PropKind;
 using Shape = Obstacle::Shape;
 
@@ -19,16 +21,20 @@ constexpr double sign_pole_radius = 0.04;
 constexpr double bush_wood = 0.6;  ///< of its radius; outside of that there are twigs and leaves
 
 Obstacle box(const world::Vec3& foot, double yaw, double length, double width, double height) {
-    return {to_bullet(foot),
+    return {world::to_eigen(foot),
             yaw,
-            btVector3(length, width, height) / 2,
+            Eigen::Vector3d(length, width, height) / 2,
             std::hypot(length, width) / 2,
             Shape::box};
 }
 
 Obstacle cylinder(const world::Vec3& foot, double radius, double height) {
     const double seen = std::min(height, tall_enough);
-    return {to_bullet(foot), 0, btVector3(radius, radius, seen / 2), radius, Shape::cylinder};
+    return {world::to_eigen(foot),
+            0,
+            Eigen::Vector3d(radius, radius, seen / 2),
+            radius,
+            Shape::cylinder};
 }
 
 bool is_bush(world::PlantKind kind) {
@@ -59,23 +65,23 @@ Obstacle of_prop(const world::Prop& prop) {
 /// On a slope a wall goes on below the floor: nobody drives under a house.
 Obstacle with_foundation(Obstacle building) {
     building.depth = world::foundation_depth;
-    building.half += btVector3(0, 0, building.depth / 2);
+    building.half.z() += building.depth / 2;
     return building;
 }
 
 /// A drawn building may be concave: prisms over the convex pieces of its outline.
 void add_drawn(const world::DrawnBuildingT& drawn, std::vector<Obstacle>& obstacles) {
     const Eigen::Vector2d origin = world::in_plan(drawn.outline.front());
-    world::Area area(origin);
+    Area area(origin);
     area.add(world::in_plan(drawn.outline));
     const double z = drawn.outline.front().z();
     for (const world::Loop& piece : area.pieces()) {
         Eigen::Vector2d middle = Eigen::Vector2d::Zero();
         for (const Eigen::Vector2d& p : piece)
             middle += p / static_cast<double>(piece.size());
-        Obstacle prism{btVector3(middle.x(), middle.y(), z),
+        Obstacle prism{Eigen::Vector3d(middle.x(), middle.y(), z),
                        0,
-                       btVector3(0, 0, drawn.height / 2),
+                       Eigen::Vector3d(0, 0, drawn.height / 2),
                        0,
                        Shape::prism};
         for (const Eigen::Vector2d& p : piece) {
@@ -118,21 +124,4 @@ std::vector<Obstacle> obstacles_of(const world::TownT& town) {
     return obstacles;
 }
 
-std::unique_ptr<btCollisionShape> make_shape(const Obstacle& obstacle) {
-    switch (obstacle.shape) {
-        case Shape::cylinder:
-            return std::make_unique<btCylinderShapeZ>(obstacle.half);
-        case Shape::prism: {
-            auto hull = std::make_unique<btConvexHullShape>();
-            for (const btVector3& corner : obstacle.corners)
-                for (const double side : {-1.0, 1.0})
-                    hull->addPoint(corner + btVector3(0, 0, side * obstacle.half.z()), false);
-            hull->recalcLocalAabb();
-            return hull;
-        }
-        default:
-            return std::make_unique<btBoxShape>(obstacle.half);
-    }
-}
-
-}  // namespace reprise::kernel
+}  // namespace reprise::ground

@@ -1,21 +1,10 @@
-#include "replay/recording.h"
+#include "replay/chain_seed.h"
 
 #include "replay/trace_format.h"
-#include "world/digest.h"
 
 namespace reprise::replay {
 
-std::uint64_t tick_limit(const world::EpisodeT& episode) {
-    return episode.branches.empty() ? episode.max_ticks : episode.branches.back().max_ticks;
-}
-
-void limit_ticks(world::EpisodeT& episode, std::uint64_t ticks) {
-    while (!episode.branches.empty() && episode.branches.back().tick >= ticks)
-        episode.branches.pop_back();
-    (episode.branches.empty() ? episode.max_ticks : episode.branches.back().max_ticks) = ticks;
-}
-
-world::Digest128 chain_seed(const Recording& recording) {
+world::Digest128 chain_seed(const world::Recording& recording) {
     const world::EpisodeT& episode = recording.episode;
     world::Hasher hasher;
     hasher.add_text("reprise chain 1");

@@ -4,15 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "world/digest.h"
 #include "world/episode_generated.h"
 #include "world/town_generated.h"
 
-namespace reprise::replay {
+namespace reprise::world {
 
 /// All that a run starts from: what a trace carries so that it can be verified and rendered alone.
 struct Recording {
-    world::EpisodeT episode;
-    world::TownT town;
+    EpisodeT episode;
+    TownT town;
     std::string network;  ///< bytes of the SUMO network
     /// The town's bytes in the trace that it was read from: an older program packed fewer fields.
     /// Empty: `town` was never in a trace.
@@ -29,19 +30,15 @@ struct Outcome {
 
 /// Where a part of a run begins.
 struct SliceStart {
-    std::uint64_t first = 1;          ///< its first tick
-    std::uint64_t run_ticks = 0;      ///< how many the whole run had
-    world::Digest128 chain_before{};  ///< the chain's value before that tick
+    std::uint64_t first = 1;      ///< its first tick
+    std::uint64_t run_ticks = 0;  ///< how many the whole run had
+    Digest128 chain_before{};     ///< the chain's value before that tick
 };
 
 /// The last tick that a run can have.
-std::uint64_t tick_limit(const world::EpisodeT& episode);
+std::uint64_t tick_limit(const EpisodeT& episode);
 
 /// Makes it end there; what would have branched off behind it is left out.
-void limit_ticks(world::EpisodeT& episode, std::uint64_t ticks);
+void limit_ticks(EpisodeT& episode, std::uint64_t ticks);
 
-/// The chain's value before tick 1: of everything in the recording that decides the run;
-/// what branches off does not yet.
-world::Digest128 chain_seed(const Recording& recording);
-
-}  // namespace reprise::replay
+}  // namespace reprise::world
