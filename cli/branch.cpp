@@ -14,12 +14,12 @@
 #include "cli/fingerprint/self_test.h"
 #include "cli/fingerprint/this_build.h"
 #include "cli/options/tick_option.h"
-#include "cli/process/child_processes.h"
 #include "cli/process/guard.h"
 #include "cli/process/output.h"
 #include "cli/process/progress.h"
 #include "cli/process/reproduce.h"
 #include "kernel/verify.h"
+#include "process/copy.h"
 #include "replay/imported.h"
 #include "replay/slice.h"
 #include "replay/trace_reader.h"
@@ -32,6 +32,7 @@ namespace reprise::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using How = process::CopyResult::How;
 
 struct WhatIf {
     std::string script;  ///< names the output; the parent trace when its own script goes on
@@ -98,31 +99,39 @@ std::vector<WhatIf> plan(const BranchOptions& options,
 }
 
 /// In the child: the parent's ticks as they are recorded, then what the script makes of it.
-int go_on(kernel::Kernel& kernel, replay::TraceReader& trace, const WhatIf& what_if) {
-    try {
-        world::Recording recording = trace.recording();
-        recording.episode.branches.push_back(what_if.branch);
-        recording.episode.fingerprint = this_build();
-        replay::TraceWriter writer(
-            what_if.output, recording, replay::Level::full, replay::Unfinished::remove);
-        for (std::uint64_t index = 1; index <= what_if.branch.tick; ++index)
-            writer.append(trace.tick(index));
-        kernel.branch(what_if.branch);
-        while (!kernel.finished())
-            writer.append(kernel.step());
-        writer.close(kernel.outcome());
-        return exit_good;
-    } catch (const world::Error& error) {
-        fmt::print(stderr, "reprise: {}\n", error.what());
-        return exit_bad_input;
-    }
+void go_on(kernel::Kernel& kernel, replay::TraceReader& trace, const WhatIf& what_if) {
+    world::Recording recording = trace.recording();
+    recording.episode.branches.push_back(what_if.branch);
+    recording.episode.fingerprint = this_build();
+    replay::TraceWriter writer(
+        what_if.output, recording, replay::Level::full, replay::Unfinished::remove);
+    for (std::uint64_t index = 1; index <= what_if.branch.tick; ++index)
+        writer.append(trace.tick(index));
+    kernel.branch(what_if.branch);
+    while (!kernel.finished())
+        writer.append(kernel.step());
+    writer.close(kernel.outcome());
+}
+
+std::vector<process::CopyResult> go_on_in_copies(kernel::Kernel& kernel,
+                                                 replay::TraceReader& trace,
+                                                 const std::vector<WhatIf>& what_ifs) {
+    std::vector<process::Copy> copies;
+    for (const WhatIf& what_if : what_ifs)
+        copies.push_back({.subject = what_if.output, .work = [&] {
+                              go_on(kernel, trace, what_if);
+                              return "";
+                          }});
+    return process::run_copies(process::Children(), copies);
 }
 
 /// What became of one, and the exit code.
-int report(const WhatIf& what_if, int code) {
-    if (code != exit_good) {
+int report(const WhatIf& what_if, const process::CopyResult& result) {
+    if (result.how != How::returned) {
+        if (result.how == How::mistake)
+            fmt::print(stderr, "reprise: {}\n", result.text);
         fmt::print("{}: nothing was written\n", what_if.output.string());
-        return code;
+        return exit_bad_input;
     }
     const replay::TraceReader trace(what_if.output);
     const world::Outcome& outcome = trace.outcome();
@@ -169,11 +178,13 @@ int branch(const BranchOptions& options) {
                    to_text(*divergence, trace.episode().step_ns));
         return exit_differs;
     }
-    const std::vector<int> codes = in_child_processes(
-        what_ifs.size(), [&](std::size_t i) { return go_on(kernel, trace, what_ifs[i]); });
+    const auto results = go_on_in_copies(kernel, trace, what_ifs);
     int code = exit_good;
     for (std::size_t i = 0; i < what_ifs.size(); ++i)
-        code = std::max(code, report(what_ifs[i], codes[i]));
+        code = std::max(code, report(what_ifs[i], results[i]));
+    for (const process::CopyResult& result : results)
+        if (result.how == How::fault)
+            throw std::runtime_error(result.text);
     return code;
 }
 

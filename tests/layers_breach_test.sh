@@ -4,7 +4,7 @@ set -euo pipefail
 source=$1
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
-for room in world scripting traffic replay exchange render kernel cli; do
+for room in world process scripting traffic replay exchange render kernel cli; do
     mkdir -p "$copy/$room"
     cp "$source/$room"/*.{h,cpp} "$copy/$room/" 2>/dev/null || true
 done

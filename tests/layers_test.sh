@@ -6,10 +6,11 @@ cd "${1:-$(dirname "$0")/..}"
 
 declare -A may_include=(
     [world]=""
-    [scripting]="world" [traffic]="world" [replay]="world" [render]="world"
+    [process]="world"
+    [scripting]="world" [traffic]="world process" [replay]="world" [render]="world"
     [exchange]="world replay"
     [kernel]="world scripting traffic replay"
-    [cli]="world scripting traffic replay exchange render kernel"
+    [cli]="world process scripting traffic replay exchange render kernel"
 )
 # Where a library may be named: "room" in its .cpp files only, "room.h" in its headers too.
 declare -A owner=(

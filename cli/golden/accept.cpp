@@ -86,7 +86,7 @@ class Acceptance {
   public:
     Acceptance(const AcceptOptions& options, std::vector<Candidate> candidates)
         : options_(options),
-          runner_(options.jobs == 0 ? default_jobs() : options.jobs),
+          runner_(options.jobs),
           candidates_(std::move(candidates)) {}
 
     int run() {
@@ -131,7 +131,7 @@ class Acceptance {
     int judge(std::size_t i) {
         Candidate& candidate = candidates_[i];
         for (int run = 0; run < 2; ++run) {
-            const GoldenRunResult& result = results_[2 * i + static_cast<std::size_t>(run)];
+            const process::ProgramResult& result = results_[2 * i + static_cast<std::size_t>(run)];
             if (const auto failure = failure_of(result, log(i, run))) {
                 refuse(candidate, failure->headline);
                 fmt::print("{}", failure->text);
@@ -189,7 +189,7 @@ class Acceptance {
     GoldenRunner runner_;
     TemporaryFolder temporary_;
     std::vector<Candidate> candidates_;
-    std::vector<GoldenRunResult> results_;
+    std::vector<process::ProgramResult> results_;
 };
 
 }  // namespace
@@ -204,9 +204,9 @@ int accept(const AcceptOptions& options) {
         check_writable(candidate.tested.golden);
     try {
         return Acceptance(options, std::move(candidates)).run();
-    } catch (const Interrupted& interrupted) {
+    } catch (const process::Stopped& stopped) {
         fmt::print(stderr, "reprise: interrupted; nothing was written\n");
-        return 128 + interrupted.signal;
+        return exit_stopped + stopped.signal;
     }
 }
 

@@ -152,7 +152,7 @@ std::string signature_of(const GoldenDifference& difference) {
                        stages.empty() ? "no stage" : stages.substr(0, stages.find(',')));
 }
 
-std::optional<RunFailure> failure_of(const GoldenRunResult& result,
+std::optional<RunFailure> failure_of(const process::ProgramResult& result,
                                      const std::filesystem::path& log) {
     if (result.signal == 0 && (result.code == exit_good || result.code == exit_differs))
         return std::nullopt;

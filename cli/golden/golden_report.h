@@ -54,7 +54,7 @@ struct RunFailure {
     std::string text;
 };
 
-std::optional<RunFailure> failure_of(const GoldenRunResult& result,
+std::optional<RunFailure> failure_of(const process::ProgramResult& result,
                                      const std::filesystem::path& log);
 
 /// "  key         value", continued lines below the value.

@@ -39,7 +39,7 @@ class Suite {
   public:
     Suite(const TestOptions& options, std::vector<GoldenCase> cases)
         : options_(options),
-          runner_(options.jobs == 0 ? default_jobs() : options.jobs),
+          runner_(options.jobs),
           progress_("testing", "runs", cases.size()),
           running_(cases.size()),
           reports_(cases.size()) {
@@ -167,7 +167,7 @@ class Suite {
         const fs::path second = temporary_ / fmt::format("{}.second.mcap", i);
         const GoldenRun again{run_words(reports_[i].tested, reports_[i].given, second),
                               temporary_ / fmt::format("{}.second.log", i)};
-        const GoldenRunResult result = runner_.run({again}).front();
+        const process::ProgramResult result = runner_.run({again}).front();
         const fs::path first_kept = kept(i, ".mcap");
         copy_file_whole(running.trace, first_kept);
         if (const auto failure = failure_of(result, again.log)) {

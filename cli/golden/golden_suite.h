@@ -14,7 +14,7 @@ struct SuiteResult {
 };
 
 /// Runs all cases that have a golden and says what became of every one. A mistake in a case is that
-/// case's; throws Interrupted when the user ends it.
+/// case's; throws process::Stopped when the user ends it.
 SuiteResult run_suite(const TestOptions& options, std::vector<GoldenCase> cases);
 
 }  // namespace reprise::cli

@@ -106,9 +106,9 @@ int test(const TestOptions& options) {
         if (!options.junit.empty())
             write_junit(options.junit, result.reports, result.seconds);
         return exit_code(counts);
-    } catch (const Interrupted& interrupted) {
+    } catch (const process::Stopped& stopped) {
         fmt::print(stderr, "reprise: interrupted; no run is left behind\n");
-        return 128 + interrupted.signal;
+        return exit_stopped + stopped.signal;
     }
 }
 

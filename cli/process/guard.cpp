@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "cli/process/reproduce.h"
+#include "process/held_signals.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -80,6 +81,9 @@ int guarded(const std::string& command_line, const std::function<int()>& work) {
     } catch (const world::Error& error) {
         std::fprintf(stderr, "reprise: %s\n", error.what());
         return exit_bad_input;
+    } catch (const process::Stopped& stopped) {
+        std::fprintf(stderr, "reprise: %s\n", stopped.what());
+        return exit_stopped + stopped.signal;
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "reprise: out of memory\n");
         return exit_bad_input;

@@ -11,12 +11,13 @@ enum ExitCode : int {
     exit_bad_input = 2,
     exit_nondeterministic = 3,
     exit_with_loss = 3,
-    exit_our_fault = 70
+    exit_our_fault = 70,
+    exit_stopped = 128  ///< and the number of the signal, as shells have it
 };
 
 /// Runs a program's work and turns exceptions into one line on stderr and an exit code: the user's
 /// mistakes into 2, ours into 70 with the command that comes back to the same place. Crashes end
-/// with 70, too.
+/// with 70, too; Ctrl-C while children run with 130.
 int guarded(const std::string& command_line, const std::function<int()>& work);
 
 /// From now on, when this process crashes (SIGSEGV, SIGABRT, SIGBUS, SIGFPE), it says so in one

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cli/process/worker.h"
+#include "process/copy.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -10,6 +10,8 @@ namespace reprise::cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr process::Limits import_limits{.memory = std::uint64_t{8} << 30, .seconds = 600};
 
 /// Removes what was begun, unless it was finished.
 class Partial {
@@ -74,7 +76,9 @@ std::string make_town_folder(const towns::TownImport& wish, const fs::path& fold
         const Partial partial(target.string() + ".partial");
         // In a process of its own: whatever ends that, what it began is removed here.
         const std::string report =
-            in_worker(wish.map.string(), [&] { return towns::import_town(wish, partial.path()); });
+            process::run_copy({.subject = wish.map.string(),
+                               .work = [&] { return towns::import_town(wish, partial.path()); },
+                               .limits = import_limits});
         fs::remove_all(target);
         fs::rename(partial.path(), target);
         return report;

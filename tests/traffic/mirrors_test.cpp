@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "process/program.h"
 #include "tests/support/worlds.h"
 #include "tests/traffic/stage.h"
-#include "towns/maps/child_program.h"
 #include "world/models/catalogue.h"
 #include "world/random.h"
 
@@ -134,8 +134,10 @@ test::Loaded converted(const std::string& name, const char* nodes, const char* e
     std::ofstream(folder / "nodes.xml") << nodes;
     std::ofstream(folder / "edges.xml") << edges;
     const std::string output = name + ".net.xml";
-    const ProgramResult made = run_program(
-        "netconvert", {"-X", "never", "-n", "nodes.xml", "-e", "edges.xml", "-o", output}, folder);
+    const process::ProgramResult made = process::run_program(
+        {.name = "netconvert",
+         .words = {"-X", "never", "-n", "nodes.xml", "-e", "edges.xml", "-o", output},
+         .folder = folder});
     EXPECT_EQ(made.code, 0) << made.said;
     return test::load(folder / output);
 }

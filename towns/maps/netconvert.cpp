@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "towns/maps/child_program.h"
+#include "process/program.h"
 #include "world/check.h"
 
 namespace reprise::towns {
@@ -24,6 +24,9 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
+constexpr process::Limits limits{
+    .memory = std::uint64_t{4} << 30, .seconds = 600, .file = std::uint64_t{2} << 30};
+
 /// Without what could spoil a terminal.
 std::string printable(std::string text) {
     std::replace_if(
@@ -32,6 +35,10 @@ std::string printable(std::string text) {
 }
 
 }  // namespace
+
+std::filesystem::path sumo_folder() {
+    return "/usr/share/sumo";
+}
 
 std::string reason_in(const std::string& said) {
     constexpr std::size_t most = 3;
@@ -71,7 +78,15 @@ int run_sumo_tool(const std::string& program,
                   const std::string& map) {
     // Schemas are looked for in the internet, and OpenDRIVE imports fail without them.
     words.insert(words.end(), {"--xml-validation", "never"});
-    const ProgramResult result = run_program(program, words, scratch);
+    // No variable of ours, which could change what it does.
+    const process::ProgramResult result =
+        process::run_program({.name = program,
+                              .words = std::move(words),
+                              .folder = scratch,
+                              .variables = {"LC_ALL=C", "SUMO_HOME=" + sumo_folder().string()},
+                              .only_these_variables = true,
+                              .package = "sumo",
+                              .limits = limits});
     if (!result.stopped.empty())
         throw world::Error(
             fmt::format("{}: {} {}: {}", map, program, result.stopped, reason_in(result.said)));

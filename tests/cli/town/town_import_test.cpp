@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -85,6 +86,23 @@ TEST(TownImport, ClearsAwayWhatAnInterruptedOneLeft) {
     write_file(folder / "w.partial/mine.txt", "mine");
     EXPECT_EQ(reprise({"town", "import", village(), "-o", "w"}, folder.path()).code, 2);
     EXPECT_EQ(read_file(folder / "w.partial/mine.txt"), "mine");
+}
+
+TEST(TownImport, InterruptedOneLeavesNothingAndSaysBySignal) {
+    const Folder tools;
+    const Folder folder;
+    // Stands in for netconvert: interrupts the program whose copy called it, and would go on.
+    write_file(tools / "netconvert",
+               "#!/bin/sh\nread -r _ _ _ program _ </proc/$PPID/stat\nkill -TERM $program\n"
+               "sleep 1000 &\nwait\n");
+    std::filesystem::permissions(tools / "netconvert", std::filesystem::perms::owner_all);
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", (tools.path().string() + ":" + path).c_str(), 1);
+    const Result result = reprise({"town", "import", village(), "-o", "v"}, folder.path());
+    setenv("PATH", path.c_str(), 1);
+    EXPECT_EQ(result.code, 128 + SIGTERM);
+    EXPECT_EQ(result.out, "reprise: stopped (Terminated)\n");
+    EXPECT_THAT(folder.files(), ElementsAre());
 }
 
 struct Mistake {

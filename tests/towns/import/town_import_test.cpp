@@ -16,11 +16,11 @@
 #include <zlib.h>
 
 #include "ground/mesh/roofs.h"
+#include "process/program.h"
 #include "tests/towns/street_map.h"
 #include "tests/traffic/stage.h"
 #include "towns/import/right_of_way.h"
 #include "towns/import/signal_sites.h"
-#include "towns/maps/child_program.h"
 #include "towns/network/place.h"
 #include "world/check.h"
 #include "world/frames.h"
@@ -403,11 +403,12 @@ TEST_F(Imports, SidewalksAreGuessedOnRequest) {
 TEST_F(Imports, OurOwnTownComesBackThroughOpenDrive) {
     const fs::path own = fs::path(REPRISE_SOURCE_DIR) / "scenarios/towns/town2/town2.net.xml";
     fs::copy_file(own, folder_ / "in.xml");
-    ASSERT_EQ(run_program("netconvert",
-                          {"-X", "never", "-s", "in.xml", "--opendrive-output", "own.xodr"},
-                          folder_)
-                  .code,
-              0);
+    ASSERT_EQ(
+        process::run_program({"netconvert",
+                              {"-X", "never", "-s", "in.xml", "--opendrive-output", "own.xodr"},
+                              folder_})
+            .code,
+        0);
     import_town({folder_ / "own.xodr", "", false, false}, empty("t"));
     const world::TownT town = read_town(load_network(folder_ / "t/own.net.xml"));
     const world::TownT& same = test::own_town("town2").town;
@@ -444,11 +445,12 @@ TEST_F(Imports, LightsStayWhereTheHeaderMovesTheMap) {
                 "origBoundary='10,52,11,53' projParameter='+proj=utm +zone=32 +ellps=WGS84 "
                 "+datum=WGS84 +units=m +no_defs'/>");
     write("in.xml", net);
-    ASSERT_EQ(run_program("netconvert",
-                          {"-X", "never", "-s", "in.xml", "--opendrive-output", "moved.xodr"},
-                          folder_)
-                  .code,
-              0);
+    ASSERT_EQ(
+        process::run_program({"netconvert",
+                              {"-X", "never", "-s", "in.xml", "--opendrive-output", "moved.xodr"},
+                              folder_})
+            .code,
+        0);
     ASSERT_NE(bytes(folder_ / "moved.xodr").find("<offset x=\"-604000"), std::string::npos);
     const std::string report = import_town({folder_ / "moved.xodr", "", false, false}, empty("t"));
     const ImportedRoads roads = read_roads(bytes(folder_ / "t/moved.net.xml"), "moved");
@@ -565,21 +567,21 @@ TEST_F(Imports, ASignOnTheRoadIsMovedBeyondTheMiddleOfTheSidewalk) {
 }
 
 TEST_F(Imports, EachLaneKeepsTheLightThatHangsOverIt) {
-    ASSERT_EQ(run_program("netgenerate",
-                          {"-X",
-                           "never",
-                           "--grid",
-                           "--grid.number",
-                           "2",
-                           "-L",
-                           "3",
-                           "--grid.attach-length",
-                           "80",
-                           "-j",
-                           "traffic_light",
-                           "--opendrive-output",
-                           "wide.xodr"},
-                          folder_)
+    ASSERT_EQ(process::run_program({"netgenerate",
+                                    {"-X",
+                                     "never",
+                                     "--grid",
+                                     "--grid.number",
+                                     "2",
+                                     "-L",
+                                     "3",
+                                     "--grid.attach-length",
+                                     "80",
+                                     "-j",
+                                     "traffic_light",
+                                     "--opendrive-output",
+                                     "wide.xodr"},
+                                    folder_})
                   .code,
               0);
     import_town({folder_ / "wide.xodr", "", false, false}, empty("t"));
