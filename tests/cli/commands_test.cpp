@@ -191,16 +191,6 @@ std::string again(const Result& report) {
                                    : report.out.substr(from, report.out.find('\n', from) - from);
 }
 
-/// Types it into a shell in that folder.
-std::string typed(const std::string& command, const Folder& folder) {
-    const std::string bin = std::filesystem::path(REPRISE_PROGRAM).parent_path().string();
-    write_file(folder / "again.sh",
-               "cd '" + folder.path().string() + "'\nPATH='" + bin + "':$PATH\n" + command + "\n");
-    const std::string out = folder / "again.txt";
-    EXPECT_NE(std::system(("sh '" + (folder / "again.sh") + "' > '" + out + "' 2>&1").c_str()), -1);
-    return read_file(out);
-}
-
 TEST(Again, IsACommandThatComesBackToTheDifference) {
     const Folder folder;
     const std::string scenario = folder / "it's my drive.lua";
@@ -232,11 +222,11 @@ TEST(Again, IsACommandThatComesBackToTheDifference) {
     // verify: the same command, the same report.
     const Result verify = reprise({"verify", "./-nudged one.mcap"}, folder.path());
     EXPECT_EQ(again(verify), "reprise verify './-nudged one.mcap'");
-    EXPECT_EQ(typed(again(verify), folder), verify.out);
+    EXPECT_EQ(typed(again(verify), folder).out, verify.out);
 
     // diff: both are simulated again, and the one that does not repeat is told.
     const Result diff = reprise({"diff", "./-nudged one.mcap", "base.mcap"}, folder.path());
-    const std::string out = typed(again(diff), folder);
+    const std::string out = typed(again(diff), folder).out;
     EXPECT_THAT(out, HasSubstr("tick 40 (2.00 s), stage physics, ego (1)"));
     EXPECT_THAT(out, HasSubstr("1 unit in the last place apart"));
 }
@@ -294,10 +284,9 @@ TEST(Run, EveryShippedScenarioPassesItsChecks) {
 }
 
 TEST(Programs, TheThinOneLoadsNeitherSumoNorOpenCv) {
-    const Folder folder;
-    const std::string list = folder / "libraries";
-    ASSERT_EQ(std::system(("ldd " REPRISE_PROGRAM " > " + list).c_str()), 0);
-    const std::string libraries = read_file(list);
+    const Result ldd = run_program("ldd", {REPRISE_PROGRAM});
+    ASSERT_EQ(ldd.code, 0) << ldd.out;
+    const std::string& libraries = ldd.out;
     for (const char* heavy : {"sumo", "opencv", "embree", "Bullet", "lua"})
         EXPECT_THAT(libraries, Not(HasSubstr(heavy)));
     EXPECT_LT(std::count(libraries.begin(), libraries.end(), '\n'), 15);

@@ -1,28 +1,17 @@
 #include "tests/cli/program.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
-#include <sys/wait.h>
 #include <unistd.h>
+
+#include "process/program.h"
 
 namespace reprise::test {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-std::string quoted(const std::string& word) {
-    std::string text = "'";
-    for (const char c : word)
-        text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
-
-}  // namespace
 
 Result reprise(const std::vector<std::string>& words, const fs::path& folder) {
     return run_program(REPRISE_PROGRAM, words, folder);
@@ -31,19 +20,17 @@ Result reprise(const std::vector<std::string>& words, const fs::path& folder) {
 Result run_program(const std::string& program,
                    const std::vector<std::string>& words,
                    const fs::path& folder) {
-    std::string command = "cd " + quoted(folder.string()) + " && " + quoted(program);
-    for (const std::string& word : words)
-        command += " " + quoted(word);
-    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    if (pipe == nullptr)
-        throw std::runtime_error("popen: " + command);
-    Result result;
-    std::array<char, 4096> buffer{};
-    while (const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), pipe))
-        result.out.append(buffer.data(), size);
-    const int status = pclose(pipe);
-    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return result;
+    const process::ProgramResult result =
+        process::run_program({.name = program,
+                              .words = words,
+                              .folder = folder,
+                              .most_said = std::numeric_limits<std::size_t>::max()});
+    return {result.signal == 0 ? result.code : 128 + result.signal, result.said};
+}
+
+Result typed(const std::string& line, const Folder& folder) {
+    const std::string bin = fs::path(REPRISE_PROGRAM).parent_path().string();
+    return run_program("/bin/sh", {"-c", "PATH='" + bin + "':$PATH; " + line}, folder.path());
 }
 
 std::string source(const std::string& path) {

@@ -40,6 +40,9 @@ class Folder {
     std::filesystem::path path_;
 };
 
+/// Types a line into a shell in that folder, as a user would: `reprise` is found.
+Result typed(const std::string& line, const Folder& folder);
+
 std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, const std::string& bytes);
 

@@ -1,14 +1,12 @@
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <memory>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <vector>
 
 #include <gmock/gmock.h>
 
 #include "kernel/kernel.h"
+#include "process/copy.h"
 #include "scripting/scenario.h"
 #include "towns/town_reader.h"
 #include "world/check.h"
@@ -60,33 +58,13 @@ Chain run(const world::Recording& recording) {
 
 /// Does `work` in a child that is a copy of this process, and returns what it returned there.
 Chain in_child(const std::function<Chain()>& work) {
-    std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0)
-        throw std::runtime_error("pipe");
-    const pid_t child = fork();
-    if (child == 0) {
-        close(ends[0]);
-        std::string text;
-        for (const std::string& each : work())
-            text += each;
-        for (std::size_t sent = 0; sent < text.size();) {
-            const ssize_t size = write(ends[1], text.data() + sent, text.size() - sent);
-            if (size <= 0)
-                _exit(1);
-            sent += static_cast<std::size_t>(size);
-        }
-        _exit(0);
-    }
-    close(ends[1]);
+    const std::string text = process::run_copy({.subject = "copy", .work = [&] {
+                                                    std::string all;
+                                                    for (const std::string& each : work())
+                                                        all += each;
+                                                    return all;
+                                                }});
     Chain chain;
-    std::string text;
-    std::array<char, 4096> buffer{};
-    for (ssize_t size = 0; (size = read(ends[0], buffer.data(), buffer.size())) > 0;)
-        text.append(buffer.data(), static_cast<std::size_t>(size));
-    close(ends[0]);
-    int status = 0;
-    waitpid(child, &status, 0);
-    EXPECT_EQ(status, 0) << "the child failed";
     constexpr std::size_t digits = 32;
     for (std::size_t i = 0; i + digits <= text.size(); i += digits)
         chain.push_back(text.substr(i, digits));

@@ -1,10 +1,10 @@
-#include <array>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "process/program.h"
 
 // The same scenario in processes that differ in all that must not count: addresses, hash seeds,
 // environment. `traps.lua` prints the answers of everything in Lua that could differ; the digests
@@ -17,14 +17,10 @@ using testing::HasSubstr;
 
 std::string play(const std::string& scenario, int ticks, const std::string& environment = "") {
     const std::string command = environment + " '" REPRISE_PLAY_SCENARIO "' '" REPRISE_TRAPS "/" +
-                                scenario + ".lua' " + std::to_string(ticks) + " 2>&1";
-    FILE* const pipe = popen(command.c_str(), "r");
-    std::string output;
-    std::array<char, 4096> buffer{};
-    while (const std::size_t size = fread(buffer.data(), 1, buffer.size(), pipe))
-        output.append(buffer.data(), size);
-    EXPECT_EQ(pclose(pipe), 0) << output;
-    return output;
+                                scenario + ".lua' " + std::to_string(ticks);
+    const process::ProgramResult played = process::run_program({"sh", {"-c", command}});
+    EXPECT_EQ(played.code, 0) << played.stopped << played.said;
+    return played.said;
 }
 
 const std::vector<std::string>& environments() {

@@ -34,7 +34,7 @@ TEST_P(SelfTest, RefusesToRecordOrVerifyUnderAPreloadedLibraryThatSpoilsTheNumbe
     const std::string code = folder / "spoil.c";
     const std::string library = folder / "spoil.so";
     write_file(code, GetParam().code);
-    ASSERT_EQ(std::system(("cc -shared -fPIC -o " + library + " " + code).c_str()), 0);
+    ASSERT_EQ(run_program("cc", {"-shared", "-fPIC", "-o", library, code}).code, 0);
     words.back() = folder / "spoilt.mcap";
     setenv("LD_PRELOAD", library.c_str(), 1);
     const Result run = reprise(words);

@@ -111,7 +111,7 @@ TEST_F(Cat, EndsQuietlyWhenTheReaderHasEnough) {
     const std::string errors = *folder / "errors";
     const std::string command = "trap '' PIPE; '" + program + "' cat '" + (*folder / "a.mcap") +
                                 "' 2>'" + errors + "' | head -c 10 >/dev/null";
-    EXPECT_EQ(std::system(("bash -c \"" + command + "\"").c_str()), 0);
+    EXPECT_EQ(run_program("bash", {"-c", command}).code, 0);
     EXPECT_EQ(read_file(errors), "");
 }
 

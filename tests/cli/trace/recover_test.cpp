@@ -107,12 +107,6 @@ std::string command_in(const std::string& text) {
     return at == std::string::npos ? "false" : text.substr(at, text.find('\n', at) - at);
 }
 
-/// Types it into a shell in that folder.
-Result typed(const std::string& command, const Folder& folder) {
-    const std::string bin = fs::path(REPRISE_PROGRAM).parent_path().string();
-    return run_program("/bin/sh", {"-c", "PATH='" + bin + "':$PATH; " + command}, folder.path());
-}
-
 TEST(Crash, SaysWhereTheTicksAreAndTheCommandThatSavesThem) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "crashes are the sanitizer's to report";
@@ -152,11 +146,11 @@ TEST(Recover, KeepsWhatFittedUnderAFileSizeLimit) {
 
 TEST(Recover, KeepsWhatFittedOnAFullDisk) {
     const Folder folder;
-    const std::string mount = "mount -t tmpfs -o size=300k none '" + folder.path().string() + "'";
-    if (std::system((mount + " 2> /dev/null").c_str()) != 0)
+    const std::string place = folder.path();
+    if (run_program("mount", {"-t", "tmpfs", "-o", "size=300k", "none", place}).code != 0)
         GTEST_SKIP() << "only root may mount a small disk";
     expect_recoverable_when_full("", folder);
-    EXPECT_EQ(std::system(("umount '" + folder.path().string() + "'").c_str()), 0);
+    EXPECT_EQ(run_program("umount", {place}).code, 0);
 }
 
 /// A short whole trace for the rest.
