@@ -10,18 +10,15 @@
 
 #include <fmt/format.h>
 
-#include "cli/fingerprint/other_build.h"
 #include "cli/fingerprint/self_test.h"
 #include "cli/fingerprint/this_build.h"
 #include "cli/options/tick_option.h"
 #include "cli/process/guard.h"
 #include "cli/process/output.h"
 #include "cli/process/progress.h"
-#include "cli/process/reproduce.h"
+#include "cli/run_again.h"
 #include "kernel/verify.h"
 #include "process/copy.h"
-#include "replay/imported.h"
-#include "replay/slice.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "scripting/scenario.h"
@@ -154,30 +151,23 @@ int branch(const BranchOptions& options) {
             "--set KEY=VALUE, with which the run's own script goes on");
     self_test();
     replay::TraceReader trace(options.trace);
-    replay::require_simulated(trace);
-    replay::require_start_of_run(trace);
+    require_repeatable(trace);
     const std::uint64_t tick = branch_tick(options, trace);
     trace.tick(tick);  // says at once when the trace is not full
     const std::vector<WhatIf> what_ifs = plan(options, tick, trace);
-    print_other_build("another build recorded this",
-                      "recorded",
-                      trace.episode().fingerprint,
-                      "here",
-                      this_build());
+    print_recording_build(trace);
     kernel::Kernel kernel(trace.recording());
     Progress progress("going there", "ticks", tick);
-    auto divergence = kernel::follow(kernel, trace, tick, [&](const world::SealedTick& tick_there) {
-        progress.update(tick_there.view().index());
-    });
+    const auto divergence =
+        kernel::follow(kernel, trace, tick, [&](const world::SealedTick& tick_there) {
+            progress.update(tick_there.view().index());
+        });
     progress.clear();
-    if (divergence) {
-        divergence->again = "reprise verify " + shell_path(options.trace);
-        fmt::print("{}: differs before tick {}; nothing was written\n{}",
-                   options.trace,
-                   tick,
-                   to_text(*divergence, trace.episode().step_ns));
-        return exit_differs;
-    }
+    if (divergence)
+        return report_difference(options.trace,
+                                 trace,
+                                 *divergence,
+                                 fmt::format(" before tick {}; nothing was written", tick));
     const auto results = go_on_in_copies(kernel, trace, what_ifs);
     int code = exit_good;
     for (std::size_t i = 0; i < what_ifs.size(); ++i)

@@ -2,16 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "cli/fingerprint/other_build.h"
 #include "cli/fingerprint/self_test.h"
-#include "cli/fingerprint/this_build.h"
 #include "cli/process/guard.h"
 #include "cli/process/output.h"
 #include "cli/process/progress.h"
-#include "cli/process/reproduce.h"
+#include "cli/run_again.h"
 #include "kernel/verify.h"
-#include "replay/imported.h"
-#include "replay/slice.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 
@@ -20,32 +16,22 @@ namespace reprise::cli {
 int expand(const ExpandOptions& options) {
     self_test();
     replay::TraceReader trace(options.trace);
-    replay::require_simulated(trace);
-    replay::require_start_of_run(trace);
+    require_repeatable(trace);
     refuse_overwriting(options.trace, options.output);
-    print_other_build("another build recorded this",
-                      "recorded",
-                      trace.episode().fingerprint,
-                      "here",
-                      this_build());
+    print_recording_build(trace);
     replay::TraceWriter full(options.output,
                              trace.recording(),
                              replay::Level::full,
                              replay::Unfinished::remove,
                              trace.slice());
     Progress progress("expanding", "ticks", trace.ticks());
-    auto divergence = kernel::verify(trace, [&](const world::SealedTick& tick) {
+    const auto divergence = kernel::verify(trace, [&](const world::SealedTick& tick) {
         full.append(tick);
         progress.update(tick.view().index());
     });
     progress.clear();
-    if (divergence) {
-        divergence->again = "reprise verify " + shell_path(options.trace);
-        fmt::print("{}: differs; nothing was written\n{}",
-                   options.trace,
-                   to_text(*divergence, trace.episode().step_ns));
-        return exit_differs;
-    }
+    if (divergence)
+        return report_difference(options.trace, trace, *divergence, "; nothing was written");
     full.close(trace.outcome());
     fmt::print("{}: {} ticks, equal to those of {} ({:.2f} s)\n",
                options.output,

@@ -9,8 +9,7 @@
 #include "cli/golden/accept.h"
 #include "cli/golden/golden_list.h"
 #include "cli/golden/test.h"
-#include "cli/options/options.h"
-#include "cli/process/guard.h"
+#include "cli/process/command_main.h"
 #include "cli/process/helper_program.h"
 #include "cli/trace/cat.h"
 #include "cli/trace/diff.h"
@@ -34,10 +33,7 @@ namespace {
 
 int main(int argc, char** argv) {
     using namespace reprise::cli;
-    return guarded(command_text(argc, argv), [&]() -> int {
-        CommandLine line;
-        if (const auto code = line.parse(argc, argv))
-            return *code;
+    return command_main(argc, argv, [&](const CommandLine& line) -> int {
         if (line.command == "info")
             return info(line.info);
         if (line.command == "diff")

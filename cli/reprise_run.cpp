@@ -2,18 +2,14 @@
 // in it.
 #include "cli/branch.h"
 #include "cli/expand.h"
-#include "cli/options/options.h"
-#include "cli/process/guard.h"
+#include "cli/process/command_main.h"
 #include "cli/run.h"
 #include "cli/trace/import.h"
 #include "cli/verify.h"
 
 int main(int argc, char** argv) {
     using namespace reprise::cli;
-    return guarded(command_text(argc, argv), [&] {
-        CommandLine line;
-        if (const auto code = line.parse(argc, argv))
-            return *code;
+    return command_main(argc, argv, [](const CommandLine& line) {
         if (line.command == "branch")
             return branch(line.branch);
         if (line.command == "expand")

@@ -2,15 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "cli/fingerprint/other_build.h"
 #include "cli/fingerprint/self_test.h"
-#include "cli/fingerprint/this_build.h"
 #include "cli/process/guard.h"
 #include "cli/process/progress.h"
-#include "cli/process/reproduce.h"
+#include "cli/run_again.h"
 #include "kernel/verify.h"
-#include "replay/imported.h"
-#include "replay/slice.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
 
@@ -19,22 +15,14 @@ namespace reprise::cli {
 int verify(const TraceOptions& options) {
     self_test();
     replay::TraceReader trace(options.trace);
-    replay::require_simulated(trace);
-    replay::require_start_of_run(trace);
-    print_other_build("another build recorded this",
-                      "recorded",
-                      trace.episode().fingerprint,
-                      "here",
-                      this_build());
+    require_repeatable(trace);
+    print_recording_build(trace);
     Progress progress("verifying", "ticks", trace.ticks());
-    auto divergence = kernel::verify(
+    const auto divergence = kernel::verify(
         trace, [&](const world::SealedTick& tick) { progress.update(tick.view().index()); });
     progress.clear();
-    if (divergence) {
-        divergence->again = "reprise verify " + shell_path(options.trace);
-        fmt::print("{}: differs\n{}", options.trace, to_text(*divergence, trace.episode().step_ns));
-        return exit_differs;
-    }
+    if (divergence)
+        return report_difference(options.trace, trace, *divergence, "");
     fmt::print("{}: equal at every one of {} ticks, chain {} ({:.2f} s)\n",
                options.trace,
                trace.ticks(),
