@@ -13,6 +13,7 @@ find_path(cgal_headers CGAL/Constrained_Delaunay_triangulation_2.h REQUIRED)
 find_package(GTest CONFIG REQUIRED)
 find_package(benchmark CONFIG REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(EXPAT REQUIRED)
 find_package(nlohmann_json REQUIRED CONFIG)
 pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(lua REQUIRED IMPORTED_TARGET lua5.4-c++)
@@ -22,7 +23,7 @@ pkg_check_modules(sqlite3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
 pkg_check_modules(cli11 REQUIRED IMPORTED_TARGET CLI11)
 
-# libsumo, Recast and the three OpenCV modules ship no CMake package in the small -dev packages we install.
+# libsumo, Recast, libosmium and the three OpenCV modules ship no CMake package in the small -dev packages we install.
 function(reprise_plain_library name header)
   cmake_parse_arguments(PLAIN "" "" "PATHS;NAMES" ${ARGN})
   find_path(${name}_INCLUDE_DIR ${header} PATH_SUFFIXES ${PLAIN_PATHS} REQUIRED)
@@ -34,6 +35,9 @@ function(reprise_plain_library name header)
   endforeach()
 endfunction()
 
+# Headers only; those that read XML need expat and threads.
+reprise_plain_library(osmium osmium/io/xml_input.hpp)
+target_link_libraries(osmium INTERFACE EXPAT::EXPAT Threads::Threads)
 reprise_plain_library(recast recastnavigation/Recast.h NAMES Detour Recast)
 reprise_plain_library(sumo libsumo/libsumo.h NAMES sumocpp)
 reprise_plain_library(opencv opencv2/core.hpp PATHS opencv4

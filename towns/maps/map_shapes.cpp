@@ -99,7 +99,7 @@ MapShapes read_shapes(const std::string& map,
                       const std::filesystem::path& scratch,
                       const std::string& called) {
     std::ofstream(scratch / "shapes.typ.xml") << wanted_keys;
-    const MapRings rings = read_rings(scratch / map);
+    const MapRings rings = read_rings(scratch / map, called);
     std::ofstream(scratch / "rings.osm") << rings.osm;
     run_sumo_tool("polyconvert",
                   {"--net-file",
