@@ -17,7 +17,7 @@ declare -A owner=(
     [lua.hpp]="scripting" [libsumo/]="traffic" [pugixml.hpp]="traffic cli"
     [bt]="kernel" [BulletDynamics/]="kernel" [BulletCollision/]="kernel" [LinearMath/]="kernel"
     [embree3/]="render" [tbb/]="render" [opencv2/]="render"
-    [zstd.h]="replay" [xxhash.h]="world" [boost/]="world scripting traffic" [CGAL/]="world" [recastnavigation/]="traffic"
+    [zstd.h]="replay" [xxhash.h]="world" [boost/]="world scripting" [CGAL/]="world" [recastnavigation/]="traffic"
     [osmium/]="traffic"
     [CLI/]="cli" [nlohmann/]="replay exchange cli" [sqlite3.h]="exchange" [proj.h]="exchange"
     [Eigen/]="world.h exchange.h traffic.h render.h kernel.h replay.h scripting.h cli.h"

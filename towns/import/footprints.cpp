@@ -1,14 +1,11 @@
 // What it must do: turn a map's areas into buildings and plots that a town can use: simple
-// polygons,
-//   counter-clockwise, near the roads, buildings clear of the lanes.
-// What it assumes: polyconvert has projected them; each carries its tags as <param>.
-// How it goes: read and sort out the areas; drop courtyards (inner rings come as areas of their
-// own);
-//   clip to the neighbourhood of the roads; cut the lanes' strips out of buildings.
+//   polygons, counter-clockwise, near the roads, buildings clear of the lanes.
+// What it assumes: polyconvert has projected them, in millimetres; each carries its tags as
+// <param>. How it goes: sort out what crosses itself and courtyards (inner rings come as areas of
+// their own);
+//   clip plots to the neighbourhood of the roads; cut the lanes' strips out of buildings. What
+//   needs no cut keeps its points.
 // What it keeps: nothing.
-// GCC 12 believes that Boost's boxes are read before they are set, once it inlines them.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-
 #include "towns/import/footprints.h"
 
 #include <algorithm>
@@ -16,183 +13,187 @@
 #include <optional>
 #include <vector>
 
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/multi_polygon.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
-#include <boost/geometry/index/rtree.hpp>
-
+#include "ground/mesh/polygons.h"
+#include "towns/import/lane_strips.h"
 #include "towns/import/mapped_building.h"
 #include "towns/maps/map_area.h"
 #include "world/digest.h"
+#include "world/geometry2d.h"
 
 namespace reprise::towns {
 
 namespace {
 
-namespace bg = boost::geometry;
-using Point = bg::model::d2::point_xy<double>;
-using Polygon = bg::model::polygon<Point, false>;  // counter-clockwise
-using Polygons = bg::model::multi_polygon<Polygon>;
-using Line = bg::model::linestring<Point>;
-using Box = bg::model::box<Point>;
-using Tree = bg::index::rtree<std::pair<Box, std::uint32_t>, bg::index::rstar<16>>;
+using world::Box;
+using world::Loop;
 
 constexpr double neighbourhood = 300;                        ///< [m] from a road
 constexpr double smallest_building = 6, smallest_plot = 15;  ///< [m2]
+constexpr double widest = 1e6;  ///< [m] of an outline, along either axis
 
-struct Area {
+/// Something that the map shows, as it will be placed.
+struct Outline {
     std::string id;
     Tags tags;
-    Polygon outline;
+    Loop loop;        ///< counter-clockwise
+    double size = 0;  ///< [m2]
 };
 
-std::vector<Area> to_areas(const std::vector<MapShape>& shapes) {
-    std::vector<Area> areas;
+std::vector<Outline> to_outlines(const std::vector<MapShape>& shapes) {
+    std::vector<Outline> outlines;
     for (const MapShape& shape : shapes) {
-        Area area{shape.id, shape.tags, {}};
-        for (const world::Vec3& point : shape.line)
-            area.outline.outer().emplace_back(point.x(), point.y());
-        bg::correct(area.outline);
-        areas.push_back(std::move(area));
+        Outline outline{shape.id, shape.tags, world::in_plan(shape.line), 0};
+        if (outline.loop.size() > 1 && outline.loop.front() == outline.loop.back())
+            outline.loop.pop_back();
+        outline.size = world::signed_area(outline.loop);
+        if (outline.size < 0)
+            std::reverse(outline.loop.begin() + 1, outline.loop.end());
+        outline.size = std::abs(outline.size);
+        outlines.push_back(std::move(outline));
     }
-    return areas;
+    return outlines;
 }
 
 /// polyconvert gives the inner rings of a multipolygon as areas with the same tags. Returns how
 /// many of them are courtyards of buildings.
-int drop_courtyards(std::vector<Area>& areas) {
-    const auto is_ring = [](const Area& area) {
-        const auto type = area.tags.find("type");
-        return type != area.tags.end() && type->second == "multipolygon";
+int drop_courtyards(std::vector<Outline>& outlines) {
+    const auto is_ring = [](const Outline& outline) {
+        const auto type = outline.tags.find("type");
+        return type != outline.tags.end() && type->second == "multipolygon";
     };
-    std::vector<bool> inner(areas.size(), false);
-    for (std::size_t i = 0; i < areas.size(); ++i)
-        for (std::size_t j = 0; j < areas.size() && is_ring(areas[i]); ++j)
-            if (i != j && areas[i].tags == areas[j].tags &&
-                bg::area(areas[i].outline) < bg::area(areas[j].outline) &&
-                bg::covered_by(areas[i].outline.outer().front(), areas[j].outline))
+    const auto is_on = [](const Eigen::Vector2d& p, const Loop& loop) {
+        return world::distance_to(loop, p, p) <= 0;
+    };
+    std::vector<bool> inner(outlines.size(), false);
+    for (std::size_t i = 0; i < outlines.size(); ++i)
+        for (std::size_t j = 0; j < outlines.size() && is_ring(outlines[i]); ++j)
+            if (i != j && outlines[i].tags == outlines[j].tags &&
+                outlines[i].size < outlines[j].size &&
+                is_on(outlines[i].loop.front(), outlines[j].loop))
                 inner[i] = true;
-    std::vector<Area> kept;
+    std::vector<Outline> kept;
     int courtyards = 0;
-    for (std::size_t i = 0; i < areas.size(); ++i)
+    for (std::size_t i = 0; i < outlines.size(); ++i)
         if (!inner[i])
-            kept.push_back(std::move(areas[i]));
+            kept.push_back(std::move(outlines[i]));
         else
-            courtyards += is_building(areas[i].tags) ? 1 : 0;
-    areas = std::move(kept);
+            courtyards += is_building(outlines[i].tags) ? 1 : 0;
+    outlines = std::move(kept);
     return courtyards;
 }
 
-Line centre_of(const world::LaneT& lane) {
-    Line line;
-    for (const world::Vec3& point : lane.centre)
-        line.emplace_back(point.x(), point.y());
-    return line;
+/// ground::Area computes within 1000 km of it; whole metres, so that millimetres stay what they
+/// are.
+Eigen::Vector2d origin_of(const Loop& loop) {
+    return loop.front().array().round();
 }
 
-/// Lanes by the boxes of their strips.
-Tree tree_of(const world::TownT& roads) {
-    std::vector<std::pair<Box, std::uint32_t>> boxes;
-    for (std::uint32_t i = 0; i < roads.lanes.size(); ++i) {
-        Box box = bg::return_envelope<Box>(centre_of(roads.lanes[i]));
-        bg::buffer(box, box, roads.lanes[i].width);
-        boxes.emplace_back(box, i);
-    }
-    return Tree(boxes);
+ground::Area area_of(const Loop& loop, const Eigen::Vector2d& origin) {
+    ground::Area area(origin);
+    area.add(loop);
+    return area;
 }
 
-Box reach(const Tree& lanes) {
-    Box box;
-    bg::convert(lanes.bounds(), box);
-    bg::buffer(box, box, neighbourhood);
-    return box;
+double perimeter(const Loop& loop) {
+    double length = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        length += (loop[(i + 1) % loop.size()] - loop[i]).norm();
+    return length;
 }
 
-bool is_near_road(const Polygon& outline, const Tree& lanes) {
-    Box around = bg::return_envelope<Box>(outline);
-    bg::buffer(around, around, neighbourhood);
-    return lanes.qbegin(bg::index::intersects(around)) != lanes.qend();
+/// As ground::Area takes it, and as it will be written.
+Loop in_whole_millimetres(Loop loop) {
+    for (Eigen::Vector2d& p : loop)
+        p = (p * 1000).array().round() / 1000;
+    return loop;
 }
 
-/// The strip of a lane and a little more.
-Polygons strip(const world::LaneT& lane) {
-    constexpr double margin = 0.2;  // [m] so that no wall touches a kerb
-    Polygons found;
-    bg::buffer(centre_of(lane),
-               found,
-               bg::strategy::buffer::distance_symmetric<double>(lane.width / 2 + margin),
-               bg::strategy::buffer::side_straight(),
-               bg::strategy::buffer::join_miter(2),
-               bg::strategy::buffer::end_flat(),
-               bg::strategy::buffer::point_square());
-    return found;
+/// Does it enclose one piece of land, and nothing twice? Then its border is the outline itself.
+bool is_simple(const Outline& outline) {
+    constexpr double rounding = 0.01;  // [m], [m2]
+    const Box box = world::box_around(outline.loop);
+    if ((box.high - box.low).maxCoeff() > widest || outline.size < 1)
+        return false;
+    const Loop loop = in_whole_millimetres(outline.loop);
+    const std::vector<Loop> borders = area_of(loop, origin_of(loop)).borders();
+    return borders.size() == 1 &&
+           std::abs(world::signed_area(borders.front()) - world::signed_area(loop)) < rounding &&
+           std::abs(perimeter(borders.front()) - perimeter(loop)) < rounding;
 }
 
-const Polygon* largest(const Polygons& pieces) {
-    const auto found =
-        std::max_element(pieces.begin(), pieces.end(), [](const auto& p, const auto& q) {
-            return bg::area(p) < bg::area(q);
-        });
-    return found == pieces.end() ? nullptr : &*found;
+/// A part of an outline, without its holes.
+struct Piece {
+    Loop loop;
+    double size = 0;  ///< [m2] holes do not count
+};
+
+std::vector<Piece> pieces_of(const ground::Area& area) {
+    std::vector<Piece> pieces;
+    for (const ground::Area& part : area.parts())
+        pieces.push_back({part.borders().front(), part.size()});
+    return pieces;
 }
 
 /// What is left of a footprint beside the lanes; nothing when that is less than half of it.
-std::optional<Polygon> beside_lanes(const Polygon& outline,
-                                    const world::TownT& roads,
-                                    const Tree& lanes) {
-    std::vector<std::uint32_t> near;
-    for (auto found = lanes.qbegin(bg::index::intersects(bg::return_envelope<Box>(outline)));
-         found != lanes.qend();
-         ++found)
-        near.push_back(found->second);
-    std::sort(near.begin(), near.end());
-    Polygons rest{outline};
-    for (const std::uint32_t lane : near) {
-        Polygons less;
-        bg::difference(rest, strip(roads.lanes[lane]), less);
-        rest = std::move(less);
-    }
-    const Polygon* piece = largest(rest);
-    if (piece == nullptr || bg::area(*piece) < bg::area(outline) / 2)
+std::optional<Piece> beside_lanes(const Outline& outline, const LaneStrips& lanes) {
+    const Eigen::Vector2d origin = origin_of(outline.loop);
+    ground::Area rest = area_of(outline.loop, origin);
+    const double whole = rest.size();
+    rest.subtract(lanes.around(outline.loop, origin));
+    if (rest.size() >= whole)
+        return Piece{outline.loop, outline.size};
+    const std::vector<Piece> pieces = pieces_of(rest);
+    const auto largest =
+        std::max_element(pieces.begin(), pieces.end(), [](const Piece& p, const Piece& q) {
+            return p.size < q.size;
+        });
+    if (largest == pieces.end() || largest->size < outline.size / 2)
         return std::nullopt;
-    return *piece;
+    return *largest;
 }
 
-/// The outer ring without its closing point, rounded to millimetres as it will be written.
-std::vector<world::Vec3> outline_of(const Polygon& polygon) {
-    std::vector<world::Vec3> outline;
-    for (std::size_t i = 0; i + 1 < polygon.outer().size(); ++i)
-        outline.emplace_back(polygon.outer()[i].x(), polygon.outer()[i].y(), 0.0);
-    return outline;
+/// What lies in the box. [m]
+std::vector<Piece> clip(const Outline& outline, const Box& box) {
+    const Box own = world::box_around(outline.loop);
+    const Eigen::Vector2d low = own.low.cwiseMax(box.low), high = own.high.cwiseMin(box.high);
+    if (low == own.low && high == own.high)
+        return {{outline.loop, outline.size}};
+    const Eigen::Vector2d origin = origin_of(outline.loop);
+    ground::Area inside = area_of(outline.loop, origin);
+    inside.intersect(area_of({low, {high.x(), low.y()}, high, {low.x(), high.y()}}, origin));
+    return pieces_of(inside);
 }
 
-void place_building(const Area& area,
-                    const world::TownT& roads,
-                    const Tree& lanes,
+std::vector<world::Vec3> on_the_ground(const Loop& loop) {
+    std::vector<world::Vec3> points;
+    for (const Eigen::Vector2d& p : loop)
+        points.emplace_back(p.x(), p.y(), 0.0);
+    return points;
+}
+
+void place_building(const Outline& outline,
+                    const LaneStrips& lanes,
                     const Streets& streets,
                     Place& place,
                     FootprintReport& report) {
-    const std::optional<Polygon> rest = beside_lanes(area.outline, roads, lanes);
-    if (!rest || bg::area(*rest) < smallest_building) {
+    const std::optional<Piece> rest = beside_lanes(outline, lanes);
+    if (!rest || rest->size < smallest_building) {
         ++report.on_roads;
         return;
     }
-    report.cut += bg::area(*rest) < bg::area(area.outline) - 0.01 ? 1 : 0;
-    place.buildings.push_back(
-        mapped_building(area.tags, outline_of(*rest), streets, world::digest128(area.id).low()));
+    report.cut += rest->size < outline.size - 0.01 ? 1 : 0;
+    place.buildings.push_back(mapped_building(
+        outline.tags, on_the_ground(rest->loop), streets, world::digest128(outline.id).low()));
     ++report.buildings;
 }
 
-void place_plot(const Area& area, const Box& box, Place& place, FootprintReport& report) {
-    Polygons pieces;
-    bg::intersection(area.outline, box, pieces);
-    for (const Polygon& piece : pieces) {
-        if (bg::area(piece) < smallest_plot)
+void place_plot(const Outline& outline, const Box& box, Place& place, FootprintReport& report) {
+    for (const Piece& piece : clip(outline, box)) {
+        if (piece.size < smallest_plot)
             continue;
         world::PlotT plot;
-        plot.kind = *plot_kind(area.tags);
-        plot.outline = outline_of(piece);
+        plot.kind = *plot_kind(outline.tags);
+        plot.outline = on_the_ground(piece.loop);
         place.plots.push_back(std::move(plot));
         ++report.plots;
     }
@@ -204,28 +205,25 @@ FootprintReport place_footprints(const std::vector<MapShape>& shapes,
                                  const world::TownT& roads,
                                  Place& place) {
     FootprintReport report;
-    std::vector<Area> areas = to_areas(shapes);
-    report.filled = drop_courtyards(areas);
+    std::vector<Outline> outlines = to_outlines(shapes);
+    report.filled = drop_courtyards(outlines);
     // Large areas first: smaller ones lie over them.
-    std::stable_sort(areas.begin(), areas.end(), [](const Area& left, const Area& right) {
-        return bg::area(left.outline) > bg::area(right.outline);
-    });
-    const Tree lanes = tree_of(roads);
-    const Box box = reach(lanes);
+    std::stable_sort(
+        outlines.begin(), outlines.end(), [](const Outline& left, const Outline& right) {
+            return left.size > right.size;
+        });
+    const LaneStrips lanes(roads);
+    const Box box = lanes.box(neighbourhood);
     const Streets streets(roads);
-    for (const Area& area : areas) {
-        if (!is_near_road(area.outline, lanes))
+    for (const Outline& outline : outlines) {
+        if (!lanes.is_near(outline.loop, neighbourhood))
             continue;
-        try {
-            if (!bg::is_valid(area.outline) || bg::area(area.outline) < 1)
-                ++report.broken;
-            else if (is_building(area.tags))
-                place_building(area, roads, lanes, streets, place, report);
-            else
-                place_plot(area, box, place, report);
-        } catch (const bg::exception&) {
-            ++report.broken;  // what Boost cannot cut
-        }
+        if (!is_simple(outline))
+            ++report.broken;
+        else if (is_building(outline.tags))
+            place_building(outline, lanes, streets, place, report);
+        else
+            place_plot(outline, box, place, report);
     }
     return report;
 }
