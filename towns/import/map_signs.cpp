@@ -22,18 +22,13 @@ using Eigen::Vector2d;
 
 constexpr double farthest = 50;  ///< [m] from the junction
 constexpr double beside = 2;     ///< [m] outside of the lane
-constexpr double middle = 3;     ///< [m] around a junction's centre a node is the junction's
+constexpr double middle = 3;     ///< [m] a node this near to a junction's centre is in the junction
 
-std::string tag(const Tags& tags, const char* key) {
-    const auto found = tags.find(key);
-    return found == tags.end() ? "" : found->second;
-}
-
-/// How far a node is before the middle of the junction at the lane's end; nothing when it is not on
-/// the lane, or beyond the junction. [m]
-std::optional<double> before_junction(const world::LaneT& lane,
-                                      const Vector2d& node,
-                                      const Vector2d& junction) {
+/// Distance along the lane from a node to the middle of the junction at the lane's end; nothing
+/// when the node is not on the lane, or beyond the junction. [m]
+std::optional<double> distance_to_junction(const world::LaneT& lane,
+                                           const Vector2d& node,
+                                           const Vector2d& junction) {
     const Vector2d end = world::in_plan(lane.centre.back());
     const double yaw = world::point_at(lane, lane.length).yaw;
     const Vector2d ahead(std::cos(yaw), std::sin(yaw));
@@ -66,14 +61,14 @@ Vector2d centre(const world::TownT& town, const world::LaneT& lane) {
 
 std::optional<std::uint32_t> lane_of(const MapShape& sign, const world::TownT& town) {
     const Vector2d node = world::in_plan(sign.line.front());
-    const std::string direction = tag(sign.tags, "direction");
+    const std::string direction = tag_value(sign.tags, "direction");
     std::optional<std::uint32_t> found;
     double nearest = farthest;
     for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
         const world::LaneT& lane = town.lanes[i];
         if (!has_junction(town, lane) || !is_on_side(lane, direction))
             continue;
-        const auto distance = before_junction(lane, node, centre(town, lane));
+        const auto distance = distance_to_junction(lane, node, centre(town, lane));
         if (!distance || *distance >= nearest)
             continue;
         nearest = *distance;
@@ -88,14 +83,14 @@ std::vector<LaneSign> lane_signs(const std::vector<MapShape>& signs, const world
     std::vector<LaneSign> found;
     for (const MapShape& sign : signs) {
         const Vector2d node = world::in_plan(sign.line.front());
-        const bool stops = tag(sign.tags, "highway") == "stop";
+        const bool stops = tag_value(sign.tags, "highway") == "stop";
         bool in_junction = false;
         for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
             const world::LaneT& lane = town.lanes[i];
             if (!has_junction(town, lane) || (centre(town, lane) - node).norm() > middle)
                 continue;
             in_junction = true;
-            if (stops && tag(sign.tags, "stop") == "all")
+            if (stops && tag_value(sign.tags, "stop") == "all")
                 found.push_back({i, true});
         }
         if (in_junction)

@@ -7,10 +7,10 @@
 
 namespace reprise::towns {
 
-/// The signs of an OpenStreetMap map: nodes on their road (MapShapes::signs), each for those who
-/// drive over it towards a junction within 50 m. A tag `direction` says along or against the way;
-/// without it the nearer junction counts. Nodes in the middle of a junction say nothing, but for a
-/// stop sign tagged `stop=all`, which is for all roads there. In the map's order.
+/// The signs of an OpenStreetMap map: nodes on their road (MapShapes::signs), each for traffic that
+/// passes it towards a junction within 50 m. A tag `direction` says along or against the way;
+/// without it the nearer junction counts. Nodes in the middle of a junction are ignored, but for
+/// stop signs tagged `stop=all`, which are for all roads there. In the map's order.
 std::vector<LaneSign> lane_signs(const std::vector<MapShape>& signs, const world::TownT& town);
 
 }  // namespace reprise::towns

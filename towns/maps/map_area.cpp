@@ -17,11 +17,6 @@ namespace {
 using world::BuildingUse;
 using world::PlotKind;
 
-std::string value(const Tags& tags, const char* key) {
-    const auto found = tags.find(key);
-    return found == tags.end() ? "" : found->second;
-}
-
 /// What a building's tag says of its use, and how many floors are usual.
 struct Usual {
     const char* tag;
@@ -56,17 +51,17 @@ constexpr double lowest = 2.2, highest = 500;  // [m]
 
 /// [m] of the whole.
 std::optional<double> tagged_height(const Tags& tags) {
-    const std::optional<double> height = length_of(value(tags, "height"));
-    return height ? height : length_of(value(tags, "building:height"));
+    const std::optional<double> height = length_of(tag_value(tags, "height"));
+    return height ? height : length_of(tag_value(tags, "building:height"));
 }
 
 /// [1] as tagged, or as usual for the kind.
 double floors_of(const Tags& tags) {
-    const double tagged = number(value(tags, "building:levels"), 0);
+    const double tagged = number(tag_value(tags, "building:levels"), 0);
     if (tagged > 0 && tagged < 200)
         return tagged;
     for (const Usual& usual : usual_buildings)
-        if (value(tags, "building") == usual.tag)
+        if (tag_value(tags, "building") == usual.tag)
             return usual.floors;
     return 2;
 }
@@ -75,22 +70,23 @@ BuildingUse use_of(const Tags& tags, double floors) {
     if (floors >= 9)
         return BuildingUse::tower;
     for (const Usual& usual : usual_buildings)
-        if (value(tags, "building") == usual.tag)
+        if (tag_value(tags, "building") == usual.tag)
             return usual.use;
-    return value(tags, "shop").empty() ? floors <= 2   ? BuildingUse::house
-                                         : floors <= 3 ? BuildingUse::terrace
-                                                       : BuildingUse::flats
-                                       : BuildingUse::shop;
+    return tag_value(tags, "shop").empty() ? floors <= 2   ? BuildingUse::house
+                                             : floors <= 3 ? BuildingUse::terrace
+                                                           : BuildingUse::flats
+                                           : BuildingUse::shop;
 }
 
-struct Land {
+/// A tag, and the plot that an area with it becomes.
+struct LandUse {
     const char* key;
     const char* value;
     PlotKind kind;
 };
 
 // clang-format off
-constexpr std::array<Land, 30> lands{{
+constexpr std::array<LandUse, 30> land_uses{{
     {"natural", "water", PlotKind::water},         {"waterway", "riverbank", PlotKind::water},
     {"landuse", "reservoir", PlotKind::water},     {"landuse", "basin", PlotKind::water},
     {"leisure", "swimming_pool", PlotKind::water}, {"amenity", "parking", PlotKind::car_park},
@@ -112,6 +108,11 @@ constexpr std::array<Land, 30> lands{{
 
 }  // namespace
 
+std::string tag_value(const Tags& tags, const char* key) {
+    const auto found = tags.find(key);
+    return found == tags.end() ? "" : found->second;
+}
+
 std::optional<double> length_of(const std::string& text) {
     const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
     const double length = number(std::string_view(text).substr(0, end), 0);
@@ -124,15 +125,15 @@ std::optional<double> length_of(const std::string& text) {
 }
 
 bool is_building(const Tags& tags) {
-    const std::string kind = value(tags, "building");
+    const std::string kind = tag_value(tags, "building");
     return !kind.empty() && kind != "no" && kind != "roof" && kind != "carport" &&
-           kind != "canopy" && value(tags, "location") != "underground" &&
-           number(value(tags, "layer"), 0) >= 0;
+           kind != "canopy" && tag_value(tags, "location") != "underground" &&
+           number(tag_value(tags, "layer"), 0) >= 0;
 }
 
 std::optional<double> ridge_height(const Tags& tags) {
     const std::optional<double> height = tagged_height(tags);
-    if (!height || length_of(value(tags, "roof:height")))
+    if (!height || length_of(tag_value(tags, "roof:height")))
         return std::nullopt;
     return std::clamp(*height, lowest, highest);
 }
@@ -141,14 +142,14 @@ double eaves_height(const Tags& tags) {
     std::optional<double> height = tagged_height(tags);
     // What is tagged is the ridge.
     if (height)
-        height = *height - length_of(value(tags, "roof:height")).value_or(0);
+        height = *height - length_of(tag_value(tags, "roof:height")).value_or(0);
     return std::clamp(height.value_or(floors_of(tags) * floor_height), lowest, highest);
 }
 
 std::vector<std::vector<std::uint32_t>> suitable_models(const Tags& tags) {
     const double floors = floors_of(tags);
     const auto models = world::building_models();
-    const auto named = world::find_building_model(value(tags, "building"));
+    const auto named = world::find_building_model(tag_value(tags, "building"));
     const BuildingUse use = named ? models[*named].use : use_of(tags, floors);
     std::vector<std::uint32_t> same_name, same_roof, same_floors, same_use;
     for (std::uint32_t i = 0; i < models.size(); ++i) {
@@ -180,8 +181,8 @@ std::uint32_t model_of(const Tags& tags, std::uint64_t draw) {
 }
 
 std::optional<PlotKind> plot_kind(const Tags& tags) {
-    for (const Land& land : lands)
-        if (value(tags, land.key) == land.value)
+    for (const LandUse& land : land_uses)
+        if (tag_value(tags, land.key) == land.value)
             return land.kind;
     return std::nullopt;
 }

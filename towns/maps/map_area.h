@@ -10,8 +10,11 @@
 
 namespace reprise::towns {
 
-/// Tags of an OpenStreetMap area.
+/// Tags of an OpenStreetMap object, by their keys.
 using Tags = std::map<std::string, std::string>;
+
+/// "" when there is no such tag.
+std::string tag_value(const Tags& tags, const char* key);
 
 /// "11.5", "11.5 m", "38'", "38 ft": [m]; nothing when it is not a length above 0.
 std::optional<double> length_of(const std::string& text);
@@ -32,7 +35,7 @@ std::uint32_t model_of(const Tags& tags, std::uint64_t draw);
 /// that one in use and roof; then of the use, with as many floors; then of the use.
 std::vector<std::vector<std::uint32_t>> suitable_models(const Tags& tags);
 
-/// What the land is, if it is something that a town shows.
+/// The plot that an area of land use becomes; nothing for those that a town does not show.
 std::optional<world::PlotKind> plot_kind(const Tags& tags);
 
 }  // namespace reprise::towns

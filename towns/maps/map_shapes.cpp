@@ -37,11 +37,6 @@ constexpr const char* wanted_keys = R"(<polygonTypes>
 </polygonTypes>
 )";
 
-std::string tag(const Tags& tags, const char* key) {
-    const auto found = tags.find(key);
-    return found == tags.end() ? "" : found->second;
-}
-
 Tags tags_of(const pugi::xml_node& shape) {
     Tags tags;
     for (const pugi::xml_node param : shape.children("param"))
@@ -59,7 +54,7 @@ void take(const pugi::xml_node& poly, std::set<std::string>& seen, MapShapes& sh
     const bool closed = shape.line.size() >= 4 && shape.line.front() == shape.line.back();
     if (closed && (is_building(shape.tags) || plot_kind(shape.tags)))
         shapes.areas.push_back(std::move(shape));
-    else if (!tag(shape.tags, "highway").empty() && layer_of(shape.tags) != 0)
+    else if (!tag_value(shape.tags, "highway").empty() && layer_of(shape.tags) != 0)
         shapes.ways.push_back(std::move(shape));
 }
 
@@ -69,7 +64,7 @@ void take_point(const pugi::xml_node& poi, MapShapes& shapes) {
         poi.attribute("id").value(),
         tags_of(poi),
         {{number(poi.attribute("x").value(), 0), number(poi.attribute("y").value(), 0), 0.0}}};
-    const std::string kind = tag(point.tags, "highway");
+    const std::string kind = tag_value(point.tags, "highway");
     if (kind == "crossing")
         shapes.crossings.emplace_back(point.line.front().x(), point.line.front().y(), 0);
     else if (kind == "stop" || kind == "give_way")
@@ -81,17 +76,17 @@ void take_point(const pugi::xml_node& poi, MapShapes& shapes) {
 int layer_of(const Tags& tags) {
     constexpr double farthest = 5;
     const double unsaid = farthest + 1;
-    const double layer = number(tag(tags, "layer"), unsaid);
+    const double layer = number(tag_value(tags, "layer"), unsaid);
     if (std::abs(layer) <= farthest)
         return static_cast<int>(layer);
     const auto is = [&](const char* key) {
-        const std::string value = tag(tags, key);
+        const std::string value = tag_value(tags, key);
         return !value.empty() && value != "no";
     };
     if (is("bridge"))
         return 1;
     // A passage through a building lies at the height of the street.
-    return is("tunnel") && tag(tags, "tunnel") != "building_passage" ? -1 : 0;
+    return is("tunnel") && tag_value(tags, "tunnel") != "building_passage" ? -1 : 0;
 }
 
 MapShapes read_shapes(const std::string& map,

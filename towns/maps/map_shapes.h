@@ -18,11 +18,12 @@ struct MapShape {
     std::vector<world::Vec3> line;  ///< [m] z is 0; areas end where they begin
 };
 
-/// What netconvert leaves of a map. Each list is in polyconvert's order, which is that of ids.
+/// What a town takes from an OpenStreetMap map beside the network that netconvert makes of it. Each
+/// list is in polyconvert's order, which is that of ids.
 struct MapShapes {
     std::vector<MapShape> areas;  ///< buildings and plots, near the roads
-    std::vector<MapShape> ways;   ///< roads that lie over or under others: layer_of() is not 0
-    std::vector<MapShape> signs;  ///< one point: highway=stop or highway=give_way
+    std::vector<MapShape> ways;   ///< bridges and tunnels of roads: layer_of() is not 0
+    std::vector<MapShape> signs;  ///< of one point each: highway=stop or highway=give_way
     int open_areas = 0;           ///< multipolygons with an outline that does not close
     std::vector<Eigen::Vector3d> crossings;  ///< [m] highway=crossing; z is 0
 };

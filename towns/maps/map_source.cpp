@@ -30,7 +30,7 @@ constexpr std::uint64_t largest_stream = std::uint64_t{2} << 30;
 constexpr std::string_view expected =
     "an OpenDRIVE (.xodr), OpenStreetMap (.osm) or SUMO (.net.xml) map was expected";
 
-/// Reads plain and packed files alike.
+/// Reads plain files and those compressed with gzip alike.
 class Reader {
   public:
     explicit Reader(const fs::path& path) : path_(path), file_(gzopen(path.c_str(), "rb")) {

@@ -44,7 +44,7 @@ std::optional<double> speed_of(const char* written, std::string_view unit) {
 
 // ---- limits -----------------------------------------------------------------------------------
 
-/// The limits of the whole road between two s, each from how far behind the first on [m]: [m/s].
+/// The road's limits between two s: [m/s] by the distance from the first s on which each holds. [m]
 std::map<double, double> limits_between(const pugi::xml_node& road, double from, double to) {
     constexpr double same = 1e-6;  // [m]
     std::map<double, double> limits;
@@ -78,7 +78,7 @@ void write_limits(pugi::xml_node lane, const std::map<double, double>& limits) {
     }
 }
 
-/// Lanes with a limit of their own keep it. Returns how many got one.
+/// Writes the road's limits into lanes that have none of their own. Returns how many.
 int set_limits(const pugi::xml_node& road) {
     int set = 0;
     for (const pugi::xml_node section : road.child("lanes").children("laneSection")) {
@@ -97,7 +97,7 @@ int set_limits(const pugi::xml_node& road) {
 
 /// RoadRunner names roads Road 0, Road 1, ...: these are no streets, and netconvert does not join
 /// roads of different names.
-void drop_made_up_name(pugi::xml_node road) {
+void drop_generated_name(pugi::xml_node road) {
     constexpr std::string_view beginning = "Road ";
     const std::string_view name = text(road, "name");
     if (name.starts_with(beginning) &&
@@ -118,7 +118,7 @@ double cubic_at(const pugi::xml_node& profile, const char* name, double s) {
            ds * (real(piece, "b") + ds * (real(piece, "c") + ds * real(piece, "d")));
 }
 
-/// Its attributes, as far as they say what it is.
+/// The attributes that tell its kind.
 SignalWords words_of(const pugi::xml_node& signal) {
     return {text(signal, "type"),
             text(signal, "subtype"),
@@ -129,12 +129,12 @@ SignalWords words_of(const pugi::xml_node& signal) {
             text(signal, "dynamic") == "yes"};
 }
 
-/// A place beside the road's line, on its surface: not where superelevation puts it, for the town's
-/// road is flat from side to side.
-Eigen::Vector3d place_of(const pugi::xml_node& thing,
-                         const pugi::xml_node& road,
-                         const ReferenceLine& line) {
-    const double s = real(thing, "s"), t = real(thing, "t");
+/// At the s and t of a signal or object, on the road's surface. Superelevation is left out: the
+/// town's road is flat from side to side.
+Eigen::Vector3d position_of(const pugi::xml_node& object,
+                            const pugi::xml_node& road,
+                            const ReferenceLine& line) {
+    const double s = real(object, "s"), t = real(object, "t");
     const RoadPose pose = line.at(s);
     return {pose.position.x() - t * std::sin(pose.heading),
             pose.position.y() + t * std::cos(pose.heading),
@@ -144,14 +144,15 @@ Eigen::Vector3d place_of(const pugi::xml_node& thing,
 void read_crossings(const pugi::xml_node& road, OpenDrive& map) {
     for (const pugi::xml_node object : road.child("objects").children("object"))
         if (text(object, "type") == "crosswalk")
-            map.crossings.push_back(place_of(object, road, ReferenceLine(road.child("planView"))));
+            map.crossings.push_back(
+                position_of(object, road, ReferenceLine(road.child("planView"))));
 }
 
 RoadSignal read_signal(const pugi::xml_node& signal,
                        Kind kind,
                        const pugi::xml_node& road,
                        const ReferenceLine& line) {
-    const Eigen::Vector3d foot = place_of(signal, road, line);
+    const Eigen::Vector3d foot = position_of(signal, road, line);
     RoadSignal found;
     found.id = text(signal, "id");
     found.kind = kind;
@@ -214,7 +215,7 @@ OpenDrive read_opendrive(const std::string& xml, const std::string& file) {
         map.left_hand = map.left_hand && text(road, "rule") == "LHT";
         map.limits_set += set_limits(road);
         map.banked += is_banked(road) ? 1 : 0;
-        drop_made_up_name(road);
+        drop_generated_name(road);
         read_signals(road, map);
         read_crossings(road, map);
     }

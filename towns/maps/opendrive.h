@@ -20,28 +20,28 @@ struct RoadSignal {
     double heading = 0;    ///< [rad] of the road there, the offset of the signal added
     bool against = false;  ///< orientation "-": for those who drive against s
     double bottom = 0;     ///< [m] of its lower edge above the road, as the map says (zOffset)
-    double height = 0;     ///< [m] of itself
+    double height = 0;     ///< [m] from its lower to its upper edge
     double limit_kmh = 0;  ///< speed_limit only
 };
 
-/// What netconvert does not take over out of an OpenDRIVE map.
+/// What netconvert does not take over from an OpenDRIVE map.
 struct OpenDrive {
     std::string version;                     ///< such as 1.4
     std::vector<RoadSignal> signals;         ///< in the order of the file
     std::vector<Eigen::Vector3d> crossings;  ///< crosswalks, in the map's frame
-    int other_signs = 0;                     ///< of kinds that have no place in a town
+    int other_signs = 0;                     ///< of kinds that towns do not have
     int limits_set = 0;                      ///< lanes that got their road's limit
     int banked = 0;  ///< roads with superelevation: netconvert lays them flat
-    /// [m] The header's <offset>: netconvert takes it off every place, if it knows the map's
-    /// projection.
+    /// [m] The header's <offset>: netconvert subtracts it from every coordinate, if it knows the
+    /// map's projection.
     Eigen::Vector2d origin{0, 0};
-    bool left_hand = false;  ///< all roads say so
+    bool left_hand = false;  ///< all roads have rule="LHT"
     std::string prepared;    ///< the map with these limits, for netconvert
 };
 
-/// Reads it out of the map's text. netconvert 1.15 ignores speed limits of a whole road
-/// (<type><speed>): they are written into its lanes. Names that a program made up are taken out.
-/// `file` is for messages. Throws world::Error "file:line: what" when it is not XML or has no road.
+/// Parses a map. netconvert 1.15 ignores speed limits of a whole road (<type><speed>): they are
+/// written into its lanes. Road names that an editor generated are removed. `file` is for messages.
+/// Throws world::Error "file:line: what" when it is not XML or has no road.
 OpenDrive read_opendrive(const std::string& xml, const std::string& file);
 
 }  // namespace reprise::towns

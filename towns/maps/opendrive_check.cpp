@@ -14,11 +14,11 @@ namespace reprise::towns {
 
 namespace {
 
-/// A value that an attribute may have, if it is there.
+/// The range of an optional attribute.
 struct Bound {
     const char* element;
     const char* attribute;
-    double largest;  ///< without its sign
+    double largest;  ///< magnitude
 };
 
 constexpr std::array bounds{
@@ -55,8 +55,8 @@ class Checker : public pugi::xml_tree_walker {
         const std::string_view text = node.attribute(bound.attribute).value();
         if (text.empty())
             return;
-        const double nothing = std::numeric_limits<double>::infinity();
-        const double value = number(text, nothing);
+        const double not_a_number = std::numeric_limits<double>::infinity();
+        const double value = number(text, not_a_number);
         if (!(std::abs(value) <= bound.largest))
             fail(node,
                  fmt::format("{}=\"{}\" is not a number up to {:.0f}",

@@ -9,9 +9,10 @@ class xml_node;
 
 namespace reprise::towns {
 
-/// Refuses what netconvert would chew on for ever: roads of more than 200 km, pieces of them that
-/// lie 100,000 km away or turn within a millimetre, numbers that are none, elements nested 1,000
-/// deep. Throws world::Error "FILE:LINE: <ELEMENT>: ...". `root` is a map's, read out of `xml`.
+/// Refuses values for which netconvert would run for hours or overflow: roads of more than 200 km,
+/// geometry 100,000 km from the origin or with radii below a millimetre, attributes that are not
+/// numbers, elements nested more than 1,000 deep. `root` is the map's root element, parsed from
+/// `xml`. Throws world::Error "FILE:LINE: <ELEMENT>: ...".
 void check_opendrive(const pugi::xml_node& root, std::string_view xml, const std::string& file);
 
 }  // namespace reprise::towns
