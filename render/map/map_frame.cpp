@@ -91,7 +91,8 @@ void draw_legend(const std::vector<LegendEntry>& legend, MapCanvas& canvas) {
     const double top = canvas.map().y + canvas.map().height + 22 * u;
     for (std::size_t i = 0; i < legend.size(); ++i) {
         const double x = left + column * static_cast<double>(i % entries_a_row);
-        const double y = top + 27 * u * static_cast<double>(i / entries_a_row);
+        const std::size_t row = i / entries_a_row;
+        const double y = top + 27 * u * static_cast<double>(row);
         draw_legend_shape(legend[i], x, y, canvas);
         canvas.write(legend[i].text, x + 30 * u, y + 4.5 * u, 9.5 * u, letters);
     }

@@ -13,7 +13,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 std::string village() {
     return source("tests/towns/village.osm");
@@ -133,7 +132,7 @@ TEST_P(TownMistakes, AreToldInOneLine) {
     std::filesystem::resize_file(inputs / "zeros.net.xml", std::uintmax_t{3} << 30);
     std::vector<std::string> words{"town", "import"};
     for (std::string word : GetParam().words) {
-        if (const auto at = word.find("@"); at != std::string::npos)
+        if (const auto at = word.find('@'); at != std::string::npos)
             word.replace(at, 1, inputs / "");
         words.push_back(word);
     }
@@ -172,7 +171,7 @@ Result import_with(const Folder& folder, const std::string& netconvert) {
     std::filesystem::permissions(bin / "netconvert", std::filesystem::perms::owner_all);
     const std::string path = std::getenv("PATH");
     setenv("PATH", (bin.string() + ":" + path).c_str(), 1);
-    const Result result = reprise({"town", "import", village(), "-o", "d"}, folder.path());
+    Result result = reprise({"town", "import", village(), "-o", "d"}, folder.path());
     setenv("PATH", path.c_str(), 1);
     return result;
 }
