@@ -13,7 +13,6 @@
 namespace reprise::traffic {
 
 using world::LaneKind;
-using world::LaneT;
 using world::none;
 
 RoadGraph::RoadGraph(const world::TownT& town, std::vector<world::ClassSet> classes)

@@ -10,7 +10,6 @@ namespace reprise::render {
 
 namespace {
 
-using Eigen::Vector3f;
 using world::FacadeKind;
 
 /// Frames of stone around openings, sills, and shutters. Says whether the place is on one.

@@ -6,7 +6,6 @@ namespace reprise::test {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 /// A drive of 6 s among SUMO's cars, and scripts that might have gone on with it.
 class Branch : public testing::Test {

@@ -6,7 +6,6 @@ namespace reprise::test {
 namespace {
 
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// Records a drive with a car that the script steers, SUMO's cars and walkers.
 class Expand : public testing::Test {

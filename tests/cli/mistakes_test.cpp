@@ -40,7 +40,7 @@ TEST_P(Mistakes, AreToldInOneLine) {
     write_file(inputs / "wide.net.xml", wide);
     std::vector<std::string> words{"run", scenario, "-o", folder / "t.mcap", "--for", "1"};
     for (std::string word : mistake.words) {
-        if (const auto at = word.find("@"); at != std::string::npos)
+        if (const auto at = word.find('@'); at != std::string::npos)
             word.replace(at, 1, inputs / "");
         words.push_back(word);
     }

@@ -22,7 +22,6 @@ namespace reprise::towns {
 
 namespace {
 
-using Eigen::Vector2d;
 using world::BuildingModel;
 using world::BuildingUse;
 using world::Purpose;

@@ -18,7 +18,6 @@ namespace reprise::towns {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 
 constexpr double things_limit = 0.25;  ///< [m]
 constexpr double doors_limit = 0.30;   ///< [m]

@@ -15,7 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using world::LaneKind;
 using world::LaneT;
-using world::Vec3;
 
 constexpr double level_cell = 24;     ///< [m]
 constexpr double level_apart = 4;     ///< [m] of height: a bridge, or a slope of 6 %

@@ -13,7 +13,6 @@ namespace reprise::towns {
 
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 using world::LaneKind;
 using world::LaneT;

@@ -22,7 +22,6 @@ namespace reprise::towns {
 namespace {
 
 using world::PlotKind;
-using world::PropKind;
 using world::Vec3;
 using Outline = std::vector<Vec3>;
 

@@ -22,7 +22,6 @@ namespace fs = std::filesystem;
 using test::bytes_of;
 using test::carla_log;
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 constexpr std::uint64_t step_ns = 50'000'000;
 

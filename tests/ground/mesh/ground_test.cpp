@@ -16,7 +16,6 @@ namespace {
 
 using ground::GroundMesh;
 using ground::Surface;
-using test::Hit;
 using test::plumb;
 using world::LaneKind;
 using world::LaneT;

@@ -8,7 +8,6 @@
 namespace reprise::ground {
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 world::Loop in_plan(const std::vector<Vector3d>& face) {

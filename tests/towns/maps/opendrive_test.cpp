@@ -12,7 +12,6 @@ namespace reprise::towns {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 using Kind = RoadSignal::Kind;
 
 /// One road, north along x = 100, rising by 5 %, with these signals and this rule.
