@@ -10,8 +10,6 @@ find_package(pugixml REQUIRED CONFIG)
 find_package(fmt REQUIRED CONFIG)
 find_package(Boost 1.74 REQUIRED)
 find_path(cgal_headers CGAL/Constrained_Delaunay_triangulation_2.h REQUIRED)
-find_package(GTest CONFIG REQUIRED)
-find_package(benchmark CONFIG REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(EXPAT REQUIRED)
 find_package(nlohmann_json REQUIRED CONFIG)
@@ -42,3 +40,14 @@ reprise_plain_library(recast recastnavigation/Recast.h NAMES Detour Recast)
 reprise_plain_library(sumo libsumo/libsumo.h NAMES sumocpp)
 reprise_plain_library(opencv opencv2/core.hpp PATHS opencv4
                       NAMES opencv_core opencv_imgproc opencv_imgcodecs)
+
+# ./dev demo builds the program only, from packages.txt's first list.
+option(REPRISE_TESTS "Build tests and benchmarks, which need packages.txt's second list" ON)
+if(REPRISE_TESTS)
+  find_package(GTest CONFIG)
+  find_package(benchmark CONFIG)
+  if(NOT GTest_FOUND OR NOT benchmark_FOUND)
+    message(FATAL_ERROR "tests need libgmock-dev, libgtest-dev and libbenchmark-dev (packages.txt, [tests]): "
+                        "./dev test installs them, -DREPRISE_TESTS=OFF builds without tests")
+  endif()
+endif()

@@ -56,14 +56,22 @@ function(reprise_room name)
   reprise_unity(${name})
 endfunction()
 
-# reprise_test(NAME SOURCES ... ROOMS ...): one test program per room.
+# reprise_test(NAME [FOREIGN_BYTES] SOURCES ... ROOMS ...): one test program per room. FOREIGN_BYTES: the
+# room reads what others wrote; ./dev sanitize runs its tests with sanitizers.
+add_custom_target(foreign_bytes)
+
 function(reprise_test name)
-  cmake_parse_arguments(TEST "" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(TEST "FOREIGN_BYTES" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE reprise_build ${TEST_ROOMS} ${TEST_LIBRARIES} GTest::gmock
                                         GTest::gtest_main)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  set(properties TIMEOUT 300)
+  if(TEST_FOREIGN_BYTES)
+    add_dependencies(foreign_bytes ${name})
+    list(APPEND properties LABELS foreign_bytes)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()
 
 include(GoogleTest)
