@@ -13,6 +13,7 @@
 #include "cli/golden/golden_runs.h"
 #include "cli/process/guard.h"
 #include "cli/process/progress.h"
+#include "cli/process/reproduce.h"
 #include "replay/golden/golden_difference.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
@@ -28,12 +29,9 @@ struct Candidate {
     replay::GivenSetup given;
     std::optional<replay::Golden> before;  ///< none: the case is new
     std::optional<replay::Golden> golden;
+    std::string text;  ///< of `golden`
     fs::path trace;
 };
-
-std::string decimal(double value) {
-    return fmt::format("{}", value);  // fmt: the shortest that reads back the same
-}
 
 replay::GivenSetup given_by(const RunOptions& start, const fs::path& golden) {
     replay::GivenSetup given;
@@ -149,6 +147,7 @@ class Acceptance {
         candidate.golden = replay::make_golden(first);
         candidate.golden->because = options_.because;
         candidate.golden->given = candidate.given;
+        candidate.text = replay::to_text(*candidate.golden);
         candidate.trace = first.path();
         return judge_change(candidate, first);
     }
@@ -171,8 +170,7 @@ class Acceptance {
     }
 
     void write(const Candidate& candidate) {
-        const std::string text = replay::to_text(*candidate.golden);
-        write_whole(candidate.tested.golden, text);
+        write_whole(candidate.tested.golden, candidate.text);
         if (!options_.keep.empty())
             keep_trace(candidate.trace, candidate.golden->chain, options_.keep);
         fmt::print("{}  {}: verdict {}, {} checks, {} events, {} s, {:.1f} kB\n",
@@ -182,7 +180,7 @@ class Acceptance {
                    candidate.golden->checks.size(),
                    candidate.golden->events.size(),
                    replay::golden_seconds(candidate.golden->ticks, candidate.golden->step_ns),
-                   static_cast<double>(text.size()) / 1e3);
+                   static_cast<double>(candidate.text.size()) / 1e3);
     }
 
     const AcceptOptions& options_;

@@ -1,9 +1,12 @@
 #include "cli/golden/golden_list.h"
 
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "cli/golden/golden_case.h"
 #include "cli/process/guard.h"
+#include "replay/table/value.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -36,12 +39,14 @@ int golden_list(const GoldenListOptions& options) {
         const bool orphan = one.state == GoldenCase::State::orphan;
         try {
             const replay::Golden golden = replay::load_golden(one.golden);
+            std::string because;
+            replay::append_json(std::string_view(golden.because), because);
             fmt::print("{}  {}, {}; because {}\n",
                        one.golden.string(),
                        orphan ? "ORPHAN: no " + one.scenario.string()
                               : command_line(run_words(one, golden.given)),
                        golden.verdict,
-                       replay::in_quotes(golden.because));
+                       because);
         } catch (const world::Error& error) {
             fmt::print("{}  unreadable: {}\n", one.golden.string(), error.what());
             code = exit_bad_input;

@@ -11,12 +11,6 @@ namespace {
 constexpr std::string_view plain =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
 
-/// The shortest decimal that reads back the same.
-std::string decimal(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof(text), value).ptr};
-}
-
 /// What --set takes for a parameter that is recorded as a Lua literal: texts without their quotes.
 std::string setting(const std::string& literal) {
     if (literal.size() < 2 || literal.front() != '\'' || literal.back() != '\'')
@@ -34,6 +28,11 @@ std::string setting(const std::string& literal) {
 }
 
 }  // namespace
+
+std::string decimal(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof(text), value).ptr};
+}
 
 std::string shell_word(const std::string& word) {
     if (!word.empty() && word.find_first_not_of(plain) == std::string::npos)

@@ -8,6 +8,9 @@
 
 namespace reprise::cli {
 
+/// The shortest decimal that reads back the same.
+std::string decimal(double value);
+
 /// One word as a POSIX shell takes it: in quotes only where it needs them.
 std::string shell_word(const std::string& word);
 

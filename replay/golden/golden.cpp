@@ -7,13 +7,14 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "replay/table/value.h"
+#include "replay/table/value_text.h"
 #include "world/check.h"
 #include "world/digest.h"
 
@@ -26,13 +27,6 @@ constexpr std::uint64_t most_states = 100;       ///< lines; likewise
 constexpr std::size_t most_actors = 100;         ///< in full at an instant
 constexpr std::size_t most_events = 100;         ///< in full; results of checks come on top
 constexpr std::size_t longest_text = 200;        ///< [bytes] of an event
-
-/// Shortest decimal that reads back the same.
-template <typename Real>
-std::string decimal(Real value) {
-    char text[64];
-    return {text, std::to_chars(text, text + sizeof(text), value).ptr};
-}
 
 std::string hex32(const world::Hasher& hasher) {
     return fmt::format("{:08x}", hasher.digest64() & 0xffffffffu);
@@ -57,12 +51,19 @@ std::string place_text(const world::Vec3& place) {
     return decimal(place.x()) + " " + decimal(place.y()) + " " + decimal(place.z());
 }
 
-std::string shortened(std::string text) {
+/// As a golden's file can hold it. What is not UTF-8 keeps a digest of its bytes.
+std::string readable(const std::string& text) {
+    const std::string clean = valid_utf8(text);
+    return clean == text ? text : fmt::format("{} ({})", clean, hex64(text));
+}
+
+std::string shortened(const std::string& text) {
     if (text.size() <= longest_text)
-        return text;
-    const std::string all = hex64(text);
-    text.resize(longest_text);
-    return fmt::format("{}... ({})", text, all);
+        return readable(text);
+    std::size_t size = longest_text;
+    while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xc0u) == 0x80u)
+        --size;  // no half characters
+    return fmt::format("{}... ({})", valid_utf8(text.substr(0, size)), hex64(text));
 }
 
 bool is_check(world::EventKind kind) {
@@ -91,6 +92,8 @@ GoldenCheck check_of(const world::Event& event, std::uint64_t tick) {
         check.detail = check.name.substr(colon + 2);
         check.name.resize(colon);
     }
+    check.name = readable(check.name);
+    check.detail = readable(check.detail);
     return check;
 }
 
@@ -132,7 +135,7 @@ class Maker {
         if (actor == 0)
             return "";
         const auto name = names_.find(actor);
-        return fmt::format("{}#{}", name == names_.end() ? "" : name->second, actor);
+        return fmt::format("{}#{}", name == names_.end() ? "" : readable(name->second), actor);
     }
 
     void read_events(const world::TickView& tick) {
@@ -296,15 +299,15 @@ class Maker {
 
 std::vector<std::pair<std::string, std::string>> starts_of(const world::EpisodeT& episode) {
     std::vector<std::pair<std::string, std::string>> starts{
-        {"town", episode.town + " " + world::to_hex(episode.town_digest).substr(0, 16)},
+        {"town", readable(episode.town) + " " + world::to_hex(episode.town_digest).substr(0, 16)},
         {"seed", std::to_string(episode.seed)},
         {"substeps", std::to_string(episode.substeps)},
         {"max_ticks", std::to_string(episode.max_ticks)},
         {"cars", std::to_string(episode.cars)},
         {"road_friction", decimal(episode.road_friction)},
-        {"weather", episode.weather_name}};
+        {"weather", readable(episode.weather_name)}};
     for (const world::ParameterT& parameter : episode.parameters)
-        starts.emplace_back("set " + parameter.key, parameter.value);
+        starts.emplace_back("set " + parameter.key, readable(parameter.value));
     return starts;
 }
 
@@ -358,7 +361,7 @@ const std::vector<std::string>& golden_stages() {
 Golden make_golden(TraceReader& trace, std::optional<Sampling> sampling) {
     const world::EpisodeT& episode = trace.episode();
     Golden golden;
-    golden.scenario = episode.scenario_path;
+    golden.scenario = readable(episode.scenario_path);
     golden.scenario_digest = hex64(episode.scenario);
     golden.build = episode.fingerprint;
     golden.starts = starts_of(episode);
@@ -366,7 +369,7 @@ Golden make_golden(TraceReader& trace, std::optional<Sampling> sampling) {
     golden.step_ns = episode.step_ns;
     golden.sampling = sampling ? *sampling : choose_sampling(trace);
     golden.verdict = trace.outcome().verdict;
-    golden.reason = trace.outcome().reason;
+    golden.reason = readable(trace.outcome().reason);
     golden.ticks = trace.ticks();
     Maker(trace, golden).make();
     return golden;

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -117,24 +116,22 @@ struct Golden {
 const std::vector<std::string>& golden_stages();
 
 /// Condenses a run; `because`, `given` stay empty. Without a sampling it chooses one: once a second
-/// unless the run is longer than ten minutes or has many actors, so that a minute stays under 20
+/// unless the run is longer than ten minutes or has many actors, so that a minute stays under 25
 /// kB. About 20 us a tick.
 Golden make_golden(TraceReader& trace, std::optional<Sampling> sampling = {});
 
-/// The file's text: one fact a line, sealed by a digest in the last one.
+/// The file's text: JSON with one fact a line, sealed by a digest in the last one. Throws
+/// world::Error for a text that is not UTF-8.
 std::string to_text(const Golden& golden);
 
-/// Reads what to_text wrote. Anything else - cut off, merged, edited - throws world::Error,
-/// "cut_in.golden:12: ...".
+/// Reads what to_text wrote. Anything else - another format, cut off, merged, edited - throws
+/// world::Error, "cut_in.golden:12: ...".
 Golden parse_golden(const std::string& text, const std::string& path);
 
 /// Reads a file; throws world::Error when that cannot be done.
 Golden load_golden(const std::filesystem::path& path);
 
-/// "2.85": a tick's time, exact for steps of whole milliseconds.
+/// "2.85": a tick's time in seconds, exact for steps of whole milliseconds.
 std::string golden_seconds(std::uint64_t tick, std::uint64_t step_ns);
-
-/// A text as goldens hold it: in quotes, control characters written out.
-std::string in_quotes(std::string_view text);
 
 }  // namespace reprise::replay

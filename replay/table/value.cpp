@@ -66,6 +66,12 @@ void append_json(std::string_view text, std::string& out) {
         out += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+std::string valid_utf8(std::string_view text) {
+    std::string json;
+    append_json(text, json);
+    return nlohmann::json::parse(json).get<std::string>();
+}
+
 void append_json(const Value& value, std::string& out) {
     std::visit(Overloaded{[&](std::monostate) { out += "null"; },
                           [&](bool v) { out += v ? "true" : "false"; },

@@ -19,6 +19,9 @@ void append_json(const Value& value, std::string& out);
 /// A text in quotes; what is not UTF-8 in it is replaced.
 void append_json(std::string_view text, std::string& out);
 
+/// The text with what is not UTF-8 in it replaced by U+FFFD.
+std::string valid_utf8(std::string_view text);
+
 /// As a cell of a CSV file (RFC 4180): digits as above, no quotes around numbers; absent: empty.
 void append_csv(const Value& value, std::string& out);
 

@@ -58,12 +58,20 @@ std::string line_at(std::string_view text, std::size_t position) {
 
 }  // namespace
 
+std::string decimal(double value) {
+    return shortest(value);
+}
+
+std::string decimal(float value) {
+    return shortest(value);
+}
+
 std::string value_text(double value) {
-    return fmt::format("{} (0x{:016x})", shortest(value), std::bit_cast<std::uint64_t>(value));
+    return fmt::format("{} (0x{:016x})", decimal(value), std::bit_cast<std::uint64_t>(value));
 }
 
 std::string value_text(float value) {
-    return fmt::format("{} (0x{:08x})", shortest(value), std::bit_cast<std::uint32_t>(value));
+    return fmt::format("{} (0x{:08x})", decimal(value), std::bit_cast<std::uint32_t>(value));
 }
 
 std::string distance_text(double expected, double found) {

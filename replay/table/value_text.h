@@ -7,7 +7,11 @@
 
 namespace reprise::replay {
 
-/// Shortest decimal that reads back the same, and the bits: "0.1 (0x3fb999999999999a)".
+/// Shortest decimal that reads back the same: "0.1", "1e-07", "nan".
+std::string decimal(double value);
+std::string decimal(float value);
+
+/// That decimal, and the bits: "0.1 (0x3fb999999999999a)".
 std::string value_text(double value);
 std::string value_text(float value);
 
