@@ -24,7 +24,7 @@ world::Digest128 chain_seed(const world::Recording& recording) {
     // Names and paths stay out: a copy of the same town under another path is the same world. The
     // fingerprint too: that another build gives the same run is what the chain is there to show.
     hasher.add(world::digest128(recording.network));
-    const mcap::Bytes town = format::packed_town(recording);
+    const mcap::Bytes town = format::pack(recording.town);
     hasher.add(static_cast<std::uint64_t>(town.size()));
     hasher.add_bytes(town.data(), town.size());
     return hasher.digest128();

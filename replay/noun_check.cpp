@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "replay/mcap/usable.h"
+#include "replay/struct_vector.h"
 #include "world/episode_generated.h"
 #include "world/models/catalogue.h"
 #include "world/tick.h"
@@ -27,10 +27,10 @@ bool ascending(std::span<const T> range, Key key) {
 constexpr auto id_of = [](const auto& item) { return item.id(); };
 constexpr auto actor_of = [](const auto& item) { return item.actor(); };
 
-bool vectors_usable(const world::Tick& tick) {
+bool vectors_are_sound(const world::Tick& tick) {
     return tick.commands() != nullptr && tick.events() != nullptr && tick.signals() != nullptr &&
-           usable(tick.controls()) && usable(tick.vehicles()) && usable(tick.wheels()) &&
-           usable(tick.measurements()) && usable_or_absent(tick.looks());
+           is_aligned(tick.controls()) && is_aligned(tick.vehicles()) &&
+           is_aligned(tick.wheels()) && is_aligned(tick.measurements()) && is_aligned(tick.looks());
 }
 
 bool sorted(const world::TickView& view) {
@@ -80,7 +80,7 @@ std::optional<std::string> fault_of_tick(mcap::View bytes, std::uint64_t index) 
     const world::Tick& tick = *world::GetTick(bytes.data());
     if (tick.index() != index)
         return fmt::format("it says that it is tick {}", tick.index());
-    if (tick.digests() == nullptr || tick.weather() == nullptr || !vectors_usable(tick) ||
+    if (tick.digests() == nullptr || tick.weather() == nullptr || !vectors_are_sound(tick) ||
         !structs_present(tick))
         return "a part of the tick is missing or misplaced";
     const world::TickView view{&tick, nullptr};
@@ -103,7 +103,7 @@ std::optional<std::string> fault_of_inputs(mcap::View bytes, std::uint64_t index
     const world::Tick& tick = *world::GetTick(bytes.data());
     if (tick.index() != index)
         return fmt::format("it says that it is tick {}", tick.index());
-    if (tick.digests() == nullptr || !usable_or_absent(tick.controls()))
+    if (tick.digests() == nullptr || (tick.controls() != nullptr && !is_aligned(tick.controls())))
         return "a part of the tick is missing or misplaced";
     if (tick.weather() != nullptr || tick.commands() != nullptr || tick.vehicles() != nullptr ||
         tick.wheels() != nullptr || tick.signals() != nullptr || tick.measurements() != nullptr ||
@@ -121,7 +121,8 @@ std::optional<std::string> fault_of_traffic(mcap::View bytes, std::uint64_t inde
     const world::Traffic& traffic = *world::GetTraffic(bytes.data());
     if (traffic.tick() != index)
         return fmt::format("its traffic says that it is of tick {}", traffic.tick());
-    if (!usable(traffic.cars()) || !usable(traffic.walkers()) || !usable_or_absent(traffic.looks()))
+    if (!is_aligned(traffic.cars()) || !is_aligned(traffic.walkers()) ||
+        !is_aligned(traffic.looks()))
         return "a part of the traffic is missing or misplaced";
     const world::TickView view{nullptr, &traffic};
     if (!ascending(view.cars(), id_of) || !ascending(view.walkers(), id_of) ||
@@ -146,7 +147,9 @@ std::optional<std::string> fault_of_episode(mcap::View bytes) {
         return "an episode whose step is zero";
     std::uint64_t last = 0;
     const auto* branches = world::GetEpisode(bytes.data())->branches();
-    for (flatbuffers::uoffset_t i = 0; branches != nullptr && i < branches->size(); ++i) {
+    if (branches == nullptr)
+        return "an episode without its list of branches";
+    for (flatbuffers::uoffset_t i = 0; i < branches->size(); ++i) {
         if (branches->Get(i)->tick() <= last)
             return "an episode whose branches are out of order";
         last = branches->Get(i)->tick();

@@ -59,8 +59,8 @@ void OpenedTrace::read_start() {
     const std::uint64_t version = format_of == facts->end() ? 0 : to_number(format_of->second);
     if (version != format::version)
         input.fail(0,
-                   fmt::format("the trace's format is {}, this program reads {}; use the "
-                               "program that recorded it, or a newer one",
+                   fmt::format("a trace of format {}; this program reads format {}: record the run "
+                               "again, or use the program that recorded it",
                                version,
                                format::version));
     if (const auto word = facts->find("level"); word != facts->end())
@@ -246,7 +246,6 @@ void OpenedTrace::read_town() {
     if (const auto fault = fault_of_town(town))
         fail_attachment(format::town_attachment, *fault);
     world::GetTown(town.data())->UnPackTo(&recording.town);
-    recording.recorded_town.assign(town.begin(), town.end());
     const mcap::Bytes network = read_packed_attachment(input, index, format::network_attachment);
     recording.network.assign(network.begin(), network.end());
     has_town = true;

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "replay/mcap/usable.h"
 #include "replay/noun_check.h"
+#include "replay/struct_vector.h"
 #include "world/models/building_models.h"
 #include "world/models/catalogue.h"
 #include "world/tick.h"
@@ -19,14 +19,12 @@ bool in_range(std::uint32_t index, std::size_t size) {
 
 bool lane_is_sound(const world::Lane& lane, const world::Town& town) {
     const std::size_t lanes = town.lanes()->size();
-    if (!usable(lane.centre()) || lane.centre()->size() < 2 || !usable_or_absent(lane.outline()) ||
-        !usable_or_absent(lane.links()) || lane.kind() > world::LaneKind::MAX)
+    if (!is_aligned(lane.centre()) || lane.centre()->size() < 2 || !is_aligned(lane.outline()) ||
+        !is_aligned(lane.links()) || lane.kind() > world::LaneKind::MAX)
         return false;
     if (!in_range(lane.left(), lanes) || !in_range(lane.right(), lanes) ||
         !in_range(lane.opposite(), lanes) || !in_range(lane.junction(), town.junctions()->size()))
         return false;
-    if (lane.links() == nullptr)
-        return true;
     for (const world::Link* link : *lane.links()) {
         if (!in_range(link->to(), lanes) || !in_range(link->via(), lanes) ||
             !in_range(link->signal(), town.signals()->size()) || link->turn() > world::Turn::MAX)
@@ -37,9 +35,8 @@ bool lane_is_sound(const world::Lane& lane, const world::Town& town) {
 
 template <typename Vector, typename Sound>
 bool all(const Vector* items, const Sound& sound) {
-    return items == nullptr || std::all_of(items->begin(), items->end(), [&](const auto* item) {
-               return sound(*item);
-           });
+    return std::all_of(
+        items->begin(), items->end(), [&](const auto* item) { return sound(*item); });
 }
 
 bool head_is_sound(const world::SignalHead& head, const world::Town& town) {
@@ -54,7 +51,8 @@ bool prop_is_known(const world::Prop& prop) {
                                                    prop.value() < world::vehicle_models().size());
 }
 
-/// What stands in the town is of kinds that we know, and refers to what is there.
+/// Buildings, plants and furniture are of known kinds; signal heads and spawn points name signals
+/// and lanes of this town.
 std::optional<std::string> fault_of_scenery(const world::Town& town) {
     const std::size_t models = world::building_models().size();
     const auto known = [&](const auto& building) { return building.model() <= models; };
@@ -66,7 +64,7 @@ std::optional<std::string> fault_of_scenery(const world::Town& town) {
     if (!all(town.props(), prop_is_known))
         return "furniture of an unknown kind";
     const auto drawn = [](const auto& outlined) {
-        return usable(outlined.outline()) && outlined.outline()->size() >= 3;
+        return is_aligned(outlined.outline()) && outlined.outline()->size() >= 3;
     };
     if (!all(town.drawn_buildings(), drawn) || !all(town.plots(), drawn) ||
         !all(town.plots(),
@@ -92,16 +90,18 @@ std::optional<std::string> fault_of_town(mcap::View bytes) {
             return fmt::format("lane {} is not sound", lane->name()->str());
     }
     for (const world::Junction* junction : *town.junctions()) {
-        if (!usable_or_absent(junction->outline()))
+        if (!is_aligned(junction->outline()))
             return fmt::format("junction {} is not sound", junction->name()->str());
     }
     for (const world::Signal* signal : *town.signals()) {
         if (!in_range(signal->lane(), town.lanes()->size()))
             return fmt::format("signal {} is not sound", signal->program()->str());
     }
-    if (!usable_or_absent(town.buildings()) || !usable_or_absent(town.trees()) ||
-        !usable_or_absent(town.props()) || !usable_or_absent(town.spawn_points()))
-        return "its buildings, plants, furniture or spawn points are not aligned";
+    if (!is_aligned(town.buildings()) || !is_aligned(town.trees()) || !is_aligned(town.props()) ||
+        !is_aligned(town.spawn_points()) || town.drawn_buildings() == nullptr ||
+        town.plots() == nullptr || town.heads() == nullptr)
+        return "its buildings, plots, plants, furniture, signal heads or spawn points are missing "
+               "or misplaced";
     return fault_of_scenery(town);
 }
 

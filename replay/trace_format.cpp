@@ -47,10 +47,6 @@ mcap::Bytes pack(const world::TownT& town) {
     return pack_noun<world::Town>(town, world::TownIdentifier());
 }
 
-mcap::Bytes packed_town(const world::Recording& recording) {
-    return recording.recorded_town.empty() ? pack(recording.town) : recording.recorded_town;
-}
-
 world::Digest128 from_hex(const std::string& text) {
     std::uint64_t high = 0;
     std::uint64_t low = 0;

@@ -13,10 +13,12 @@
 ///   chunks      of 64 ticks: /sim/tick and /sim/traffic in turn; log time = tick * step
 ///   metadata    reprise.outcome    how it ended, and the last link of the chain
 ///   the summary (index) that MCAP asks for
+/// A slice of a run says so in reprise.run: slice.first_tick, slice.run_ticks, slice.chain_before.
 namespace reprise::replay::format {
 
-/// A slice of a run says so in reprise.run: slice.first_tick, slice.run_ticks, slice.chain_before.
-inline constexpr std::uint64_t version = 1;
+/// Counted up with every change of this layout or of a schema in world/*.fbs: until 1.0 a trace of
+/// another version is refused.
+inline constexpr std::uint64_t version = 2;
 inline constexpr std::uint64_t ticks_per_chunk = 64;
 inline constexpr std::uint16_t tick_channel = 1;
 inline constexpr std::uint16_t traffic_channel = 2;
@@ -34,9 +36,6 @@ bool check_holds(const std::map<std::string, std::string>& texts);
 /// The FlatBuffers bytes of the episode and the town: equal nouns, equal bytes.
 mcap::Bytes pack(const world::EpisodeT& episode);
 mcap::Bytes pack(const world::TownT& town);
-
-/// Of the town in a recording; as it was recorded, if it was.
-mcap::Bytes packed_town(const world::Recording& recording);
 
 /// 32 hexadecimal digits as world::to_hex writes them. Zero when it is no such text.
 world::Digest128 from_hex(const std::string& text);

@@ -104,7 +104,7 @@ struct TraceWriter::File {
         file.attachment(
             format::episode_attachment, "application/x-flatbuffers", format::pack(episode));
         file.attachment(format::scenario_attachment, "text/x-lua", bytes_of(episode.scenario));
-        file.packed_attachment(format::town_attachment, format::packed_town(recording));
+        file.packed_attachment(format::town_attachment, format::pack(recording.town));
         file.packed_attachment(format::network_attachment, bytes_of(recording.network));
     }
 

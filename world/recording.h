@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "world/digest.h"
 #include "world/episode_generated.h"
@@ -15,9 +14,6 @@ struct Recording {
     EpisodeT episode;
     TownT town;
     std::string network;  ///< bytes of the SUMO network
-    /// The town's bytes in the trace that it was read from: an older program packed fewer fields.
-    /// Empty: `town` was never in a trace.
-    std::vector<std::uint8_t> recorded_town;
 };
 
 /// How a run ended; written when the trace is closed.

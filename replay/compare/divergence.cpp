@@ -42,15 +42,7 @@ const std::array<Stage, 6>& stages() {
 std::size_t stage_of(const world::Event& event) {
     if (event.actor() >= world::first_background_id && event.kind() != world::EventKind::collision)
         return 2;
-    switch (event.kind()) {
-        case world::EventKind::collision:
-            return 4;
-        case world::EventKind::ran_red_light:
-        case world::EventKind::left_road:
-            return 5;
-        default:
-            return 0;
-    }
+    return event.kind() == world::EventKind::collision ? 4 : 0;
 }
 
 /// "events[3]" of "events[3].text".

@@ -96,11 +96,20 @@ TEST(Diff, OfTwoBuildsIsEqualWithinATolerance) {
     EXPECT_EQ(reprise({"diff", base, nudged, "--tolerance", "nan"}).code, 2);
 }
 
-/// A trace that another program recorded long ago: what it says never changes.
-const std::string old_trace = source("tests/replay/traces/v1_small.mcap");
+/// A crash with all that a tick records; the numbers of the collisions are left open.
+class Info : public testing::Test {
+  protected:
+    void SetUp() override {
+        const Result run = reprise({"run", source("tests/cli/crash/crash.lua"), "-o", trace_});
+        EXPECT_EQ(run.code, 1) << run.out;
+    }
 
-TEST(Info, TellsARunOnOneScreen) {
-    const Result info = reprise({"info", old_trace});
+    const Folder folder_;
+    const std::string trace_ = folder_ / "crash.mcap";
+};
+
+TEST_F(Info, TellsARunOnOneScreen) {
+    const Result info = reprise({"info", trace_});
     EXPECT_EQ(info.code, 0);
     EXPECT_LE(std::count(info.out.begin(), info.out.end(), '\n'), 24);
     for (const char* row : {"  town      small, 1 cars of traffic\n",
@@ -108,26 +117,26 @@ TEST(Info, TellsARunOnOneScreen) {
                             "  outcome   failed: time limit\n",
                             "            failed  hit the van: it happened, at 2.25 s\n",
                             "            passed  hit the child\n",
-                            "10 collision\n",
-                            "  2.20 s  ego (1) with van (2), 12246 N s\n",
-                            "  3.30 s  ego (1) with van (2), 238 N s\n",
+                            " collision\n",
                             "  actors    ego (1), van (2), other (4), child (3), ",
-                            "  chain     849d92d3650c90733f72210ce6038d58\n",
                             "  again     reprise run ",
-                            "v1_small.mcap\n"})
+                            "crash.mcap\n"})
         EXPECT_THAT(info.out, HasSubstr(row));
+    EXPECT_THAT(info.out,
+                testing::ContainsRegex("  2.20 s  ego \\(1\\) with van \\(2\\), [0-9]+ N s"));
+    EXPECT_THAT(info.out, testing::ContainsRegex("  chain     [0-9a-f]{32}\n"));
     EXPECT_THAT(info.out, Not(HasSubstr("\033")));  // colours are for terminals
     EXPECT_THAT(info.out, Not(HasSubstr("libsumocpp")));
-    EXPECT_THAT(reprise({"info", old_trace, "--long"}).out, HasSubstr("libsumocpp 8aae586"));
+    EXPECT_THAT(reprise({"info", trace_, "--long"}).out, HasSubstr("libsumocpp "));
 }
 
-TEST(Info, IsJsonForPrograms) {
-    const Result info = reprise({"info", old_trace, "--json"});
+TEST_F(Info, IsJsonForPrograms) {
+    const Result info = reprise({"info", trace_, "--json"});
     EXPECT_EQ(info.code, 0);
     for (const char* text : {"\"seed\": \"11\"",
                              "\"verdict\": \"failed\"",
-                             "\"chain\": \"849d92d3650c90733f72210ce6038d58\"",
-                             "\"count\": \"10\"",
+                             "\"chain\": \"",
+                             "\"count\": \"",
                              "\"throttle\": \"0.8\""})
         EXPECT_THAT(info.out, HasSubstr(text));
     const Folder folder;

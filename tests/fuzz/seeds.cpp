@@ -120,9 +120,6 @@ void write_seeds(const fs::path& folder) {
     write_both(folder, "slice", read_file(cut));
     fs::remove(cut);
     fs::remove(made);
-    for (const auto& entry : fs::directory_iterator(REPRISE_TRACES))
-        if (entry.path().extension() == ".mcap")
-            write_both(folder, entry.path().stem().string(), read_file(entry.path()));
 }
 
 }  // namespace reprise::test

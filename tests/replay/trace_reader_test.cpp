@@ -1,9 +1,15 @@
 #include "replay/trace_reader.h"
 
+#include <algorithm>
+#include <map>
 #include <sys/stat.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "replay/mcap/files.h"
+#include "replay/trace_format.h"
+#include "replay/trace_index.h"
 #include "replay/trace_writer.h"
 #include "tests/replay/synthetic_run.h"
 #include "world/check.h"
@@ -25,6 +31,44 @@ TEST(TraceReader, GivesBackTheBytesThatWereWrittenInAnyOrder) {
         EXPECT_EQ(bytes_of(trace.tick(index)), bytes_of(ticks[index - 1]));
     for (const std::uint64_t index : {150u, 1u, 64u, 65u, 128u, 129u, 2u})
         EXPECT_EQ(bytes_of(trace.tick(index)), bytes_of(ticks[index - 1]));
+}
+
+/// The trace says that it is of this format; its own checksum over what it says is right.
+void write_format(const std::filesystem::path& path, char digit) {
+    namespace format = replay::format;
+    std::map<std::string, std::string> facts;
+    {
+        const replay::InputFile file(path);
+        facts = *replay::read_metadata(file, *replay::read_index(file), format::run_metadata);
+    }
+    facts["format"] = std::string(1, digit);
+    std::vector<std::uint8_t> bytes = read_file(path);
+    const auto put = [&](const std::string& key, const std::string& value) {
+        const std::string name = format::run_metadata;
+        const auto run = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+        const auto at = std::search(run, bytes.end(), key.begin(), key.end());
+        ASSERT_NE(at, bytes.end());
+        std::copy(value.begin(), value.end(), at + static_cast<std::ptrdiff_t>(key.size()) + 4);
+    };
+    put("format", facts["format"]);
+    put("check", format::with_check(facts).at("check"));
+    write_file(path, bytes);
+}
+
+TEST(TraceReader, RefusesATraceOfAnotherFormat) {
+    const Folder folder;
+    const auto path = folder / "run.mcap";
+    for (const char digit : {'1', '9'}) {
+        write_trace(path, {.ticks = 3});
+        write_format(path, digit);
+        const std::string expected = fmt::format(
+            "run.mcap: byte 0: a trace of format {}; this program reads format {}: "
+            "record the run again, or use the program that recorded it",
+            digit,
+            replay::format::version);
+        EXPECT_THAT(error_of([&] { const TraceReader trace(path); }), HasSubstr(expected));
+        EXPECT_THAT(error_of([&] { TraceReader::salvage(path); }), HasSubstr(expected));
+    }
 }
 
 TEST(TraceReader, GivesBackWhatTheRunStartedFrom) {

@@ -12,7 +12,7 @@
 
 namespace reprise::render {
 
-/// Bits of a walker's look; of an older trace, from his id.
+/// Bits of a walker's look; of one that was not recorded (an imported run), from his id.
 std::uint32_t look_of(const world::WalkerState& walker);
 
 /// The limbs of a walker at his phase of the walk (see posture.h) with what he carries. Frame: x

@@ -146,15 +146,15 @@ TEST(Compare, NamesActorsThatOnlyOneRunHas) {
 
 TEST(Compare, AttributesAnEventThatOnlyOneRunHasToItsStage) {
     const Divergence found = difference([](world::TickDraft& draft) {
-        world::EventT light;
-        light.kind = world::EventKind::ran_red_light;
-        light.actor = 1;
-        draft.tick.events.push_back(light);
+        world::EventT crash;
+        crash.kind = world::EventKind::collision;
+        crash.actor = 1;
+        draft.tick.events.push_back(crash);
     });
-    EXPECT_EQ(found.stage, "measurements");
+    EXPECT_EQ(found.stage, "physics");
     EXPECT_EQ(found.field, "events[1]");
     EXPECT_EQ(found.expected, "absent");
-    EXPECT_EQ(found.found, "ran_red_light");
+    EXPECT_EQ(found.found, "collision");
 }
 
 TEST(Compare, NamesCommandsByTheirFields) {

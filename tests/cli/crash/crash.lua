@@ -1,5 +1,5 @@
--- One of everything that a tick records, in 70 ticks.
-return scenario 'v1_small' {
+-- One of everything that a tick records, in 66 ticks: the ego drives into a van that stands.
+return scenario 'crash' {
     town = 'small.net.xml', cars = 1, seed = 11, duration = 3.3,
     params = { throttle = 0.8 },
     run = function(p)
