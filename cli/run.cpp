@@ -109,7 +109,7 @@ std::span<const world::Control> inputs(std::optional<replay::TraceReader>& befor
 /// What happened, as it happens: printed lines, collisions, checks.
 void print_events(const world::TickView& tick, std::uint64_t step_ns, Progress& progress) {
     for (const world::Event* event : *tick.tick->events()) {
-        std::string text = event->text() == nullptr ? "" : event->text()->str();
+        std::string text = world::to_line(*event);
         switch (event->kind()) {
             case world::EventKind::printed:
                 break;

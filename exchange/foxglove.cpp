@@ -40,7 +40,7 @@ LogLevel level_of(world::EventKind kind) {
 }
 
 std::string text_of(const world::Event& event, const Names& names) {
-    const std::string said = event.text() == nullptr ? "" : event.text()->str();
+    const std::string said = world::to_line(event);
     const auto name = [&](std::uint32_t id) {
         const auto found = names.find(id);
         return id == 0                ? std::string("something fixed")

@@ -70,7 +70,7 @@ std::uint64_t digest_of_measurements(const world::TickDraft& next) {
         hasher.add(event.other);
         hasher.add(event.position);
         hasher.add(event.value);
-        hasher.add_text(event.text);
+        hasher.add_text(world::to_line(event));  // of a check also its detail
     }
     return hasher.digest64();
 }

@@ -25,6 +25,10 @@ const T* find_sorted(std::span<const T> range, std::uint32_t id, Id id_of) {
     return found != range.end() && id_of(*found) == id ? &*found : nullptr;
 }
 
+std::string joined(const std::string& text, const std::string& detail) {
+    return detail.empty() ? text : text + ": " + detail;
+}
+
 }  // namespace
 
 std::span<const VehicleState> TickView::vehicles() const {
@@ -117,6 +121,17 @@ const Control* find(std::span<const Control> controls, std::uint32_t actor) {
 
 const Look* find(std::span<const Look> looks, std::uint32_t actor) {
     return find_sorted(looks, actor, [](const Look& item) { return item.actor(); });
+}
+
+std::string to_line(const Event& event) {
+    const auto text = [](const flatbuffers::String* string) {
+        return string == nullptr ? std::string() : string->str();
+    };
+    return joined(text(event.text()), text(event.detail()));
+}
+
+std::string to_line(const EventT& event) {
+    return joined(event.text, event.detail);
 }
 
 Look drawn_look(std::uint64_t seed, std::uint32_t actor) {

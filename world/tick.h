@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 
 #include "world/common_generated.h"
 #include "world/tick_generated.h"
@@ -69,6 +70,10 @@ class SealedTick {
 /// Freezes a draft: fills digests.state from the stage digests and digests.chain from `previous`,
 /// then packs. About 2 us with 100 cars.
 SealedTick seal(TickDraft& draft, const Digest128& previous);
+
+/// What an event says in one line for people: its text, and behind a colon its detail.
+std::string to_line(const Event& event);
+std::string to_line(const EventT& event);
 
 /// The state with this id, or null. The range must be sorted by id. O(log n).
 const VehicleState* find(std::span<const VehicleState> vehicles, std::uint32_t id);

@@ -13,10 +13,6 @@ namespace {
 
 constexpr std::uint64_t chunk = 64;  // ticks
 
-std::string text_of(const world::Event& event) {
-    return event.text() == nullptr ? "" : event.text()->str();
-}
-
 class Teller {
   public:
     TraceStory story;
@@ -25,19 +21,19 @@ class Teller {
         switch (event.kind()) {
             case world::EventKind::spawned:
                 if (event.actor() < world::first_background_id)
-                    story.actors.push_back({event.actor(), text_of(event)});
+                    story.actors.push_back({event.actor(), world::to_line(event)});
                 return;
             case world::EventKind::despawned:
             case world::EventKind::finished:  // the outcome says so
                 return;
             case world::EventKind::check_passed:
-                story.checks.push_back({"passed", text_of(event), tick});
+                story.checks.push_back({"passed", world::to_line(event), tick});
                 return;
             case world::EventKind::check_failed:
-                story.checks.push_back({"failed", text_of(event), tick});
+                story.checks.push_back({"failed", world::to_line(event), tick});
                 return;
             case world::EventKind::not_evaluated:
-                story.checks.push_back({"not evaluated", text_of(event), tick});
+                story.checks.push_back({"not evaluated", world::to_line(event), tick});
                 return;
             default:
                 count(event, tick);
@@ -59,7 +55,7 @@ class Teller {
 
     std::string describe(const world::Event& event) const {
         if (event.kind() != world::EventKind::collision)
-            return text_of(event);
+            return world::to_line(event);
         return fmt::format("{} with {}, {:.0f} N s",
                            name_of(event.actor()),
                            event.other() == 0 ? "something fixed" : name_of(event.other()),

@@ -86,14 +86,8 @@ GoldenCheck check_of(const world::Event& event, std::uint64_t tick) {
                                                                     : "not_evaluated";
     check.tick = failed ? tick : 0;
     check.line = event.line();
-    check.name = event.text() == nullptr ? "" : event.text()->str();
-    // "name: detail"; no detail has a colon.
-    if (const auto colon = check.name.rfind(": "); colon != std::string::npos) {
-        check.detail = check.name.substr(colon + 2);
-        check.name.resize(colon);
-    }
-    check.name = readable(check.name);
-    check.detail = readable(check.detail);
+    check.name = event.text() == nullptr ? "" : readable(event.text()->str());
+    check.detail = event.detail() == nullptr ? "" : readable(event.detail()->str());
     return check;
 }
 

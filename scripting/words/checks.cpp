@@ -27,10 +27,15 @@ bool has_limit(Kind kind) {
     return kind == Kind::max || kind == Kind::min;
 }
 
-world::EventT event(world::EventKind kind, const std::string& text, double value, unsigned line) {
+world::EventT event(world::EventKind kind,
+                    const std::string& name,
+                    const std::string& detail,
+                    double value,
+                    unsigned line) {
     world::EventT event;
     event.kind = kind;
-    event.text = text;
+    event.text = name;
+    event.detail = detail;
     event.value = value;
     event.line = line;
     return event;
@@ -152,7 +157,7 @@ void Checks::fail(Run& run, Entry& entry, double value, const std::string& detai
     entry.tick = run.now();
     entry.detail = detail;
     run.next->tick.events.push_back(
-        event(world::EventKind::check_failed, entry.name + ": " + detail, value, entry.line));
+        event(world::EventKind::check_failed, entry.name, detail, value, entry.line));
     if (entry.stop && !run.finished)
         run.finish("check failed: " + entry.name, entry.line);
 }
@@ -188,8 +193,8 @@ void Checks::settle(Run& run, Entry& entry) {
                                    entry.limit);
     const auto kind = entry.status == Status::pass ? world::EventKind::check_passed
                                                    : world::EventKind::not_evaluated;
-    const std::string text = entry.detail.empty() ? entry.name : entry.name + ": " + entry.detail;
-    run.next->tick.events.push_back(event(kind, text, entry.extreme.value_or(0), entry.line));
+    run.next->tick.events.push_back(
+        event(kind, entry.name, entry.detail, entry.extreme.value_or(0), entry.line));
 }
 
 std::vector<Scenario::Check> Checks::results() const {

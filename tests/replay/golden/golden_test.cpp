@@ -24,13 +24,17 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 /// Raises an event in one tick.
-test::Change say(std::uint64_t tick, world::EventKind kind, const std::string& text) {
+test::Change say(std::uint64_t tick,
+                 world::EventKind kind,
+                 const std::string& text,
+                 const std::string& detail = "") {
     return [=](world::TickDraft& draft) {
         if (draft.tick.index != tick)
             return;
         world::EventT event;
         event.kind = kind;
         event.text = text;
+        event.detail = detail;
         event.line = 12;
         draft.tick.events.push_back(event);
     };
@@ -301,7 +305,7 @@ TEST_F(GoldenOf, LastBitOfARecordedValueIsShown) {
 
 TEST_F(GoldenOf, SeverityIsTheWorstThatChanged) {
     const auto failed =
-        difference(say(33, world::EventKind::check_failed, "gap: 1 is less than 2"));
+        difference(say(33, world::EventKind::check_failed, "gap", "1 is less than 2"));
     ASSERT_TRUE(failed);
     EXPECT_EQ(failed->severity, Severity::verdicts);
     EXPECT_EQ(failed->verdicts.front().what, "check 'gap'");
@@ -312,12 +316,22 @@ TEST_F(GoldenOf, SeverityIsTheWorstThatChanged) {
     EXPECT_EQ(printed->events.first->line, 12U);
 }
 
+TEST_F(GoldenOf, NameOfACheckMayHaveAColon) {
+    const Golden run =
+        golden({.change = say(33, world::EventKind::check_failed, "ego: hits", "it happened")});
+    ASSERT_THAT(run.checks, SizeIs(1));
+    EXPECT_EQ(run.checks[0].name, "ego: hits");
+    EXPECT_EQ(run.checks[0].detail, "it happened");
+    const Golden passed =
+        golden({.change = say(33, world::EventKind::check_passed, "ego: hits anything")});
+    EXPECT_EQ(passed.checks.at(0).name, "ego: hits anything");
+}
+
 TEST_F(GoldenOf, AnotherValueOfACheckIsANumber) {
-    const auto with = [&](const char* text) {
-        return golden({.change = say(150, world::EventKind::check_passed, text)});
+    const auto with = [&](const char* detail) {
+        return golden({.change = say(150, world::EventKind::check_passed, "gap", detail)});
     };
-    const auto found =
-        compare(with("gap: at least 9, allowed 2"), with("gap: at least 8, allowed 2"));
+    const auto found = compare(with("at least 9, allowed 2"), with("at least 8, allowed 2"));
     ASSERT_TRUE(found);
     EXPECT_EQ(found->severity, Severity::numbers);
     EXPECT_THAT(found->details, SizeIs(1));

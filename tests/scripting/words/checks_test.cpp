@@ -112,18 +112,18 @@ TEST(Checks, TheLastTickCounts) {
 
 TEST(Checks, AreRecordedAsEvents) {
     test::Stage stage(
-        test::running("check.max('speed', tick, 6)\ncheck.min('tick', tick, 0) "
+        test::running("check.max('ego: speed', tick, 6)\ncheck.min('tick', tick, 0) "
                       "check.max('no value', function() end, 1) wait_ticks(20)"));
     stage.play(40);
     stage.conclude();
     std::vector<std::string> seen;
     for (const world::EventT& event : stage.events)
         seen.push_back(std::string(world::EnumNameEventKind(event.kind)) + " " +
-                       std::to_string(event.line) + " " + event.text);
+                       std::to_string(event.line) + " " + event.text + "|" + event.detail);
     EXPECT_THAT(seen,
-                ElementsAre("check_failed 1 speed: 7 is more than 6",
-                            "check_passed 2 tick: at least 1, allowed 0",
-                            "not_evaluated 2 no value: nothing to look at"));
+                ElementsAre("check_failed 1 ego: speed|7 is more than 6",
+                            "check_passed 2 tick|at least 1, allowed 0",
+                            "not_evaluated 2 no value|nothing to look at"));
     EXPECT_EQ(stage.events[0].value, 7);
 }
 
