@@ -46,7 +46,7 @@ class Files {
 void read_all(TraceReader& trace) {
     for (std::uint64_t index = trace.first(); index <= trace.last(); ++index) {
         if (trace.damage(index)) {
-            trace.salvaged(index);
+            (void)trace.salvaged(index);
             continue;
         }
         try {

@@ -44,7 +44,8 @@ class DamagedTrace : public testing::Test {
             for (std::uint64_t index = 1; index <= trace.ticks(); ++index) {
                 if (trace.damage(index)) {
                     found = true;
-                    trace.salvaged(index);
+                    if (const auto tick = trace.salvaged(index))
+                        EXPECT_EQ(tick->view.index(), index);  // its values may be wrong
                     continue;
                 }
                 EXPECT_LE(index, ticks_.size());
@@ -248,18 +249,21 @@ TEST_F(DamagedTrace, PlaysThoughItsTownIsDamaged) {
 
 TEST_F(DamagedTrace, SurvivesForgedIndexes) {
     std::mt19937_64 random(5);
-    const std::size_t data_end = records(mcap::Op::data_end).front().first;
-    const std::size_t summary = data_end + mcap::data_end_size;
+    int found = 0;
+    const std::size_t index = records(mcap::Op::chunk_index).front().first;
     for (int i = 0; i < 1000; ++i) {
         Bytes bytes = whole_;
-        const std::size_t at = summary + random() % (bytes.size() - summary - 12);
+        const std::size_t at = index + random() % (bytes.size() - index - 12);
         constexpr std::uint64_t telling[] = {0, 1, 8, 0x7f, 0xff, 0xffffffff, ~std::uint64_t{0}};
         const std::uint64_t value = i % 2 == 0 ? telling[random() % 7] : random();
         const std::size_t width = std::size_t{1} << random() % 4;
         std::memcpy(bytes.data() + at, &value, std::min(width, bytes.size() - 12 - at));
         forge_summary_crc(bytes);
-        detected(bytes);
+        found += detected(bytes) ? 1 : 0;
     }
+    // A number that decides nothing here, such as a count for other programs, may be forged: all
+    // ticks were compared then, and are right.
+    EXPECT_GT(found, 250);
 }
 
 }  // namespace
