@@ -7,7 +7,7 @@
 namespace reprise::replay {
 
 /// Compresses and writes chunks on a thread of its own, in the order they come: the bytes do not
-/// depend on timing. At most four chunks are under way; who is faster waits.
+/// depend on timing. At most four chunks are under way: `exchange` blocks until fewer are.
 class ChunkThread {
   public:
     /// From now until `finish` returns, the file belongs to the thread.

@@ -25,10 +25,6 @@ std::optional<Level> level_named(std::string_view word) {
     return std::nullopt;
 }
 
-std::vector<std::string> level_names() {
-    return {words.begin(), words.end()};
-}
-
 bool holds_traffic(Level level, std::uint64_t tick) {
     return level == Level::full || (level == Level::keyed && tick % key_interval == 1);
 }

@@ -15,7 +15,6 @@ namespace reprise::replay {
 /// "full", "keyed", "core", "inputs".
 const char* to_word(Level level);
 std::optional<Level> level_named(std::string_view word);
-std::vector<std::string> level_names();
 
 /// Whether a trace of this level has the traffic of this tick: keyed ones at 1, 21, 41, ...: where
 /// `render --every 1s` looks.
@@ -27,15 +26,15 @@ std::uint64_t traffic_ticks(Level level, std::uint64_t ticks);
 /// "T.mcap holds inputs only; `reprise expand ...` makes the rest again".
 std::string lacks_text(const std::string& trace, Level level);
 
-/// Whether of this tick only what level `inputs` keeps is there. (Every other tick has a weather.)
+/// Whether this tick holds only what level `inputs` keeps: all other levels record a weather.
 bool is_inputs_only(const world::Tick& tick);
 
 /// A tick with the fields index, digests and these controls alone: one that any reader decodes.
 flatbuffers::DetachedBuffer inputs_of(const world::Tick& tick,
                                       const std::vector<world::Control>& controls);
 
-/// Takes out of each tick what a level leaves out. Ticks come in order from 1 on: who is driven by
-/// hand, so that its controls are inputs, was said when it was spawned.
+/// Reduces each tick to what a level keeps. Ticks must come in order from 1 on: the spawn commands
+/// say which actors have driver `manual`, whose controls are inputs.
 class Reduction {
   public:
     explicit Reduction(Level level) : level_(level) {}

@@ -155,7 +155,7 @@ TraceWriter::~TraceWriter() {
             file_->thread->exchange(file_->chunk);
         file_->thread->finish();
     } catch (...) {
-        // The disk is full or so: what is there is there.
+        // The disk may be full. The chunks that were written stay, as PATH.partial.
     }
     file_->thread.reset();
     file_->give_up();

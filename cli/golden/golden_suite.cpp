@@ -65,7 +65,7 @@ class Suite {
     double seconds() const { return progress_.seconds(); }
 
   private:
-    /// A mistake in one case is that case's.
+    /// An error in one case is reported as that case's; the others go on.
     template <typename Work>
     void guard(std::size_t i, const Work& work) {
         try {
@@ -161,7 +161,8 @@ class Suite {
             remove_stale(kept(i, ending), options_.output);
     }
 
-    /// The candidate once more, alone: did the behaviour change, or is there no such thing?
+    /// Runs the candidate a second time, alone: two equal runs mean that the behaviour changed, two
+    /// different ones that it is nondeterministic.
     void run_again(std::size_t i) {
         Running& running = running_[i];
         const fs::path second = temporary_ / fmt::format("{}.second.mcap", i);

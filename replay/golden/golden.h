@@ -37,7 +37,7 @@ struct GoldenCheck {
     std::string name;
     std::string detail;  ///< such as "at least 9.04, allowed 2"
 
-    /// Lines of the scenario may move: they decide nothing.
+    /// Without `line`: a comment in the scenario moves its lines and changes nothing.
     bool operator==(const GoldenCheck& other) const;
 };
 
@@ -51,10 +51,10 @@ struct GoldenEvent {
     std::string value;       ///< shortest decimal that reads back the same; "": 0
     std::string place;       ///< "x y z" likewise; "": none
 
-    /// But for the line, which may move.
+    /// Without `line`, as above.
     bool operator==(const GoldenEvent& event) const;
 
-    /// Whether a person would call it the same event: all but numbers and line.
+    /// Equal in tick, kind, actors and text; value, place and line may differ.
     bool same_story(const GoldenEvent& other) const;
 };
 
@@ -67,7 +67,7 @@ struct Checkpoint {
     bool operator==(const Checkpoint&) const = default;
 };
 
-/// The demand's cars and walkers at a checkpoint: no more than a count and a digest.
+/// The demand's cars and walkers at a checkpoint: their counts, and a digest of their states.
 struct BackgroundState {
     std::uint64_t tick = 0;
     std::uint64_t cars = 0;
@@ -77,8 +77,8 @@ struct BackgroundState {
     bool operator==(const BackgroundState&) const = default;
 };
 
-/// What the scenario spawned, at one instant. Only recorded values and no function of libm's, so
-/// that a golden is the same text on every CPU.
+/// An actor of the scenario at one instant: metres, metres a second, radians. Recorded values only,
+/// nothing computed with libm, so that a golden is the same text on every CPU.
 struct ActorState {
     std::uint64_t tick = 0;
     std::string actor;

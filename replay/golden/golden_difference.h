@@ -20,7 +20,7 @@ enum class Severity : std::uint8_t {
 
 const char* to_word(Severity severity);
 
-/// Two values of one thing; "-" where one of them has no such thing.
+/// One difference: the golden's value and the candidate's; "-" where one of them has none.
 struct Changed {
     std::uint64_t tick = 0;
     std::string what;  ///< "check 'gap'", "ego#1 x", "finished"
@@ -29,7 +29,7 @@ struct Changed {
     std::uint32_t line = 0;  ///< in the scenario; 0: none
 };
 
-/// Some of a golden's lines, compared one by one with the candidate's.
+/// One list of a golden (events, checkpoints or states), compared by position with the candidate's.
 struct Tally {
     std::size_t different = 0;
     std::size_t all = 0;
