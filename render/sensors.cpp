@@ -12,6 +12,7 @@
 
 #include "render/scene/scene.h"
 #include "render/shade/frame.h"
+#include "render/trace/plain_floats.h"
 #include "world/check.h"
 
 namespace reprise::render {

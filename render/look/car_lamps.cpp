@@ -1,5 +1,4 @@
 #include "render/look/car_spot.h"
-#include "render/shapes/cars/car_parts.h"
 
 namespace reprise::render {
 

@@ -1,5 +1,4 @@
 #include "render/look/car_spot.h"
-#include "render/shapes/cars/car_parts.h"
 #include "render/shapes/paint.h"
 
 namespace reprise::render {

@@ -58,4 +58,12 @@ bool rear_lamp(
     Look& look, const Stage& stage, const CarSpot& at, float low, float high, float inner);
 bool number_plate(Look& look, const CarSpot& at, float low, std::uint32_t actor);
 
+/// Stripes and checks on the sides and ends of a service's vehicle.
+void paint_livery(Look& look, const CarSpot& at);
+
+/// Lamps flash 1.5 times a second, all vehicles together: ticks are 50 ms.
+inline bool flashes_now(std::uint64_t tick) {
+    return tick * 3 % 40 < 22;
+}
+
 }  // namespace reprise::render

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "render/shapes/cars/car_parts.h"
 #include "render/shapes/noise.h"
 
 namespace reprise::render {

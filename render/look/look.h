@@ -60,6 +60,7 @@ Look plot_look(const Stage& stage, const Surface& surface);
 Look plant_leaf_look(const Surface& surface);
 Look plant_bark_look(const Surface& surface);
 Look car_look(const Stage& stage, const Surface& surface);
+Look car_part_look(const Stage& stage, const Surface& surface);
 Look wheel_look(const Stage& stage, const Surface& surface);
 Look walker_look(const Stage& stage, const Surface& surface);
 

@@ -4,6 +4,7 @@
 
 #include "ground/mesh/ground.h"
 #include "render/scene/scene.h"
+#include "render/shapes/street/plant_mesh.h"
 #include "render/shapes/street/signal_parts.h"
 #include "world/frames.h"
 

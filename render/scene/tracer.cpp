@@ -7,7 +7,7 @@
 #include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
 
-#include "world/check.h"
+#include "render/trace/plain_floats.h"
 
 namespace reprise::render {
 
@@ -40,12 +40,6 @@ RTCIntersectContext context_of(bool coherent) {
 }
 
 }  // namespace
-
-bool is_valid(const Ray& ray) {
-    constexpr float most = 1e18F;
-    return ray.origin.cwiseAbs().maxCoeff() < most && ray.direction.cwiseAbs().maxCoeff() < most &&
-           ray.direction.squaredNorm() > 1e-12F && ray.far >= 0;
-}
 
 void find_nearest(const Scene& scene,
                   std::span<const Ray> rays,

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include "render/shade/frame.h"
+#include "render/trace/plain_floats.h"
 #include "world/random.h"
 
 namespace reprise::render {

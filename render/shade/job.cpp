@@ -7,6 +7,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "render/trace/plain_floats.h"
+
 namespace reprise::render {
 
 namespace {

@@ -10,8 +10,9 @@
 
 #include <algorithm>
 
-#include "render/scene/tracer.h"
 #include "render/trace/bundle.h"
+#include "render/trace/instance.h"
+#include "render/trace/ray.h"
 
 namespace reprise::render {
 

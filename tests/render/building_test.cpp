@@ -4,8 +4,9 @@
 #include <gmock/gmock.h>
 
 #include "ground/mesh/roofs.h"
+#include "render/shapes/buildings/building_mesh.h"
 #include "render/shapes/buildings/building_plan.h"
-#include "render/shapes/buildings/town_mesh.h"
+#include "render/shapes/street/plant_mesh.h"
 #include "tests/render/everything.h"
 #include "world/geometry2d.h"
 

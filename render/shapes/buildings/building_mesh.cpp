@@ -1,8 +1,9 @@
+#include "render/shapes/buildings/building_mesh.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "render/shapes/builder.h"
-#include "render/shapes/buildings/town_mesh.h"
 #include "render/shapes/noise.h"
 
 namespace reprise::render {

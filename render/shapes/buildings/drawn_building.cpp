@@ -2,8 +2,8 @@
 
 #include "ground/mesh/polygons.h"
 #include "ground/mesh/roofs.h"
+#include "render/shapes/buildings/building_mesh.h"
 #include "render/shapes/buildings/building_site.h"
-#include "render/shapes/buildings/town_mesh.h"
 #include "render/shapes/noise.h"
 #include "world/frames.h"
 

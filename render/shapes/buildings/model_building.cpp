@@ -1,6 +1,6 @@
 #include "ground/mesh/polygons.h"
+#include "render/shapes/buildings/building_mesh.h"
 #include "render/shapes/buildings/building_site.h"
-#include "render/shapes/buildings/town_mesh.h"
 #include "render/shapes/noise.h"
 #include "world/frames.h"
 

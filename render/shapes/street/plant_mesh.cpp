@@ -1,7 +1,8 @@
+#include "render/shapes/street/plant_mesh.h"
+
 #include <cmath>
 #include <numbers>
 
-#include "render/shapes/buildings/town_mesh.h"
 #include "render/shapes/foliage.h"
 
 namespace reprise::render {

@@ -1,7 +1,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/shapes/buildings/town_mesh.h"
 #include "render/shapes/street/signal_parts.h"
 #include "world/tick.h"
 #include "world/town.h"

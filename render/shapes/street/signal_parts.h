@@ -34,4 +34,8 @@ void add_signal_case(Mesh& mesh,
 /// shows when a turn is free, for each turn that has a signal of its own.
 void add_signal_heads(Mesh& mesh, const world::TownT& town, const Eigen::Vector3d& origin);
 
+/// Appends poles and heads of every signal of a town that has no heads, in world coordinates less
+/// `origin`.
+void add_signals(Mesh& mesh, const world::TownT& town, const Eigen::Vector3d& origin);
+
 }  // namespace reprise::render

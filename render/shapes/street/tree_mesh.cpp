@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "render/shapes/buildings/town_mesh.h"
 #include "render/shapes/foliage.h"
+#include "render/shapes/street/plant_mesh.h"
 
 namespace reprise::render {
 

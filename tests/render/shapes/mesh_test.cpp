@@ -5,8 +5,9 @@
 
 #include <gmock/gmock.h>
 
-#include "render/shapes/buildings/town_mesh.h"
+#include "render/shapes/buildings/building_mesh.h"
 #include "render/shapes/cars/car_shape.h"
+#include "render/shapes/street/plant_mesh.h"
 
 namespace reprise {
 

@@ -42,16 +42,4 @@ void add_drawn_building(Mesh& mesh,
                         const world::DrawnBuildingT& building,
                         const Eigen::Vector3d& origin);
 
-/// Appends poles and heads of every signal of a town that has no heads, in world coordinates less
-/// `origin`.
-void add_signals(Mesh& mesh, const world::TownT& town, const Eigen::Vector3d& origin);
-
-inline constexpr std::uint32_t tree_kinds = 6;
-
-/// A tree of any kind, of height 1 and crown radius 1, to be stretched. About 3,000 triangles.
-Mesh tree_mesh(std::uint32_t kind);
-
-/// A plant of a kind, likewise. Less than 10,500 triangles, shared by all plants of the kind.
-Mesh plant_mesh(world::PlantKind kind);
-
 }  // namespace reprise::render

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include <Eigen/Geometry>
+
+#include "render/shapes/fast_math.h"
+#include "render/shapes/mesh.h"
+#include "render/trace/mesh_tree.h"
+
+struct RTCSceneTy;
+
+namespace reprise::render {
+
+/// What kind of thing an instance is: how its triangles are painted and which class they have.
+enum class Kind : std::uint8_t {
+    ground,
+    marking,
+    town,
+    tree,
+    plant,
+    prop,
+    parked,  ///< a car's body that nobody drives
+    car_body,
+    wheel,
+    limb,
+    rider
+};
+
+/// A mesh with a tree over it, Embree's or our own, placed by any number of instances.
+struct Prototype {
+    Mesh mesh;
+    RTCSceneTy* tree = nullptr;
+    std::unique_ptr<MeshTree> plain_tree;
+};
+
+/// A prototype in its place.
+struct Instance {
+    const Prototype* prototype = nullptr;
+    Kind kind = Kind::town;
+    Material material = Material::skin;  ///< of a limb
+    std::uint16_t lamps = 0;             ///< Lamp bits of a car
+    std::uint16_t model = 0;             ///< of a car; kind of a plant; value of a prop
+    std::uint16_t outfit = 0;            ///< of a limb: index in Scene::outfits()
+    std::uint32_t look = 0;              ///< of a car, see world::Look
+    Color color{0.5F, 0.5F, 0.5F};       ///< of a car's paint
+    std::uint32_t style = 0;             ///< of plants and props: seeds what is left open
+    std::uint32_t actor = 0;             ///< 0: part of the town
+    std::uint32_t mask = 1;              ///< rays with a common bit see it
+    Eigen::Affine3d pose = Eigen::Affine3d::Identity();  ///< to the scene's frame
+    Eigen::Matrix3f normal_to_scene = Eigen::Matrix3f::Identity();
+};
+
+inline constexpr std::uint32_t solid_bit = 1;
+inline constexpr std::uint32_t marking_bit = 2;  ///< paint casts no shadow
+
+}  // namespace reprise::render

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace reprise::render {
+
+/// Directions need not be unit vectors; distances count in their lengths.
+struct Ray {
+    Eigen::Vector3f origin;
+    Eigen::Vector3f direction;
+    float far;
+    std::uint32_t mask;
+};
+
+inline constexpr std::uint32_t no_instance = 0xffffffffu;
+
+/// What a ray met first.
+struct Hit {
+    float distance = 0;                    ///< in lengths of the ray's direction
+    std::uint32_t instance = no_instance;  ///< index in Scene.instances(), or none: sky
+    std::uint32_t triangle = 0;
+    float u = 0;  ///< weight of the triangle's second corner
+    float v = 0;  ///< of its third
+};
+
+/// Embree asserts that rays are numbers, and would end the process: others are not looked up.
+bool is_valid(const Ray& ray);
+
+}  // namespace reprise::render
