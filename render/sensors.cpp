@@ -139,7 +139,7 @@ std::vector<world::SensorFrame> Sensors::Scene::observe(const world::TickView& t
         if (done[first])
             continue;
         const std::uint32_t mask = placed.mask_hiding(rig[first].actor);
-        see(placed, cameras[first], mask, hits);
+        trace_primary(placed, cameras[first], mask, hits);
         for (std::size_t i = first; i < rig.size(); ++i) {
             if (done[i] || rig[i].actor != rig[first].actor || !(cameras[i] == cameras[first]))
                 continue;
@@ -153,10 +153,10 @@ std::vector<world::SensorFrame> Sensors::Scene::observe(const world::TickView& t
                     frames[i].data = class_bytes(placed, hits);
                     break;
                 case world::SensorKind::rgb: {
-                    const Stage stage{placed, sky_of(weather), tick.index()};
-                    shade(stage, cameras[i], mask, hits, frame);
-                    draw_rain(stage, cameras[i], hits, frame);
-                    frames[i].data = develop(frame, tick.index());
+                    const ShadingInput input{placed, sky_of(weather), tick.index()};
+                    shade(input, cameras[i], mask, hits, frame);
+                    draw_rain(input, cameras[i], hits, frame);
+                    frames[i].data = tone_map(frame, tick.index());
                     break;
                 }
             }

@@ -12,10 +12,10 @@ bool flashing(const CarSpot& at) {
 }  // namespace
 
 bool front_lamp(
-    Look& look, const Stage& stage, const CarSpot& at, float low, float high, float inner) {
+    Look& look, const ShadingInput& input, const CarSpot& at, float low, float high, float inner) {
     if (at.z < low || at.z > high || at.side < inner)
         return false;
-    const float light = 1 / stage.sky.exposure();
+    const float light = 1 / input.sky.exposure();
     const float middle_y = mix(inner, at.half * 0.86F, 0.42F);
     const float dy = (at.side - middle_y) / (at.half - inner);
     const float dz = (at.z - 0.5F * (low + high)) / (high - low);
@@ -24,7 +24,7 @@ bool front_lamp(
     look.gloss = 1;
     look.roughness = 0.05F;
     look.albedo = away < 0.5F ? Color(.55F, .56F, .58F) : Color(.16F, .165F, .17F);
-    const bool on = (at.lamps & world::lamp_low_beam) != 0 || stage.sky.lamps_on();
+    const bool on = (at.lamps & world::lamp_low_beam) != 0 || input.sky.lamps_on();
     if (on)
         look.emission = Color(1, .95F, .84F) * (light * (away < 0.5F ? 7.0F : 0.30F));
     if (flashing(at) && at.side > mix(inner, at.half, 0.72F))
@@ -33,10 +33,10 @@ bool front_lamp(
 }
 
 bool rear_lamp(
-    Look& look, const Stage& stage, const CarSpot& at, float low, float high, float inner) {
+    Look& look, const ShadingInput& input, const CarSpot& at, float low, float high, float inner) {
     if (at.z < low || at.z > high || at.side < inner)
         return false;
-    const float light = 1 / stage.sky.exposure();
+    const float light = 1 / input.sky.exposure();
     const Color red(1.0F, .006F, .004F);
     look.albedo = Color(.26F, .008F, .008F);
     look.f0 = 0.06F;
@@ -45,7 +45,7 @@ bool rear_lamp(
     const float row = (at.z - low) / (high - low);
     if ((at.lamps & world::lamp_brake) != 0)
         look.emission = red * (4.5F * light);
-    else if (stage.sky.lamps_on() || (at.lamps & world::lamp_low_beam) != 0)
+    else if (input.sky.lamps_on() || (at.lamps & world::lamp_low_beam) != 0)
         look.emission = red * (0.8F * light);
     if (flashing(at) && row > 0.62F)
         look.emission = Color(1.0F, .40F, .02F) * (4.5F * light);

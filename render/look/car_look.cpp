@@ -37,12 +37,12 @@ bool seam(const CarSpot& at, float where, float edge) {
     return at.fine > 0.35F && std::abs(where - edge) < 0.0045F + 0.004F * (1 - at.fine);
 }
 
-bool front_details(Look& look, const Stage& stage, const CarSpot& at, std::uint32_t actor) {
+bool front_details(Look& look, const ShadingInput& input, const CarSpot& at, std::uint32_t actor) {
     const float h = at.height;
     if (is_long(at)) {
         if (at.from_front > 0.25F || at.normal.x() < 0.4F)
             return false;
-        if (front_lamp(look, stage, at, 0.165F * h, 0.235F * h, 0.62F * at.half))
+        if (front_lamp(look, input, at, 0.165F * h, 0.235F * h, 0.62F * at.half))
             return true;
         if (at.shape.style == BodyStyle::bus && at.z > 0.835F * h && at.z < 0.905F * h &&
             at.side < 0.8F) {
@@ -52,7 +52,7 @@ bool front_details(Look& look, const Stage& stage, const CarSpot& at, std::uint3
                                  3 ==
                              0;
             as_trim(look);
-            look.emission = Color(1.0F, .45F, .05F) * ((dot ? 1.6F : 0.1F) / stage.sky.exposure());
+            look.emission = Color(1.0F, .45F, .05F) * ((dot ? 1.6F : 0.1F) / input.sky.exposure());
             return true;
         }
         if (number_plate(look, at, 0.125F * h, actor))
@@ -68,7 +68,7 @@ bool front_details(Look& look, const Stage& stage, const CarSpot& at, std::uint3
         return false;
     const float edge = at.belt;
     if (at.from_front < 0.46F &&
-        front_lamp(look, stage, at, edge - 0.155F, edge - 0.015F, 0.60F * at.half))
+        front_lamp(look, input, at, edge - 0.155F, edge - 0.015F, 0.60F * at.half))
         return true;
     if (at.normal.x() < 0.45F)
         return false;
@@ -106,18 +106,21 @@ RearLamps rear_lamps(BodyStyle style) {
     }
 }
 
-bool rear_details(
-    Look& look, const Stage& stage, const CarSpot& at, std::uint32_t actor, const Color& color) {
+bool rear_details(Look& look,
+                  const ShadingInput& input,
+                  const CarSpot& at,
+                  std::uint32_t actor,
+                  const Color& color) {
     const float h = at.height;
     if (at.from_rear > 0.34F)
         return false;
     if (at.shape.style == BodyStyle::bus)
         return at.normal.x() < -0.5F &&
-               (rear_lamp(look, stage, at, 0.22F * h, 0.33F * h, 0.78F * at.half) ||
+               (rear_lamp(look, input, at, 0.22F * h, 0.33F * h, 0.78F * at.half) ||
                 number_plate(look, at, 0.16F * h, actor));
     const bool van = has_van_doors(at);
     const RearLamps lamps = rear_lamps(at.shape.style);
-    if (rear_lamp(look, stage, at, lamps.low * h, lamps.high * h, lamps.inner * at.half) &&
+    if (rear_lamp(look, input, at, lamps.low * h, lamps.high * h, lamps.inner * at.half) &&
         (at.normal.x() < -0.15F || at.from_rear < 0.2F))
         return true;
     if (at.normal.x() > -0.45F) {
@@ -164,7 +167,10 @@ void side_details(Look& look, const CarSpot& at, const Color& color) {
         look.albedo = color * 0.45F + Color::Constant(0.05F);
 }
 
-Look cargo_look(const Stage& stage, const CarSpot& at, std::uint32_t actor, const Color& brand) {
+Look cargo_look(const ShadingInput& input,
+                const CarSpot& at,
+                std::uint32_t actor,
+                const Color& brand) {
     Look look;
     look.albedo = Color(.58F, .58F, .56F);
     look.roughness = 0.35F;
@@ -175,7 +181,7 @@ Look cargo_look(const Stage& stage, const CarSpot& at, std::uint32_t actor, cons
     if (at.normal.x() < -0.5F) {
         if (seam(at, at.y, 0) || at.side > at.half - 0.06F || at.z < low + 0.06F)
             as_trim(look, Color::Constant(0.09F));
-        if (rear_lamp(look, stage, at, low - 0.01F, low + 0.16F, 0.76F * at.half))
+        if (rear_lamp(look, input, at, low - 0.01F, low + 0.16F, 0.76F * at.half))
             return look;
         number_plate(look, at, low + 0.02F, actor);
     }
@@ -184,9 +190,9 @@ Look cargo_look(const Stage& stage, const CarSpot& at, std::uint32_t actor, cons
 
 }  // namespace
 
-Look car_look(const Stage& stage, const Surface& surface) {
+Look car_look(const ShadingInput& input, const Surface& surface) {
     const Instance& car = *surface.instance;
-    const CarShape& shape = stage.scene.car_shape(car.model);
+    const CarShape& shape = input.scene.car_shape(car.model);
     const Vector3f& p = surface.local;
     const CarSpot at{shape,
                      p.x(),
@@ -201,13 +207,13 @@ Look car_look(const Stage& stage, const Surface& surface) {
                      surface.local_normal,
                      detail(surface, 0.03F),
                      car.lamps,
-                     stage.tick};
+                     input.tick};
     Look look;
     const Color& color = car.color;
     if (surface.material == Material::car_under) {
         as_trim(look, Color::Constant(0.010F));
     } else if (surface.material == Material::car_cargo) {
-        look = cargo_look(stage, at, car.actor, paint_of(*shape.model, car.look).cargo);
+        look = cargo_look(input, at, car.actor, paint_of(*shape.model, car.look).cargo);
     } else if (at.side > shape.half_width(p.x()) + 0.012F) {
         // Mirrors: glass towards the driver.
         if (at.normal.x() < -0.7F)
@@ -225,8 +231,8 @@ Look car_look(const Stage& stage, const Surface& surface) {
         as_glass(look);
     } else {
         as_paint(look, color);
-        if (!front_details(look, stage, at, car.actor) &&
-            !rear_details(look, stage, at, car.actor, color)) {
+        if (!front_details(look, input, at, car.actor) &&
+            !rear_details(look, input, at, car.actor, color)) {
             paint_livery(look, at);
             side_details(look, at, look.albedo);
         }

@@ -49,11 +49,11 @@ bool written(std::string_view word, float u, float v) {
 
 }  // namespace
 
-Look car_part_look(const Stage& stage, const Surface& at) {
-    const float light = 1 / stage.sky.exposure();
+Look car_part_look(const ShadingInput& input, const Surface& at) {
+    const float light = 1 / input.sky.exposure();
     const std::uint16_t lamps = at.instance->lamps;
     const auto flashing = [&](unsigned bit) {
-        return (lamps & bit) != 0 && flashes_now(stage.tick);
+        return (lamps & bit) != 0 && flashes_now(input.tick);
     };
     Look look;
     look.roughness = 0.4F;
@@ -63,7 +63,7 @@ Look car_part_look(const Stage& stage, const Surface& at) {
         look.roughness = 0.05F;
         look.emission = color * (power * light);
     };
-    const bool dark = stage.sky.lamps_on() || (lamps & world::lamp_low_beam) != 0;
+    const bool dark = input.sky.lamps_on() || (lamps & world::lamp_low_beam) != 0;
     switch (static_cast<CarPart>(at.tag)) {
         case CarPart::chrome:
             look.albedo = Color(.38F, .39F, .40F);

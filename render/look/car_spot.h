@@ -53,9 +53,9 @@ inline float middle_pillar(const CarSpot& at) {
 // Each paints its thing and says so, when the spot lies on it. `low` and `high` are heights,
 // `inner` the distance from the middle where a lamp begins.
 bool front_lamp(
-    Look& look, const Stage& stage, const CarSpot& at, float low, float high, float inner);
+    Look& look, const ShadingInput& input, const CarSpot& at, float low, float high, float inner);
 bool rear_lamp(
-    Look& look, const Stage& stage, const CarSpot& at, float low, float high, float inner);
+    Look& look, const ShadingInput& input, const CarSpot& at, float low, float high, float inner);
 bool number_plate(Look& look, const CarSpot& at, float low, std::uint32_t actor);
 
 /// Stripes and checks on the sides and ends of a service's vehicle.

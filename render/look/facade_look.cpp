@@ -30,7 +30,7 @@ struct FacadeOpening {
     bool shop = false;
     std::uint32_t seed = 0;
 
-    bool holds(float u, float z) const { return u > left && u < right && z > low && z < high; }
+    bool contains(float u, float z) const { return u > left && u < right && z > low && z < high; }
 };
 
 WallPoint wall_point(const BuildingFrame& building, const Surface& at) {
@@ -170,7 +170,7 @@ Color wall_texture(const Facade& facade, const WallPoint& point, const Surface& 
 
 /// Glass with what is behind it: a curtain, a dark room, or a lit one at dusk.
 void glaze_facade(Look& look,
-                  const Stage& stage,
+                  const ShadingInput& input,
                   const FacadeOpening& opening,
                   const WallPoint& point,
                   float u,
@@ -187,12 +187,12 @@ void glaze_facade(Look& look,
     const float room_z = z + point.slope_z * behind;
     const float back = value_noise(room_u * 0.8F, room_z * 1.1F, opening.seed & 0xffffu);
     Color room = Color(.055F, .050F, .045F) * (0.4F + 1.1F * back);
-    const bool lit = stage.sky.dim() && (opening.shop ? fate < 0.7F : fate < 0.34F);
+    const bool lit = input.sky.dim() && (opening.shop ? fate < 0.7F : fate < 0.34F);
     Color lamp = Color::Zero();
     if (lit) {
         const Color warm = fate < 0.2F ? Color(1.0F, .66F, .34F) : Color(1.0F, .80F, .56F);
         lamp =
-            warm * ((opening.shop ? 0.34F : 0.42F) * (0.45F + 0.9F * back) / stage.sky.exposure());
+            warm * ((opening.shop ? 0.34F : 0.42F) * (0.45F + 0.9F * back) / input.sky.exposure());
     }
     // Curtains hang at both sides or half drawn.
     const float drawn = unit(hash(opening.seed, 3)) * 0.42F - 0.06F;
@@ -205,7 +205,7 @@ void glaze_facade(Look& look,
     look.emission = lamp * 0.8F;
 }
 
-Look facade_wall_look(const Stage& stage, const Surface& at, const BuildingFrame& building) {
+Look facade_wall_look(const ShadingInput& input, const Surface& at, const BuildingFrame& building) {
     const Facade& facade = building.facade;
     const WallPoint point = wall_point(building, at);
     Look look;
@@ -214,7 +214,7 @@ Look facade_wall_look(const Stage& stage, const Surface& at, const BuildingFrame
     if (point.z < 0 || point.z > facade.eaves)
         return look;
     const FacadeOpening opening = opening_at(facade, point);
-    if (!opening.holds(point.u, point.z)) {
+    if (!opening.contains(point.u, point.z)) {
         // Lintel and sill are of another stone.
         const bool frame = facade.kind != FacadeKind::glass && !opening.shop &&
                            opening.high > opening.low && point.u > opening.left - .12F &&
@@ -236,7 +236,7 @@ Look facade_wall_look(const Stage& stage, const Surface& at, const BuildingFrame
     const float depth = facade.kind == FacadeKind::glass ? 0.06F : 0.20F;
     const float u = point.u + point.slope_u * depth;
     const float z = point.z + point.slope_z * depth;
-    if (!opening.holds(u, z)) {
+    if (!opening.contains(u, z)) {
         look.albedo = mix(look.albedo, Color(.5F, .48F, .45F), 0.3F) * 0.75F;
         const bool sideways = u <= opening.left || u >= opening.right;
         look.normal = sideways ? Vector3f(u <= opening.left ? point.along : Vector3f(-point.along))
@@ -263,7 +263,7 @@ Look facade_wall_look(const Stage& stage, const Surface& at, const BuildingFrame
         look.albedo = bars ? Color(.66F, .65F, .62F) : Color(.06F, .065F, .07F);
         look.roughness = 0.4F;
     } else {
-        glaze_facade(look, stage, opening, point, u, z);
+        glaze_facade(look, input, opening, point, u, z);
     }
     return look;
 }
@@ -303,11 +303,11 @@ Look roof_look(const Surface& at, const BuildingFrame& building) {
 
 }  // namespace
 
-Look building_look(const Stage& stage, const Surface& at) {
-    const BuildingFrame& building = stage.scene.buildings()[at.tag];
+Look building_look(const ShadingInput& input, const Surface& at) {
+    const BuildingFrame& building = input.scene.buildings()[at.tag];
     const bool wall = at.material == Material::facade && std::abs(at.flat.z()) < 0.3F;
-    Look look = wall ? facade_wall_look(stage, at, building) : roof_look(at, building);
-    const float wetness = stage.sky.weather().wetness();
+    Look look = wall ? facade_wall_look(input, at, building) : roof_look(at, building);
+    const float wetness = input.sky.weather().wetness();
     if (wetness > 0 && look.gloss <= 0) {
         look.albedo *= 1 - 0.28F * wetness;
         look.roughness = mix(look.roughness, 0.35F, wetness);

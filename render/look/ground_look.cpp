@@ -148,8 +148,8 @@ Vector3f ripples(const Surface& at, std::uint64_t tick) {
 }
 
 /// Water darkens, fills pores, and stands in puddles.
-void soak(Look& look, const Stage& stage, const Surface& at, float lane_distance) {
-    const world::Weather& weather = stage.sky.weather();
+void soak(Look& look, const ShadingInput& input, const Surface& at, float lane_distance) {
+    const world::Weather& weather = input.sky.weather();
     const float wetness = weather.wetness();
     if (wetness <= 0 || at.flat.z() < 0.7F || at.material == Material::grass) {
         look.albedo *= 1 - 0.42F * wetness;
@@ -184,16 +184,16 @@ void soak(Look& look, const Stage& stage, const Surface& at, float lane_distance
                   0);
     const float near = detail(at, 0.12F);
     if (weather.rain() > 0 && near > 0)
-        tilt += ripples(at, stage.tick) * (near * (0.25F + 0.75F * water));
+        tilt += ripples(at, input.tick) * (near * (0.25F + 0.75F * water));
     look.normal = (look.normal + tilt).normalized();
 }
 
 }  // namespace
 
-Look ground_look(const Stage& stage, const Surface& at) {
+Look ground_look(const ShadingInput& input, const Surface& at) {
     const bool road = at.material == Material::asphalt || at.material == Material::marking;
     const float lane_distance =
-        road ? stage.scene.lanes().distance(at.position.x(), at.position.y()) : 4;
+        road ? input.scene.lanes().distance(at.position.x(), at.position.y()) : 4;
     Look look;
     switch (at.material) {
         case Material::asphalt:
@@ -212,8 +212,8 @@ Look ground_look(const Stage& stage, const Surface& at) {
             look = grass(at);
     }
     look.normal = at.normal;
-    if (stage.sky.weather().wetness() > 0)
-        soak(look, stage, at, lane_distance);
+    if (input.sky.weather().wetness() > 0)
+        soak(look, input, at, lane_distance);
     return look;
 }
 

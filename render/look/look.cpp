@@ -35,11 +35,11 @@ Look bark_look(const Surface& at) {
     return look;
 }
 
-Look signal_lamp_look(const Stage& stage, const Surface& at) {
+Look signal_lamp_look(const ShadingInput& input, const Surface& at) {
     using world::SignalColor;
     const std::uint32_t index = at.tag / 4;
     const auto lamp = static_cast<SignalLamp>(at.tag % 4);
-    const auto signals = stage.scene.signals();
+    const auto signals = input.scene.signals();
     const SignalColor color = index < signals.size() ? signals[index] : SignalColor::off;
     bool lit = false;
     Color light = Color::Zero();
@@ -68,23 +68,23 @@ Look signal_lamp_look(const Stage& stage, const Surface& at) {
     look.roughness = 0.15F;
     if (lit)
         // Lamps outshine what is lit by day: set against the exposure, not the sun.
-        look.emission = light * (5.5F / stage.sky.exposure());
+        look.emission = light * (5.5F / input.sky.exposure());
     return look;
 }
 
 /// Nobody has switched a parked car's lamps on, and its number plate comes from its look.
-Look parked_look(const Stage& stage, const Surface& at) {
+Look parked_look(const ShadingInput& input, const Surface& at) {
     Instance named = *at.instance;
     named.actor = at.instance->look;
     Surface own = at;
     own.instance = &named;
-    Look look = car_look(stage, own);
+    Look look = car_look(input, own);
     look.emission = Color::Zero();
     return look;
 }
 
-Look metal_look(const Stage& stage, const Surface& at) {
-    static_cast<void>(stage);
+Look metal_look(const ShadingInput& input, const Surface& at) {
+    static_cast<void>(input);
     Look look;
     look.albedo =
         at.material == Material::pole ? Color(.16F, .17F, .17F) : Color(.022F, .024F, .023F);
@@ -109,7 +109,7 @@ Surface surface_at(const Scene& scene,
     Surface at;
     at.instance = &instance;
     at.material = mesh.materials[hit.triangle];
-    if (at.material == Material::limb)
+    if (at.material == Material::of_instance)
         at.material = instance.material;
     at.tag = mesh.tags[hit.triangle];
     at.position = eye + hit.distance * direction;
@@ -135,7 +135,7 @@ Surface surface_at(const Scene& scene,
     return at;
 }
 
-Look look_of(const Stage& stage, const Surface& at) {
+Look shade_surface(const ShadingInput& input, const Surface& at) {
     Look look;
     switch (at.material) {
         case Material::grass:
@@ -143,25 +143,25 @@ Look look_of(const Stage& stage, const Surface& at) {
         case Material::pavement:
         case Material::kerb:
         case Material::marking:
-            return ground_look(stage, at);
+            return ground_look(input, at);
         case Material::facade:
         case Material::roof:
-            return building_look(stage, at);
+            return building_look(input, at);
         case Material::car_body:
         case Material::car_cargo:
         case Material::car_under:
-            return at.instance->kind == Kind::parked ? parked_look(stage, at) : car_look(stage, at);
+            return at.instance->kind == Kind::parked ? parked_look(input, at) : car_look(input, at);
         case Material::wheel:
-            return wheel_look(stage, at);
+            return wheel_look(input, at);
         case Material::wall:
         case Material::building:
-            return model_building_look(stage, at);
+            return model_building_look(input, at);
         case Material::prop:
-            return prop_look(stage, at);
+            return prop_look(input, at);
         case Material::plot:
-            return plot_look(stage, at);
+            return plot_look(input, at);
         case Material::car_part:
-            look = car_part_look(stage, at);
+            look = car_part_look(input, at);
             break;
         case Material::bark:
             look = at.instance->kind == Kind::plant ? plant_bark_look(at) : bark_look(at);
@@ -170,18 +170,18 @@ Look look_of(const Stage& stage, const Surface& at) {
             look = at.instance->kind == Kind::plant ? plant_leaf_look(at) : leaf_look(at);
             break;
         case Material::signal_lamp:
-            look = signal_lamp_look(stage, at);
+            look = signal_lamp_look(input, at);
             break;
         case Material::pole:
         case Material::signal_case:
-            look = metal_look(stage, at);
+            look = metal_look(input, at);
             break;
         default:
-            look = walker_look(stage, at);
+            look = walker_look(input, at);
     }
     look.normal = at.normal;
     // Soaked cloth, bark and leaves are darker.
-    look.albedo *= 1 - 0.3F * stage.sky.weather().wetness();
+    look.albedo *= 1 - 0.3F * input.sky.weather().wetness();
     return look;
 }
 
@@ -193,7 +193,7 @@ world::SemanticClass semantic_class(const Scene& scene, const Hit& hit) {
         case Kind::tree:
         case Kind::plant:
             return SemanticClass::vegetation;
-        case Kind::limb:
+        case Kind::pedestrian:
             return SemanticClass::pedestrian;
         case Kind::rider:
             return SemanticClass::rider;

@@ -32,8 +32,8 @@ struct Look {
     float translucency = 0;  ///< share of light that passes through, for leaves
 };
 
-/// All that looks depend on beside the place.
-struct Stage {
+/// What shading depends on beside the surface itself.
+struct ShadingInput {
     const Scene& scene;
     const Sky& sky;
     std::uint64_t tick;
@@ -46,23 +46,23 @@ Surface surface_at(const Scene& scene,
                    const Eigen::Vector3f& direction,
                    float pixel);
 
-Look look_of(const Stage& stage, const Surface& surface);
+Look shade_surface(const ShadingInput& input, const Surface& surface);
 
 /// As given by the class of what was hit; `sky` for none. Depends on ids only.
 world::SemanticClass semantic_class(const Scene& scene, const Hit& hit);
 
 // One for each kind of surface, in files of their own.
-Look ground_look(const Stage& stage, const Surface& surface);
-Look building_look(const Stage& stage, const Surface& surface);
-Look model_building_look(const Stage& stage, const Surface& surface);
-Look prop_look(const Stage& stage, const Surface& surface);
-Look plot_look(const Stage& stage, const Surface& surface);
+Look ground_look(const ShadingInput& input, const Surface& surface);
+Look building_look(const ShadingInput& input, const Surface& surface);
+Look model_building_look(const ShadingInput& input, const Surface& surface);
+Look prop_look(const ShadingInput& input, const Surface& surface);
+Look plot_look(const ShadingInput& input, const Surface& surface);
 Look plant_leaf_look(const Surface& surface);
 Look plant_bark_look(const Surface& surface);
-Look car_look(const Stage& stage, const Surface& surface);
-Look car_part_look(const Stage& stage, const Surface& surface);
-Look wheel_look(const Stage& stage, const Surface& surface);
-Look walker_look(const Stage& stage, const Surface& surface);
+Look car_look(const ShadingInput& input, const Surface& surface);
+Look car_part_look(const ShadingInput& input, const Surface& surface);
+Look wheel_look(const ShadingInput& input, const Surface& surface);
+Look walker_look(const ShadingInput& input, const Surface& surface);
 
 // Likewise: what class a prop's or plot's triangle has.
 world::SemanticClass prop_class(std::uint32_t tag);

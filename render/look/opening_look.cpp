@@ -13,7 +13,7 @@ using world::FacadeKind;
 
 /// Glass with what is behind it: a curtain, a dark room, or a lit one at dusk.
 void glaze(Look& look,
-           const Stage& stage,
+           const ShadingInput& input,
            const Surface& at,
            const WallSpot& spot,
            const Opening& opening,
@@ -48,12 +48,12 @@ void glaze(Look& look,
         room = mix(
             room, goods, 0.6F * detail(at, 0.6F) * (fraction(room_z / 0.42F) < 0.7F ? 1.0F : 0.2F));
     }
-    const bool lit = stage.sky.dim() && (shop ? fate < 0.75F : fate < (tinted ? 0.5F : 0.34F));
+    const bool lit = input.sky.dim() && (shop ? fate < 0.75F : fate < (tinted ? 0.5F : 0.34F));
     Color lamp = Color::Zero();
     if (lit) {
         const Color warm =
             fate < 0.2F && !tinted ? Color(1.0F, .66F, .34F) : Color(1.0F, .84F, .64F);
-        lamp = warm * ((shop ? 0.38F : 0.42F) * (0.45F + 0.9F * back) / stage.sky.exposure());
+        lamp = warm * ((shop ? 0.38F : 0.42F) * (0.45F + 0.9F * back) / input.sky.exposure());
         if (shop)
             lamp *= 0.5F + 2.2F * room;
     }
@@ -101,7 +101,7 @@ void door_leaf(
 }
 
 void gate_leaf(Look& look,
-               const Stage& stage,
+               const ShadingInput& input,
                const Surface& at,
                const WallSpot& spot,
                const Opening& opening,
@@ -117,7 +117,7 @@ void gate_leaf(Look& look,
     const float across = fraction((u - opening.left) / (opening.right - opening.left) * 4);
     const bool pane = level == 3 && row > 0.15F && row < 0.85F && across > 0.1F && across < 0.9F;
     if (pane)
-        glaze(look, stage, at, spot, opening, u, z);
+        glaze(look, input, at, spot, opening, u, z);
 }
 
 /// Bars between the panes of a window: is this place on one?
@@ -153,19 +153,19 @@ bool on_bar(const BuildingPaint& paint, const Opening& opening, float u, float z
 }
 
 /// Darkens what the reveal keeps the sun from. `depth`: of the pane behind the wall. [m]
-float sun_in_reveal(const Stage& stage,
+float sun_in_reveal(const ShadingInput& input,
                     const WallSpot& spot,
                     const Opening& opening,
                     float u,
                     float z,
                     float depth) {
-    const Vector3f& sun = stage.sky.to_sun();
+    const Vector3f& sun = input.sky.to_sun();
     const float out = -sun.dot(spot.inwards);
     if (out <= 0.02F)
         return 1;
     const float at_wall_u = u + sun.dot(spot.wall.along) / out * depth;
     const float at_wall_z = z + sun.z() / out * depth;
-    return opening.holds(at_wall_u, at_wall_z) ? 1.0F : 0.5F;
+    return opening.contains(at_wall_u, at_wall_z) ? 1.0F : 0.5F;
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ WallSpot::WallSpot(const Wall& of, const BuildingPaint& painted, const Surface& 
     slope_z = at.view.z() / depth;
 }
 
-Look opening_look(const Stage& stage,
+Look opening_look(const ShadingInput& input,
                   const Surface& at,
                   const WallSpot& spot,
                   const Opening& opening) {
@@ -194,7 +194,7 @@ Look opening_look(const Stage& stage,
     const float depth = glass ? 0.05F : paint.model->facade == FacadeKind::stone ? 0.26F : 0.17F;
     const float u = spot.u + spot.slope_u * depth;
     const float z = spot.z + spot.slope_z * depth;
-    if (!opening.holds(u, z)) {
+    if (!opening.contains(u, z)) {
         const bool sideways = u <= opening.left || u >= opening.right;
         look.albedo = mix(paint.wall, paint.trim, 0.6F) * (sideways           ? 0.85F
                                                            : z <= opening.low ? 1.0F
@@ -209,22 +209,22 @@ Look opening_look(const Stage& stage,
         const float slat = fraction(z / 0.24F);
         look.albedo = Color(.12F, .09F, .065F) * (0.35F + 0.9F * slat);
     } else if (opening.kind == OpeningKind::gate) {
-        gate_leaf(look, stage, at, spot, opening, u, z);
+        gate_leaf(look, input, at, spot, opening, u, z);
     } else if (opening.kind == OpeningKind::door &&
                (glass || paint.model->facade == FacadeKind::office)) {
         if (edge < 0.08F || std::abs(u - 0.5F * (opening.left + opening.right)) < 0.05F)
             look.albedo = paint.frame;
         else
-            glaze(look, stage, at, spot, opening, u, z);
+            glaze(look, input, at, spot, opening, u, z);
     } else if (opening.kind == OpeningKind::door) {
         door_leaf(look, at, spot, opening, u, z);
     } else if (edge < (glass ? 0.03F : 0.06F) || on_bar(paint, opening, u, z)) {
         look.albedo = paint.frame;
         look.roughness = 0.4F;
     } else {
-        glaze(look, stage, at, spot, opening, u, z);
+        glaze(look, input, at, spot, opening, u, z);
     }
-    const float lit = sun_in_reveal(stage, spot, opening, u, z, depth);
+    const float lit = sun_in_reveal(input, spot, opening, u, z, depth);
     look.albedo *= lit;
     return look;
 }

@@ -13,14 +13,14 @@ using Eigen::Vector2f;
 using world::PlotKind;
 
 /// As the ground's own material, with its weather.
-Look as_ground(const Stage& stage, const Surface& at, Material material) {
+Look as_ground(const ShadingInput& input, const Surface& at, Material material) {
     Surface ground = at;
     ground.material = material;
-    return ground_look(stage, ground);
+    return ground_look(input, ground);
 }
 
-Look lawn(const Stage& stage, const Surface& at) {
-    Look look = as_ground(stage, at, Material::grass);
+Look lawn(const ShadingInput& input, const Surface& at) {
+    Look look = as_ground(input, at, Material::grass);
     // Cut short: evenly green, in stripes that the mower left.
     const float stripe =
         fraction((at.position.x() + at.position.y()) / 3.2F) < 0.5F ? 1.06F : 0.95F;
@@ -65,7 +65,7 @@ Look paving(const Surface& at, const PlotFrame& plot, float edge) {
     return look;
 }
 
-Look water(const Stage& stage, const Surface& at) {
+Look water(const ShadingInput& input, const Surface& at) {
     const float x = at.position.x();
     const float y = at.position.y();
     Look look;
@@ -74,7 +74,7 @@ Look water(const Stage& stage, const Surface& at) {
     look.gloss = 1;
     look.roughness = 0.03F;
     // Small waves that the wind drives on.
-    const float drift = static_cast<float>(stage.tick % 20000) * 0.02F;
+    const float drift = static_cast<float>(input.tick % 20000) * 0.02F;
     const float rough = 0.05F * detail(at, 0.8F);
     const auto slope = [&](std::uint32_t salt) {
         return value_noise(x * 2.1F + drift, y * 2.1F, salt) - 0.5F +
@@ -84,7 +84,7 @@ Look water(const Stage& stage, const Surface& at) {
     return look;
 }
 
-Look car_park(const Stage& stage, const Surface& at, const PlotFrame& plot) {
+Look car_park(const ShadingInput& input, const Surface& at, const PlotFrame& plot) {
     const Vector2f away = at.position.head<2>() - plot.start;
     const float u = away.dot(plot.along);
     const float v = plot.along.x() * away.y() - plot.along.y() * away.x();
@@ -95,7 +95,7 @@ Look car_park(const Stage& stage, const Surface& at, const PlotFrame& plot) {
     const bool in_bays = (across < 5 || (across > 11 && across < 16)) && v > 0.5F && u > 0.4F &&
                          u < plot.longest - 0.4F;
     const bool line = in_bays && std::min(bay, 2.5F - bay) < 0.06F;
-    return as_ground(stage, at, line ? Material::marking : Material::asphalt);
+    return as_ground(input, at, line ? Material::marking : Material::asphalt);
 }
 
 Look playground(const Surface& at, float edge) {
@@ -129,21 +129,21 @@ Look forest_floor(const Surface& at) {
 
 }  // namespace
 
-Look plot_look(const Stage& stage, const Surface& at) {
-    const PlotFrame& plot = stage.scene.plots()[at.tag];
+Look plot_look(const ShadingInput& input, const Surface& at) {
+    const PlotFrame& plot = input.scene.plots()[at.tag];
     const float edge = plot.edge_distance(at.position.head<2>());
     Look look;
     switch (plot.kind) {
         case PlotKind::lawn:
-            return lawn(stage, at);
+            return lawn(input, at);
         case PlotKind::water:
-            return water(stage, at);
+            return water(input, at);
         case PlotKind::car_park:
-            return car_park(stage, at, plot);
+            return car_park(input, at, plot);
         case PlotKind::park:
             // A path runs around inside.
             if (edge < 3.0F || edge > 5.2F)
-                return lawn(stage, at);
+                return lawn(input, at);
             look = gravel(at);
             break;
         case PlotKind::square:
@@ -159,7 +159,7 @@ Look plot_look(const Stage& stage, const Surface& at) {
             look = forest_floor(at);
             break;
     }
-    const float wetness = stage.sky.weather().wetness();
+    const float wetness = input.sky.weather().wetness();
     look.albedo *= 1 - 0.4F * wetness;
     if (plot.kind == PlotKind::square && wetness > 0) {
         look.gloss = 0.5F * wetness;

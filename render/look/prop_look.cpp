@@ -52,7 +52,7 @@ Color crossing(float x, float y) {
     const float down = (top - y) / 1.25F;
     if (down < 0 || down > 1 || std::abs(x) > 0.78F * down)
         return std::max(std::abs(x), std::abs(y)) > 0.92F ? sign_white : sign_blue;
-    const auto limb = [&](float ax, float ay, float bx, float by, float half) {
+    const auto stroke = [&](float ax, float ay, float bx, float by, float half) {
         const float dx = bx - ax;
         const float dy = by - ay;
         const float share = clamp01(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy));
@@ -60,10 +60,10 @@ Color crossing(float x, float y) {
         const float ey = y - ay - share * dy;
         return ex * ex + ey * ey < half * half;
     };
-    const bool figure = limb(.02F, .32F, .02F, .33F, .075F) || limb(0, .2F, -.02F, -.05F, .075F) ||
-                        limb(-.02F, -.05F, -.16F, -.38F, .05F) ||
-                        limb(-.02F, -.05F, .15F, -.38F, .05F) || limb(0, .17F, -.17F, 0, .04F) ||
-                        limb(0, .17F, .18F, .02F, .04F);
+    const bool figure =
+        stroke(.02F, .32F, .02F, .33F, .075F) || stroke(0, .2F, -.02F, -.05F, .075F) ||
+        stroke(-.02F, -.05F, -.16F, -.38F, .05F) || stroke(-.02F, -.05F, .15F, -.38F, .05F) ||
+        stroke(0, .17F, -.17F, 0, .04F) || stroke(0, .17F, .18F, .02F, .04F);
     const bool stripe = y < -.40F && y > -.48F && fraction(x / .16F) < .5F;
     return figure || stripe ? sign_black : sign_white;
 }
@@ -73,7 +73,7 @@ Color bus_plate(const Surface& at) {
     return z > 0.35F ? Color(.62F, .42F, .03F) : Color(.03F, .12F, .07F);
 }
 
-void as_plate(Look& look, const Stage& stage, const Surface& at, const PropTag& tag) {
+void as_plate(Look& look, const ShadingInput& input, const Surface& at, const PropTag& tag) {
     const float x = -at.local.y() / sign_radius;
     const float y = (at.local.z() - 0.001F * static_cast<float>(tag.centre_mm)) / sign_radius;
     switch (tag.kind) {
@@ -94,8 +94,8 @@ void as_plate(Look& look, const Stage& stage, const Surface& at, const PropTag& 
     }
     look.roughness = 0.35F;
     // Sheets that send light back look brighter than paint at night.
-    if (stage.sky.dim())
-        look.emission = look.albedo * (0.10F / stage.sky.exposure());
+    if (input.sky.dim())
+        look.emission = look.albedo * (0.10F / input.sky.exposure());
 }
 
 Color painted(const PropTag& tag, std::uint32_t style) {
@@ -148,16 +148,16 @@ void as_timber(Look& look, const Surface& at) {
     look.albedo = Color(.27F, .175F, .10F) * (0.75F + 0.5F * grain * detail(at, 0.05F));
 }
 
-void as_lamp(Look& look, const Stage& stage) {
+void as_lamp(Look& look, const ShadingInput& input) {
     look.albedo = Color(.55F, .55F, .52F);
     look.roughness = 0.2F;
-    if (stage.sky.dim())
-        look.emission = Color(1.0F, .80F, .50F) * (5.0F / stage.sky.exposure());
+    if (input.sky.dim())
+        look.emission = Color(1.0F, .80F, .50F) * (5.0F / input.sky.exposure());
 }
 
 }  // namespace
 
-Look prop_look(const Stage& stage, const Surface& at) {
+Look prop_look(const ShadingInput& input, const Surface& at) {
     const PropTag tag = PropTag::of(at.tag);
     const std::uint32_t style = at.instance->style;
     Look look;
@@ -172,14 +172,14 @@ Look prop_look(const Stage& stage, const Surface& at) {
             look.roughness = 0.4F;
             break;
         case PropFinish::plate:
-            as_plate(look, stage, at, tag);
+            as_plate(look, input, at, tag);
             break;
         case PropFinish::plate_back:
             look.albedo = Color(.33F, .34F, .34F);
             look.roughness = 0.5F;
             break;
         case PropFinish::lamp:
-            as_lamp(look, stage);
+            as_lamp(look, input);
             break;
         case PropFinish::timber:
             as_timber(look, at);
@@ -219,7 +219,7 @@ Look prop_look(const Stage& stage, const Surface& at) {
             look.translucency = tag.centre_mm == 0 ? 0 : 0.35F;
             break;
     }
-    const float wetness = stage.sky.weather().wetness();
+    const float wetness = input.sky.weather().wetness();
     if (look.gloss <= 0 && tag.finish != PropFinish::plate)
         look.albedo *= 1 - 0.28F * wetness;
     return look;

@@ -3,8 +3,8 @@
 
 namespace reprise::render {
 
-Look walker_look(const Stage& stage, const Surface& at) {
-    const Outfit& outfit = stage.scene.outfits()[at.instance->outfit];
+Look walker_look(const ShadingInput& input, const Surface& at) {
+    const Outfit& outfit = input.scene.outfits()[at.instance->outfit];
     Look look;
     look.albedo = outfit.color_of(at.material);
     look.roughness = 0.85F;

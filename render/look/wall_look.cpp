@@ -80,7 +80,7 @@ bool on_beam(const WallSpot& spot) {
     return z < 0.82F && std::abs(z / 0.82F - share) < 0.12F;
 }
 
-Look sign_look(const Stage& stage, const Surface& at, const WallSpot& spot) {
+Look sign_look(const ShadingInput& input, const Surface& at, const WallSpot& spot) {
     const std::uint32_t seed = spot.wall.seed;
     const BuildingPaint own(*spot.paint.model, seed);
     const bool pale = hash(seed, 66) % 3 == 0;
@@ -92,13 +92,13 @@ Look sign_look(const Stage& stage, const Surface& at, const WallSpot& spot) {
     Look look;
     look.normal = at.normal;
     look.albedo = mix(board, ink, ink_share);
-    if (stage.sky.dim())
-        look.emission = mix(Color(board * 0.3F), ink, ink_share) * (0.7F / stage.sky.exposure());
+    if (input.sky.dim())
+        look.emission = mix(Color(board * 0.3F), ink, ink_share) * (0.7F / input.sky.exposure());
     look.roughness = 0.4F;
     return look;
 }
 
-Look clock_look(const Stage& stage, const Surface& at, const WallSpot& spot) {
+Look clock_look(const ShadingInput& input, const Surface& at, const WallSpot& spot) {
     const float radius = 0.5F * std::min(spot.wall.length, spot.wall.height);
     const float x = (spot.u - 0.5F * spot.wall.length) / radius;
     const float y = (spot.z - 0.5F * spot.wall.height) / radius;
@@ -122,19 +122,19 @@ Look clock_look(const Stage& stage, const Surface& at, const WallSpot& spot) {
     }
     mark |= hand(-0.819F, 0.574F, 0.45F, 0.05F) || hand(0.866F, 0.5F, 0.68F, 0.032F);
     look.albedo = mark ? Color(.03F, .03F, .035F) : Color(.68F, .66F, .60F);
-    if (stage.sky.dim() && !mark)
-        look.emission = Color(1, .9F, .7F) * (0.5F / stage.sky.exposure());
+    if (input.sky.dim() && !mark)
+        look.emission = Color(1, .9F, .7F) * (0.5F / input.sky.exposure());
     return look;
 }
 
-Look wall_look(const Stage& stage, const Surface& at, const WallSpot& spot) {
+Look wall_look(const ShadingInput& input, const Surface& at, const WallSpot& spot) {
     if (spot.wall.use == WallUse::sign)
-        return sign_look(stage, at, spot);
+        return sign_look(input, at, spot);
     if (spot.wall.use == WallUse::clock)
-        return clock_look(stage, at, spot);
+        return clock_look(input, at, spot);
     const Opening opening = opening_at(spot.wall, spot.paint, spot.u, spot.z);
-    if (opening.holds(spot.u, spot.z))
-        return opening_look(stage, at, spot, opening);
+    if (opening.contains(spot.u, spot.z))
+        return opening_look(input, at, spot, opening);
     Look look;
     look.normal = at.normal;
     look.albedo = wall_texture(spot.paint, spot.u + unit(spot.wall.seed) * 90, spot.z, at);
@@ -158,18 +158,18 @@ Look wall_look(const Stage& stage, const Surface& at, const WallSpot& spot) {
 
 }  // namespace
 
-Look model_building_look(const Stage& stage, const Surface& at) {
-    const Facades& facades = stage.scene.facades();
+Look model_building_look(const ShadingInput& input, const Surface& at) {
+    const Facades& facades = input.scene.facades();
     Look look;
     if (at.material == Material::wall) {
         const Wall& wall = facades.walls[at.tag];
-        look = wall_look(stage, at, WallSpot(wall, facades.buildings[wall.building], at));
+        look = wall_look(input, at, WallSpot(wall, facades.buildings[wall.building], at));
     } else {
         look = building_part_look(at,
                                   facades.buildings[at.tag / building_finishes],
                                   static_cast<BuildingFinish>(at.tag % building_finishes));
     }
-    const float wetness = stage.sky.weather().wetness();
+    const float wetness = input.sky.weather().wetness();
     if (wetness > 0 && look.gloss <= 0) {
         look.albedo *= 1 - 0.28F * wetness;
         look.roughness = mix(look.roughness, 0.35F, wetness);

@@ -26,7 +26,7 @@ Color wall_texture(const BuildingPaint& paint, float u, float z, const Surface& 
 Look building_part_look(const Surface& at, const BuildingPaint& paint, BuildingFinish finish);
 
 /// What is seen in an opening: panes with a room behind them, frames, leaves of doors.
-Look opening_look(const Stage& stage,
+Look opening_look(const ShadingInput& input,
                   const Surface& at,
                   const WallSpot& spot,
                   const Opening& opening);

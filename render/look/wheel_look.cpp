@@ -28,10 +28,10 @@ bool is_metal(std::uint32_t design, float share, float turn) {
 
 }  // namespace
 
-Look wheel_look(const Stage& stage, const Surface& at) {
+Look wheel_look(const ShadingInput& input, const Surface& at) {
     Look look;
     look.normal = at.normal;
-    const CarShape& shape = stage.scene.car_shape(at.instance->model);
+    const CarShape& shape = input.scene.car_shape(at.instance->model);
     const Eigen::Vector3f& p = at.local;
     const float radius = std::sqrt(p.x() * p.x() + p.z() * p.z());
     const float rim = shape.wheel_radius() * 0.70F;

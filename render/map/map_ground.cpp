@@ -57,7 +57,7 @@ class OtherLanes {
         by_place_ = world::BoxGrid(entries);
     }
 
-    bool holds(const Eigen::Vector3d& p) const {
+    bool contains(const Eigen::Vector3d& p) const {
         world::Box place;
         place.take(p.head<2>());
         for (const std::uint32_t i : by_place_.near(place))
@@ -80,7 +80,7 @@ Ink ink_of_road(const world::TownT& town,
     for (const world::LaneMap::Found& lane : found)
         if (town.lanes[lane.lane].kind == world::LaneKind::driving)
             return road_ink(town.lanes[lane.lane].speed_limit);
-    return found.empty() && others.holds(p) ? other_lane_ink : junction_ink;
+    return found.empty() && others.contains(p) ? other_lane_ink : junction_ink;
 }
 
 /// Where roads are finer than lines should be: as lines.

@@ -14,7 +14,7 @@
 #include "render/shapes/buildings/building_mesh.h"
 #include "render/shapes/cars/car_shape.h"
 #include "render/shapes/fast_math.h"
-#include "render/shapes/limb.h"
+#include "render/shapes/people/figure_part.h"
 #include "render/shapes/people/wardrobe.h"
 #include "render/shapes/street/plot_mesh.h"
 #include "render/trace/instance.h"
@@ -107,10 +107,10 @@ class Scene {
     void place_vehicles(const world::TickView& tick);
     void place_cars(const world::TickView& tick);
     void place_walker(const world::WalkerState& walker, bool rains);
-    void place_limbs(std::span<const Limb> limbs,
-                     std::size_t person,
-                     const Eigen::Isometry3d& pose,
-                     Instance part);
+    void place_figure(std::span<const FigurePart> figure,
+                      std::size_t person,
+                      const Eigen::Isometry3d& pose,
+                      Instance part);
     void add_instance(Instance instance, const Eigen::Affine3d& pose_world);
     void commit();
 
@@ -128,7 +128,7 @@ class Scene {
     // Of the pedestrian models, then of the riders of a motorcycle and a bicycle.
     std::vector<const Prototype*> trunks_;
     std::vector<const Prototype*> hems_;
-    std::array<const Prototype*, limb_shapes> limbs_{};  // by Limb::Shape
+    std::array<const Prototype*, figure_part_shapes> figure_parts_{};  // by FigurePart::Shape
     std::vector<Outfit> outfits_;
     std::vector<BuildingFrame> buildings_;
     Facades facades_;

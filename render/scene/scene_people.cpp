@@ -10,31 +10,33 @@ namespace reprise::render {
 
 void Scene::build_people() {
     const auto add = [&](const world::WalkerModel& model) {
-        trunks_.push_back(add_prototype(limb_mesh(Limb::Shape::trunk, model)));
-        hems_.push_back(add_prototype(limb_mesh(Limb::Shape::hem, model)));
+        trunks_.push_back(add_prototype(figure_part_mesh(FigurePart::Shape::trunk, model)));
+        hems_.push_back(add_prototype(figure_part_mesh(FigurePart::Shape::hem, model)));
     };
     for (const world::WalkerModel& model : world::walker_models())
         add(model);
     add(rider_of(world::BodyStyle::motorcycle));
     add(rider_of(world::BodyStyle::bicycle));
     const world::WalkerModel& any = world::walker_models().front();
-    for (auto shape = static_cast<std::size_t>(Limb::Shape::ball); shape < limb_shapes; ++shape)
-        limbs_.at(shape) = add_prototype(limb_mesh(static_cast<Limb::Shape>(shape), any));
+    for (auto shape = static_cast<std::size_t>(FigurePart::Shape::ball); shape < figure_part_shapes;
+         ++shape)
+        figure_parts_.at(shape) =
+            add_prototype(figure_part_mesh(static_cast<FigurePart::Shape>(shape), any));
 }
 
 /// `person`: whose trunk it is, index in trunks_.
-void Scene::place_limbs(std::span<const Limb> limbs,
-                        std::size_t person,
-                        const Eigen::Isometry3d& pose,
-                        Instance part) {
+void Scene::place_figure(std::span<const FigurePart> figure,
+                         std::size_t person,
+                         const Eigen::Isometry3d& pose,
+                         Instance part) {
     part.outfit = static_cast<std::uint16_t>(outfits_.size() - 1);
-    for (const Limb& limb : limbs) {
-        part.material = limb.material;
-        part.prototype = limb.shape == Limb::Shape::trunk ? trunks_[person]
-                         : limb.shape == Limb::Shape::hem
+    for (const FigurePart& piece : figure) {
+        part.material = piece.material;
+        part.prototype = piece.shape == FigurePart::Shape::trunk ? trunks_[person]
+                         : piece.shape == FigurePart::Shape::hem
                              ? hems_[person]
-                             : limbs_.at(static_cast<std::size_t>(limb.shape));
-        add_instance(part, pose * limb.pose);
+                             : figure_parts_.at(static_cast<std::size_t>(piece.shape));
+        add_instance(part, pose * piece.pose);
     }
 }
 
@@ -42,14 +44,14 @@ void Scene::place_walker(const world::WalkerState& walker, bool rains) {
     const auto models = world::walker_models();
     REPRISE_CHECK(walker.model() < models.size(), "walker " + std::to_string(walker.id()));
     const world::WalkerModel& model = models[walker.model()];
-    outfits_.push_back(outfit_of(model, look_of(walker)));
+    outfits_.push_back(outfit_of(model, appearance_bits(walker)));
     Instance part;
-    part.kind = Kind::limb;
+    part.kind = Kind::pedestrian;
     part.actor = walker.id();
-    place_limbs(figure(model, walker, rains),
-                walker.model(),
-                world::pose(walker.position(), static_cast<double>(walker.yaw()), 0),
-                part);
+    place_figure(figure(model, walker, rains),
+                 walker.model(),
+                 world::pose(walker.position(), static_cast<double>(walker.yaw()), 0),
+                 part);
 }
 
 void Scene::place_two_wheeler(const Eigen::Isometry3d& pose_world_vehicle,
@@ -98,7 +100,7 @@ void Scene::place_two_wheeler(const Eigen::Isometry3d& pose_world_vehicle,
     part.kind = Kind::rider;
     const std::size_t person =
         world::walker_models().size() + (shape.style == world::BodyStyle::bicycle ? 1 : 0);
-    place_limbs(rider(shape, outfits_.back(), steering, crank), person, pose_world_vehicle, part);
+    place_figure(rider(shape, outfits_.back(), steering, crank), person, pose_world_vehicle, part);
 }
 
 }  // namespace reprise::render

@@ -17,8 +17,8 @@ namespace {
 using Eigen::Vector3d;
 
 /// Props of one kind share a mesh when they are about of one size; the rest is stretched.
-struct Mould {
-    explicit Mould(const PropSize& size)
+struct SizeClass {
+    explicit SizeClass(const PropSize& size)
         : length(size.length > 4 ? steps(size.length, 0.5F) * 5 : steps(size.length, 0.1F)),
           width(steps(size.width, 0.1F)),
           height(steps(size.height, 0.1F)) {}
@@ -33,7 +33,7 @@ struct Mould {
                 0.1F * static_cast<float>(height)};
     }
 
-    auto operator<=>(const Mould&) const = default;
+    auto operator<=>(const SizeClass&) const = default;
 
     int length;  ///< [dm]
     int width;   ///< [dm]
@@ -43,24 +43,24 @@ struct Mould {
 }  // namespace
 
 void Scene::place_props(const world::TownT& town) {
-    std::map<std::pair<world::PropKind, Mould>, const Prototype*> moulds;
+    std::map<std::pair<world::PropKind, SizeClass>, const Prototype*> prototypes;
     for (const world::Prop& prop : town.props) {
         if (prop.kind() == world::PropKind::parked_vehicle) {
             park(prop);
             continue;
         }
         const PropSize size = size_of(prop);
-        const Mould mould(size);
-        const Prototype*& prototype = moulds[{prop.kind(), mould}];
+        const SizeClass size_class(size);
+        const Prototype*& prototype = prototypes[{prop.kind(), size_class}];
         if (prototype == nullptr)
-            prototype = add_prototype(prop_mesh(prop.kind(), mould.size()));
+            prototype = add_prototype(prop_mesh(prop.kind(), size_class.size()));
         Instance instance;
         instance.kind = Kind::prop;
         instance.prototype = prototype;
         instance.model = prop.value();
         instance.style = prop.style();
         Eigen::Affine3d pose(world::pose(prop.position(), prop.yaw(), 0));
-        const PropSize made = mould.size();
+        const PropSize made = size_class.size();
         pose.scale(Vector3d(static_cast<double>(size.length / made.length),
                             static_cast<double>(size.width / made.width),
                             static_cast<double>(size.height / made.height)));

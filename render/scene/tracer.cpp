@@ -41,12 +41,12 @@ RTCIntersectContext context_of(bool coherent) {
 
 }  // namespace
 
-void find_nearest(const Scene& scene,
-                  std::span<const Ray> rays,
-                  bool coherent,
-                  std::span<Hit> hits) {
+void trace_nearest(const Scene& scene,
+                   std::span<const Ray> rays,
+                   bool coherent,
+                   std::span<Hit> hits) {
     if (scene.plain_tracer() != nullptr)
-        return scene.plain_tracer()->find_nearest(rays, hits);
+        return scene.plain_tracer()->trace_nearest(rays, hits);
     RTCIntersectContext context = context_of(coherent);
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         alignas(32) RTCRayHit8 packet;
@@ -76,9 +76,11 @@ void find_nearest(const Scene& scene,
     }
 }
 
-void find_free(const Scene& scene, std::span<const Ray> rays, std::span<std::uint8_t> free) {
+void trace_visibility(const Scene& scene,
+                      std::span<const Ray> rays,
+                      std::span<std::uint8_t> visible) {
     if (scene.plain_tracer() != nullptr)
-        return scene.plain_tracer()->find_free(rays, free);
+        return scene.plain_tracer()->trace_visibility(rays, visible);
     RTCIntersectContext context = context_of(true);
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         alignas(32) RTCRay8 packet;
@@ -94,7 +96,7 @@ void find_free(const Scene& scene, std::span<const Ray> rays, std::span<std::uin
             rtcOccluded8(valid.data(), scene.tree(), &context, &packet);
         // Embree sets tfar to minus infinity where the way is blocked.
         for (std::size_t lane = 0; lane < lanes && first + lane < rays.size(); ++lane)
-            free[first + lane] = static_cast<std::uint8_t>(packet.tfar[lane] >= 0);
+            visible[first + lane] = static_cast<std::uint8_t>(packet.tfar[lane] >= 0);
     }
 }
 
@@ -115,7 +117,10 @@ double refined_distance(const Instance& instance,
     return std::abs(distance - found) <= 1e-3 + 1e-2 * found ? distance : found;
 }
 
-void see(const Scene& scene, const Camera& camera, std::uint32_t mask, std::vector<Hit>& hits) {
+void trace_primary(const Scene& scene,
+                   const Camera& camera,
+                   std::uint32_t mask,
+                   std::vector<Hit>& hits) {
     const int width = camera.width();
     const int height = camera.height();
     hits.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -133,7 +138,7 @@ void see(const Scene& scene, const Camera& camera, std::uint32_t mask, std::vect
             rays[static_cast<std::size_t>(i)] = {
                 origin, direction.cast<float>(), std::numeric_limits<float>::infinity(), mask};
         }
-        find_nearest(scene, rays, true, found);
+        trace_nearest(scene, rays, true, found);
         for (int i = 0; i < tile * tile; ++i) {
             const Eigen::Vector2i pixel = corner + tile_pixel(i);
             if (pixel.x() >= width || pixel.y() >= height)

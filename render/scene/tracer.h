@@ -13,13 +13,15 @@
 namespace reprise::render {
 
 /// Nearest hits, in packets of 8. `hits` has the size of `rays`.
-void find_nearest(const Scene& scene,
-                  std::span<const Ray> rays,
-                  bool coherent,
-                  std::span<Hit> hits);
+void trace_nearest(const Scene& scene,
+                   std::span<const Ray> rays,
+                   bool coherent,
+                   std::span<Hit> hits);
 
-/// Is anything solid in the way? 1 where the way is free.
-void find_free(const Scene& scene, std::span<const Ray> rays, std::span<std::uint8_t> free);
+/// Shadow rays: 1 where nothing is hit up to Ray::far, 0 where something is.
+void trace_visibility(const Scene& scene,
+                      std::span<const Ray> rays,
+                      std::span<std::uint8_t> visible);
 
 /// The same hit in double precision from the triangle's own corners: equal ids give equal bits,
 /// whatever Embree's arithmetic was. Distances count in lengths of `direction`.
@@ -30,7 +32,10 @@ double refined_distance(const Instance& instance,
                         double found);
 
 /// What each pixel of the camera sees, by rows; distances are depths. Runs on TBB.
-void see(const Scene& scene, const Camera& camera, std::uint32_t mask, std::vector<Hit>& hits);
+void trace_primary(const Scene& scene,
+                   const Camera& camera,
+                   std::uint32_t mask,
+                   std::vector<Hit>& hits);
 
 /// Side of the square tiles that tasks work on. [px]
 inline constexpr int tile = 16;

@@ -41,21 +41,21 @@ struct Frame {
     }
 };
 
-/// Shades what `hits` (from see()) found into frame.colors. Each pixel is a function of the scene
-/// and its neighbours' hits, so that the number of threads does not matter.
-void shade(const Stage& stage,
+/// Shades what `hits` (from trace_primary()) found into frame.colors. Each pixel is a function of
+/// the scene and its neighbours' hits, so that the number of threads does not matter.
+void shade(const ShadingInput& input,
            const Camera& camera,
            std::uint32_t mask,
            const std::vector<Hit>& hits,
            Frame& frame);
 
-/// HashDraws falling drops over the colours: streaks, each a function of (tick, number).
-void draw_rain(const Stage& stage,
+/// Draws falling drops over the colours: streaks, each a function of (tick, number).
+void draw_rain(const ShadingInput& input,
                const Camera& camera,
                const std::vector<Hit>& hits,
                Frame& frame);
 
 /// Tone curve and sRGB: 3 bytes a pixel.
-std::vector<std::uint8_t> develop(const Frame& frame, std::uint64_t tick);
+std::vector<std::uint8_t> tone_map(const Frame& frame, std::uint64_t tick);
 
 }  // namespace reprise::render

@@ -34,13 +34,13 @@ float beam_light(const std::vector<Beam>& beams, const Vector3f& position, const
     return sum;
 }
 
-/// Things that hide the sky send light of their own: the paler, the more (Jimenez et al.,
+/// Ambient visibility with the light that occluders reflect: the paler, the more (Jimenez et al.,
 /// "Practical Realtime Strategies for Accurate Indirect Occlusion", 2016).
-Color open_to_sky(float open, const Color& albedo) {
+Color multi_bounce(float visibility, const Color& albedo) {
     const Color a = 2.0404F * albedo - 0.3324F;
     const Color b = -4.7951F * albedo + 0.6417F;
     const Color c = 2.7552F * albedo + 0.6903F;
-    return (((open * a + b) * open + c) * open).max(open);
+    return (((visibility * a + b) * visibility + c) * visibility).max(visibility);
 }
 
 float highlight(float roughness, float normal_half) {
@@ -53,13 +53,13 @@ float highlight(float roughness, float normal_half) {
 
 }  // namespace
 
-std::vector<Beam> find_beams(const Stage& stage, const Vector3f& eye) {
+std::vector<Beam> find_beams(const ShadingInput& input, const Vector3f& eye) {
     std::vector<std::pair<float, Beam>> found;
-    for (const Instance& car : stage.scene.instances()) {
-        const bool on = (car.lamps & world::lamp_low_beam) != 0 || stage.sky.lamps_on();
-        if (car.kind != Kind::car_body || !on || !stage.sky.dim())
+    for (const Instance& car : input.scene.instances()) {
+        const bool on = (car.lamps & world::lamp_low_beam) != 0 || input.sky.lamps_on();
+        if (car.kind != Kind::car_body || !on || !input.sky.dim())
             continue;
-        const CarShape& shape = stage.scene.car_shape(car.model);
+        const CarShape& shape = input.scene.car_shape(car.model);
         const Eigen::Vector3d lamp(static_cast<double>(shape.front), 0, 0.66);
         const Vector3f position = (car.pose * lamp).cast<float>();
         const Vector3f ahead = car.pose.linear().col(0).cast<float>();
@@ -85,34 +85,37 @@ Vector3f mirror_direction(const Vector3f& view, const Vector3f& normal, const Ve
     return direction.normalized();
 }
 
-Color outgoing(const Stage& stage,
-               const std::vector<Beam>& beams,
-               const Look& look,
-               const Light& light,
-               const Vector3f& position,
-               const Vector3f& view) {
-    const Sky& sky = stage.sky;
+Color outgoing_radiance(const ShadingInput& input,
+                        const std::vector<Beam>& beams,
+                        const Look& look,
+                        const Light& light,
+                        const Vector3f& position,
+                        const Vector3f& view) {
+    const Sky& sky = input.sky;
     const Vector3f& normal = look.normal;
     const float facing = normal.dot(sky.to_sun());
     const float front = std::max(facing, 0.0F);
     const float back = std::max(-facing, 0.0F) * look.translucency;
-    Color arriving = sky.sun() * ((front + back) * light.sunlit / pi) +
-                     sky.ambient(normal) * open_to_sky(light.open, look.albedo);
+    Color arriving = sky.sun() * ((front + back) * light.sun_visibility / pi) +
+                     sky.ambient(normal) * multi_bounce(light.sky_visibility, look.albedo);
     if (!beams.empty())
         arriving +=
             Color(1, .93F, .80F) * (15 * beam_light(beams, position, normal) / sky.exposure());
     const float mirror = fresnel(look.f0, -view.dot(normal)) * look.gloss;
-    Color color = look.albedo * arriving * (1 - mirror) + look.emission + light.mirrored * mirror;
-    if (front > 0 && light.sunlit > 0) {
+    Color color = look.albedo * arriving * (1 - mirror) + look.emission + light.reflected * mirror;
+    if (front > 0 && light.sun_visibility > 0) {
         const Vector3f half = (sky.to_sun() - view).normalized();
         const float shine = fresnel(look.f0, half.dot(sky.to_sun())) *
                             highlight(look.roughness, std::max(0.0F, half.dot(normal)));
-        color += sky.sun() * (light.sunlit * front * std::min(shine, 60.0F));
+        color += sky.sun() * (light.sun_visibility * front * std::min(shine, 60.0F));
     }
     return color;
 }
 
-Color through_air(const Sky& sky, const Color& radiance, const Vector3f& view, float distance) {
+Color through_atmosphere(const Sky& sky,
+                         const Color& radiance,
+                         const Vector3f& view,
+                         float distance) {
     const float passes = fast_exp(-sky.extinction() * distance);
     return radiance * passes + sky.haze(view) * (1 - passes);
 }

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "render/shade/job.h"
+#include "render/shade/shading_job.h"
 
 namespace reprise::render {
 
@@ -21,20 +21,23 @@ int pattern(int x, int y) {
 }
 
 /// What a mirror ray met, lit without rays of its own.
-Color mirrored_radiance(const Job& job, const Ray& ray, const Hit& hit, float footprint_scale) {
-    const Stage& stage = job.stage;
+Color mirrored_radiance(const ShadingJob& job,
+                        const Ray& ray,
+                        const Hit& hit,
+                        float footprint_scale) {
+    const ShadingInput& input = job.input;
     if (hit.instance == no_instance)
-        return stage.sky.radiance(ray.direction, false);
-    const Surface at = surface_at(stage.scene, hit, ray.origin, ray.direction, footprint_scale);
-    const Look look = look_of(stage, at);
+        return input.sky.radiance(ray.direction, false);
+    const Surface at = surface_at(input.scene, hit, ray.origin, ray.direction, footprint_scale);
+    const Look look = shade_surface(input, at);
     Light light{job.sun_matters ? 0.6F : 1.0F, 0.75F, Color::Zero()};
     if (look.gloss > 0)
-        light.mirrored =
-            stage.sky.radiance(mirror_direction(at.view, look.normal, at.flat), false) * 0.8F;
-    const Color color = outgoing(stage, job.beams, look, light, at.position, at.view);
+        light.reflected =
+            input.sky.radiance(mirror_direction(at.view, look.normal, at.flat), false) * 0.8F;
+    const Color color = outgoing_radiance(input, job.beams, look, light, at.position, at.view);
     // Lamps would leave single dots: what one ray finds stands for 16 pixels.
-    const Color seen = color.min(2.2F / stage.sky.exposure());
-    return through_air(stage.sky, seen, at.view, at.distance);
+    const Color seen = color.min(2.2F / input.sky.exposure());
+    return through_atmosphere(input.sky, seen, at.view, at.distance);
 }
 
 /// Rays among leaves are the dearest and change the least; from far, corners are too small to see.
@@ -42,42 +45,42 @@ bool asks_for_sky(const Surface& at) {
     return at.material != Material::leaf && at.distance < far_corners;
 }
 
-void request_light(const Job& job,
+void request_light(const ShadingJob& job,
                    const Surface& at,
                    const Look& look,
                    int place,
                    std::size_t owner,
-                   Batches& batches) {
-    const Vector3f origin = lifted(at.position, at.flat, at.distance);
-    const float facing = look.normal.dot(job.stage.sky.to_sun());
+                   TileRays& rays) {
+    const Vector3f origin = offset_origin(at.position, at.flat, at.distance);
+    const float facing = look.normal.dot(job.input.sky.to_sun());
     if (job.sun_matters && (facing > 0 || look.translucency > 0))
-        batches.sun.add(sun_ray(job, origin, place), owner);
-    const Axes axes(at.normal);
+        rays.sun.add(sun_ray(job, origin, place), owner);
+    const OrthonormalBasis axes(at.normal);
     for (int i = 0; i < 2 && asks_for_sky(at); ++i) {
         Vector3f direction = axes.apply(sky_direction(place + 16 * i));
         const float up = direction.dot(at.flat);
         if (up < 0.02F)
             direction += (0.04F - up) * at.flat;
-        batches.sky.add({origin, direction, near_things, job.mask & ~marking_bit}, owner);
+        rays.sky.add({origin, direction, near_things, job.mask & ~marking_bit}, owner);
     }
     if (look.gloss > 0) {
         const Vector2f spot = disc_point(place) * (look.roughness * look.roughness * 0.55F);
         const Vector3f tilted = (look.normal + spot.x() * axes.x + spot.y() * axes.y).normalized();
-        batches.mirror.add(
+        rays.mirror.add(
             {origin, mirror_direction(at.view, tilted, at.flat), mirror_reach, job.mask}, owner);
     }
 }
 
 }  // namespace
 
-void light_tile(Job& job, const Eigen::Vector2i& corner) {
-    thread_local Batches batches;
-    batches.sun.clear();
-    batches.sky.clear();
-    batches.mirror.clear();
+void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
+    thread_local TileRays rays;
+    rays.sun.clear();
+    rays.sky.clear();
+    rays.mirror.clear();
     for (int i = 0; i < tile * tile; ++i) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
-        if (!job.holds(pixel))
+        if (!job.contains(pixel))
             continue;
         const std::size_t index = job.frame.index(pixel.x(), pixel.y());
         RawLight& raw = job.frame.lights[index];
@@ -86,9 +89,9 @@ void light_tile(Job& job, const Eigen::Vector2i& corner) {
         if (hit.instance == no_instance)
             continue;
         const Vector3f direction = job.camera.ray(pixel.x() + 0.5, pixel.y() + 0.5).cast<float>();
-        const Surface at = surface_at(job.stage.scene, hit, job.eye, direction, job.pixel);
+        const Surface at = surface_at(job.input.scene, hit, job.eye, direction, job.pixel);
         Sample& sample = job.frame.samples[index];
-        sample.look = look_of(job.stage, at);
+        sample.look = shade_surface(job.input, at);
         sample.position = at.position;
         sample.distance = at.distance;
         raw.position = at.position;
@@ -96,21 +99,21 @@ void light_tile(Job& job, const Eigen::Vector2i& corner) {
         raw.tolerance = 0.01F + 4 * at.distance * job.pixel;
         raw.light = {job.sun_matters ? 0.0F : 1.0F, 0.0F, Color::Zero()};
         if (!asks_for_sky(at))
-            raw.light.open = at.material == Material::leaf ? 0.7F : 0.95F;
-        request_light(job, at, sample.look, pattern(pixel.x(), pixel.y()), index, batches);
+            raw.light.sky_visibility = at.material == Material::leaf ? 0.7F : 0.95F;
+        request_light(job, at, sample.look, pattern(pixel.x(), pixel.y()), index, rays);
     }
     std::vector<RawLight>& lights = job.frame.lights;
-    answer_free(job, batches, batches.sun, [&](std::size_t owner, bool free) {
-        lights[owner].light.sunlit = free ? 1.0F : 0.0F;
+    trace_batch(job, rays, rays.sun, [&](std::size_t owner, bool visible) {
+        lights[owner].light.sun_visibility = visible ? 1.0F : 0.0F;
     });
-    answer_free(job, batches, batches.sky, [&](std::size_t owner, bool free) {
-        lights[owner].light.open += free ? 0.5F : 0.0F;
+    trace_batch(job, rays, rays.sky, [&](std::size_t owner, bool visible) {
+        lights[owner].light.sky_visibility += visible ? 0.5F : 0.0F;
     });
-    batches.hits.resize(batches.mirror.rays.size());
-    find_nearest(job.stage.scene, batches.mirror.rays, false, batches.hits);
-    for (std::size_t i = 0; i < batches.hits.size(); ++i)
-        lights[batches.mirror.owners[i]].light.mirrored =
-            mirrored_radiance(job, batches.mirror.rays[i], batches.hits[i], job.pixel * 2);
+    rays.hits.resize(rays.mirror.rays.size());
+    trace_nearest(job.input.scene, rays.mirror.rays, false, rays.hits);
+    for (std::size_t i = 0; i < rays.hits.size(); ++i)
+        lights[rays.mirror.owners[i]].light.reflected =
+            mirrored_radiance(job, rays.mirror.rays[i], rays.hits[i], job.pixel * 2);
 }
 
 }  // namespace reprise::render

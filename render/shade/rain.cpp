@@ -58,11 +58,11 @@ void draw_streak(const Streak& streak,
 
 }  // namespace
 
-void draw_rain(const Stage& stage,
+void draw_rain(const ShadingInput& input,
                const Camera& camera,
                const std::vector<Hit>& hits,
                Frame& frame) {
-    const world::Weather& weather = stage.sky.weather();
+    const world::Weather& weather = input.sky.weather();
     if (weather.rain() <= 0)
         return;
     // Marshall and Palmer, 1948: drops of more than 1 mm in a cubic metre. Of the smaller ones, and
@@ -79,8 +79,8 @@ void draw_rain(const Stage& stage,
                           Vector3d(std::cos(azimuth), std::sin(azimuth), 0);
     // A drop shows most of the sphere around it, upside down: the mean of the sky.
     const Color light =
-        stage.sky.ambient(Eigen::Vector3f::UnitZ()) * (1.15F * stage.sky.exposure());
-    const std::uint64_t tick = stage.tick;
+        input.sky.ambient(Eigen::Vector3f::UnitZ()) * (1.15F * input.sky.exposure());
+    const std::uint64_t tick = input.tick;
     for (std::uint64_t drop = 0; drop < count; ++drop) {
         const auto number = [&](std::uint64_t k) {
             return draw(0, tick, Purpose::rain_drop, 4 * drop + k);

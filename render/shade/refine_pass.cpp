@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/shade/job.h"
+#include "render/shade/shading_job.h"
 
 namespace reprise::render {
 
@@ -12,8 +12,8 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr std::size_t places = 4;  // in a pixel, no two in one row or column
-constexpr std::array<std::array<double, 2>, places> place{
+constexpr std::size_t subpixels = 4;  // of a pixel, no two in one row or column (rotated grid)
+constexpr std::array<std::array<double, 2>, subpixels> subpixel_offsets{
     {{.375, .125}, {.875, .375}, {.625, .875}, {.125, .625}}};
 
 float brightness(const Color& color) {
@@ -41,10 +41,10 @@ bool is_edge(const Frame& frame, int x, int y) {
 }
 
 /// The light of the neighbour that lies on the same surface, or of the pixel itself.
-Light borrowed(const Frame& frame,
-               const Eigen::Vector2i& pixel,
-               const Hit& hit,
-               const Surface& at) {
+Light neighbour_light(const Frame& frame,
+                      const Eigen::Vector2i& pixel,
+                      const Hit& hit,
+                      const Surface& at) {
     Light best{0, 0.8F, Color::Zero()};
     float least = infinite;
     for (int i = 0; i < 9; ++i) {
@@ -64,23 +64,23 @@ Light borrowed(const Frame& frame,
     return best;
 }
 
-/// A place inside a pixel: what is seen there, and how it is lit.
-struct Spot {
+/// What a ray through a part of a pixel hit, and how it is lit.
+struct SubpixelSample {
     Hit hit;
     Surface surface;
     Look look;
     Light light;
 };
 
-Batch rays_into(const Job& job,
-                const Eigen::Vector2i& corner,
-                const std::vector<std::uint8_t>& edges) {
-    Batch batch;
+RayBatch subpixel_rays(const ShadingJob& job,
+                       const Eigen::Vector2i& corner,
+                       const std::vector<std::uint8_t>& edges) {
+    RayBatch batch;
     for (int i = 0; i < tile * tile; ++i) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
-        if (!job.holds(pixel) || edges[job.frame.index(pixel.x(), pixel.y())] == 0)
+        if (!job.contains(pixel) || edges[job.frame.index(pixel.x(), pixel.y())] == 0)
             continue;
-        for (const auto& at : place)
+        for (const auto& at : subpixel_offsets)
             batch.add({job.eye,
                        job.camera.ray(pixel.x() + at[0], pixel.y() + at[1]).cast<float>(),
                        infinite,
@@ -90,63 +90,72 @@ Batch rays_into(const Job& job,
     return batch;
 }
 
-Color color_of(const Job& job, const Ray& ray, const Spot& spot) {
+Color color_of(const ShadingJob& job, const Ray& ray, const SubpixelSample& sample) {
     Color color;
-    if (spot.hit.instance == no_instance) {
+    if (sample.hit.instance == no_instance) {
         color = sky_color(job, ray.direction);
     } else {
-        color = outgoing(
-            job.stage, job.beams, spot.look, spot.light, spot.surface.position, spot.surface.view);
-        color = through_air(job.stage.sky, color, spot.surface.view, spot.surface.distance);
+        color = outgoing_radiance(job.input,
+                                  job.beams,
+                                  sample.look,
+                                  sample.light,
+                                  sample.surface.position,
+                                  sample.surface.view);
+        color =
+            through_atmosphere(job.input.sky, color, sample.surface.view, sample.surface.distance);
     }
-    return color * job.stage.sky.exposure();
+    return color * job.input.sky.exposure();
 }
 
 }  // namespace
 
-void mark_edges(const Job& job, const Eigen::Vector2i& corner, std::vector<std::uint8_t>& edges) {
+void mark_edges(const ShadingJob& job,
+                const Eigen::Vector2i& corner,
+                std::vector<std::uint8_t>& edges) {
     for (int i = 0; i < tile * tile; ++i) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
-        if (job.holds(pixel))
+        if (job.contains(pixel))
             edges[job.frame.index(pixel.x(), pixel.y())] =
                 static_cast<std::uint8_t>(is_edge(job.frame, pixel.x(), pixel.y()));
     }
 }
 
-void refine_tile(Job& job, const Eigen::Vector2i& corner, const std::vector<std::uint8_t>& edges) {
+void refine_tile(ShadingJob& job,
+                 const Eigen::Vector2i& corner,
+                 const std::vector<std::uint8_t>& edges) {
     Frame& frame = job.frame;
-    const Batch primary = rays_into(job, corner, edges);
+    const RayBatch primary = subpixel_rays(job, corner, edges);
     if (primary.rays.empty())
         return;
-    Batches batches;
-    batches.hits.resize(primary.rays.size());
-    find_nearest(job.stage.scene, primary.rays, true, batches.hits);
-    std::vector<Spot> spots(primary.rays.size());
-    for (std::size_t i = 0; i < spots.size(); ++i) {
-        Spot& spot = spots[i];
-        spot.hit = batches.hits[i];
-        if (spot.hit.instance == no_instance)
+    TileRays rays;
+    rays.hits.resize(primary.rays.size());
+    trace_nearest(job.input.scene, primary.rays, true, rays.hits);
+    std::vector<SubpixelSample> samples(primary.rays.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        SubpixelSample& sample = samples[i];
+        sample.hit = rays.hits[i];
+        if (sample.hit.instance == no_instance)
             continue;
-        spot.surface = surface_at(
-            job.stage.scene, spot.hit, job.eye, primary.rays[i].direction, job.pixel * 0.6F);
-        spot.look = look_of(job.stage, spot.surface);
+        sample.surface = surface_at(
+            job.input.scene, sample.hit, job.eye, primary.rays[i].direction, job.pixel * 0.6F);
+        sample.look = shade_surface(job.input, sample.surface);
         const auto owner = static_cast<int>(primary.owners[i]);
-        spot.light =
-            borrowed(frame, {owner % frame.width, owner / frame.width}, spot.hit, spot.surface);
+        sample.light = neighbour_light(
+            frame, {owner % frame.width, owner / frame.width}, sample.hit, sample.surface);
         if (!job.sun_matters)
             continue;
         const Vector3f origin =
-            lifted(spot.surface.position, spot.surface.flat, spot.surface.distance);
-        batches.sun.add(sun_ray(job, origin, static_cast<int>(i % 16)), i);
+            offset_origin(sample.surface.position, sample.surface.flat, sample.surface.distance);
+        rays.sun.add(sun_ray(job, origin, static_cast<int>(i % 16)), i);
     }
-    answer_free(job, batches, batches.sun, [&](std::size_t owner, bool free) {
-        spots[owner].light.sunlit = free ? 1.0F : 0.0F;
+    trace_batch(job, rays, rays.sun, [&](std::size_t owner, bool visible) {
+        samples[owner].light.sun_visibility = visible ? 1.0F : 0.0F;
     });
-    for (std::size_t i = 0; i < spots.size(); i += places) {
+    for (std::size_t i = 0; i < samples.size(); i += subpixels) {
         Color sum = Color::Zero();
         float weights = 0;
-        for (std::size_t k = i; k < i + places; ++k) {
-            const Color color = color_of(job, primary.rays[k], spots[k]);
+        for (std::size_t k = i; k < i + subpixels; ++k) {
+            const Color color = color_of(job, primary.rays[k], samples[k]);
             // Weighted against the brightness, so that one bright place does not bring back stairs.
             const float weight = 1 / (1 + luminance(color));
             sum += color * weight;

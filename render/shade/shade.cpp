@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/shade/job.h"
+#include "render/shade/shading_job.h"
 
 namespace reprise::render {
 
@@ -20,7 +20,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-Light filtered(const Job& job, const Eigen::Vector2i& pixel) {
+Light filtered(const ShadingJob& job, const Eigen::Vector2i& pixel) {
     const Frame& frame = job.frame;
     const RawLight& own = frame.lights[frame.index(pixel.x(), pixel.y())];
     Light sum{0, 0, Color::Zero()};
@@ -35,23 +35,23 @@ Light filtered(const Job& job, const Eigen::Vector2i& pixel) {
             if (other.instance != own.instance || other.flat.dot(own.flat) < 0.9F ||
                 std::abs((other.position - own.position).dot(own.flat)) > own.tolerance)
                 continue;
-            sum.sunlit += other.light.sunlit;
-            sum.open += other.light.open;
+            sum.sun_visibility += other.light.sun_visibility;
+            sum.sky_visibility += other.light.sky_visibility;
             // Single bright spots would leave squares.
-            sum.mirrored += other.light.mirrored;
+            sum.reflected += other.light.reflected;
             count += 1;
         }
     }
-    return {sum.sunlit / count, sum.open / count, sum.mirrored / count};
+    return {sum.sun_visibility / count, sum.sky_visibility / count, sum.reflected / count};
 }
 
 }  // namespace
 
-void combine_tile(Job& job, const Eigen::Vector2i& corner) {
+void combine_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
     Frame& frame = job.frame;
     for (int i = 0; i < tile * tile; ++i) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
-        if (!job.holds(pixel))
+        if (!job.contains(pixel))
             continue;
         const std::size_t index = frame.index(pixel.x(), pixel.y());
         const Vector3f direction = job.camera.ray(pixel.x() + 0.5, pixel.y() + 0.5).cast<float>();
@@ -62,15 +62,15 @@ void combine_tile(Job& job, const Eigen::Vector2i& corner) {
             Sample& sample = frame.samples[index];
             sample.light = filtered(job, pixel);
             const Vector3f view = direction.normalized();
-            color =
-                outgoing(job.stage, job.beams, sample.look, sample.light, sample.position, view);
-            color = through_air(job.stage.sky, color, view, sample.distance);
+            color = outgoing_radiance(
+                job.input, job.beams, sample.look, sample.light, sample.position, view);
+            color = through_atmosphere(job.input.sky, color, view, sample.distance);
         }
-        frame.colors[index] = color * job.stage.sky.exposure();
+        frame.colors[index] = color * job.input.sky.exposure();
     }
 }
 
-void shade(const Stage& stage,
+void shade(const ShadingInput& input,
            const Camera& camera,
            std::uint32_t mask,
            const std::vector<Hit>& hits,
@@ -81,17 +81,17 @@ void shade(const Stage& stage,
     frame.lights.resize(hits.size());
     frame.colors.resize(hits.size());
     const Vector3f eye = camera.position().cast<float>();
-    const float ambient = luminance(stage.sky.ambient(Vector3f::UnitZ()));
-    Job job{stage,
-            camera,
-            mask,
-            hits,
-            frame,
-            find_beams(stage, eye),
-            eye,
-            static_cast<float>(camera.pixel()),
-            Axes(stage.sky.to_sun()),
-            luminance(stage.sky.sun()) / pi > 0.01F * ambient};
+    const float ambient = luminance(input.sky.ambient(Vector3f::UnitZ()));
+    ShadingJob job{input,
+                   camera,
+                   mask,
+                   hits,
+                   frame,
+                   find_beams(input, eye),
+                   eye,
+                   static_cast<float>(camera.pixel()),
+                   OrthonormalBasis(input.sky.to_sun()),
+                   luminance(input.sky.sun()) / pi > 0.01F * ambient};
     for_tiles(camera, [&](const Eigen::Vector2i& corner) { light_tile(job, corner); });
     for_tiles(camera, [&](const Eigen::Vector2i& corner) { combine_tile(job, corner); });
     std::vector<std::uint8_t> edges(hits.size());

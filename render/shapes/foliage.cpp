@@ -7,7 +7,7 @@ namespace reprise::render {
 
 using Eigen::Vector3f;
 
-Vector3f HashDraws::direction() {
+Vector3f HashRandom::direction() {
     const float z = 2 * next() - 1;
     const double angle = 2 * std::numbers::pi * static_cast<double>(next());
     const float wide = std::sqrt(1 - z * z);
@@ -15,30 +15,30 @@ Vector3f HashDraws::direction() {
         wide * static_cast<float>(std::cos(angle)), wide * static_cast<float>(std::sin(angle)), z};
 }
 
-void add_leaves(Mesh& mesh, const LeafBunch& bunch, HashDraws& draws) {
+void add_leaves(Mesh& mesh, const LeafBunch& bunch, HashRandom& random) {
     const auto in_bough = [&](const Vector3f& round) {
-        return Vector3f(round.x(), round.y(), round.z() * bunch.slenderness * bunch.lie);
+        return Vector3f(round.x(), round.y(), round.z() * bunch.slenderness * bunch.aspect);
     };
     const auto stretched = [&](const Vector3f& round) {
         return Vector3f(round.x(), round.y(), round.z() * bunch.slenderness);
     };
     for (int i = 0; i < bunch.count; ++i) {
-        const Vector3f out = draws.direction();
-        const float depth = 0.70F + 0.42F * draws.next();
+        const Vector3f out = random.direction();
+        const float depth = 0.70F + 0.42F * random.next();
         const Vector3f place = bunch.centre + in_bough(bunch.radius * depth * out);
         // A leaf bunch lies about across its direction outwards, so that it covers the bough.
-        const Vector3f lean = (out + 0.9F * draws.direction()).normalized();
+        const Vector3f lean = (out + 0.9F * random.direction()).normalized();
         const Vector3f u = lean.unitOrthogonal();
         const Vector3f v = lean.cross(u);
-        const float size = bunch.smallest + bunch.spread * draws.next();
-        const float turn = 6.2831853F * draws.next();
+        const float size = bunch.smallest + bunch.spread * random.next();
+        const float turn = 6.2831853F * random.next();
         const Vector3f along = std::cos(turn) * u + std::sin(turn) * v;
         const Vector3f across = lean.cross(along);
         const std::uint32_t first = add_vertex(mesh, place + stretched(size * along));
         add_vertex(mesh, place + stretched(size * 0.62F * across));
         add_vertex(mesh, place - stretched(size * along));
         add_vertex(mesh, place - stretched(size * 0.62F * across));
-        const Finish leaf{Material::leaf, draws.bits()};
+        const Finish leaf{Material::leaf, random.bits()};
         add_triangle(mesh, first, first + 1, first + 2, leaf);
         add_triangle(mesh, first, first + 2, first + 3, leaf);
         // Lit as the round bough that it belongs to; as after stretching, see Instance.

@@ -5,10 +5,11 @@
 
 namespace reprise::render {
 
-/// Numbers in [0, 1) one after the other.
-class HashDraws {
+/// A counter-based random generator: the n-th number is the hash of seed and n, equal on every
+/// machine.
+class HashRandom {
   public:
-    explicit HashDraws(std::uint32_t seed) : seed_(seed) {}
+    explicit HashRandom(std::uint32_t seed) : seed_(seed) {}
 
     float next() { return unit(hash(seed_, count_++)); }
 
@@ -31,10 +32,10 @@ struct LeafBunch {
     float smallest;  ///< half the length of a leaf bunch, in crown radii
     float spread;    ///< the largest is so much larger
     float slenderness;
-    float lie = 1;  ///< height of the bough over its width, once stretched
+    float aspect = 1;  ///< height of the bough over its width, once stretched
 };
 
 /// Appends leaves with normals of their own: the mesh's other triangles must have theirs.
-void add_leaves(Mesh& mesh, const LeafBunch& bunch, HashDraws& draws);
+void add_leaves(Mesh& mesh, const LeafBunch& bunch, HashRandom& random);
 
 }  // namespace reprise::render

@@ -30,7 +30,7 @@ enum class Material : std::uint8_t {
     car_under,    ///< black: chassis, wheel housings, mirrors' backs
     car_part,     ///< tag: CarPart
     wheel,
-    limb,  ///< as the instance says: one of the following
+    of_instance,  ///< as Instance::material says: one of the following
     skin,
     eye,
     lips,

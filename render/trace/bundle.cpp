@@ -38,7 +38,7 @@ Pairs cross(const Pairs& left, const Pairs& right) {
 
 }  // namespace
 
-unsigned Bundle::seeing(std::uint32_t mask) const {
+unsigned Bundle::lanes_matching(std::uint32_t mask) const {
     unsigned set = 0;
     for (std::size_t lane = 0; lane < Bundle::lanes; ++lane)
         set |= static_cast<unsigned>((masks[lane] & mask) != 0) << lane;
@@ -58,10 +58,10 @@ void Bundle::prepare() {
 }
 
 // Moeller and Trumbore, 1997, two rays at once.
-unsigned find_crossings(const MeshTree::Triangle& triangle,
-                        const Bundle& bundle,
-                        unsigned wanted,
-                        Crossing& crossing) {
+unsigned intersect_triangle(const MeshTree::Triangle& triangle,
+                            const Bundle& bundle,
+                            unsigned wanted,
+                            TriangleHits& hits) {
     const Pairs a = spread(triangle.corners[0]);
     const Pairs to_b = spread(triangle.corners[1]) - a;
     const Pairs to_c = spread(triangle.corners[2]) - a;
@@ -90,9 +90,9 @@ unsigned find_crossings(const MeshTree::Triangle& triangle,
         if (pair == 0)
             continue;
         found |= pair << lane;
-        _mm_store_pd(&crossing.distance[lane], distance / volume);
-        _mm_store_pd(&crossing.u[lane], u / volume);
-        _mm_store_pd(&crossing.v[lane], v / volume);
+        _mm_store_pd(&hits.distance[lane], distance / volume);
+        _mm_store_pd(&hits.u[lane], u / volume);
+        _mm_store_pd(&hits.v[lane], v / volume);
     }
     return found & wanted;
 }

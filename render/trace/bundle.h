@@ -17,24 +17,24 @@ struct Bundle {
     Packet packet;
 
     /// The lanes whose mask has a common bit with this one.
-    unsigned seeing(std::uint32_t mask) const;
+    unsigned lanes_matching(std::uint32_t mask) const;
 
     /// Fills the packet, but for `far`, after origin and direction have been set.
     void prepare();
 };
 
 /// Where rays cross a triangle.
-struct Crossing {
+struct TriangleHits {
     alignas(16) std::array<double, Bundle::lanes> distance;  ///< in lengths of the ray's direction
     alignas(16) std::array<double, Bundle::lanes> u;
     alignas(16) std::array<double, Bundle::lanes> v;
 };
 
 /// Returns the lanes among `wanted` that cross, from either side, ahead of their origins; edges
-/// belong to both their triangles. What the other lanes of `crossing` hold is undefined.
-unsigned find_crossings(const MeshTree::Triangle& triangle,
-                        const Bundle& bundle,
-                        unsigned wanted,
-                        Crossing& crossing);
+/// belong to both their triangles. What the other lanes of `hits` hold is undefined.
+unsigned intersect_triangle(const MeshTree::Triangle& triangle,
+                            const Bundle& bundle,
+                            unsigned wanted,
+                            TriangleHits& hits);
 
 }  // namespace reprise::render

@@ -24,7 +24,7 @@ enum class Kind : std::uint8_t {
     parked,  ///< a car's body that nobody drives
     car_body,
     wheel,
-    limb,
+    pedestrian,
     rider
 };
 
@@ -39,10 +39,10 @@ struct Prototype {
 struct Instance {
     const Prototype* prototype = nullptr;
     Kind kind = Kind::town;
-    Material material = Material::skin;  ///< of a limb
+    Material material = Material::skin;  ///< of a figure's part
     std::uint16_t lamps = 0;             ///< Lamp bits of a car
     std::uint16_t model = 0;             ///< of a car; kind of a plant; value of a prop
-    std::uint16_t outfit = 0;            ///< of a limb: index in Scene::outfits()
+    std::uint16_t outfit = 0;            ///< of a figure's part: index in Scene::outfits()
     std::uint32_t look = 0;              ///< of a car, see world::Look
     Color color{0.5F, 0.5F, 0.5F};       ///< of a car's paint
     std::uint32_t style = 0;             ///< of plants and props: seeds what is left open

@@ -47,11 +47,11 @@ struct Nearest {
     std::array<Hit, lanes> hits;
 
     void take(std::size_t lane,
-              const Crossing& crossing,
+              const TriangleHits& found,
               std::uint32_t instance,
               std::uint32_t triangle) {
         Hit& hit = hits[lane];
-        const double next = crossing.distance[lane];
+        const double next = found.distance[lane];
         const bool tied =
             next == distance[lane] &&
             (instance < hit.instance || (instance == hit.instance && triangle < hit.triangle));
@@ -61,8 +61,8 @@ struct Nearest {
         hit = {static_cast<float>(next),
                instance,
                triangle,
-               static_cast<float>(crossing.u[lane]),
-               static_cast<float>(crossing.v[lane])};
+               static_cast<float>(found.u[lane]),
+               static_cast<float>(found.v[lane])};
     }
 };
 
@@ -112,19 +112,19 @@ void move(const Bundle& world, const PlainTracer::Placed& placed, unsigned wante
     local.prepare();
 }
 
-/// Calls `reach = take(lane, crossing, instance, triangle)` for each crossing found: how far the
+/// Calls `reach = take(lane, found, instance, triangle)` for each hit found: how far the
 /// ray of this lane is of interest from now on.
 template <typename Take>
 void walk(const BoxTree& tree,
           std::span<const PlainTracer::Placed> placed,
           Bundle& world,
           const Take& take) {
-    Crossing crossing;
+    TriangleHits found;
     Bundle moved;
     tree.walk(world.packet, [&](std::uint32_t place, std::uint32_t, unsigned met) {
         const std::uint32_t instance = tree.order()[place];
         const PlainTracer::Placed& thing = placed[instance];
-        const unsigned wanted = met & world.seeing(thing.mask);
+        const unsigned wanted = met & world.lanes_matching(thing.mask);
         if (wanted == 0)
             return;
         if (thing.moved)
@@ -134,9 +134,9 @@ void walk(const BoxTree& tree,
             local.packet, [&](std::uint32_t first, std::uint32_t last, unsigned lanes_met) {
                 for (std::uint32_t i = first; i < last; ++i) {
                     const MeshTree::Triangle& triangle = thing.mesh->triangles()[i];
-                    for_lanes(find_crossings(triangle, local, lanes_met & wanted, crossing),
+                    for_lanes(intersect_triangle(triangle, local, lanes_met & wanted, found),
                               [&](std::size_t lane) {
-                                  const float far = take(lane, crossing, instance, triangle.number);
+                                  const float far = take(lane, found, instance, triangle.number);
                                   local.packet.far[lane] = far;
                                   world.packet.far[lane] = far;
                               });
@@ -162,7 +162,7 @@ PlainTracer::PlainTracer(std::span<const Instance> instances) : tree_(placed_box
     }
 }
 
-void PlainTracer::find_nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
+void PlainTracer::trace_nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         Bundle bundle = bundle_of(rays, first);
         Nearest nearest;
@@ -172,10 +172,10 @@ void PlainTracer::find_nearest(std::span<const Ray> rays, std::span<Hit> hits) c
              placed_,
              bundle,
              [&](std::size_t lane,
-                 const Crossing& crossing,
+                 const TriangleHits& found,
                  std::uint32_t instance,
                  std::uint32_t triangle) {
-                 nearest.take(lane, crossing, instance, triangle);
+                 nearest.take(lane, found, instance, triangle);
                  return reach(nearest.distance[lane]);
              });
         for (std::size_t lane = 0; lane < lanes && first + lane < rays.size(); ++lane)
@@ -183,23 +183,24 @@ void PlainTracer::find_nearest(std::span<const Ray> rays, std::span<Hit> hits) c
     }
 }
 
-void PlainTracer::find_free(std::span<const Ray> rays, std::span<std::uint8_t> free) const {
+void PlainTracer::trace_visibility(std::span<const Ray> rays,
+                                   std::span<std::uint8_t> visible) const {
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         Bundle bundle = bundle_of(rays, first);
         unsigned blocked = 0;
         walk(tree_,
              placed_,
              bundle,
-             [&](std::size_t lane, const Crossing& crossing, std::uint32_t, std::uint32_t) {
+             [&](std::size_t lane, const TriangleHits& found, std::uint32_t, std::uint32_t) {
                  const float far = rays[first + lane].far;
-                 const bool blocks = crossing.distance[lane] <= static_cast<double>(far);
+                 const bool blocks = found.distance[lane] <= static_cast<double>(far);
                  blocked |= static_cast<unsigned>(blocks) << lane;
                  // One thing in the way is enough.
                  return (blocked >> lane & 1U) != 0 ? -1 : far;
              });
         for (std::size_t lane = 0; lane < lanes && first + lane < rays.size(); ++lane)
-            free[first + lane] = static_cast<std::uint8_t>(rays[first + lane].far >= 0 &&
-                                                           (blocked >> lane & 1U) == 0);
+            visible[first + lane] = static_cast<std::uint8_t>(rays[first + lane].far >= 0 &&
+                                                              (blocked >> lane & 1U) == 0);
     }
 }
 

@@ -23,8 +23,8 @@ class PlainTracer {
     explicit PlainTracer(std::span<const Instance> instances);
 
     /// As the functions of these names in render/scene/tracer.h.
-    void find_nearest(std::span<const Ray> rays, std::span<Hit> hits) const;
-    void find_free(std::span<const Ray> rays, std::span<std::uint8_t> free) const;
+    void trace_nearest(std::span<const Ray> rays, std::span<Hit> hits) const;
+    void trace_visibility(std::span<const Ray> rays, std::span<std::uint8_t> visible) const;
 
     /// An instance, as rays need it.
     struct Placed {

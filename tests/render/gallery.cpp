@@ -1,4 +1,4 @@
-// Takes pictures of everything that stands in a town, for eyes. usage: gallery FOLDER [WEATHER]
+// Renders everything that stands in a town, for people to look at. usage: gallery FOLDER [WEATHER]
 #include <cstdio>
 #include <string>
 

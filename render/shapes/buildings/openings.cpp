@@ -86,7 +86,7 @@ void open_ground(
 
 }  // namespace
 
-bool Opening::holds(float u, float z) const {
+bool Opening::contains(float u, float z) const {
     if (kind == OpeningKind::none || u <= left || u >= right || z <= low || z >= high)
         return false;
     const float half = 0.5F * (right - left);

@@ -16,7 +16,7 @@ struct Opening {
     bool arched = false;
     std::uint32_t seed = 0;
 
-    bool holds(float u, float z) const;
+    bool contains(float u, float z) const;
 
     /// Distance to the nearest edge, from inside. [m]
     float edge(float u, float z) const;

@@ -235,7 +235,7 @@ Mesh shoe_mesh() {
     }
     rings.insert(rings.begin(), std::vector<Vector3f>(7, Vector3f(-1.31F, 0, .15F)));
     rings.push_back(std::vector<Vector3f>(7, Vector3f(.11F, 0, .10F)));
-    add_loft(mesh, rings, true, {Material::limb});
+    add_loft(mesh, rings, true, {Material::of_instance});
     drop_degenerate(mesh);
     smooth(mesh, 1.2);
     return mesh;
@@ -243,7 +243,8 @@ Mesh shoe_mesh() {
 
 Mesh ball_mesh() {
     Mesh mesh;
-    add_ellipsoid(mesh, Eigen::Vector3f::Zero(), Eigen::Vector3f::Ones(), 16, {Material::limb});
+    add_ellipsoid(
+        mesh, Eigen::Vector3f::Zero(), Eigen::Vector3f::Ones(), 16, {Material::of_instance});
     drop_degenerate(mesh);
     smooth(mesh, 3);
     return mesh;
@@ -272,7 +273,7 @@ Mesh bone_mesh() {
                               static_cast<float>(point.y()));
         }
     }
-    add_loft(mesh, rings, true, {Material::limb});
+    add_loft(mesh, rings, true, {Material::of_instance});
     drop_degenerate(mesh);
     smooth(mesh, 3);
     return mesh;

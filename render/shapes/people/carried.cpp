@@ -96,15 +96,15 @@ void hold(Posture& posture, const Build& build, const Carried& carried, bool rai
         posture.wrist[0] = trunk * Vector3d(0.125 * h, 0.05 * h, build.trunk - 0.10 * h);
 }
 
-void add_carried(std::vector<Limb>& limbs,
+void add_carried(std::vector<FigurePart>& parts,
                  const Posture& posture,
                  const Build& build,
                  const Carried& carried,
                  bool rains) {
-    using Shape = Limb::Shape;
+    using Shape = FigurePart::Shape;
     const Affine3d trunk(posture.trunk());
     const auto add = [&](Shape shape, const Affine3d& pose) {
-        limbs.push_back({shape, Material::bag, pose});
+        parts.push_back({shape, Material::bag, pose});
     };
     const double depth = 0.075 * build.height;
     if (carried.backpack)
@@ -138,8 +138,8 @@ void add_carried(std::vector<Limb>& limbs,
         add(Shape::closed_umbrella, at(left + palm));
 }
 
-Mesh thing_mesh(Limb::Shape shape) {
-    using Shape = Limb::Shape;
+Mesh thing_mesh(FigurePart::Shape shape) {
+    using Shape = FigurePart::Shape;
     Mesh mesh;
     switch (shape) {
         case Shape::phone:

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "render/shapes/limb.h"
 #include "render/shapes/mesh.h"
+#include "render/shapes/people/figure_part.h"
 #include "render/shapes/people/posture.h"
 #include "render/shapes/people/wardrobe.h"
 
@@ -13,7 +13,7 @@ namespace reprise::render {
 void hold(Posture& posture, const Build& build, const Carried& carried, bool rains);
 
 /// The things themselves. The posture must be one that holds them.
-void add_carried(std::vector<Limb>& limbs,
+void add_carried(std::vector<FigurePart>& parts,
                  const Posture& posture,
                  const Build& build,
                  const Carried& carried,
@@ -21,6 +21,6 @@ void add_carried(std::vector<Limb>& limbs,
 
 /// The mesh of a thing, in metres. Frame: what hangs hangs from the origin, what stands on the
 /// ground or on a back has its x ahead.
-Mesh thing_mesh(Limb::Shape shape);
+Mesh thing_mesh(FigurePart::Shape shape);
 
 }  // namespace reprise::render

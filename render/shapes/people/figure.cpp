@@ -57,7 +57,7 @@ Cover cover_of(Clothing clothing, const Outfit& outfit) {
     }
 }
 
-void add_leg(std::vector<Limb>& limbs,
+void add_leg(std::vector<FigurePart>& parts,
              const Posture& posture,
              const Build& build,
              const Cover& cover,
@@ -69,18 +69,19 @@ void add_leg(std::vector<Limb>& limbs,
     const Vector3d knee =
         joint_between(hip, ankle, build.thigh, build.thigh, Vector3d(1, 0.08 * out, 0));
     const bool loose = cover.shank == Material::trousers;
-    limbs.push_back(
-        {Limb::Shape::bone, cover.thigh, stretched_bone(hip, knee, thigh_radius(build))});
-    limbs.push_back(
-        {Limb::Shape::bone, cover.shank, stretched_bone(knee, ankle, (loose ? .040 : .036) * h)});
+    parts.push_back(
+        {FigurePart::Shape::bone, cover.thigh, stretched_bone(hip, knee, thigh_radius(build))});
+    parts.push_back({FigurePart::Shape::bone,
+                     cover.shank,
+                     stretched_bone(knee, ankle, (loose ? .040 : .036) * h)});
     Affine3d shoe = Affine3d::Identity();
     shoe.translation() = posture.toe[side];
     shoe.rotate(Eigen::AngleAxisd(posture.pitch[side], Vector3d::UnitY()));
     shoe.scale(build.foot);
-    limbs.push_back({Limb::Shape::shoe, Material::shoe, shoe});
+    parts.push_back({FigurePart::Shape::shoe, Material::shoe, shoe});
 }
 
-void add_arm(std::vector<Limb>& limbs,
+void add_arm(std::vector<FigurePart>& parts,
              const Posture& posture,
              const Build& build,
              const Cover& cover,
@@ -92,33 +93,34 @@ void add_arm(std::vector<Limb>& limbs,
     const Vector3d elbow = joint_between(
         shoulder, wrist, build.upper_arm, build.forearm, Vector3d(-1, 0.5 * out, -0.3));
     const Vector3d along = (wrist - elbow).normalized();
-    limbs.push_back({Limb::Shape::ball,
+    parts.push_back({FigurePart::Shape::ball,
                      cover.upper_arm,
                      stretched_ball(shoulder, Vector3d::Constant(.033 * h))});
-    limbs.push_back(
-        {Limb::Shape::bone, cover.upper_arm, stretched_bone(shoulder, elbow, .0315 * h)});
-    limbs.push_back({Limb::Shape::bone, cover.forearm, stretched_bone(elbow, wrist, .025 * h)});
-    limbs.push_back(
-        {Limb::Shape::bone,
+    parts.push_back(
+        {FigurePart::Shape::bone, cover.upper_arm, stretched_bone(shoulder, elbow, .0315 * h)});
+    parts.push_back(
+        {FigurePart::Shape::bone, cover.forearm, stretched_bone(elbow, wrist, .025 * h)});
+    parts.push_back(
+        {FigurePart::Shape::bone,
          Material::skin,
          stretched_bone(wrist - 0.004 * h * along, wrist + .085 * build.height * along, .020 * h)});
 }
 
-/// Where limbs_of() puts the thighs; shank and shoe follow each.
+/// Where body_parts() puts the thighs; shank and shoe follow each.
 constexpr std::size_t first_leg = 1, second_leg = 8;
 
-std::vector<Limb> limbs_of(const world::WalkerModel& model,
-                           const Build& build,
-                           const Posture& posture,
-                           const Outfit& outfit) {
-    std::vector<Limb> limbs;
+std::vector<FigurePart> body_parts(const world::WalkerModel& model,
+                                   const Build& build,
+                                   const Posture& posture,
+                                   const Outfit& outfit) {
+    std::vector<FigurePart> parts;
     const Cover cover = cover_of(model.clothing, outfit);
-    limbs.push_back({Limb::Shape::trunk, Material::skin, Affine3d(posture.trunk())});
+    parts.push_back({FigurePart::Shape::trunk, Material::skin, Affine3d(posture.trunk())});
     for (const std::size_t side : {0U, 1U}) {
-        add_leg(limbs, posture, build, cover, side);
-        add_arm(limbs, posture, build, cover, side);
+        add_leg(parts, posture, build, cover, side);
+        add_arm(parts, posture, build, cover, side);
     }
-    return limbs;
+    return parts;
 }
 
 /// What a hem must hold: a point of a leg's skin, seen from the hips, and the hem's size there.
@@ -127,17 +129,17 @@ struct Held {
     HemSize size;
 };
 
-/// Of the legs among these limbs as far down as the hem goes.
+/// Of the legs among these parts as far down as the hem goes.
 std::vector<Held> held_by_hem(const world::WalkerModel& model,
                               const Posture& posture,
-                              const std::vector<Limb>& limbs) {
+                              const std::vector<FigurePart>& parts) {
     static const std::array<Mesh, 3> meshes{bone_mesh(), bone_mesh(), shoe_mesh()};
     const double low = -hem_length(model);
     std::vector<Held> held;
     for (const std::size_t leg : {first_leg, second_leg})
         for (std::size_t part = 0; part < meshes.size(); ++part)
             for (const Eigen::Vector3f& vertex : meshes[part].vertices) {
-                const Vector3d p = limbs[leg + part].pose * vertex.cast<double>() - posture.hip;
+                const Vector3d p = parts[leg + part].pose * vertex.cast<double>() - posture.hip;
                 if (p.z() > low && p.z() < 0)
                     held.push_back({p.x(), p.y(), p.z(), hem_size(model, p.z())});
             }
@@ -145,10 +147,12 @@ std::vector<Held> held_by_hem(const world::WalkerModel& model,
 }
 
 /// It gives way to the legs: swings with them as a whole, and is wider while they are apart.
-Limb hem(const world::WalkerModel& model, const Posture& posture, const std::vector<Limb>& limbs) {
+FigurePart hem(const world::WalkerModel& model,
+               const Posture& posture,
+               const std::vector<FigurePart>& parts) {
     constexpr double room = 0.93;   // of an ellipse for the polygon in it
     constexpr double aside = 0.80;  // share of the half width where legs also have depth
-    const std::vector<Held> held = held_by_hem(model, posture, limbs);
+    const std::vector<Held> held = held_by_hem(model, posture, parts);
     double front = 0, back = 0, wide = 1, deep = 1;
     for (const Held& p : held)
         if (p.z < -0.5 * hem_length(model)) {
@@ -165,20 +169,20 @@ Limb hem(const world::WalkerModel& model, const Posture& posture, const std::vec
     }
     Affine3d pose(Eigen::Translation3d(posture.hip));
     pose.linear() << deep, 0, -swing, 0, wide, 0, 0, 0, 1;
-    return {Limb::Shape::hem, Material::shirt, pose};
+    return {FigurePart::Shape::hem, Material::shirt, pose};
 }
 
 }  // namespace
 
-std::uint32_t look_of(const world::WalkerState& walker) {
+std::uint32_t appearance_bits(const world::WalkerState& walker) {
     return walker.look() != 0 ? walker.look() : hash(walker.id(), 1);
 }
 
-std::vector<Limb> figure(const world::WalkerModel& model,
-                         const world::WalkerState& walker,
-                         bool rains) {
+std::vector<FigurePart> figure(const world::WalkerModel& model,
+                               const world::WalkerState& walker,
+                               bool rains) {
     const Build build(model);
-    const std::uint32_t look = look_of(walker);
+    const std::uint32_t look = appearance_bits(walker);
     const Outfit outfit = outfit_of(model, look);
     const auto speed = static_cast<double>(walker.speed());
     const bool walks = speed > 0.05 && !walker.down();
@@ -186,25 +190,25 @@ std::vector<Limb> figure(const world::WalkerModel& model,
                             : standing(model, hash(look, 40));
     if (!walker.down())
         hold(posture, build, outfit.carried, rains);
-    std::vector<Limb> limbs = limbs_of(model, build, posture, outfit);
+    std::vector<FigurePart> parts = body_parts(model, build, posture, outfit);
     if (hem_length(model) > 0)
-        limbs.push_back(hem(model, posture, limbs));
+        parts.push_back(hem(model, posture, parts));
     if (!walker.down()) {
-        add_carried(limbs, posture, build, outfit.carried, rains);
-        return limbs;
+        add_carried(parts, posture, build, outfit.carried, rains);
+        return parts;
     }
     Affine3d lying = Affine3d::Identity();
     lying.linear() = Eigen::AngleAxisd(-std::numbers::pi / 2, Vector3d::UnitY()).toRotationMatrix();
     lying.translation() = Vector3d(model.height / 2, 0, 0.13);
-    for (Limb& limb : limbs)
-        limb.pose = lying * limb.pose;
-    return limbs;
+    for (FigurePart& part : parts)
+        part.pose = lying * part.pose;
+    return parts;
 }
 
-std::vector<Limb> rider(const CarShape& shape,
-                        const Outfit& outfit,
-                        double steering,
-                        double crank) {
+std::vector<FigurePart> rider(const CarShape& shape,
+                              const Outfit& outfit,
+                              double steering,
+                              double crank) {
     const world::WalkerModel& model = rider_of(shape.style);
     const Build build(model);
     const Seat seat = seat_of(shape);
@@ -224,7 +228,7 @@ std::vector<Limb> rider(const CarShape& shape,
         // The wrist is behind the hand.
         posture.wrist[side] = turned - Vector3d(0.045 * build.height, 0, -0.012 * build.height);
     }
-    return limbs_of(model, build, posture, outfit);
+    return body_parts(model, build, posture, outfit);
 }
 
 const world::WalkerModel& rider_of(world::BodyStyle style) {
@@ -249,17 +253,17 @@ const world::WalkerModel& rider_of(world::BodyStyle style) {
     return style == world::BodyStyle::motorcycle ? motorcyclist : cyclist;
 }
 
-Mesh limb_mesh(Limb::Shape shape, const world::WalkerModel& model) {
+Mesh figure_part_mesh(FigurePart::Shape shape, const world::WalkerModel& model) {
     switch (shape) {
-        case Limb::Shape::trunk:
+        case FigurePart::Shape::trunk:
             return trunk_mesh(model);
-        case Limb::Shape::hem:
+        case FigurePart::Shape::hem:
             return hem_mesh(model);
-        case Limb::Shape::ball:
+        case FigurePart::Shape::ball:
             return ball_mesh();
-        case Limb::Shape::bone:
+        case FigurePart::Shape::bone:
             return bone_mesh();
-        case Limb::Shape::shoe:
+        case FigurePart::Shape::shoe:
             return shoe_mesh();
         default:
             return thing_mesh(shape);

@@ -25,7 +25,7 @@ struct Build {
     double upper_arm;
     double forearm;
     double head;       ///< chin to crown
-    double stoutness;  ///< of the limbs, 1 is usual
+    double stoutness;  ///< of arms and legs, 1 is usual
 };
 
 /// Of a thigh, trousers included, at the hip. [m]

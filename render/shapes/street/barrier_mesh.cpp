@@ -82,14 +82,14 @@ void add_hedge(Mesh& mesh, Builder& build, const PropSize& size) {
               {half.x() - .08F, half.y() - .08F, size.height - .08F},
               leaf);
     smooth(mesh, 0.3);
-    HashDraws draws(hash(static_cast<std::uint32_t>(size.length * 10), 81));
+    HashRandom random(hash(static_cast<std::uint32_t>(size.length * 10), 81));
     const float area = 2 * size.height * (size.length + size.width) + size.length * size.width;
     const int leaves = std::min(2600, static_cast<int>(area * 95));
     for (int i = 0; i < leaves; ++i) {
         // A place on one of the five faces, by their areas.
-        const float pick = draws.next() * area;
-        const float s = 2 * draws.next() - 1;
-        const float t = draws.next();
+        const float pick = random.next() * area;
+        const float s = 2 * random.next() - 1;
+        const float t = random.next();
         Vector3f place;
         Vector3f out;
         if (pick < size.length * size.width) {
@@ -97,21 +97,21 @@ void add_hedge(Mesh& mesh, Builder& build, const PropSize& size) {
             out = {0, 0, 1};
         } else {
             const bool end = pick > area - 2 * size.height * size.width;
-            const float side = draws.next() < 0.5F ? -1.0F : 1.0F;
+            const float side = random.next() < 0.5F ? -1.0F : 1.0F;
             place = end ? Vector3f(side * half.x(), s * half.y(), t * size.height)
                         : Vector3f(s * half.x(), side * half.y(), t * size.height);
             out = end ? Vector3f(side, 0, 0) : Vector3f(0, side, 0);
         }
-        place -= out * (.02F + .09F * draws.next());
-        const Vector3f lean = (out + 1.1F * draws.direction()).normalized();
-        const float length = .05F + .045F * draws.next();
+        place -= out * (.02F + .09F * random.next());
+        const Vector3f lean = (out + 1.1F * random.direction()).normalized();
+        const float length = .05F + .045F * random.next();
         const Vector3f u = lean.unitOrthogonal() * length;
         const Vector3f v = lean.cross(u) * 0.62F;
         const std::uint32_t first = add_vertex(mesh, place + u);
         add_vertex(mesh, place + v);
         add_vertex(mesh, place - u);
         add_vertex(mesh, place - v);
-        const Finish own{Material::prop, tag.bits() | (draws.bits() & 0xffff0000u)};
+        const Finish own{Material::prop, tag.bits() | (random.bits() & 0xffff0000u)};
         add_triangle(mesh, first, first + 1, first + 2, own);
         add_triangle(mesh, first, first + 2, first + 3, own);
         const Vector3f normal = (out + 0.5F * lean).normalized();

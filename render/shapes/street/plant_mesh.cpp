@@ -23,9 +23,9 @@ struct Habit {
     int boughs;
     float bough;  ///< their radius, the smallest; the largest is 1.5 times as large
     int leaves;
-    float leaf;  ///< half the length of the smallest bunch; the largest is 2 times as large
-    float core;  ///< how much of a bough is solid: dense crowns hide the sky
-    float lie;   ///< height of a bough over its width: below 1 in layers, above 1 hanging
+    float leaf;    ///< half the length of the smallest bunch; the largest is 2 times as large
+    float core;    ///< how much of a bough is solid: dense crowns hide the sky
+    float aspect;  ///< height of a bough over its width: below 1 in layers, above 1 hanging
 };
 
 Habit habit_of(PlantKind kind) {
@@ -63,7 +63,7 @@ float crown_radius(const Habit& habit, float up) {
 
 /// Rings of branches that hang a little, narrower upwards, around a dark core.
 Mesh spruce_mesh() {
-    HashDraws draws(hash(8, 78));
+    HashRandom random(hash(8, 78));
     Mesh mesh;
     constexpr float slenderness = 0.24F;
     const Finish bark{Material::bark};
@@ -78,12 +78,12 @@ Mesh spruce_mesh() {
         const int fronds = 6 + static_cast<int>(20 * reach);
         for (int i = 0; i < fronds; ++i) {
             const double angle =
-                2 * std::numbers::pi * (i + static_cast<double>(draws.next())) / fronds;
+                2 * std::numbers::pi * (i + static_cast<double>(random.next())) / fronds;
             const Vector3f out(
                 static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0);
             const Vector3f across(-out.y(), out.x(), 0);
-            const float own = reach * (0.82F + 0.24F * draws.next());
-            const float foot = 0.09F + 0.86F * up + 0.03F * draws.next();
+            const float own = reach * (0.82F + 0.24F * random.next());
+            const float foot = 0.09F + 0.86F * up + 0.03F * random.next();
             // Three cards one after the other, each lower and narrower.
             for (int part = 0; part < 3; ++part) {
                 const float from = own * (0.30F + 0.23F * static_cast<float>(part));
@@ -93,13 +93,13 @@ Mesh spruce_mesh() {
                     const float hang = 0.30F * far * far / std::max(own, 0.1F) * slenderness +
                                        0.02F * std::abs(side);
                     return Vector3f(far * out + side * across +
-                                    Vector3f(0, 0, foot + 0.035F - hang - 0.012F * draws.next()));
+                                    Vector3f(0, 0, foot + 0.035F - hang - 0.012F * random.next()));
                 };
                 const std::uint32_t first = add_vertex(mesh, at(from, -half));
                 add_vertex(mesh, at(from + 0.02F, half));
                 add_vertex(mesh, at(to, half * .55F));
                 add_vertex(mesh, at(to + 0.03F, -half * .55F));
-                const Finish leaf{Material::leaf, draws.bits()};
+                const Finish leaf{Material::leaf, random.bits()};
                 add_triangle(mesh, first, first + 1, first + 2, leaf);
                 add_triangle(mesh, first, first + 2, first + 3, leaf);
                 const Vector3f normal =
@@ -120,7 +120,7 @@ Mesh plant_mesh(PlantKind kind) {
         return spruce_mesh();
     const Habit habit = habit_of(kind);
     const auto number = static_cast<std::uint32_t>(kind);
-    HashDraws draws(hash(number, 77));
+    HashRandom random(hash(number, 77));
     Mesh mesh;
     const Finish bark{Material::bark};
     if (habit.trunk > 0) {
@@ -135,12 +135,12 @@ Mesh plant_mesh(PlantKind kind) {
     float area = 0;
     for (int i = 0; i < habit.boughs; ++i) {
         const float up =
-            (static_cast<float>(i) + 0.7F * draws.next()) / static_cast<float>(habit.boughs);
-        const double angle = 2.399963 * i + static_cast<double>(draws.next());
-        const float radius = habit.bough * (1 + 0.5F * draws.next());
-        const float reach = radius * habit.slenderness * habit.lie;
+            (static_cast<float>(i) + 0.7F * random.next()) / static_cast<float>(habit.boughs);
+        const double angle = 2.399963 * i + static_cast<double>(random.next());
+        const float radius = habit.bough * (1 + 0.5F * random.next());
+        const float reach = radius * habit.slenderness * habit.aspect;
         const float away =
-            std::max(0.0F, crown_radius(habit, up) - radius) * (0.85F + 0.15F * draws.next());
+            std::max(0.0F, crown_radius(habit, up) - radius) * (0.85F + 0.15F * random.next());
         const float z =
             mix(std::max(habit.low + reach * 0.6F, reach * 0.8F), 1 - reach * 1.02F, up);
         const Vector3f centre(away * static_cast<float>(std::cos(angle)),
@@ -168,8 +168,8 @@ Mesh plant_mesh(PlantKind kind) {
                     habit.leaf,
                     habit.leaf,
                     habit.slenderness,
-                    habit.lie},
-                   draws);
+                    habit.aspect},
+                   random);
     drop_degenerate(mesh);
     return mesh;
 }

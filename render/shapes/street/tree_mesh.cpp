@@ -33,7 +33,7 @@ void fill_normals(Mesh& mesh) {
 Mesh tree_mesh(std::uint32_t kind) {
     constexpr std::array<Crown, 3> crowns{{{.30F, .45F, 17}, {.16F, .38F, 20}, {.36F, .55F, 15}}};
     const Crown crown = crowns[kind % crowns.size()];
-    HashDraws draws(hash(kind, 77));
+    HashRandom random(hash(kind, 77));
     Mesh mesh;
     const Finish bark{Material::bark};
     add_tube(mesh, {{0, 0, -.03F}, {.02F, .01F, crown.low + .12F}, .085F, .055F, 9}, bark);
@@ -41,15 +41,15 @@ Mesh tree_mesh(std::uint32_t kind) {
     std::vector<std::pair<Vector3f, float>> boughs;
     for (int i = 0; i < crown.boughs; ++i) {
         const float up =
-            (static_cast<float>(i) + 0.7F * draws.next()) / static_cast<float>(crown.boughs);
-        const double angle = 2.399963 * i + static_cast<double>(draws.next());
+            (static_cast<float>(i) + 0.7F * random.next()) / static_cast<float>(crown.boughs);
+        const double angle = 2.399963 * i + static_cast<double>(random.next());
         const float bulge =
             1 - std::pow(std::abs(up - crown.wide_at) /
                              (up < crown.wide_at ? crown.wide_at : 1 - crown.wide_at),
                          2.0F);
-        const float radius = 0.30F + 0.16F * draws.next();
+        const float radius = 0.30F + 0.16F * random.next();
         const float away =
-            std::max(0.0F, (1 - radius) * (0.25F + 0.75F * bulge)) * (0.8F + 0.2F * draws.next());
+            std::max(0.0F, (1 - radius) * (0.25F + 0.75F * bulge)) * (0.8F + 0.2F * random.next());
         const float reach = radius * slenderness;
         const float z = mix(crown.low + reach * 0.7F, 1 - reach, up);
         const Vector3f centre(away * static_cast<float>(std::cos(angle)),
@@ -64,7 +64,7 @@ Mesh tree_mesh(std::uint32_t kind) {
     for (const auto& [centre, radius] : boughs)
         add_leaves(mesh,
                    {centre, radius, static_cast<int>(1050 * radius), 0.036F, 0.042F, slenderness},
-                   draws);
+                   random);
     drop_degenerate(mesh);
     return mesh;
 }

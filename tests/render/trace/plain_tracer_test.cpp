@@ -90,7 +90,7 @@ std::vector<Ray> rays_about(Numbers& numbers, std::size_t count, float far) {
 }
 
 /// Distance along the ray by solving for it with Eigen, in the scene's frame; infinite: no
-/// crossing.
+/// found.
 double crossed_at(const Instance& instance, std::size_t triangle, const Ray& ray) {
     const Mesh& mesh = instance.prototype->mesh;
     std::array<Vector3d, 3> p;
@@ -131,7 +131,7 @@ Mesh square(float x) {
 
 Hit single(const PlainTracer& tracer, const Ray& ray) {
     Hit hit;
-    tracer.find_nearest({&ray, 1}, {&hit, 1});
+    tracer.trace_nearest({&ray, 1}, {&hit, 1});
     return hit;
 }
 
@@ -143,8 +143,8 @@ TEST(PlainTracer, FindsWhatLookingAtEverythingFinds) {
         const std::vector<Ray> rays = rays_about(numbers, 403, far);  // no multiple of a packet
         std::vector<Hit> hits(rays.size());
         std::vector<std::uint8_t> free(rays.size());
-        tracer.find_nearest(rays, hits);
-        tracer.find_free(rays, free);
+        tracer.trace_nearest(rays, hits);
+        tracer.trace_visibility(rays, free);
         std::size_t met = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const auto [distance, instance, triangle] = nearest_of_all(world, rays[i]);
@@ -167,7 +167,7 @@ TEST(PlainTracer, AnswersDoNotDependOnTheOtherRaysOfAPacket) {
     const PlainTracer tracer(world.instances);
     const std::vector<Ray> rays = rays_about(numbers, 64, infinite);
     std::vector<Hit> hits(rays.size());
-    tracer.find_nearest(rays, hits);
+    tracer.trace_nearest(rays, hits);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Hit alone = single(tracer, rays[i]);
         EXPECT_EQ(

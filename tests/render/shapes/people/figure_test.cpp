@@ -23,12 +23,12 @@ world::WalkerState walker(
 }
 
 /// Of the body without what it carries.
-Eigen::AlignedBox3d box_of(const WalkerModel& model, std::span<const Limb> limbs) {
+Eigen::AlignedBox3d box_of(const WalkerModel& model, std::span<const FigurePart> parts) {
     Eigen::AlignedBox3d box;
-    for (const Limb& limb : limbs)
-        if (limb.shape <= Limb::Shape::shoe)
-            for (const Eigen::Vector3f& vertex : limb_mesh(limb.shape, model).vertices)
-                box.extend(limb.pose * vertex.cast<double>());
+    for (const FigurePart& part : parts)
+        if (part.shape <= FigurePart::Shape::shoe)
+            for (const Eigen::Vector3f& vertex : figure_part_mesh(part.shape, model).vertices)
+                box.extend(part.pose * vertex.cast<double>());
     return box;
 }
 
@@ -89,19 +89,20 @@ bool is_covered(const Mesh& mesh, const Vector3d& from, const Vector3d& directio
 }
 
 /// Of thighs, shanks and shoes above the hem's lower edge: points that stand out of it.
-int bare_points(const WalkerModel& model, const Mesh& hem, std::span<const Limb> limbs) {
-    const auto worn = std::find_if(limbs.begin(), limbs.end(), [](const Limb& limb) {
-        return limb.shape == Limb::Shape::hem;
+int bare_points(const WalkerModel& model, const Mesh& hem, std::span<const FigurePart> parts) {
+    const auto worn = std::find_if(parts.begin(), parts.end(), [](const FigurePart& part) {
+        return part.shape == FigurePart::Shape::hem;
     });
     const Eigen::Affine3d to_hem = worn->pose.inverse();
     const std::array<Mesh, 3> leg{bone_mesh(), bone_mesh(), shoe_mesh()};
     int bare = 0;
-    for (std::size_t i = 3; i < limbs.size(); ++i) {
-        if (limbs[i - 1].shape != Limb::Shape::bone || limbs[i].shape != Limb::Shape::shoe)
+    for (std::size_t i = 3; i < parts.size(); ++i) {
+        if (parts[i - 1].shape != FigurePart::Shape::bone ||
+            parts[i].shape != FigurePart::Shape::shoe)
             continue;
         for (std::size_t part = 0; part < leg.size(); ++part)
             for (const Eigen::Vector3f& vertex : leg[part].vertices) {
-                const Vector3d p = to_hem * (limbs[i - 2 + part].pose * vertex.cast<double>());
+                const Vector3d p = to_hem * (parts[i - 2 + part].pose * vertex.cast<double>());
                 if (p.z() > 0.01 - hem_length(model) && p.z() < 0 && p.head<2>().norm() > 1e-6)
                     bare += is_covered(hem, p, Vector3d(p.x(), p.y(), 0).normalized()) ? 0 : 1;
             }
@@ -116,7 +117,7 @@ TEST(Figure, NoLegShowsThroughACoatOrASkirt) {
         if (hem_length(model) == 0)
             continue;
         ++dressed;
-        const Mesh hem = limb_mesh(Limb::Shape::hem, model);
+        const Mesh hem = figure_part_mesh(FigurePart::Shape::hem, model);
         for (std::uint32_t look = 1; look <= 12; ++look)
             EXPECT_EQ(
                 bare_points(model, hem, figure(model, walker(index, 0, 0, false, look), false)), 0)
@@ -183,31 +184,32 @@ TEST(Posture, JointsKeepTheLengthsOfTheirBones) {
 
 TEST(Figure, UmbrellasOpenInTheRain) {
     const WalkerModel& model = world::walker_models().front();
-    const auto count = [&](bool rains, Limb::Shape shape) {
+    const auto count = [&](bool rains, FigurePart::Shape shape) {
         int found = 0;
         for (std::uint32_t look = 1; look <= 200; ++look)
-            for (const Limb& limb : figure(model, walker(0, 1.3F, 0.2F, false, look), rains))
-                found += limb.shape == shape ? 1 : 0;
+            for (const FigurePart& part : figure(model, walker(0, 1.3F, 0.2F, false, look), rains))
+                found += part.shape == shape ? 1 : 0;
         return found;
     };
-    EXPECT_EQ(count(false, Limb::Shape::open_umbrella), 0);
-    EXPECT_EQ(count(true, Limb::Shape::closed_umbrella), 0);
-    EXPECT_GT(count(true, Limb::Shape::open_umbrella), 20);
-    EXPECT_EQ(count(true, Limb::Shape::open_umbrella), count(false, Limb::Shape::closed_umbrella));
+    EXPECT_EQ(count(false, FigurePart::Shape::open_umbrella), 0);
+    EXPECT_EQ(count(true, FigurePart::Shape::closed_umbrella), 0);
+    EXPECT_GT(count(true, FigurePart::Shape::open_umbrella), 20);
+    EXPECT_EQ(count(true, FigurePart::Shape::open_umbrella),
+              count(false, FigurePart::Shape::closed_umbrella));
 }
 
 TEST(Figure, EverythingThatCanBeCarriedIsCarriedBySomebody) {
-    std::array<int, limb_shapes> carriers{};
+    std::array<int, figure_part_shapes> carriers{};
     std::uint16_t index = 0;
     for (const WalkerModel& model : world::walker_models()) {
         for (std::uint32_t look = 1; look <= 40; ++look)
-            for (const Limb& limb : figure(model, walker(index, 0, 0, false, look), false))
-                ++carriers.at(static_cast<std::size_t>(limb.shape));
+            for (const FigurePart& part : figure(model, walker(index, 0, 0, false, look), false))
+                ++carriers.at(static_cast<std::size_t>(part.shape));
         ++index;
     }
-    carriers.at(static_cast<std::size_t>(Limb::Shape::open_umbrella)) =
-        carriers.at(static_cast<std::size_t>(Limb::Shape::closed_umbrella));
-    for (std::size_t shape = 0; shape < limb_shapes; ++shape)
+    carriers.at(static_cast<std::size_t>(FigurePart::Shape::open_umbrella)) =
+        carriers.at(static_cast<std::size_t>(FigurePart::Shape::closed_umbrella));
+    for (std::size_t shape = 0; shape < figure_part_shapes; ++shape)
         EXPECT_GT(carriers.at(shape), 5) << shape;
 }
 

@@ -8,8 +8,8 @@
 
 namespace reprise::render {
 
-/// A piece of a walker: a mesh, stretched and placed.
-struct Limb {
+/// A part of a walker or rider, or a thing that he carries: a shared mesh, stretched and placed.
+struct FigurePart {
     enum class Shape : std::uint8_t {
         trunk,  ///< of the model, as the hem
         hem,
@@ -30,6 +30,6 @@ struct Limb {
     Eigen::Affine3d pose;  ///< from the mesh's frame to the walker's
 };
 
-inline constexpr std::size_t limb_shapes = 13;
+inline constexpr std::size_t figure_part_shapes = 13;
 
 }  // namespace reprise::render

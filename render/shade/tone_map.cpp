@@ -37,7 +37,7 @@ float film(float x) {
 
 }  // namespace
 
-std::vector<std::uint8_t> develop(const Frame& frame, std::uint64_t tick) {
+std::vector<std::uint8_t> tone_map(const Frame& frame, std::uint64_t tick) {
     std::vector<std::uint8_t> bytes(frame.colors.size() * 3);
     tbb::parallel_for(0, frame.height, [&](int y) {
         const PlainFloats plain;

@@ -1,4 +1,4 @@
-#include "render/shade/job.h"
+#include "render/shade/shading_job.h"
 
 #include <array>
 #include <cmath>
@@ -62,24 +62,25 @@ const Vector3f& sky_direction(int place) {
     return tables.sky[static_cast<std::size_t>(place)];
 }
 
-Vector3f lifted(const Vector3f& position, const Vector3f& flat, float distance) {
+Vector3f offset_origin(const Vector3f& position, const Vector3f& flat, float distance) {
     return position + flat * (2e-3F + 1e-4F * distance);
 }
 
-Ray sun_ray(const Job& job, const Vector3f& origin, int place) {
-    const Vector2f spot = disc_point(place) * job.stage.sky.sun_radius();
+Ray sun_ray(const ShadingJob& job, const Vector3f& origin, int place) {
+    const Vector2f spot = disc_point(place) * job.input.sky.sun_radius();
     return {origin,
-            job.sun_axes.apply({spot.x(), spot.y(), 1}),
+            job.sun_basis.apply({spot.x(), spot.y(), 1}),
             std::numeric_limits<float>::infinity(),
             job.mask & ~marking_bit};
 }
 
-Color sky_color(const Job& job, const Vector3f& direction) {
+Color sky_color(const ShadingJob& job, const Vector3f& direction) {
     const Vector3f view = direction.normalized();
     // Fog reaches about as far as the clouds' base is seen: thicker towards the horizon.
-    const Color sky = job.stage.sky.radiance(view, true);
+    const Color sky = job.input.sky.radiance(view, true);
     const float far = 120 / (std::max(view.z(), 0.0F) + 0.06F);
-    return through_air(job.stage.sky, sky, view, job.stage.sky.extinction() > 1e-3F ? far : 0.0F);
+    return through_atmosphere(
+        job.input.sky, sky, view, job.input.sky.extinction() > 1e-3F ? far : 0.0F);
 }
 
 }  // namespace reprise::render

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "render/shade/frame.h"
+
+namespace reprise::render {
+
+/// A right-handed frame around a unit vector z; x and y are any.
+struct OrthonormalBasis {
+    explicit OrthonormalBasis(const Eigen::Vector3f& z_axis)
+        : x(z_axis.unitOrthogonal()),
+          y(z_axis.cross(x)),
+          z(z_axis) {}
+
+    Eigen::Vector3f apply(const Eigen::Vector3f& v) const {
+        return v.x() * x + v.y() * y + v.z() * z;
+    }
+
+    Eigen::Vector3f x, y, z;
+};
+
+/// Everything that the stages of shade() share.
+struct ShadingJob {
+    const ShadingInput& input;
+    const Camera& camera;
+    std::uint32_t mask;
+    const std::vector<Hit>& hits;
+    Frame& frame;
+    std::vector<Beam> beams;
+    Eigen::Vector3f eye;
+    float pixel;
+    OrthonormalBasis sun_basis;
+    bool sun_matters;
+
+    /// Is the pixel in the picture? Tiles at its right and lower edge reach beyond it.
+    bool contains(const Eigen::Vector2i& at) const {
+        return at.x() < camera.width() && at.y() < camera.height();
+    }
+};
+
+/// Runs `work(upper left pixel)` for each tile, in parallel.
+void for_tiles(const Camera& camera,
+               const std::function<void(const Eigen::Vector2i& corner)>& work);
+
+/// Rays that are traced together; `owners` says which pixel or sample each result belongs to.
+struct RayBatch {
+    std::vector<Ray> rays;
+    std::vector<std::size_t> owners;
+
+    void clear() {
+        rays.clear();
+        owners.clear();
+    }
+
+    void add(const Ray& ray, std::size_t owner) {
+        rays.push_back(ray);
+        owners.push_back(owner);
+    }
+};
+
+/// Secondary rays of a tile by their kind, and memory for what they find.
+struct TileRays {
+    RayBatch sun, sky, mirror;
+    std::vector<std::uint8_t> visible;
+    std::vector<Hit> hits;
+};
+
+/// Traces visibility rays and calls `store(owner, visible)` for each.
+template <typename Store>
+void trace_batch(const ShadingJob& job, TileRays& rays, const RayBatch& batch, const Store& store) {
+    rays.visible.resize(batch.rays.size());
+    trace_visibility(job.input.scene, batch.rays, rays.visible);
+    for (std::size_t i = 0; i < batch.rays.size(); ++i)
+        store(batch.owners[i], rays.visible[i] != 0);
+}
+
+/// A point on the unit disc, and a direction of the half sphere around z, closer to z more often.
+/// The first 16 are the pattern that 4 x 4 neighbouring pixels share among them; 32 in all.
+const Eigen::Vector2f& disc_point(int place);
+const Eigen::Vector3f& sky_direction(int place);
+
+/// The origin of secondary rays: a little off the surface, so that they do not hit it again.
+Eigen::Vector3f offset_origin(const Eigen::Vector3f& position,
+                              const Eigen::Vector3f& flat,
+                              float distance);
+
+/// To a place on the sun's disc.
+Ray sun_ray(const ShadingJob& job, const Eigen::Vector3f& origin, int place);
+
+/// Radiance of the sky behind a pixel, with haze.
+Color sky_color(const ShadingJob& job, const Eigen::Vector3f& direction);
+
+// The stages, for the tile at `corner`.
+void light_tile(ShadingJob& job, const Eigen::Vector2i& corner);
+void combine_tile(ShadingJob& job, const Eigen::Vector2i& corner);
+void mark_edges(const ShadingJob& job,
+                const Eigen::Vector2i& corner,
+                std::vector<std::uint8_t>& edges);
+void refine_tile(ShadingJob& job,
+                 const Eigen::Vector2i& corner,
+                 const std::vector<std::uint8_t>& edges);
+
+}  // namespace reprise::render
