@@ -19,10 +19,21 @@ using Eigen::Affine3d;
 using Eigen::Vector3d;
 using world::Clothing;
 
+/// The shortest turn from the z axis to a unit vector. Eigen's FromTwoVectors gives the same bits,
+/// but for straight down, where its singular value decomposition takes seven seconds to compile.
+Eigen::Quaterniond turn_from_up(const Vector3d& target) {
+    const double cosine = target.z();
+    if (cosine < -1 + 1e-12)
+        return {0, 1, 0, 0};  // half a turn about x
+    const double twice_w = std::sqrt((1 + cosine) * 2);
+    const double scale = 1 / twice_w;
+    return {twice_w * 0.5, -target.y() * scale, target.x() * scale, 0};
+}
+
 Affine3d stretched_bone(const Vector3d& from, const Vector3d& to, double radius) {
     const Vector3d axis = to - from;
     Affine3d pose = Affine3d::Identity();
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis);
+    const Eigen::Quaterniond turn = turn_from_up(axis.normalized());
     pose.linear() =
         turn.toRotationMatrix() * Eigen::DiagonalMatrix<double, 3>(radius, radius, axis.norm());
     pose.translation() = from;
