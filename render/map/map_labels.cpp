@@ -1,4 +1,4 @@
-// The letters of a map: those of the sheet, and those on the map that keep out of each other's way.
+// Text on a map's sheet, and labels on the map itself that do not overlap.
 #include <algorithm>
 #include <cmath>
 
