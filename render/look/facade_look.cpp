@@ -307,11 +307,7 @@ Look building_look(const ShadingInput& input, const Surface& at) {
     const BuildingFrame& building = input.scene.buildings()[at.tag];
     const bool wall = at.material == Material::facade && std::abs(at.flat.z()) < 0.3F;
     Look look = wall ? facade_wall_look(input, at, building) : roof_look(at, building);
-    const float wetness = input.sky.weather().wetness();
-    if (wetness > 0 && look.gloss <= 0) {
-        look.albedo *= 1 - 0.28F * wetness;
-        look.roughness = mix(look.roughness, 0.35F, wetness);
-    }
+    soak_masonry(look, input.sky.weather().wetness());
     return look;
 }
 

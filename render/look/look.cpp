@@ -83,8 +83,7 @@ Look parked_look(const ShadingInput& input, const Surface& at) {
     return look;
 }
 
-Look metal_look(const ShadingInput& input, const Surface& at) {
-    static_cast<void>(input);
+Look metal_look(const Surface& at) {
     Look look;
     look.albedo =
         at.material == Material::pole ? Color(.16F, .17F, .17F) : Color(.022F, .024F, .023F);
@@ -174,7 +173,7 @@ Look shade_surface(const ShadingInput& input, const Surface& at) {
             break;
         case Material::pole:
         case Material::signal_case:
-            look = metal_look(input, at);
+            look = metal_look(at);
             break;
         default:
             look = walker_look(input, at);

@@ -68,6 +68,14 @@ Look walker_look(const ShadingInput& input, const Surface& surface);
 world::SemanticClass prop_class(std::uint32_t tag);
 world::SemanticClass plot_class(world::PlotKind kind);
 
+/// Wet walls and roofs are darker and smoother, their panes are not. `wetness` in [0, 1].
+inline void soak_masonry(Look& look, float wetness) {
+    if (!(wetness > 0) || look.gloss > 0)
+        return;
+    look.albedo *= 1 - 0.28F * wetness;
+    look.roughness = mix(look.roughness, 0.35F, wetness);
+}
+
 /// How much detail of this size [m] a pixel can show: 1 all, 0 none. Fading what is smaller than a
 /// pixel to its mean is what keeps textures from flickering.
 inline float detail(const Surface& surface, float size) {

@@ -169,11 +169,7 @@ Look model_building_look(const ShadingInput& input, const Surface& at) {
                                   facades.buildings[at.tag / building_finishes],
                                   static_cast<BuildingFinish>(at.tag % building_finishes));
     }
-    const float wetness = input.sky.weather().wetness();
-    if (wetness > 0 && look.gloss <= 0) {
-        look.albedo *= 1 - 0.28F * wetness;
-        look.roughness = mix(look.roughness, 0.35F, wetness);
-    }
+    soak_masonry(look, input.sky.weather().wetness());
     return look;
 }
 

@@ -1,5 +1,6 @@
 #include "render/scene/tracer.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -16,7 +17,7 @@ namespace {
 constexpr std::size_t lanes = 8;  // packets of 16 with instances hang on AVX-512: never use them
 
 template <typename Packet>
-void fill(Packet& packet, std::size_t lane, const Ray& ray) {
+void fill_lane(Packet& packet, std::size_t lane, const Ray& ray) {
     packet.org_x[lane] = ray.origin.x();
     packet.org_y[lane] = ray.origin.y();
     packet.org_z[lane] = ray.origin.z();
@@ -29,6 +30,23 @@ void fill(Packet& packet, std::size_t lane, const Ray& ray) {
     packet.mask[lane] = ray.mask;
     packet.id[lane] = 0;
     packet.flags[lane] = 0;
+}
+
+/// The rays from the one numbered `first` on; -1 in `valid` for those to trace. Says whether there
+/// are any.
+template <typename Packet>
+bool fill_packet(Packet& packet,
+                 std::array<int, lanes>& valid,
+                 std::span<const Ray> rays,
+                 std::size_t first) {
+    bool any = false;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const Ray& ray = rays[std::min(first + lane, rays.size() - 1)];
+        valid[lane] = first + lane < rays.size() && is_valid(ray) ? -1 : 0;
+        any |= valid[lane] != 0;
+        fill_lane(packet, lane, ray);
+    }
+    return any;
 }
 
 RTCIntersectContext context_of(bool coherent) {
@@ -51,16 +69,11 @@ void trace_nearest(const Scene& scene,
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         alignas(32) RTCRayHit8 packet;
         alignas(32) std::array<int, lanes> valid{};
-        bool any = false;
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const Ray& ray = rays[std::min(first + lane, rays.size() - 1)];
-            valid[lane] = first + lane < rays.size() && is_valid(ray) ? -1 : 0;
-            any |= valid[lane] != 0;
-            fill(packet.ray, lane, ray);
             packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
             packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         }
-        if (any)
+        if (fill_packet(packet.ray, valid, rays, first))
             rtcIntersect8(valid.data(), scene.tree(), &context, &packet);
         for (std::size_t lane = 0; lane < lanes && first + lane < rays.size(); ++lane) {
             Hit& hit = hits[first + lane];
@@ -85,14 +98,7 @@ void trace_visibility(const Scene& scene,
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         alignas(32) RTCRay8 packet;
         alignas(32) std::array<int, lanes> valid{};
-        bool any = false;
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const Ray& ray = rays[std::min(first + lane, rays.size() - 1)];
-            valid[lane] = first + lane < rays.size() && is_valid(ray) ? -1 : 0;
-            any |= valid[lane] != 0;
-            fill(packet, lane, ray);
-        }
-        if (any)
+        if (fill_packet(packet, valid, rays, first))
             rtcOccluded8(valid.data(), scene.tree(), &context, &packet);
         // Embree sets tfar to minus infinity where the way is blocked.
         for (std::size_t lane = 0; lane < lanes && first + lane < rays.size(); ++lane)
@@ -113,7 +119,7 @@ double refined_distance(const Instance& instance,
     const Eigen::Vector3d normal =
         (instance.pose.linear() * to_b).cross(instance.pose.linear() * to_c);
     const double distance = normal.dot(instance.pose * a - origin) / normal.dot(direction);
-    // Along the surface the plane says nothing; Embree's answer stands.
+    // At grazing angles the plane's equation is ill-conditioned: Embree's distance is kept.
     return std::abs(distance - found) <= 1e-3 + 1e-2 * found ? distance : found;
 }
 

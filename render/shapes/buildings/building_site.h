@@ -22,11 +22,6 @@ struct BuildingSite {
     /// height, in the building's frame. At the ground it reaches below it, where a slope may lie.
     void wall(const Eigen::Vector3f& left, const Eigen::Vector3f& right, float top, WallUse use);
 
-    /// Finish for more triangles of the wall added last, such as a gable.
-    Finish last_wall() const {
-        return {Material::wall, static_cast<std::uint32_t>(walls.size() - 1)};
-    }
-
     /// Four upright faces around a box, the front at -y.
     void walls_around(const Eigen::Vector3f& low,
                       const Eigen::Vector3f& high,
