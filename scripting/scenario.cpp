@@ -8,7 +8,6 @@
 #include "scripting/lua/literals.h"
 #include "scripting/lua/sandbox.h"
 #include "scripting/words/header.h"
-#include "scripting/words/places.h"
 #include "scripting/words/run.h"
 #include "world/check.h"
 #include "world/digest.h"
@@ -17,10 +16,7 @@ namespace reprise::scripting {
 
 namespace {
 
-constexpr int parameters_at = 1;                  // on the main stack
-constexpr std::uint64_t command_cost = 1000;      // [instructions]: at most 10,000 in a tick
-constexpr std::uint64_t look_cost = 300;          // [instructions] of a lane by its place
-constexpr std::uint64_t mistaken_lane_cost = 20;  // [instructions] a lane, to find what was meant
+constexpr int parameters_at = 1;  // on the main stack
 
 /// Pushes the parameter's value.
 void push_value(lua_State* L, const std::string& script, const world::ParameterT& parameter) {
@@ -71,54 +67,6 @@ struct Scenario::Machine {
     std::vector<Check> decided;    ///< of scripts whose place this one took
     std::uint64_t taken_over = 0;  ///< digest of what branches changed; 0: nothing
 };
-
-world::CommandT& Run::say(lua_State* L, world::CommandKind kind, std::uint32_t actor) {
-    REPRISE_CHECK(next != nullptr, "a command outside of a step");
-    vm.charge(L, command_cost);
-    world::CommandT& command = next->tick.commands.emplace_back();
-    command.kind = kind;
-    command.actor = actor;
-    command.lane = world::none;
-    command.line = vm.line(L);
-    return command;
-}
-
-void Run::finish(const std::string& reason, std::uint32_t line) {
-    finished = true;
-    world::CommandT& command = next->tick.commands.emplace_back();
-    command.kind = world::CommandKind::finish;
-    command.lane = world::none;
-    command.text = reason;
-    command.line = line;
-}
-
-std::uint32_t Run::lane_named(lua_State* L, const std::string& name) {
-    if (!world::find_lane(town, name))
-        vm.charge(L, town.lanes.size() * mistaken_lane_cost);
-    return scripting::lane_named(town, name);
-}
-
-Body Run::look_at(const Actor& actor) {
-    vm.charge_later(look_cost);
-    const auto body = body_of(last, actor);
-    REPRISE_CHECK(body, fmt::format("actor {} is not in tick {}", actor.name, now()));
-    Body placed = *body;
-    if (placed.lane != world::none)
-        return placed;
-    if (!lanes_)
-        lanes_.emplace(town);
-    if (actor.is_walker()) {
-        const auto walkable = lanes_->walkable_at(placed.position);
-        const auto roads = lanes_->at(placed.position);
-        if (!roads.empty())
-            placed.lane = roads.front().lane;
-        else if (!walkable.empty())
-            placed.lane = walkable.front().lane;
-    } else if (const auto best = lanes_->best(placed.position, placed.yaw)) {
-        placed.lane = best->lane;
-    }
-    return placed;
-}
 
 Scenario::Scenario(const world::EpisodeT& episode, const world::TownT& town)
     : machine_(std::make_unique<Machine>(episode, town)) {

@@ -52,9 +52,7 @@ void add_test(CLI::App& app, TestOptions& test) {
         "Example: reprise test scenarios --junit results.xml");
 }
 
-void add_accept(CLI::App& app,
-                AcceptOptions& accept,
-                const std::function<void(CLI::App& command)>& add_start) {
+void add_accept(CLI::App& app, AcceptOptions& accept, std::vector<std::string>& assignments) {
     CLI::App& command = *app.add_subcommand(
         "accept", "Make what named scenarios do now their goldens, with a reason");
     command.add_option("scenarios", accept.names, "Scenarios or goldens, each by its name")
@@ -70,7 +68,7 @@ void add_accept(CLI::App& app,
                     accept.name,
                     "Name of a case: the scenario with another town, seed, length or parameters")
         ->type_name("NAME");
-    add_start(command);
+    add_start(command, accept.start, assignments);
     add_jobs(command, accept.jobs);
     add_keep(command, accept.keep);
     command.footer(
@@ -96,9 +94,9 @@ void add_golden_commands(CLI::App& app,
                          TestOptions& test,
                          AcceptOptions& accept,
                          GoldenListOptions& list,
-                         const std::function<void(CLI::App& command)>& add_start) {
+                         std::vector<std::string>& assignments) {
     add_test(app, test);
-    add_accept(app, accept, add_start);
+    add_accept(app, accept, assignments);
     add_list(app, list);
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
-#include <functional>
+#include <cstddef>
+#include <string>
+#include <vector>
 
-#include "cli/options/options.h"
+#include "cli/options/run_options.h"
 
 namespace CLI {
 class App;
@@ -10,12 +12,34 @@ class App;
 
 namespace reprise::cli {
 
-/// Adds `test`, `accept` and `golden list`. `add_start` adds what a run may be given: --town,
-/// --seed, --set, --for.
+struct TestOptions {
+    std::vector<std::string> paths;
+    std::size_t jobs = 0;  ///< 0: one a core
+    std::string junit;     ///< empty: none
+    std::string output = "reprise-test";
+    std::string keep;  ///< empty: nowhere
+    bool list = false;
+};
+
+struct AcceptOptions {
+    std::vector<std::string> names;
+    std::string because;
+    std::string name;  ///< of the case; empty: the scenario as it stands
+    RunOptions start;  ///< town, seed, seconds and parameters only
+    std::size_t jobs = 0;
+    std::string keep;
+};
+
+struct GoldenListOptions {
+    std::vector<std::string> paths;
+    bool orphans = false;
+};
+
+/// Adds `test`, `accept` and `golden list`. What --set is given goes into `assignments`, as typed.
 void add_golden_commands(CLI::App& app,
                          TestOptions& test,
                          AcceptOptions& accept,
                          GoldenListOptions& list,
-                         const std::function<void(CLI::App& command)>& add_start);
+                         std::vector<std::string>& assignments);
 
 }  // namespace reprise::cli

@@ -1,10 +1,12 @@
 #include "cli/options/options.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "cli/options/golden_options.h"
 #include "cli/options/option_checks.h"
 #include "world/check.h"
 #include "world/fingerprint.h"
@@ -68,9 +70,7 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     add_render(app, render, app_->render_words);
     add_tool_commands(app, tools);
     add_town_commands(app, town);
-    add_golden_commands(app, test, accept, golden_list, [&](CLI::App& to) {
-        add_start(to, accept.start, app_->accept_assignments);
-    });
+    add_golden_commands(app, test, accept, golden_list, app_->accept_assignments);
 }
 
 std::optional<int> CommandLine::parse(int argc, char** argv) {

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "cli/options/golden_options.h"
 #include "cli/options/render_options.h"
 #include "cli/options/run_options.h"
 #include "cli/options/tool_options.h"
@@ -14,29 +12,6 @@
 #include "cli/options/trace_options.h"
 
 namespace reprise::cli {
-
-struct TestOptions {
-    std::vector<std::string> paths;
-    std::size_t jobs = 0;  ///< 0: one a core
-    std::string junit;     ///< empty: none
-    std::string output = "reprise-test";
-    std::string keep;  ///< empty: nowhere
-    bool list = false;
-};
-
-struct AcceptOptions {
-    std::vector<std::string> names;
-    std::string because;
-    std::string name;  ///< of the case; empty: the scenario as it stands
-    RunOptions start;  ///< town, seed, seconds and parameters only
-    std::size_t jobs = 0;
-    std::string keep;
-};
-
-struct GoldenListOptions {
-    std::vector<std::string> paths;
-    bool orphans = false;
-};
 
 /// The whole command line of all programs in one place: the thin `reprise` parses it, answers help,
 /// versions and mistakes at once, and hands the same words on to the program that does the work.

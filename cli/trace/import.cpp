@@ -11,6 +11,7 @@
 #include "cli/process/progress.h"
 #include "cli/town/towns.h"
 #include "exchange/carla/carla_import.h"
+#include "exchange/carla/carla_packet_kinds.h"
 #include "kernel/pedestrians.h"
 #include "replay/mcap/files.h"
 #include "towns/town_reader.h"

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "exchange/carla/carla_packet_kinds.h"
 #include "exchange/carla/carla_packets.h"
 #include "replay/mcap/mcap.h"
 #include "world/check.h"

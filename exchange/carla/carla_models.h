@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "exchange/carla/carla_log.h"
+#include "exchange/carla/carla_frame.h"
 
 namespace reprise::exchange {
 

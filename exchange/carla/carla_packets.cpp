@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "exchange/carla/carla_packet_kinds.h"
+
 namespace reprise::exchange {
 
 namespace {
@@ -16,14 +18,6 @@ using replay::mcap::View;
 
 constexpr double farthest = 1e8;           // [cm] from the origin: ten times CARLA's largest maps
 constexpr std::size_t longest_text = 200;  // bytes of a name or value that are kept
-
-constexpr std::array<const char*, 24> packet_names{
-    "FrameStart",       "FrameEnd",      "EventAdd",          "EventDel",
-    "EventParent",      "Collision",     "Position",          "State",
-    "AnimVehicle",      "AnimWalker",    "VehicleLight",      "SceneLight",
-    "Kinematics",       "BoundingBox",   "PlatformTime",      "PhysicsControl",
-    "TrafficLightTime", "TriggerVolume", "FrameCounter",      "WalkerBones",
-    "VisualTime",       "VehicleDoor",   "AnimVehicleWheels", "AnimBiker"};
 
 double read_float(Decoder& in) {
     return static_cast<double>(std::bit_cast<float>(in.number<std::uint32_t>()));
@@ -187,14 +181,6 @@ std::string read_carla_text(Decoder& in) {
 
 std::uint64_t position_packet_size(std::uint64_t records, CarlaVariant variant) {
     return 2 + records * PacketReader({}, variant).record_size(4, 2);
-}
-
-bool is_known_packet(std::uint8_t kind) {
-    return kind < packet_names.size();
-}
-
-std::string carla_packet_name(std::uint8_t id) {
-    return is_known_packet(id) ? packet_names[id] : fmt::format("unknown packet {}", id);
 }
 
 bool read_carla_packet(std::uint8_t kind, View content, CarlaVariant variant, CarlaFrame& frame) {

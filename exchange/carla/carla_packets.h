@@ -4,32 +4,10 @@
 #include <cstdint>
 #include <string>
 
-#include "exchange/carla/carla_log.h"
+#include "exchange/carla/carla_frame.h"
 #include "replay/mcap/mcap.h"
 
 namespace reprise::exchange {
-
-/// Kinds of packets, as CARLA numbers them; those from 18 on are not read.
-enum CarlaPacket : std::uint8_t {
-    frame_start,
-    frame_end,
-    event_add,
-    event_del,
-    event_parent,
-    collision,
-    position,
-    state,
-    anim_vehicle,
-    anim_walker,
-    vehicle_light,
-    scene_light,
-    kinematics,
-    bounding_box,
-    platform_time,
-    physics_control,
-    traffic_light_time,
-    trigger_volume
-};
 
 /// A text with its length before it. Printable ASCII, as CARLA's names are, and 200 characters at
 /// most: what a damaged log says goes into messages and JSON.
@@ -44,8 +22,5 @@ bool read_carla_packet(std::uint8_t kind,
                        replay::mcap::View content,
                        CarlaVariant variant,
                        CarlaFrame& frame);
-
-/// Has CARLA's source a name for this kind?
-bool is_known_packet(std::uint8_t kind);
 
 }  // namespace reprise::exchange

@@ -12,6 +12,7 @@
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/binding.h"
+#include "scripting/lua/format.h"
 #include "scripting/lua/limits.h"
 #include "scripting/lua/lists.h"
 #include "scripting/lua/metatables.h"

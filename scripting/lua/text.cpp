@@ -3,22 +3,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <string_view>
 
 #include <lua.hpp>
 
-#include "scripting/lua/vm.h"
 #include "world/check.h"
 
 namespace reprise::scripting {
-
-namespace {
-
-constexpr std::uint64_t format_cost = 20;       // [instructions]
-constexpr std::uint64_t conversion_cost = 100;  // [instructions] of "%.99f", which takes longest
-
-}  // namespace
 
 std::string number_text(double number) {
     if (std::isnan(number))
@@ -104,43 +95,6 @@ std::string printable(std::string_view text) {
         text.remove_prefix(size == 0 ? 1 : size);
     }
     return shown;
-}
-
-/// Upvalue 1: the stock string.format.
-int format_text(lua_State* L) {
-    std::size_t size = 0;
-    const char* raw = lua_tolstring(L, 1, &size);
-    if (raw == nullptr)
-        throw world::Error("string.format: the format must be a string");
-    const std::string_view format(raw, size);
-    std::uint64_t cost = format_cost + size / 8;
-    int argument = 1;
-    for (std::size_t i = 0; i < format.size(); ++i) {
-        if (format[i] != '%')
-            continue;
-        if (i + 1 < format.size() && format[i + 1] == '%') {
-            ++i;
-            continue;
-        }
-        ++argument;
-        i = format.find_first_not_of("-+ #0123456789.", i + 1);
-        if (i == std::string_view::npos)
-            break;
-        if (format[i] == 'p')
-            throw world::Error(
-                "string.format: %p would show an address, which differs in every run");
-        cost += conversion_cost;
-        if (lua_type(L, argument) == LUA_TSTRING)
-            cost += lua_rawlen(L, argument) / 4;
-        const bool is_text = format[i] == 's';
-        if (is_text && argument <= lua_gettop(L) && lua_type(L, argument) != LUA_TSTRING) {
-            const std::string text = text_of(L, argument);
-            lua_pushlstring(L, text.data(), text.size());
-            lua_replace(L, argument);
-        }
-    }
-    Vm::of(L).charge(L, cost);
-    return lua_tocfunction(L, lua_upvalueindex(1))(L);
 }
 
 }  // namespace reprise::scripting

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -18,8 +17,5 @@ std::string text_of(lua_State* L, int index);
 /// With what a terminal would obey or could not show written out: "\x1b", "\xff". For texts of
 /// scenarios that people will read: printed lines, names, messages.
 std::string printable(std::string_view text);
-
-/// string.format without %p; %s goes through text_of.
-int format_text(lua_State* L);
 
 }  // namespace reprise::scripting

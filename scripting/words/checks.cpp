@@ -7,10 +7,10 @@
 #include <lua.hpp>
 
 #include "scripting/lua/arguments.h"
-#include "scripting/lua/binding.h"
-#include "scripting/lua/sandbox.h"
 #include "scripting/lua/text.h"
-#include "scripting/words/run.h"
+#include "scripting/words/step_context.h"
+#include "scripting/words/tasks.h"
+#include "world/check.h"
 #include "world/digest.h"
 
 namespace reprise::scripting {
@@ -41,21 +41,15 @@ world::EventT event(world::EventKind kind,
     return event;
 }
 
-template <Checks::Kind kind>
-int add_check(Run& run, lua_State* L) {
-    run.checks.add(run, L, kind);
-    return 0;
-}
-
 }  // namespace
 
-void Checks::add(Run& run, lua_State* L, Kind kind) {
+void Checks::add(StepContext& context, lua_State* L, Kind kind) {
     const std::string who = names[static_cast<std::size_t>(kind)];
     Entry entry;
     entry.kind = kind;
     entry.name = name_at(L, 1, who, "the name");
     want_function(L, 2, who, "the second argument");
-    run.vm.charge(L, entries_.size() + 100);
+    context.vm.charge(L, entries_.size() + 100);
     for (const Entry& other : entries_)
         if (other.name == entry.name)
             refuse(who, fmt::format("the name '{}' is taken in line {}", entry.name, other.line));
@@ -68,30 +62,30 @@ void Checks::add(Run& run, lua_State* L, Kind kind) {
     const Fields options(L, options_index, who, keys, true);
     entry.stop = options.flag("stop").value_or(false);
     entry.optional = options.flag("optional").value_or(false);
-    entry.since = run.now();
+    entry.since = context.now();
     if (kind == Kind::eventually && options.has("within")) {
         entry.within = *options.number("within");
         if (entry.within <= 0 || entry.within > 1e9)
             refuse(who, "'within' must be in (0, 1e9] s");
-        entry.deadline = run.now() + ticks_of(entry.within, run.episode.step_ns);
+        entry.deadline = context.now() + ticks_of(entry.within, context.episode.step_ns);
     }
-    entry.line = run.vm.line(L);
+    entry.line = context.vm.line(L);
     lua_pushvalue(L, 2);
     entry.reference = luaL_ref(L, LUA_REGISTRYINDEX);
     entries_.push_back(std::move(entry));
 }
 
-void Checks::evaluate(Run& run) {
+void Checks::evaluate(StepContext& context) {
     for (Entry& entry : entries_)
-        if (!entry.decided && entry.since < run.now() && entry.kind != Kind::at_end)
-            look(run, entry);
+        if (!entry.decided && entry.since < context.now() && entry.kind != Kind::at_end)
+            look(context, entry);
 }
 
-/// Asks the predicate about run.last.
-void Checks::look(Run& run, Entry& entry) {
-    lua_State* L = run.vm.main();
+/// Asks the predicate about context.last.
+void Checks::look(StepContext& context, Entry& entry) {
+    lua_State* L = context.vm.main();
     lua_rawgeti(L, LUA_REGISTRYINDEX, entry.reference);
-    if (!run.vm.ask())
+    if (!context.vm.ask())
         return;
     const int type = lua_type(L, -1);
     const double value = lua_tonumber(L, -1);
@@ -100,7 +94,7 @@ void Checks::look(Run& run, Entry& entry) {
     lua_pop(L, 1);
     if (!has_limit(entry.kind)) {
         entry.evaluated = true;
-        judge(run, entry, holds);
+        judge(context, entry, holds);
         return;
     }
     if (type == LUA_TNIL)
@@ -108,77 +102,77 @@ void Checks::look(Run& run, Entry& entry) {
     if (type != LUA_TNUMBER || std::isnan(value))
         throw world::Error(
             fmt::format("{}:{}: check '{}': the function must return a number, got {}",
-                        run.vm.script(),
+                        context.vm.script(),
                         entry.line,
                         entry.name,
                         got));
     entry.evaluated = true;
-    judge(run, entry, value);
+    judge(context, entry, value);
 }
 
-void Checks::judge(Run& run, Entry& entry, bool holds) {
+void Checks::judge(StepContext& context, Entry& entry, bool holds) {
     switch (entry.kind) {
         case Kind::never:
             if (holds)
-                fail(run, entry, 1, "it happened");
+                fail(context, entry, 1, "it happened");
             break;
         case Kind::always:
             if (!holds)
-                fail(run, entry, 0, "it did not hold");
+                fail(context, entry, 0, "it did not hold");
             break;
         case Kind::at_end:
             if (!holds)
-                fail(run, entry, 0, "it did not hold at the end");
+                fail(context, entry, 0, "it did not hold at the end");
             break;
         default:
             if (holds) {
                 entry.decided = true;
                 entry.status = Status::pass;
-            } else if (entry.deadline && run.now() >= *entry.deadline) {
-                fail(run, entry, 0, fmt::format("not within {} s", entry.within));
+            } else if (entry.deadline && context.now() >= *entry.deadline) {
+                fail(context, entry, 0, fmt::format("not within {} s", entry.within));
             }
     }
 }
 
-void Checks::judge(Run& run, Entry& entry, double value) {
+void Checks::judge(StepContext& context, Entry& entry, double value) {
     const bool max = entry.kind == Kind::max;
     if (!entry.extreme || (max ? value > *entry.extreme : value < *entry.extreme))
         entry.extreme = value;
     if (max ? value > entry.limit : value < entry.limit)
-        fail(run,
+        fail(context,
              entry,
              value,
              fmt::format("{:.6g} is {} than {}", value, max ? "more" : "less", entry.limit));
 }
 
-void Checks::fail(Run& run, Entry& entry, double value, const std::string& detail) {
+void Checks::fail(StepContext& context, Entry& entry, double value, const std::string& detail) {
     entry.decided = true;
     entry.status = Status::fail;
-    entry.tick = run.now();
+    entry.tick = context.now();
     entry.detail = detail;
-    run.next->tick.events.push_back(
+    context.next->tick.events.push_back(
         event(world::EventKind::check_failed, entry.name, detail, value, entry.line));
-    if (entry.stop && !run.finished)
-        run.finish("check failed: " + entry.name, entry.line);
+    if (entry.stop && !context.finished)
+        context.finish("check failed: " + entry.name, entry.line);
 }
 
-void Checks::conclude(Run& run) {
+void Checks::conclude(StepContext& context) {
     if (concluded_)
         return;
     concluded_ = true;
     for (Entry& entry : entries_) {
         if (!entry.decided)
-            look(run, entry);
-        settle(run, entry);
+            look(context, entry);
+        settle(context, entry);
     }
 }
 
 /// Turns what is left open into a verdict and says it as an event.
-void Checks::settle(Run& run, Entry& entry) {
+void Checks::settle(StepContext& context, Entry& entry) {
     if (entry.status == Status::fail)
         return;
     if (!entry.decided && entry.evaluated && entry.kind == Kind::eventually) {
-        fail(run, entry, 0, "not until the end");
+        fail(context, entry, 0, "not until the end");
         return;
     }
     entry.decided = true;
@@ -193,7 +187,7 @@ void Checks::settle(Run& run, Entry& entry) {
                                    entry.limit);
     const auto kind = entry.status == Status::pass ? world::EventKind::check_passed
                                                    : world::EventKind::not_evaluated;
-    run.next->tick.events.push_back(
+    context.next->tick.events.push_back(
         event(kind, entry.name, entry.detail, entry.extreme.value_or(0), entry.line));
 }
 
@@ -225,18 +219,6 @@ void Checks::digest(world::Hasher& hasher) const {
         hasher.add(entry.tick);
         hasher.add_text(entry.detail);
     }
-}
-
-void add_check_words(lua_State* L) {
-    lua_newtable(L);
-    add_function(L, "never", acting<add_check<Kind::never>>);
-    add_function(L, "always", acting<add_check<Kind::always>>);
-    add_function(L, "max", acting<add_check<Kind::max>>);
-    add_function(L, "min", acting<add_check<Kind::min>>);
-    add_function(L, "eventually", acting<add_check<Kind::eventually>>);
-    add_function(L, "at_end", acting<add_check<Kind::at_end>>);
-    refuse_unknown(L, "check");
-    lua_setfield(L, -2, "check");
 }
 
 }  // namespace reprise::scripting

@@ -15,7 +15,7 @@ class Hasher;
 
 namespace reprise::scripting {
 
-struct Run;
+struct StepContext;
 
 /// What a scenario promises. Three-valued: a check that never had anything to look at did not pass.
 /// Evaluated once a tick, starting with the tick after it was registered; a tick in which an actor
@@ -25,13 +25,13 @@ class Checks {
     enum class Kind : std::uint8_t { never, always, max, min, eventually, at_end };
 
     /// Registers the check that Lua's check.<kind>(name, function, ...) describes.
-    void add(Run& run, lua_State* L, Kind kind);
+    void add(StepContext& context, lua_State* L, Kind kind);
 
-    /// Evaluates what is still open on run.last.
-    void evaluate(Run& run);
+    /// Evaluates what is still open on context.last.
+    void evaluate(StepContext& context);
 
-    /// The last word: on run.last as the final tick.
-    void conclude(Run& run);
+    /// The last word: on context.last as the final tick.
+    void conclude(StepContext& context);
 
     std::vector<Scenario::Check> results() const;
 
@@ -57,17 +57,14 @@ class Checks {
         std::string detail;
     };
 
-    void look(Run& run, Entry& entry);
-    void judge(Run& run, Entry& entry, bool holds);
-    void judge(Run& run, Entry& entry, double value);
-    void fail(Run& run, Entry& entry, double value, const std::string& detail);
-    void settle(Run& run, Entry& entry);
+    void look(StepContext& context, Entry& entry);
+    void judge(StepContext& context, Entry& entry, bool holds);
+    void judge(StepContext& context, Entry& entry, double value);
+    void fail(StepContext& context, Entry& entry, double value, const std::string& detail);
+    void settle(StepContext& context, Entry& entry);
 
     std::vector<Entry> entries_;
     bool concluded_ = false;
 };
-
-/// The table `check`, into the table at the top of the stack.
-void add_check_words(lua_State* L);
 
 }  // namespace reprise::scripting

@@ -1,114 +1,15 @@
 #include "scripting/words/header.h"
 
-#include <fmt/format.h>
+#include <string_view>
+
 #include <lua.hpp>
 
-#include "scripting/lua/arguments.h"
-#include "scripting/lua/binding.h"
 #include "scripting/lua/sandbox.h"
-#include "scripting/lua/text.h"
 #include "scripting/lua/vm.h"
 #include "scripting/words/vocabulary.h"
 #include "world/check.h"
-#include "world/weather.h"
 
 namespace reprise::scripting {
-
-namespace {
-
-constexpr double longest_run = 86'400;  // [s] a day
-constexpr std::int64_t most_cars = 10'000;
-
-bool is_word(const std::string& text) {
-    constexpr const char* letters =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
-    return !text.empty() && text.find_first_not_of(letters) == std::string::npos;
-}
-
-/// The table `params` at the top of the stack.
-std::map<std::string, Value> read_parameters(lua_State* L) {
-    std::map<std::string, Value> parameters;
-    std::optional<std::string> wrong;
-    lua_pushnil(L);
-    while (lua_next(L, -2) != 0) {
-        const auto value = to_value(L, -1);
-        const bool named = lua_type(L, -2) == LUA_TSTRING && is_word(text_of(L, -2));
-        const std::string key = named ? text_of(L, -2) : "";
-        if (!named)
-            refuse("scenario", "params: every parameter needs a name: params = { gap = 12 }");
-        const double* number = value ? std::get_if<double>(&*value) : nullptr;
-        const bool usable = value && (number == nullptr || parse_number(number_text(*number)));
-        if (!usable && (!wrong || key < *wrong))
-            wrong = key;
-        if (usable)
-            parameters.emplace(key, *value);
-        lua_pop(L, 1);
-    }
-    if (wrong)
-        refuse(
-            "scenario",
-            fmt::format("params: '{}' must be a finite number, a string, true or false", *wrong));
-    return parameters;
-}
-
-/// The call with the table. Upvalue 1: the name. Returns the table as the mark of a scenario.
-int take_table(lua_State* L) {
-    Vm& vm = Vm::of(L);
-    const Fields fields(
-        L, 1, "scenario", {"town", "duration", "seed", "cars", "weather", "params", "run"});
-    if (vm.header == nullptr || vm.header->run != 0)
-        refuse("scenario", "a file holds one scenario");
-    Header header;
-    header.line = vm.line(L);
-    header.name = text_of(L, lua_upvalueindex(1));
-    header.town = fields.text("town").value_or(header.town);
-    header.weather = fields.text("weather").value_or(header.weather);
-    if (world::find_weather(header.weather) == nullptr)
-        refuse("scenario",
-               fmt::format("no weather '{}'{}",
-                           header.weather,
-                           world::did_you_mean(header.weather, world::weather_names())));
-    header.has_duration = fields.has("duration");
-    for (const char* key : {"town", "seed", "cars", "weather"})
-        if (fields.has(key))
-            header.of_world = key;
-    header.duration = fields.number("duration").value_or(header.duration);
-    if (header.duration <= 0 || header.duration > longest_run)
-        refuse("scenario", "'duration' must be in (0, 86400] s");
-    const std::int64_t seed = fields.integer("seed").value_or(0);
-    if (seed < 0)
-        refuse("scenario", "'seed' must not be below 0");
-    header.seed = static_cast<std::uint64_t>(seed);
-    const std::int64_t cars = fields.integer("cars").value_or(0);
-    if (cars < 0 || cars > most_cars)
-        refuse("scenario", fmt::format("'cars' must be in [0, {}]", most_cars));
-    header.cars = static_cast<std::uint32_t>(cars);
-    if (fields.has("params")) {
-        fields.push("params");
-        if (lua_type(L, -1) != LUA_TTABLE)
-            refuse("scenario", "'params' must be a table: params = { gap = 12 }");
-        header.parameters = read_parameters(L);
-        lua_pop(L, 1);
-    }
-    fields.push("run");
-    want_function(L, -1, "scenario", "'run'");
-    header.run = luaL_ref(L, LUA_REGISTRYINDEX);
-    *vm.header = header;
-    lua_settop(L, 1);
-    return 1;
-}
-
-int scenario(lua_State* L) {
-    const std::string name = text_at(L, 1, "scenario", "the name");
-    if (!is_word(name))
-        refuse("scenario",
-               fmt::format("the name '{}' must be made of letters, digits and _", name));
-    lua_settop(L, 1);
-    lua_pushcclosure(L, guarded<take_table>, 1);
-    return 1;
-}
-
-}  // namespace
 
 Header read_header(Vm& vm, const std::string& source) {
     lua_State* L = vm.main();
@@ -133,10 +34,6 @@ Header read_header(Vm& vm, const std::string& source) {
         throw world::Error(vm.script() +
                            ": a scenario file ends with: return scenario 'name' { ... }");
     return header;
-}
-
-void add_header_words(lua_State* L) {
-    add_function(L, "scenario", guarded<scenario>);
 }
 
 }  // namespace reprise::scripting

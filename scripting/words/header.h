@@ -7,8 +7,6 @@
 
 #include "scripting/lua/literals.h"
 
-struct lua_State;
-
 namespace reprise::scripting {
 
 class Vm;
@@ -31,8 +29,5 @@ struct Header {
 /// Fills the machine with the whole vocabulary, runs the scenario's file in it and returns its
 /// header. Throws world::Error with file and line.
 Header read_header(Vm& vm, const std::string& source);
-
-/// `scenario`, into the table at the top of the stack.
-void add_header_words(lua_State* L);
 
 }  // namespace reprise::scripting

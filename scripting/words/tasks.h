@@ -11,8 +11,7 @@ class Hasher;
 
 namespace reprise::scripting {
 
-struct Run;
-class Vm;
+struct StepContext;
 
 /// The coroutines of a scenario: its `run`, and what `start` began. Resumed once a tick, in the
 /// order in which they were started; a task started in a tick first runs in that tick, last.
@@ -23,7 +22,7 @@ class Tasks {
     void start(lua_State* L, int arguments);
 
     /// Resumes every task whose time has come.
-    void advance(Run& run, std::uint64_t now);
+    void advance(StepContext& context, std::uint64_t now);
 
     /// When the running task goes on after its next yield. Without a word: in the next tick.
     void sleep_until(std::uint64_t tick) { tasks_[current_].wake = tick; }
@@ -47,8 +46,5 @@ class Tasks {
 
 /// Seconds as ticks, rounded up; a millionth of a tick is forgiven, so that 0.15 s are 3 ticks.
 std::uint64_t ticks_of(double seconds, std::uint64_t step_ns);
-
-/// wait, wait_ticks, start, finish, ... into the table at the top of the stack.
-void add_task_words(lua_State* L);
 
 }  // namespace reprise::scripting

@@ -9,7 +9,6 @@
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/binding.h"
 #include "scripting/lua/text.h"
-#include "scripting/words/header.h"
 #include "scripting/words/run.h"
 #include "world/weather.h"
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "exchange/carla/carla_packet_kinds.h"
 #include "tests/exchange/carla_logs.h"
 #include "world/check.h"
 #include "world/random.h"
