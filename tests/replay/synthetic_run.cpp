@@ -5,6 +5,7 @@
 #include <iterator>
 #include <unistd.h>
 
+#include "replay/chain_seed.h"
 #include "replay/trace_writer.h"
 #include "tests/support/worlds.h"
 #include "world/check.h"
