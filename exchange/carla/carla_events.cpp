@@ -43,7 +43,7 @@ void CarlaEvents::tell(world::EventKind kind,
     events_.push_back(std::move(event));
 }
 
-void CarlaEvents::hear_collision(const CarlaCollision& collision, const CarlaFrame& frame) {
+void CarlaEvents::add_collision(const CarlaCollision& collision, const CarlaFrame& frame) {
     std::uint32_t actor = survey_->roles.count(collision.actor) > 0 ? collision.actor : 0;
     std::uint32_t other = survey_->roles.count(collision.other) > 0 ? collision.other : 0;
     if (actor == 0)
@@ -62,7 +62,7 @@ void CarlaEvents::hear_collision(const CarlaCollision& collision, const CarlaFra
     events_.back().other = other;
 }
 
-void CarlaEvents::hear(const CarlaFrame& frame, const std::vector<Body>& last) {
+void CarlaEvents::read(const CarlaFrame& frame, const std::vector<Body>& last) {
     for (const CarlaActor& actor : frame.added)
         if (survey_->roles.count(actor.pose.actor) > 0)
             tell(world::EventKind::spawned,
@@ -70,7 +70,7 @@ void CarlaEvents::hear(const CarlaFrame& frame, const std::vector<Body>& last) {
                  body_of(actor.pose, *survey_, offset_).position,
                  survey_->hero == actor.pose.actor && is_hero(actor) ? "hero" : actor.blueprint);
     for (const CarlaCollision& collision : frame.collisions)
-        hear_collision(collision, frame);
+        add_collision(collision, frame);
     for (const std::uint32_t id : frame.removed) {
         if (survey_->roles.count(id) == 0)
             continue;

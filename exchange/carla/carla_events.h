@@ -27,13 +27,13 @@ class CarlaEvents {
           offset_(offset) {}
 
     /// `last`: where everybody was one frame before, sorted by id.
-    void hear(const CarlaFrame& frame, const std::vector<Body>& last);
+    void read(const CarlaFrame& frame, const std::vector<Body>& last);
 
-    /// All since the last call, in the order in which they were told.
+    /// All since the last call, in the order of the log.
     std::vector<world::EventT> take() { return std::exchange(events_, {}); }
 
   private:
-    void hear_collision(const CarlaCollision& collision, const CarlaFrame& frame);
+    void add_collision(const CarlaCollision& collision, const CarlaFrame& frame);
     void tell(world::EventKind kind,
               std::uint32_t actor,
               const Eigen::Vector3d& at,
@@ -42,7 +42,8 @@ class CarlaEvents {
     const CarlaSurvey* survey_;
     Eigen::Vector3d offset_;
     std::vector<world::EventT> events_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, double> contacts_;  ///< [s] when last told
+    std::map<std::pair<std::uint32_t, std::uint32_t>, double>
+        contacts_;  ///< [s] of the last packet that said so
 };
 
 }  // namespace reprise::exchange

@@ -27,7 +27,7 @@ struct CarlaSurvey {
     std::map<std::uint32_t, Eigen::Vector3d> lights;  ///< [m], our axes: where one waits for it
     bool lights_have_triggers = false;                ///< else these are the places of the poles
     std::optional<std::uint32_t> hero;                ///< role_name hero, or the first vehicle
-    Eigen::Vector3d low;  ///< [m], our axes; box around all ground that was trodden
+    Eigen::Vector3d low;  ///< [m], our axes; bounding box of the ground under all actors
     Eigen::Vector3d high;
     double height = 0;  ///< [m] of that ground: the median over frames and vehicles
 };

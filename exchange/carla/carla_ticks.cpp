@@ -1,8 +1,8 @@
 // Must: equal logs give equal ticks; every number in a tick is finite and on the record's grid.
 // Assumes: frames in order of time; all actors were surveyed.
-// Goes: two frames are held, the tick lies between them; events of a frame are told by the first
+// Goes: two frames are held, the tick lies between them; events of a frame go into the first
 //   tick that does not lie before it.
-// Keeps: of each actor how far it came, so that wheels and legs turn with the way.
+// Keeps: of each actor the distance covered, so that wheels and legs turn with it.
 #include "exchange/carla/carla_ticks.h"
 
 #include <algorithm>
@@ -29,8 +29,8 @@ using world::rounded;
 constexpr double per_radian = 8192;
 constexpr double per_acceleration = 64;
 
-/// What goes on from tick to tick.
-struct Way {
+/// What is carried from tick to tick for one actor: odometer, walk cycle, last motion.
+struct Track {
     double driven = 0;  ///< [m]
     double phase = 0;   ///< of the walk cycle, in [0, 1)
     double speed = 0;   ///< [m/s] along its x axis at the last tick
@@ -83,7 +83,7 @@ struct CarlaTicks::State {
     std::optional<Instant> after{};
     const CarlaFrame* frame = nullptr;  ///< that `after` is of
     std::map<std::uint32_t, CarlaColor> colors{};
-    std::map<std::uint32_t, Way> ways{};
+    std::map<std::uint32_t, Track> tracks{};
     std::uint64_t tick = 0;
     std::uint64_t jumps = 0;
 
@@ -99,7 +99,7 @@ struct CarlaTicks::State {
     void seal_digests(world::TickDraft& draft) const;
 };
 
-/// The frame behind the ones that were passed, if there is one.
+/// Reads the frame that follows `before` into `after`; none at the end of the log.
 void CarlaTicks::State::read_next() {
     after.reset();
     frame = log.next();
@@ -107,11 +107,11 @@ void CarlaTicks::State::read_next() {
         after = instant_of(*frame, survey, offset);
 }
 
-/// The frame behind becomes the one before; what it tells is told.
+/// Makes the next frame the current one: notes its light colours and events, and counts jumps.
 void CarlaTicks::State::pass_frame() {
     for (const CarlaLight& light : frame->lights)
         colors[light.actor] = light.color;
-    events.hear(*frame, before.bodies);
+    events.read(*frame, before.bodies);
     before = std::move(*after);
     read_next();
     const double duration = after ? after->elapsed - before.elapsed : 0;
@@ -134,9 +134,9 @@ void CarlaTicks::State::pair_up(Visit visit) const {
 
 /// As recorded, or as it follows from the places; at the log's end as it was.
 Vector3d CarlaTicks::State::velocity_of(const Body& body) {
-    const Way& way = ways[body.id];
-    if (!body.velocity && !after && way.tick + 1 == tick)
-        return way.velocity;
+    const Track& track = tracks[body.id];
+    if (!body.velocity && !after && track.tick + 1 == tick)
+        return track.velocity;
     return body.velocity.value_or(Vector3d(Vector3d::Zero()));
 }
 
@@ -146,16 +146,16 @@ void CarlaTicks::State::add_car(const Body& body, world::TickDraft& draft) {
     const Vector3d ahead = ahead_of(body.yaw, body.pitch);
     const Vector3d velocity = velocity_of(body);
     const double speed = velocity.dot(ahead);
-    Way& way = ways[body.id];
-    const bool goes_on = way.tick + 1 == tick;
-    const double moved = goes_on ? (body.position - way.position).dot(ahead) : 0;
+    Track& track = tracks[body.id];
+    const bool goes_on = track.tick + 1 == tick;
+    const double moved = goes_on ? (body.position - track.position).dot(ahead) : 0;
     if (std::abs(moved) < 1 + fastest * step)
-        way.driven += moved;
-    const double acceleration = goes_on ? (speed - way.speed) / step : 0;
-    way = {way.driven, 0, speed, velocity, body.position, tick};
+        track.driven += moved;
+    const double acceleration = goes_on ? (speed - track.speed) / step : 0;
+    track = {track.driven, 0, speed, velocity, body.position, tick};
 
     std::uint32_t lane = world::none;
-    double lane_s = way.driven;
+    double lane_s = track.driven;
     if (lanes) {
         const Vector3d front = body.position + (model.length - model.rear_overhang) * ahead;
         if (const auto found = lanes->best(front, body.yaw, 4)) {
@@ -181,16 +181,17 @@ void CarlaTicks::State::add_walker(const Body& body, world::TickDraft& draft) {
     const std::uint16_t model = survey.roles.at(body.id).model;
     const Vector3d velocity = velocity_of(body);
     const double speed = velocity.head<2>().norm();
-    Way& way = ways[body.id];
-    const double moved = way.tick + 1 == tick ? (body.position - way.position).head<2>().norm() : 0;
+    Track& track = tracks[body.id];
+    const double moved =
+        track.tick + 1 == tick ? (body.position - track.position).head<2>().norm() : 0;
     if (speed > standing && moved < fastest)
-        way.phase += moved / timing.walk_cycle(speed, world::walker_models()[model].height);
-    way = {0, way.phase - std::floor(way.phase), speed, velocity, body.position, tick};
+        track.phase += moved / timing.walk_cycle(speed, world::walker_models()[model].height);
+    track = {0, track.phase - std::floor(track.phase), speed, velocity, body.position, tick};
     draft.traffic.walkers.emplace_back(
         on_grid(body.position),
         yaw_on_grid(body.yaw),
         on_grid(speed, per_metre),
-        static_cast<float>(std::floor(way.phase * per_radian) / per_radian),
+        static_cast<float>(std::floor(track.phase * per_radian) / per_radian),
         body.id,
         model,
         false,

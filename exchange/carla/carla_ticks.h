@@ -17,8 +17,9 @@ struct CarlaTiming {
 };
 
 /// A log's frames, which come at odd times, as ticks of a fixed step: places on the straight line
-/// between the frames before and after a tick, angles the short way round; who jumps stays where it
-/// was until it is there. Speeds are those recorded, or else follow from the places.
+/// between the frames before and after a tick, angles the short way round; an actor
+/// that jumps (see `jumps`) stays at the old place until the later frame. Speeds are those
+/// recorded, or else follow from the places.
 class CarlaTicks {
   public:
     /// Begins with `log`'s first frame. All must outlive this; `offset` [m] takes CARLA's origin to
