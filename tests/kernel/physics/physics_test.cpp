@@ -164,7 +164,7 @@ struct Scene {
         ground.cars = {car_at(9, 8 + 0.3 * tick, 2.2, 0.05, 6), car_at(11, 50, 0, 1)};
         world::Control control = drive(0.6, 0, 0.1 * std::sin(0.2 * tick));
         if (tick == 10)
-            control.mutate_steer(control.drivers::steer() + nudge);
+            control.mutate_steer(control.steer() + nudge);
         ground.step(control);
     }
 

@@ -354,7 +354,7 @@ TEST(BrushTyre, StartsWithItsStiffnessAndEndsAtItsGrip) {
     const double stiffness = 10;
     const double grip = 1.05;
     const double small = 1e-6;
-    EXPECT_NEAR(grip * brush_share(small, stiffness, grip), stiffness * small, 1e-9);
+    EXPECT_NEAR(grip * world::brush_share(small, stiffness, grip), stiffness * small, 1e-9);
     EXPECT_DOUBLE_EQ(world::brush_share(3 * grip / stiffness, stiffness, grip), 1);
     EXPECT_DOUBLE_EQ(world::brush_share(9, stiffness, grip), 1);
     EXPECT_DOUBLE_EQ(world::brush_share(-0.1, stiffness, grip),
