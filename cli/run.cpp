@@ -20,6 +20,7 @@
 #include "scripting/scenario.h"
 #include "towns/town_reader.h"
 #include "world/check.h"
+#include "world/check_result.h"
 #include "world/digest.h"
 #include "world/recording.h"
 
@@ -28,7 +29,7 @@ namespace reprise::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Check = scripting::Scenario::Check;
+using Check = world::CheckResult;
 
 bool is_trace(const fs::path& path) {
     return path.extension() == ".mcap";

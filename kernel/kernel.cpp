@@ -9,6 +9,7 @@
 #include "kernel/physics/physics.h"
 #include "kernel/roster.h"
 #include "replay/chain_seed.h"
+#include "scripting/scenario.h"
 #include "traffic/background.h"
 #include "world/arithmetic.h"
 #include "world/check.h"
@@ -36,11 +37,11 @@ struct Kernel::Stages {
           episode(recording.episode),
           town(recording.town),
           lanes(town),
-          scenario(episode, town),
+          scenario(episode, town, lanes),
           obstacles(ground::obstacles_of(town)),
           roster(episode, town, lanes, obstacles),
-          background(episode, town, recording.network),
-          pedestrians(episode, town),
+          background(episode, town, lanes, recording.network),
+          pedestrians(episode, town, lanes),
           physics(episode, ground::build_ground(town), obstacles),
           chain_seed(replay::chain_seed(recording)),
           last(genesis(episode, chain_seed)) {}
@@ -48,7 +49,7 @@ struct Kernel::Stages {
     const world::Recording& recording;
     world::EpisodeT episode;  ///< of it script, parameters and limit change where a run branches
     const world::TownT& town;
-    world::LaneMap lanes;
+    world::LaneMap lanes;  ///< the run's only one
     scripting::Scenario scenario;
     std::vector<world::Obstacle> obstacles;
     Roster roster;
@@ -178,7 +179,7 @@ bool Kernel::finished() const {
 }
 
 world::Outcome Kernel::outcome() const {
-    using Status = scripting::Scenario::Check::Status;
+    using Status = world::CheckResult::Status;
     const auto all = checks();
     bool failed = false;
     for (const auto& check : all)
@@ -187,7 +188,7 @@ world::Outcome Kernel::outcome() const {
     return {verdict, stages_->reason, stages_->last.view().index()};
 }
 
-std::vector<scripting::Scenario::Check> Kernel::checks() const {
+std::vector<world::CheckResult> Kernel::checks() const {
     return stages_->scenario.checks();
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernel/drill/nudge.h"
-#include "scripting/scenario.h"
+#include "world/check_result.h"
 #include "world/recording.h"
 #include "world/tick.h"
 
@@ -36,7 +36,7 @@ class Kernel {
 
     world::Outcome outcome() const;
 
-    std::vector<scripting::Scenario::Check> checks() const;
+    std::vector<world::CheckResult> checks() const;
 
     /// From here on another script says what happens, or the same with other parameters: traffic,
     /// walkers, contacts and random streams go on from where they are. What the recording itself

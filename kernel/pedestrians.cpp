@@ -24,9 +24,11 @@ bool is_raised(const world::LaneT& lane) {
 
 }  // namespace
 
-Pedestrians::Pedestrians(const world::EpisodeT& episode, const world::TownT& town)
+Pedestrians::Pedestrians(const world::EpisodeT& episode,
+                         const world::TownT& town,
+                         const world::LaneMap& lanes)
     : town_(&town),
-      lanes_(town),
+      lanes_(&lanes),
       seed_(episode.seed),
       step_(static_cast<double>(episode.step_ns) * 1e-9) {}
 
@@ -173,10 +175,10 @@ void Pedestrians::walk(Walker& walker) const {
 
 /// Of the road where cars drive, of the sidewalk beside it, of the last ground elsewhere.
 double Pedestrians::ground_height(const Eigen::Vector3d& p_world) const {
-    const auto roads = lanes_.at(p_world);
+    const auto roads = lanes_->at(p_world);
     if (!roads.empty())
         return world::point_at(town_->lanes[roads.front().lane], roads.front().at.s).position.z();
-    const auto walkable = lanes_.walkable_at(p_world);
+    const auto walkable = lanes_->walkable_at(p_world);
     if (walkable.empty())
         return p_world.z();
     const world::LaneT& lane = town_->lanes[walkable.front().lane];

@@ -18,8 +18,10 @@ using world::walk_cycle_length;
 /// lies where it was and does nothing more.
 class Pedestrians {
   public:
-    /// `town` must outlive this.
-    Pedestrians(const world::EpisodeT& episode, const world::TownT& town);
+    /// `town` and its `lanes` must outlive this.
+    Pedestrians(const world::EpisodeT& episode,
+                const world::TownT& town,
+                const world::LaneMap& lanes);
 
     /// Stage 4. Carries out next's commands for walkers (spawn, walk, set_speed, free_speed,
     /// despawn), moves everyone by one tick, and writes next.traffic.walkers (sorted by id) and
@@ -60,7 +62,7 @@ class Pedestrians {
     double ground_height(const Eigen::Vector3d& p_world) const;
 
     const world::TownT* town_;
-    world::LaneMap lanes_;
+    const world::LaneMap* lanes_;
     std::uint64_t seed_;           ///< of the looks
     double step_;                  ///< [s]
     std::vector<Walker> walkers_;  ///< sorted by id

@@ -47,9 +47,9 @@ void add(world::Hasher& hasher, const std::vector<world::ParameterT>& parameters
 }  // namespace
 
 struct Scenario::Machine {
-    Machine(const world::EpisodeT& episode, const world::TownT& town)
+    Machine(const world::EpisodeT& episode, const world::TownT& town, const world::LaneMap& lanes)
         : vm(episode.scenario_path),
-          run(vm, episode, town) {}
+          run(vm, episode, town, lanes) {}
 
     /// Reads the episode's script; its run function begins in the next step.
     void start() {
@@ -64,12 +64,14 @@ struct Scenario::Machine {
 
     Vm vm;
     Run run;
-    std::vector<Check> decided;    ///< of scripts whose place this one took
-    std::uint64_t taken_over = 0;  ///< digest of what branches changed; 0: nothing
+    std::vector<world::CheckResult> decided;  ///< of scripts whose place this one took
+    std::uint64_t taken_over = 0;             ///< digest of what branches changed; 0: nothing
 };
 
-Scenario::Scenario(const world::EpisodeT& episode, const world::TownT& town)
-    : machine_(std::make_unique<Machine>(episode, town)) {
+Scenario::Scenario(const world::EpisodeT& episode,
+                   const world::TownT& town,
+                   const world::LaneMap& lanes)
+    : machine_(std::make_unique<Machine>(episode, town, lanes)) {
     machine_->start();
 }
 
@@ -78,9 +80,12 @@ Scenario::~Scenario() = default;
 void Scenario::take_over() {
     const world::EpisodeT& episode = machine_->run.episode;
     const world::TownT& town = machine_->run.town;
-    std::vector<Check> decided = checks();
-    std::erase_if(decided,
-                  [](const Check& check) { return check.status == Check::Status::not_evaluated; });
+    const world::LaneMap& lanes = machine_->run.lanes;
+    using world::CheckResult;
+    std::vector<CheckResult> decided = checks();
+    std::erase_if(decided, [](const CheckResult& check) {
+        return check.status == CheckResult::Status::not_evaluated;
+    });
     Actors actors = std::move(machine_->run.actors);
     Streams streams = std::move(machine_->run.streams);
     world::Hasher scripts;
@@ -88,7 +93,7 @@ void Scenario::take_over() {
     scripts.add_text(episode.scenario);
     add(scripts, episode.parameters);
     machine_.reset();  // the new machine lies at the same addresses
-    machine_ = std::make_unique<Machine>(episode, town);
+    machine_ = std::make_unique<Machine>(episode, town, lanes);
     machine_->vm.in_branch = true;
     machine_->start();
     machine_->run.actors = std::move(actors);
@@ -154,9 +159,9 @@ std::uint64_t Scenario::digest() const {
     return hasher.digest64();
 }
 
-std::vector<Scenario::Check> Scenario::checks() const {
-    std::vector<Check> all = machine_->decided;
-    const std::vector<Check> own = machine_->run.checks.results();
+std::vector<world::CheckResult> Scenario::checks() const {
+    std::vector<world::CheckResult> all = machine_->decided;
+    const std::vector<world::CheckResult> own = machine_->run.checks.results();
     all.insert(all.end(), own.begin(), own.end());
     return all;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "world/check_result.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"
 #include "world/town.h"
@@ -47,8 +48,8 @@ world::BranchT change_branch(const Overrides& overrides,
 /// Everything it knows of the world is the last tick; everything it says is a Command.
 class Scenario {
   public:
-    /// Prepares `run`; `episode` and `town` must outlive the scenario.
-    Scenario(const world::EpisodeT& episode, const world::TownT& town);
+    /// Prepares `run`; `episode`, `town` and the town's `lanes` must outlive the scenario.
+    Scenario(const world::EpisodeT& episode, const world::TownT& town, const world::LaneMap& lanes);
     ~Scenario();
     Scenario(const Scenario&) = delete;
     Scenario& operator=(const Scenario&) = delete;
@@ -74,16 +75,8 @@ class Scenario {
     /// the commands.
     std::uint64_t digest() const;
 
-    struct Check {
-        std::string name;
-        enum class Status : std::uint8_t { pass, fail, not_evaluated } status;
-        std::uint64_t tick = 0;  ///< of the first failure
-        std::string detail;
-        std::uint32_t line = 0;
-    };
-
     /// As they stand; final once the run ended (call `conclude` first).
-    std::vector<Check> checks() const;
+    std::vector<world::CheckResult> checks() const;
 
     /// Looks at every open check once more, in the last draft as it will be recorded, and settles
     /// all: appends their events (passed, failed, not evaluated) to it. Called once by the kernel

@@ -73,16 +73,16 @@ std::vector<Eigen::Vector3d> way_to(const world::LaneT& lane, double s, double l
 
 Background::Sumo::Sumo(const world::EpisodeT& episode_in,
                        const world::TownT& town_in,
+                       const world::LaneMap& lanes,
                        std::string_view network)
     : episode(episode_in),
       town(town_in),
       step(world::seconds(1, episode_in.step_ns)),
       process(episode_in, network),
-      lane_map(town_in),
       graph(town_in, lane_classes(town_in)),
       places(town_in, graph),
       at_home(places.common_classes()),
-      mirrors(town_in, lane_map, graph, step),
+      mirrors(town_in, lanes, graph, step),
       signals(town_in.signals.size(), SignalColor::off) {
     for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
         lanes_by_name.emplace(town.lanes[i].name, i);
@@ -163,8 +163,9 @@ void Background::Sumo::drop_arrived(world::TickDraft& next) {
 
 Background::Background(const world::EpisodeT& episode,
                        const world::TownT& town,
+                       const world::LaneMap& lanes,
                        std::string_view network)
-    : sumo_(std::make_unique<Sumo>(episode, town, network)) {}
+    : sumo_(std::make_unique<Sumo>(episode, town, lanes, network)) {}
 
 Background::~Background() = default;
 

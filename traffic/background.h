@@ -16,9 +16,12 @@ namespace reprise::traffic {
 class Background {
   public:
     /// Starts SUMO in this process with the network's bytes (no file is left behind) and places
-    /// `episode.cars` cars, spread over the town by the seed. `town` must outlive this.
-    /// Throws world::Error when SUMO refuses the network.
-    Background(const world::EpisodeT& episode, const world::TownT& town, std::string_view network);
+    /// `episode.cars` cars, spread over the town by the seed. `town` and its `lanes` must
+    /// outlive this. Throws world::Error when SUMO refuses the network.
+    Background(const world::EpisodeT& episode,
+               const world::TownT& town,
+               const world::LaneMap& lanes,
+               std::string_view network);
     ~Background();
     Background(const Background&) = delete;
     Background& operator=(const Background&) = delete;

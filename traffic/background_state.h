@@ -21,7 +21,10 @@ inline constexpr double planned_route = 1500;  ///< [m] of route made at once
 /// All that Background keeps. Its stages, in their order, lie in orders.cpp (commands), demand.cpp
 /// (the number of cars), reading.cpp (what SUMO made of it) and background.cpp (the step).
 struct Background::Sumo {
-    Sumo(const world::EpisodeT& episode, const world::TownT& town, std::string_view network);
+    Sumo(const world::EpisodeT& episode,
+         const world::TownT& town,
+         const world::LaneMap& lanes,
+         std::string_view network);
 
     // orders.cpp: what the scenario says of cars that traffic owns.
     void carry_out(const world::TickView& last, world::TickDraft& next);
@@ -57,7 +60,6 @@ struct Background::Sumo {
     const world::TownT& town;
     double step;  ///< [s]
     SumoProcess process;
-    world::LaneMap lane_map;
     RoadGraph graph;
     Places places;
     world::ClassSet at_home;  ///< classes that most roads are open to

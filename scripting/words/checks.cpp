@@ -18,7 +18,7 @@ namespace reprise::scripting {
 namespace {
 
 using Kind = Checks::Kind;
-using Status = Scenario::Check::Status;
+using Status = world::CheckResult::Status;
 
 constexpr const char* names[] = {
     "check.never", "check.always", "check.max", "check.min", "check.eventually", "check.at_end"};
@@ -191,8 +191,8 @@ void Checks::settle(StepContext& context, Entry& entry) {
         event(kind, entry.name, entry.detail, entry.extreme.value_or(0), entry.line));
 }
 
-std::vector<Scenario::Check> Checks::results() const {
-    std::vector<Scenario::Check> results;
+std::vector<world::CheckResult> Checks::results() const {
+    std::vector<world::CheckResult> results;
     for (const Entry& entry : entries_)
         results.push_back({entry.name, entry.status, entry.tick, entry.detail, entry.line});
     return results;

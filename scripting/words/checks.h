@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scripting/scenario.h"
+#include "world/check_result.h"
 
 struct lua_State;
 
@@ -33,7 +33,7 @@ class Checks {
     /// The last word: on context.last as the final tick.
     void conclude(StepContext& context);
 
-    std::vector<Scenario::Check> results() const;
+    std::vector<world::CheckResult> results() const;
 
     void digest(world::Hasher& hasher) const;
 
@@ -52,7 +52,7 @@ class Checks {
         bool evaluated = false;
         std::optional<double> extreme;  ///< max, min: the nearest to failing so far
         bool decided = false;
-        Scenario::Check::Status status = Scenario::Check::Status::not_evaluated;
+        world::CheckResult::Status status = world::CheckResult::Status::not_evaluated;
         std::uint64_t tick = 0;  ///< of the failure
         std::string detail;
     };

@@ -27,16 +27,14 @@ Body Run::look_at(const Actor& actor) {
     Body placed = *body;
     if (placed.lane != world::none)
         return placed;
-    if (!lanes_)
-        lanes_.emplace(town);
     if (actor.is_walker()) {
-        const auto walkable = lanes_->walkable_at(placed.position);
-        const auto roads = lanes_->at(placed.position);
+        const auto walkable = lanes.walkable_at(placed.position);
+        const auto roads = lanes.at(placed.position);
         if (!roads.empty())
             placed.lane = roads.front().lane;
         else if (!walkable.empty())
             placed.lane = walkable.front().lane;
-    } else if (const auto best = lanes_->best(placed.position, placed.yaw)) {
+    } else if (const auto best = lanes.best(placed.position, placed.yaw)) {
         placed.lane = best->lane;
     }
     return placed;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "scripting/words/actors.h"
 #include "scripting/words/checks.h"
 #include "scripting/words/step_context.h"
@@ -15,10 +13,15 @@ namespace reprise::scripting {
 
 /// What the words of the vocabulary work on while a scenario runs.
 struct Run : StepContext {
-    Run(Vm& machine, const world::EpisodeT& its_episode, const world::TownT& its_town)
+    Run(Vm& machine,
+        const world::EpisodeT& its_episode,
+        const world::TownT& its_town,
+        const world::LaneMap& its_lanes)
         : StepContext(machine, its_episode, its_town),
+          lanes(its_lanes),
           streams(its_episode.seed) {}
 
+    const world::LaneMap& lanes;
     Actors actors;
     Tasks tasks;
     Checks checks;
@@ -30,9 +33,6 @@ struct Run : StepContext {
     /// The body with its lane, found by place where the tick does not name it. The actor must be
     /// present.
     Body look_at(const Actor& actor);
-
-  private:
-    std::optional<world::LaneMap> lanes_;  ///< built when first needed
 };
 
 }  // namespace reprise::scripting

@@ -117,7 +117,8 @@ void whole_tick(const world::Recording& recording,
 
 /// The same cars in the same town over the same ticks, stepped by libsumo alone.
 void sumo_alone(const world::Recording& recording, Run& run) {
-    traffic::Background background(recording.episode, recording.town, recording.network);
+    const world::LaneMap lanes(recording.town);
+    traffic::Background background(recording.episode, recording.town, lanes, recording.network);
     world::TickDraft genesis;
     world::SealedTick last = world::seal(genesis, {});
     for (int i = 1; i <= warm_up; ++i) {

@@ -43,7 +43,10 @@ world::CommandT walk_to(std::uint32_t actor, double x, double y, double speed = 
 /// The stage alone, on a straight road with a sidewalk on either side.
 class Street {
   public:
-    Street() : town_(test::straight_road()), pedestrians(test::episode(), town_) {}
+    Street()
+        : town_(test::straight_road()),
+          lanes_(town_),
+          pedestrians(test::episode(), town_, lanes_) {}
 
     const std::vector<world::WalkerState>& step(std::vector<world::CommandT> commands = {}) {
         last_.emplace(world::seal(next, {}));
@@ -63,6 +66,7 @@ class Street {
 
   private:
     world::TownT town_;
+    world::LaneMap lanes_;
     std::optional<world::SealedTick> last_;
 
   public:

@@ -207,7 +207,8 @@ TEST(Mistakes, AnActorThatNeverComesIsNamedWithTheLineOfItsSpawn) {
         test::running("\nlocal ego = spawn{ name = 'ego', model = 'sedan' }\n\nego:speed()");
     const world::EpisodeT episode = test::episode(source.c_str());
     const world::TownT town = test::straight_road();
-    Scenario scenario(episode, town);
+    const world::LaneMap lanes(town);
+    Scenario scenario(episode, town, lanes);
     std::string message;
     for (std::uint64_t tick = 0; tick < 200 && message.empty(); ++tick) {
         const world::SealedTick empty = test::tick_with({}, {}, {}, tick);

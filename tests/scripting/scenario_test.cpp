@@ -86,7 +86,8 @@ TEST(Scenario, RunReceivesTheEpisodesParametersNotTheFilesOwn) {
         parameter.value = value;
         episode.parameters.push_back(parameter);
     }
-    Scenario scenario(episode, town);
+    const world::LaneMap lanes(town);
+    Scenario scenario(episode, town, lanes);
     world::TickDraft next;
     scenario.advance(test::tick_with({}, {}, {}, 0).view(), next);
     ASSERT_EQ(next.tick.events.size(), 1U);

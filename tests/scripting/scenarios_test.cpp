@@ -23,10 +23,12 @@ class Rehearsal {
     explicit Rehearsal(const std::string& name)
         : episode(load_episode(path_of(name), {})),
           town(test::straight_road(400, 2)),
-          scenario(episode, town) {}
+          lanes(town),
+          scenario(episode, town, lanes) {}
 
     world::EpisodeT episode;
     world::TownT town;
+    world::LaneMap lanes;
     Scenario scenario;
 };
 

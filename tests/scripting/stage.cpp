@@ -24,7 +24,8 @@ std::string running(const std::string& body) {
 Stage::Stage(const std::string& source, world::TownT its_town)
     : episode(episode_of(source)),
       town(std::move(its_town)),
-      scenario(episode, town),
+      lanes(town),
+      scenario(episode, town, lanes),
       last_([] {
           world::TickDraft genesis;
           return world::seal(genesis, {});

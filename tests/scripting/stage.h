@@ -37,6 +37,7 @@ class Stage {
     std::vector<std::uint64_t> digests;     ///< one a tick
     world::EpisodeT episode;
     world::TownT town;
+    world::LaneMap lanes;
     scripting::Scenario scenario;
 
   private:

@@ -41,15 +41,17 @@ TEST(Background, EqualSeedsGiveEqualRunsInAWarmProcess) {
 TEST(Background, ASecondOneAtATimeIsRefused) {
     const world::EpisodeT episode = test::episode();
     const auto& [network, town] = own_town("town2");
-    const Background first(episode, town, network.xml);
-    EXPECT_THROW(Background(episode, town, network.xml), std::logic_error);
+    const world::LaneMap lanes(town);
+    const Background first(episode, town, lanes, network.xml);
+    EXPECT_THROW(Background(episode, town, lanes, network.xml), std::logic_error);
 }
 
 TEST(Background, AStepOfPartialMillisecondsIsTheUsersMistake) {
     world::EpisodeT episode = test::episode();
     episode.step_ns = 16'666'667;
     const auto& [network, town] = own_town("town2");
-    EXPECT_THROW(Background(episode, town, network.xml), world::Error);
+    const world::LaneMap lanes(town);
+    EXPECT_THROW(Background(episode, town, lanes, network.xml), world::Error);
 }
 
 TEST(Background, KeepsTheNumberFromTheFirstTickOn) {

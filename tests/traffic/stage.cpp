@@ -6,11 +6,13 @@ namespace reprise::test {
 
 Stage::Stage(const Loaded& loaded, std::uint32_t cars, std::uint64_t seed)
     : episode_(episode()),
+      lanes_(loaded.town),
       last_(world::seal(draft_, {})) {
     episode_.town = loaded.town.name;
     episode_.cars = cars;
     episode_.seed = seed;
-    background_ = std::make_unique<traffic::Background>(episode_, loaded.town, loaded.network.xml);
+    background_ =
+        std::make_unique<traffic::Background>(episode_, loaded.town, lanes_, loaded.network.xml);
 }
 
 const world::TickDraft& Stage::step(const std::vector<world::CommandT>& commands,

@@ -36,6 +36,7 @@ class Stage {
 
   private:
     world::EpisodeT episode_;
+    world::LaneMap lanes_;
     std::unique_ptr<traffic::Background> background_;
     world::TickDraft draft_;
     world::SealedTick last_;

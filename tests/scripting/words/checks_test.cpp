@@ -7,7 +7,7 @@
 
 namespace reprise::scripting {
 
-using Check = Scenario::Check;
+using Check = world::CheckResult;
 using Status = Check::Status;
 using testing::ElementsAre;
 

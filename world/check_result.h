@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace reprise::world {
+
+/// What became of something that a scenario promised with a `check` word.
+struct CheckResult {
+    enum class Status : std::uint8_t { pass, fail, not_evaluated };
+
+    std::string name;
+    Status status = Status::not_evaluated;
+    std::uint64_t tick = 0;  ///< of the first failure
+    std::string detail;
+    std::uint32_t line = 0;  ///< of the script
+};
+
+}  // namespace reprise::world
