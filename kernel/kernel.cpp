@@ -29,10 +29,19 @@ world::SealedTick genesis(const world::EpisodeT& episode, const world::Digest128
     return sealed;
 }
 
+/// The next tick before its first stage: weather and friction stay as they are until told else.
+world::TickDraft draft_after(const world::TickView& last) {
+    world::TickDraft next;
+    next.tick.index = last.index() + 1;
+    next.tick.weather = *last.tick->weather();
+    next.tick.road_friction = last.tick->road_friction();
+    return next;
+}
+
 }  // namespace
 
-struct Kernel::Stages {
-    explicit Stages(const world::Recording& its_recording)
+struct Kernel::Parts {
+    explicit Parts(const world::Recording& its_recording)
         : recording(its_recording),
           episode(recording.episode),
           town(recording.town),
@@ -44,7 +53,8 @@ struct Kernel::Stages {
           pedestrians(episode, town, lanes),
           physics(episode, ground::build_ground(town), obstacles),
           chain_seed(replay::chain_seed(recording)),
-          last(genesis(episode, chain_seed)) {}
+          last(genesis(episode, chain_seed)),
+          nudger(roster, pedestrians, physics) {}
 
     const world::Recording& recording;
     world::EpisodeT episode;  ///< of it script, parameters and limit change where a run branches
@@ -63,119 +73,135 @@ struct Kernel::Stages {
     std::string reason;
 };
 
-Kernel::Kernel(const world::Recording& recording) : stages_(std::make_unique<Stages>(recording)) {}
+Kernel::Kernel(const world::Recording& recording) : parts_(std::make_unique<Parts>(recording)) {}
 
 Kernel::~Kernel() = default;
 
 /// Advances the world by one fixed step. The whole simulation is this function: every stage reads
 /// the last tick, which no longer changes, and adds its part to the next one.
 const world::SealedTick& Kernel::step(std::span<const world::Control> controls) {
-    Stages& stage = *stages_;
-    const world::TickView last = stage.last.view();
-    REPRISE_CHECK(!stage.finished, "step after the end, at tick " + std::to_string(last.index()));
+    Parts& parts = *parts_;
+    const world::TickView last = parts.last.view();
+    REPRISE_CHECK(!parts.finished, "step after the end, at tick " + std::to_string(last.index()));
     take_branch(last.index());
-    world::TickDraft next;
-    world::Digests& digests = next.tick.digests;
-    next.tick.index = last.index() + 1;
-    next.tick.weather = *last.tick->weather();
-    next.tick.road_friction = last.tick->road_friction();
+    world::TickDraft next = draft_after(last);
 
     // 1. scenario: what should happen
-    stage.scenario.advance(last, next);
-    stage.roster.apply_commands(last, next, stage.physics);
+    parts.scenario.advance(last, next);
+    parts.roster.apply_commands(last, next, parts.physics);
     note_outcome(next);
-    stage.nudger.after_scenario(next);
-    digests.mutate_scenario(digest_of(stage.scenario, next));
+    close(Stage::scenario, next);
 
     // 2. controls: what the drivers want
-    stage.roster.apply_controls(controls, last, next);
-    stage.nudger.after_controls(next, stage.roster);
-    digests.mutate_controls(digest_of(stage.roster, next));
+    parts.roster.apply_controls(controls, last, next);
+    close(Stage::controls, next);
 
     // 3. traffic: background cars and signals
-    stage.background.advance(last, next);
-    stage.nudger.after_traffic(next);
-    digests.mutate_traffic(digest_of(stage.background, next));
+    parts.background.advance(last, next);
+    close(Stage::traffic, next);
 
     // 4. pedestrians
-    stage.pedestrians.advance(last, next);
-    stage.nudger.after_pedestrians(next, stage.pedestrians);
-    digests.mutate_pedestrians(digest_of(stage.pedestrians, next));
+    parts.pedestrians.advance(last, next);
+    close(Stage::pedestrians, next);
 
     // 5. physics: everything with mass, in equal substeps
-    stage.physics.advance(last, next);
-    stage.nudger.after_physics(next, stage.physics);
-    digests.mutate_physics(digest_of(stage.physics, next));
+    parts.physics.advance(last, next);
+    close(Stage::physics, next);
 
     // 6. measurements: lanes, gaps, footprints, impulses; in the last tick the checks' verdicts
-    const double step_seconds = static_cast<double>(stage.episode.step_ns) * 1e-9;
-    measure(stage.town, stage.lanes, step_seconds, last, next);
-    if (stage.finished)
-        stage.scenario.conclude(last, next);
-    stage.nudger.after_measurements(next);
-    digests.mutate_measurements(digest_of_measurements(next));
+    measure(parts.town, parts.lanes, world::seconds(1, parts.episode.step_ns), last, next);
+    if (parts.finished)
+        parts.scenario.conclude(last, next);
+    close(Stage::measurements, next);
 
     // 7. record: from here on the tick never changes
+    return record(last, next);
+}
+
+/// Ends a stage: a drill may move a number in what it wrote, then its digest is taken.
+void Kernel::close(Stage stage, world::TickDraft& next) {
+    Parts& parts = *parts_;
+    parts.nudger.after(stage, next);
+    world::Digests& digests = next.tick.digests;
+    switch (stage) {
+        case Stage::scenario:
+            return digests.mutate_scenario(digest_of(parts.scenario, next));
+        case Stage::controls:
+            return digests.mutate_controls(digest_of(parts.roster, next));
+        case Stage::traffic:
+            return digests.mutate_traffic(digest_of(parts.background, next));
+        case Stage::pedestrians:
+            return digests.mutate_pedestrians(digest_of(parts.pedestrians, next));
+        case Stage::physics:
+            return digests.mutate_physics(digest_of(parts.physics, next));
+        case Stage::measurements:
+            return digests.mutate_measurements(digest_of_measurements(next));
+    }
+}
+
+/// Seals the draft as the last tick.
+const world::SealedTick& Kernel::record(const world::TickView& last, world::TickDraft& next) {
+    Parts& parts = *parts_;
     REPRISE_CHECK(world::is_plain_arithmetic(),
                   "tick " + std::to_string(next.tick.index) +
                       ": a library left the floating-point " +
                       "unit in another mode: " + world::unusual_arithmetic());
-    stage.last =
-        world::seal(next, last.index() == 0 ? stage.chain_seed : last.tick->digests()->chain());
-    return stage.last;
+    parts.last =
+        world::seal(next, last.index() == 0 ? parts.chain_seed : last.tick->digests()->chain());
+    return parts.last;
 }
 
 /// The branch that the recording names behind this tick, if it does.
 void Kernel::take_branch(std::uint64_t tick) {
-    for (const world::BranchT& branch : stages_->recording.episode.branches)
+    for (const world::BranchT& branch : parts_->recording.episode.branches)
         if (branch.tick == tick)
             this->branch(branch);
 }
 
 void Kernel::branch(const world::BranchT& branch) {
-    Stages& stage = *stages_;
-    REPRISE_CHECK(branch.tick == stage.last.view().index() && !stage.finished,
+    Parts& parts = *parts_;
+    REPRISE_CHECK(branch.tick == parts.last.view().index() && !parts.finished,
                   "a branch of tick " + std::to_string(branch.tick) + " at tick " +
-                      std::to_string(stage.last.view().index()));
-    stage.episode.max_ticks = branch.max_ticks;
+                      std::to_string(parts.last.view().index()));
+    parts.episode.max_ticks = branch.max_ticks;
     if (branch.scenario.empty()) {
-        stage.scenario.change(branch.parameters);
+        parts.scenario.change(branch.parameters);
         return;
     }
-    stage.episode.name = branch.name;
-    stage.episode.scenario = branch.scenario;
-    stage.episode.scenario_path = branch.scenario_path;
-    stage.episode.parameters = branch.parameters;
-    stage.scenario.take_over();
+    parts.episode.name = branch.name;
+    parts.episode.scenario = branch.scenario;
+    parts.episode.scenario_path = branch.scenario_path;
+    parts.episode.parameters = branch.parameters;
+    parts.scenario.take_over();
 }
 
 /// Commands that are about the whole run: the end, and the weather.
 void Kernel::note_outcome(world::TickDraft& next) {
-    Stages& stage = *stages_;
+    Parts& parts = *parts_;
     for (const world::CommandT& command : next.tick.commands) {
         if (command.kind == world::CommandKind::set_weather) {
             next.tick.weather = command.weather;
             next.tick.road_friction = command.road_friction;
         }
-        if (command.kind == world::CommandKind::finish && !stage.finished) {
-            stage.finished = true;
-            stage.reason = command.text.empty() ? "finished" : command.text;
+        if (command.kind == world::CommandKind::finish && !parts.finished) {
+            parts.finished = true;
+            parts.reason = command.text.empty() ? "finished" : command.text;
         }
     }
-    if (!stage.finished && next.tick.index >= stage.episode.max_ticks) {
-        stage.finished = true;
-        stage.reason = "time limit";
+    if (!parts.finished && next.tick.index >= parts.episode.max_ticks) {
+        parts.finished = true;
+        parts.reason = "time limit";
     }
-    if (stage.finished) {
+    if (parts.finished) {
         world::EventT event;
         event.kind = world::EventKind::finished;
-        event.text = stage.reason;
+        event.text = parts.reason;
         next.tick.events.push_back(event);
     }
 }
 
 bool Kernel::finished() const {
-    return stages_->finished;
+    return parts_->finished;
 }
 
 world::Outcome Kernel::outcome() const {
@@ -185,15 +211,15 @@ world::Outcome Kernel::outcome() const {
     for (const auto& check : all)
         failed = failed || check.status != Status::pass;
     const std::string verdict = all.empty() ? "completed" : failed ? "failed" : "passed";
-    return {verdict, stages_->reason, stages_->last.view().index()};
+    return {verdict, parts_->reason, parts_->last.view().index()};
 }
 
 std::vector<world::CheckResult> Kernel::checks() const {
-    return stages_->scenario.checks();
+    return parts_->scenario.checks();
 }
 
 void Kernel::nudge(const Nudge& nudge) {
-    stages_->nudger.plan(nudge);
+    parts_->nudger.plan(nudge);
 }
 
 }  // namespace reprise::kernel

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/drill/nudge.h"
+#include "kernel/stage.h"
 #include "world/check_result.h"
 #include "world/recording.h"
 #include "world/tick.h"
@@ -50,9 +51,11 @@ class Kernel {
   private:
     void take_branch(std::uint64_t tick);
     void note_outcome(world::TickDraft& next);
+    void close(Stage stage, world::TickDraft& next);
+    const world::SealedTick& record(const world::TickView& last, world::TickDraft& next);
 
-    struct Stages;
-    std::unique_ptr<Stages> stages_;
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace reprise::kernel

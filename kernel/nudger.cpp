@@ -75,82 +75,79 @@ bool Nudger::move(const Row& row) {
     return true;
 }
 
-void Nudger::after_scenario(world::TickDraft& next) {
-    if (!is_due(next))
-        return;
-    const bool tick_itself = nudge_->actor.empty() && nudge_->field == "road_friction";
-    if (tick_itself)
-        next.tick.road_friction = moved_by_units(next.tick.road_friction, nudge_->units);
-    if (tick_itself ||
-        move({world::WeatherTypeTable(), bytes_of(next.tick.weather), 0, "weather."}))
-        nudge_.reset();
+/// Friction is a number of the tick itself, in no struct of the record.
+bool Nudger::move_road_friction(world::TickDraft& next) const {
+    if (!nudge_->actor.empty() || nudge_->field != "road_friction")
+        return false;
+    next.tick.road_friction = moved_by_units(next.tick.road_friction, nudge_->units);
+    return true;
 }
 
-void Nudger::after_controls(world::TickDraft& next, Roster& roster) {
-    if (!is_due(next))
-        return;
-    for (world::Control& control : next.tick.controls) {
-        if (!move({world::ControlTypeTable(), bytes_of(control), control.actor(), ""}))
-            continue;
-        roster.replace_control(control);
-        nudge_.reset();
-        return;
-    }
-}
-
-void Nudger::after_traffic(world::TickDraft& next) {
-    if (!is_due(next))
-        return;
-    for (world::CarState& car : next.traffic.cars) {
-        if (!move({world::CarStateTypeTable(), bytes_of(car), car.id(), ""}))
-            continue;
-        nudge_.reset();
-        return;
-    }
-}
-
-void Nudger::after_pedestrians(world::TickDraft& next, Pedestrians& pedestrians) {
-    if (!is_due(next))
-        return;
-    for (world::WalkerState& walker : next.traffic.walkers) {
-        if (!move({world::WalkerStateTypeTable(), bytes_of(walker), walker.id(), ""}))
-            continue;
-        pedestrians.nudge(walker.id(), nudge_->field, nudge_->units);
-        nudge_.reset();
-        return;
-    }
-}
-
-void Nudger::after_physics(world::TickDraft& next, Physics& physics) {
-    if (!is_due(next))
-        return;
+/// The structs that this stage wrote.
+std::vector<Nudger::Row> Nudger::rows_of(Stage stage, world::TickDraft& next) {
     std::vector<Row> rows;
-    for (world::VehicleState& vehicle : next.tick.vehicles)
-        rows.push_back({world::VehicleStateTypeTable(), bytes_of(vehicle), vehicle.id(), ""});
-    for (world::WheelState& wheel : next.tick.wheels)
-        rows.push_back({world::WheelStateTypeTable(),
-                        bytes_of(wheel),
-                        wheel.vehicle(),
-                        wheel_prefix(wheel.index())});
-    for (const Row& row : rows) {
+    switch (stage) {
+        case Stage::scenario:
+            rows.push_back({world::WeatherTypeTable(), bytes_of(next.tick.weather), 0, "weather."});
+            break;
+        case Stage::controls:
+            for (world::Control& control : next.tick.controls)
+                rows.push_back({world::ControlTypeTable(), bytes_of(control), control.actor(), ""});
+            break;
+        case Stage::traffic:
+            for (world::CarState& car : next.traffic.cars)
+                rows.push_back({world::CarStateTypeTable(), bytes_of(car), car.id(), ""});
+            break;
+        case Stage::pedestrians:
+            for (world::WalkerState& walker : next.traffic.walkers)
+                rows.push_back({world::WalkerStateTypeTable(), bytes_of(walker), walker.id(), ""});
+            break;
+        case Stage::physics:
+            for (world::VehicleState& vehicle : next.tick.vehicles)
+                rows.push_back(
+                    {world::VehicleStateTypeTable(), bytes_of(vehicle), vehicle.id(), ""});
+            for (world::WheelState& wheel : next.tick.wheels)
+                rows.push_back({world::WheelStateTypeTable(),
+                                bytes_of(wheel),
+                                wheel.vehicle(),
+                                wheel_prefix(wheel.index())});
+            break;
+        case Stage::measurements:
+            for (world::Measurement& measured : next.tick.measurements)
+                rows.push_back(
+                    {world::MeasurementTypeTable(), bytes_of(measured), measured.actor(), ""});
+            break;
+    }
+    return rows;
+}
+
+/// What the stage goes on from in the next tick. Weather and measurements are made anew or read
+/// from the record; SUMO's own numbers stay.
+void Nudger::move_behind_the_record(Stage stage, const Row& row) {
+    if (stage == Stage::controls)
+        roster_->replace_control(*static_cast<const world::Control*>(row.bytes));
+    if (stage == Stage::pedestrians)
+        pedestrians_->nudge(row.actor, nudge_->field, nudge_->units);
+    if (stage == Stage::physics)
+        physics_->nudge(row.actor, nudge_->field, nudge_->units);
+}
+
+void Nudger::after(Stage stage, world::TickDraft& next) {
+    if (!is_due(next))
+        return;
+    if (stage == Stage::scenario && move_road_friction(next)) {
+        nudge_.reset();
+        return;
+    }
+    for (const Row& row : rows_of(stage, next)) {
         if (!move(row))
             continue;
-        physics.nudge(row.actor, nudge_->field, nudge_->units);
+        move_behind_the_record(stage, row);
         nudge_.reset();
         return;
     }
-}
-
-void Nudger::after_measurements(world::TickDraft& next) {
-    if (!is_due(next))
-        return;
-    for (world::Measurement& measured : next.tick.measurements) {
-        if (!move({world::MeasurementTypeTable(), bytes_of(measured), measured.actor(), ""}))
-            continue;
-        nudge_.reset();
-        return;
-    }
-    throw world::Error("--nudge " + nudge_->text + ": " + whereabouts(next));
+    if (stage == Stage::measurements)
+        throw world::Error("--nudge " + nudge_->text + ": " + whereabouts(next));
 }
 
 /// Why there was nothing to move.
