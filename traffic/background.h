@@ -16,8 +16,8 @@ namespace reprise::traffic {
 class Background {
   public:
     /// Starts SUMO in this process with the network's bytes (no file is left behind) and places
-    /// `episode.cars` cars, spread over the town by the seed. `town` and its `lanes` must
-    /// outlive this. Throws world::Error when SUMO refuses the network.
+    /// `episode.cars` cars, spread over the town by the seed. `town` and its `lanes` must outlive
+    /// this. Throws world::Error when SUMO refuses the network.
     Background(const world::EpisodeT& episode,
                const world::TownT& town,
                const world::LaneMap& lanes,
@@ -33,14 +33,14 @@ class Background {
     /// cars.
     void advance(const world::TickView& last, world::TickDraft& next);
 
-    /// Of all that this keeps: every car unrounded, with its way, trail and orders; the signals;
-    /// the mirrors. SUMO's own memory cannot be read: what it holds (its drivers' moods and random
-    /// streams, say) shows in the cars and signals, in the tick in which it first matters.
+    /// Of all that this keeps: every car unrounded, with its route, trail and orders; the signals;
+    /// the mirrors. SUMO's own memory cannot be read: what it holds (its drivers' random streams,
+    /// say) shows in the cars and signals, in the tick in which it first matters.
     std::uint64_t digest() const;
 
   private:
-    struct Sumo;
-    std::unique_ptr<Sumo> sumo_;
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace reprise::traffic

@@ -48,7 +48,7 @@ Mirrors::Mirrors(const world::TownT& town,
       lanes_(&lanes),
       graph_(&graph),
       step_(step),
-      after_short_(lanes_after_short_ones(town, graph)) {}
+      short_predecessors_(lanes_with_short_predecessors(town, graph)) {}
 
 void Mirrors::forget(std::uint32_t id) {
     std::erase_if(mirrors_, [id](const Mirror& mirror) { return mirror.id == id; });
@@ -207,21 +207,21 @@ void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Tar
 /// centre line.
 void Mirrors::enter_again(const Mirror& mirror, const world::VehicleState& vehicle) const {
     using libsumo::Vehicle;
-    if (after_short_.empty())
+    if (short_predecessors_.empty())
         return;
-    const auto here = after_short_.find(Vehicle::getLaneID(mirror.sumo));
-    if (here == after_short_.end())
+    const auto here = short_predecessors_.find(Vehicle::getLaneID(mirror.sumo));
+    if (here == short_predecessors_.end())
         return;
-    const AfterShort& after = here->second;
+    const ShortPredecessors& predecessors = here->second;
     const double position = Vehicle::getLanePosition(mirror.sumo);
     const double tail = position - world::vehicle_models()[vehicle.model()].length;
     // The measures of the lanes differ from what is driven, by less than as much again.
     const double just = 0.1 + 2 * step_ * world::to_eigen(vehicle.velocity()).norm();
-    if (std::none_of(after.ends.begin(), after.ends.end(), [tail, just](double end) {
+    if (std::none_of(predecessors.ends.begin(), predecessors.ends.end(), [tail, just](double end) {
             return tail > -end && tail < -end + just;
         }))
         return;
-    const std::uint32_t before = graph_->edge(graph_->edge_of(after.lane)).lanes.front();
+    const std::uint32_t before = graph_->edge(graph_->edge_of(predecessors.lane)).lanes.front();
     Vehicle::moveTo(mirror.sumo, town_->lanes[before].name, 0);
     Vehicle::moveTo(mirror.sumo, here->first, position);
 }

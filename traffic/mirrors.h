@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "traffic/after_short.h"
 #include "traffic/car.h"
 #include "traffic/road_graph.h"
+#include "traffic/short_predecessors.h"
 #include "world/digest.h"
 #include "world/tick.h"
 #include "world/town.h"
@@ -27,9 +27,9 @@ class Mirrors {
             const RoadGraph& graph,
             double step);
 
-    /// Brings SUMO's copies in line with the last tick: new ones, moved ones, gone ones.
-    /// About 10 us a vehicle on a road; 40 us in a junction or off the way that was expected.
-    /// `cars` are those of traffic, sorted by id.
+    /// Brings SUMO's copies in line with the last tick: new ones, moved ones, gone ones. About 10
+    /// us a vehicle on a road; 40 us in a junction or off the way that was expected. `cars` are
+    /// those of traffic, sorted by id.
     void advance(const world::TickView& last, std::span<const Car> cars);
 
     /// SUMO took this vehicle out of the simulation; it is put back at the next advance.
@@ -67,9 +67,9 @@ class Mirrors {
     const world::LaneMap* lanes_;
     const RoadGraph* graph_;
     double step_;
-    std::map<std::string, AfterShort> after_short_;  ///< by SUMO's name of the lane
-    std::vector<Mirror> mirrors_;                    ///< sorted by id
-    std::uint32_t added_ = 0;                        ///< names of routes are never used again
+    std::map<std::string, ShortPredecessors> short_predecessors_;  ///< by SUMO's name of the lane
+    std::vector<Mirror> mirrors_;                                  ///< sorted by id
+    std::uint32_t added_ = 0;  ///< names of routes are never used again
 };
 
 }  // namespace reprise::traffic

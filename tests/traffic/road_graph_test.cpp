@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/towns.h"
-#include "traffic/walk.h"
+#include "traffic/route_planner.h"
 #include "world/models/vehicle_classes.h"
 
 namespace reprise::traffic {
@@ -64,12 +64,12 @@ TEST(RoadGraph, ShortestWaysAreThoseOfFloydAndWarshall) {
         }
 }
 
-TEST(RoadGraph, WalksFollowConnections) {
+TEST(RoutePlanner, RoutesFollowConnections) {
     const TownT& town = own_town("town1").town;
     const RoadGraph graph = graph_of(town);
     Car car;
     car.id = 1'000'003;
-    walk_from(lane(town, "a1_a2_1"), car, graph, world::class_bit("passenger"), 7, 5000);
+    RoutePlanner(graph, 7).start(lane(town, "a1_a2_1"), car);
     EXPECT_FALSE(car.dead_end);
     double length = 0;
     for (std::size_t i = 1; i < car.route.size(); ++i) {
@@ -77,9 +77,9 @@ TEST(RoadGraph, WalksFollowConnections) {
         EXPECT_TRUE(std::binary_search(successors.begin(), successors.end(), car.route[i]));
         length += graph.edge(car.route[i]).length;
     }
-    EXPECT_GE(length, 5000);
+    EXPECT_GE(length, RoutePlanner::length);
     Car other = car;
-    walk_from(lane(town, "a1_a2_1"), other, graph, world::class_bit("passenger"), 8, 5000);
+    RoutePlanner(graph, 8).start(lane(town, "a1_a2_1"), other);
     EXPECT_NE(car.route, other.route);
 }
 

@@ -1,4 +1,4 @@
-#include "traffic/after_short.h"
+#include "traffic/short_predecessors.h"
 
 #include <algorithm>
 #include <utility>
@@ -41,17 +41,17 @@ void add_short_ends(const world::TownT& town,
 
 }  // namespace
 
-std::map<std::string, AfterShort> lanes_after_short_ones(const world::TownT& town,
-                                                         const RoadGraph& graph) {
-    std::map<std::string, AfterShort> lanes;
+std::map<std::string, ShortPredecessors> lanes_with_short_predecessors(const world::TownT& town,
+                                                                       const RoadGraph& graph) {
+    std::map<std::string, ShortPredecessors> lanes;
     const Neighbours before = lanes_before(town);
     for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
         if (town.lanes[i].kind != world::LaneKind::internal || graph.edge_of(i) == world::none)
             continue;
-        AfterShort after{i, {}};
-        add_short_ends(town, before, i, 0, after.ends);
-        if (!after.ends.empty())
-            lanes.emplace(town.lanes[i].name, std::move(after));
+        ShortPredecessors found{i, {}};
+        add_short_ends(town, before, i, 0, found.ends);
+        if (!found.ends.empty())
+            lanes.emplace(town.lanes[i].name, std::move(found));
     }
     return lanes;
 }

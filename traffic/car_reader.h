@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "traffic/cars.h"
+#include "traffic/road_graph.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::traffic {
+
+/// Reads SUMO's cars after its step, and writes them into the tick.
+class CarReader {
+  public:
+    /// `town` and `graph` must outlive this. `step` [s] of a tick; `seed` of the cars' looks.
+    CarReader(const world::TownT& town, const RoadGraph& graph, double step, std::uint64_t seed);
+
+    /// What SUMO made of the cars in this tick.
+    void read(Cars& cars, std::uint64_t tick) const;
+
+    /// next.traffic.cars and their looks, on the record's grid.
+    void write(const Cars& cars, world::TickDraft& next) const;
+
+  private:
+    void read_car(Car& car, std::uint64_t tick) const;
+    void enter_lane(Car& car, std::string_view lane) const;
+    Eigen::Vector3d bumper_of(const Car& car) const;
+    void move_body(Car& car, bool new_lane) const;
+
+    const world::TownT* town_;
+    const RoadGraph* graph_;
+    double step_;
+    std::uint64_t seed_;
+    std::unordered_map<std::string_view, std::uint32_t> lanes_by_name_;  ///< never iterated
+    std::vector<bool> only_lane_of_road_;  ///< by lane: there is no other to change to
+};
+
+}  // namespace reprise::traffic

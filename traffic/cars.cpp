@@ -1,0 +1,121 @@
+#include "traffic/cars.h"
+
+#include <algorithm>
+#include <array>
+
+#include <libsumo/libsumo.h>
+
+namespace reprise::traffic {
+
+namespace {
+
+world::EventT event_of(world::EventKind kind, const Car& car) {
+    world::EventT event;
+    event.kind = kind;
+    event.actor = car.id;
+    event.position = world::Vec3(car.rear.x(), car.rear.y(), car.rear.z());
+    return event;
+}
+
+bool has_lower_id(const Car& car, std::uint32_t id) {
+    return car.id < id;
+}
+
+/// What a car is and has been told, in one number.
+std::uint32_t flags_of(const Car& car) {
+    return static_cast<std::uint32_t>(car.origin) + (std::uint32_t{car.dead_end} << 2U) +
+           (std::uint32_t{car.sumo.empty()} << 3U) +
+           (std::uint32_t{car.speed_order.has_value()} << 4U) +
+           (std::uint32_t{car.lane_order.has_value()} << 5U) + (std::uint32_t{car.model} << 8U) +
+           (std::uint32_t{car.lamps} << 16U);
+}
+
+/// What every car keeps. Left out is what nothing is computed from (acceleration, pitch) or what
+/// follows (SUMO's name of a car).
+struct CarDigest {
+    std::array<double, 12> numbers;
+    std::uint64_t trail;
+    std::array<std::uint32_t, 8> indices;
+};
+
+static_assert(sizeof(CarDigest) == 136, "no padding");
+
+CarDigest kept_of(const Car& car) {
+    return {{car.rear.x(),
+             car.rear.y(),
+             car.rear.z(),
+             car.yaw,
+             car.speed,
+             car.lane_position,
+             car.sumo_front.x(),
+             car.sumo_front.y(),
+             car.sumo_front.z(),
+             car.slip.x(),
+             car.slip.y(),
+             car.trail.travelled()},
+            car.trail.points_digest(),
+            {car.id,
+             car.lane,
+             flags_of(car),
+             car.draws,
+             car.standing_ticks,
+             car.last_lane,
+             static_cast<std::uint32_t>(car.route.size()),
+             0}};
+}
+
+}  // namespace
+
+Car* Cars::find(std::uint32_t id) {
+    const auto at = std::lower_bound(cars_.begin(), cars_.end(), id, has_lower_id);
+    return at != cars_.end() && at->id == id ? &*at : nullptr;
+}
+
+Car& Cars::add(Car car, const std::string& text, std::uint32_t line, world::TickDraft& next) {
+    world::EventT event = event_of(world::EventKind::spawned, car);
+    event.text = text;
+    event.line = line;
+    next.tick.events.push_back(std::move(event));
+    const auto at = std::lower_bound(cars_.begin(), cars_.end(), car.id, has_lower_id);
+    return *cars_.insert(at, std::move(car));
+}
+
+void Cars::remove(std::size_t index, world::TickDraft& next) {
+    next.tick.events.push_back(event_of(world::EventKind::despawned, cars_[index]));
+    cars_.erase(cars_.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
+void Cars::remove_from_sumo(std::size_t index, world::TickDraft& next) {
+    if (!cars_[index].sumo.empty())
+        libsumo::Vehicle::remove(cars_[index].sumo);
+    remove(index, next);
+}
+
+/// Gathered first: a digest of many small pieces costs more than of few large ones.
+void Cars::add_to(world::Hasher& hasher) const {
+    std::vector<CarDigest> kept;
+    kept.reserve(cars_.size());
+    std::vector<std::uint32_t> routes;
+    routes.reserve(cars_.size() * 24);
+    for (const Car& car : cars_) {
+        kept.push_back(kept_of(car));
+        routes.insert(routes.end(), car.route.begin(), car.route.end());
+    }
+    hasher.add(std::span<const CarDigest>(kept));
+    hasher.add(std::span<const std::uint32_t>(routes));
+    for (const Car& car : cars_) {
+        if (car.speed_order) {
+            hasher.add(car.speed_order->from);
+            hasher.add(car.speed_order->to);
+            hasher.add(car.speed_order->start);
+            hasher.add(car.speed_order->ticks);
+        }
+        if (car.lane_order) {
+            hasher.add(car.lane_order->lane);
+            hasher.add(car.lane_order->duration);
+            hasher.add(car.lane_order->until);
+        }
+    }
+}
+
+}  // namespace reprise::traffic

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "traffic/cars.h"
+#include "traffic/insertion.h"
+#include "traffic/insertion_points.h"
+#include "traffic/road_graph.h"
+#include "world/digest.h"
+#include "world/episode_generated.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::traffic {
+
+/// As many background cars as the episode asks for: new ones for those that leave at a dead end or
+/// have stood for minutes where no physics vehicle sees them.
+class Demand {
+  public:
+    /// All of them must outlive this.
+    Demand(const world::EpisodeT& episode,
+           const world::TownT& town,
+           const RoadGraph& graph,
+           const InsertionPoints& points,
+           const Insertion& insertion);
+
+    /// Takes out the cars that leave.
+    void remove_leaving(Cars& cars, const world::TickView& last, world::TickDraft& next) const;
+
+    /// Fills up the number. Says so in an event when in the first tick there is no room for all.
+    void fill_up(Cars& cars, const world::TickView& last, world::TickDraft& next);
+
+    void add_to(world::Hasher& hasher) const;
+
+  private:
+    bool add_car(Cars& cars, std::span<const OccupiedBox> occupied, world::TickDraft& next);
+
+    const world::EpisodeT* episode_;
+    const world::TownT* town_;
+    const RoadGraph* graph_;
+    const InsertionPoints* points_;
+    const Insertion* insertion_;
+    double step_;              ///< [s]
+    world::ClassSet at_home_;  ///< classes that most roads are open to
+    std::uint32_t next_id_ = world::first_background_id;
+    std::uint64_t draws_ = 0;  ///< of insertion points so far
+};
+
+}  // namespace reprise::traffic

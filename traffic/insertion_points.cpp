@@ -1,0 +1,144 @@
+#include "traffic/insertion_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "traffic/fleet.h"
+#include "world/models/catalogue.h"
+#include "world/models/vehicle_classes.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+constexpr double free_at_start = 1;  // [m] kept free at the start of a lane
+constexpr double free_at_end = 4;    // [m] and before its end
+
+Eigen::Vector2d direction(double yaw) {
+    return {std::cos(yaw), std::sin(yaw)};
+}
+
+}  // namespace
+
+OccupiedBox box_of(const Car& car) {
+    return {(car.rear + car.trail.front()).head<2>() / 2,
+            car.yaw,
+            world::vehicle_models()[car.model].length,
+            false};
+}
+
+InsertionPoints::InsertionPoints(const world::TownT& town, const RoadGraph& graph)
+    : town_(&town),
+      graph_(&graph) {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
+        if (town.lanes[i].kind != world::LaneKind::driving)
+            continue;
+        sum += town.lanes[i].length;
+        lanes_.push_back(i);
+        ends_.push_back(sum);
+    }
+}
+
+/// The point that this number in [0, 1) falls on. None where the car does not fit between the ends
+/// of the lane or may not drive.
+std::optional<InsertionPoint> InsertionPoints::at(double drawn,
+                                                  double car_length,
+                                                  world::ClassSet car) const {
+    const double metre = drawn * ends_.back();
+    const auto found = std::upper_bound(ends_.begin(), ends_.end(), metre);
+    const auto index = std::min(static_cast<std::size_t>(found - ends_.begin()), lanes_.size() - 1);
+    const std::uint32_t lane = lanes_[index];
+    const double length = town_->lanes[lane].length;
+    const double s = metre - (ends_[index] - length);
+    if (s < car_length + free_at_start || s > length - free_at_end || !graph_->may_use(lane, car))
+        return std::nullopt;
+    return InsertionPoint{lane, s};
+}
+
+std::optional<InsertionPoint> InsertionPoints::find(std::span<const OccupiedBox> occupied,
+                                                    InsertionSearch& search) const {
+    for (int i = 0; i < search.tries; ++i) {
+        const double drawn = world::draw(search.seed, search.tick, search.purpose, search.item++);
+        const auto point = at(drawn, search.car_length, search.car);
+        // The first half of the tries asks for all the room that was wished, the rest for less.
+        const double ease = std::min(1.0, 2.0 - 2.0 * i / search.tries);
+        constexpr double least = 3;  // [m]
+        const double margin = std::max(least, search.margin * ease);
+        if (point && is_free(*point, search.car_length, occupied, margin, search.sight * ease))
+            return point;
+    }
+    return std::nullopt;
+}
+
+world::ClassSet InsertionPoints::common_classes() const {
+    world::ClassSet common = 0;
+    const double total = ends_.empty() ? 0 : ends_.back();
+    for (const std::string_view name : world::vehicle_class_names()) {
+        double open = 0;
+        for (const std::uint32_t lane : lanes_)
+            if (graph_->may_use(lane, world::class_bit(name)))
+                open += town_->lanes[lane].length;
+        if (open >= total / 2)
+            common |= world::class_bit(name);
+    }
+    return common;
+}
+
+/// The box of a car with its front there.
+OccupiedBox InsertionPoints::box_at(const InsertionPoint& point, double car_length) const {
+    const world::LanePoint at = world::point_at(town_->lanes[point.lane], point.s - car_length / 2);
+    return {at.position.head<2>(), at.yaw, car_length, false};
+}
+
+bool InsertionPoints::is_free(const InsertionPoint& point,
+                              double car_length,
+                              std::span<const OccupiedBox> occupied,
+                              double margin,
+                              double sight) const {
+    constexpr double beside = 2.6;  // [m] between the middle lines of cars that pass each other
+    const OccupiedBox ground = box_at(point, car_length);
+    const Eigen::Vector2d along = direction(ground.yaw);
+    return std::none_of(occupied.begin(), occupied.end(), [&](const OccupiedBox& other) {
+        const Eigen::Vector2d apart = other.centre - ground.centre;
+        if (other.is_observer && apart.norm() < sight)
+            return true;
+        const double dx = std::abs(apart.dot(along));
+        const double dy = std::abs(apart.x() * along.y() - apart.y() * along.x());
+        // A car across the way reaches out to the side.
+        const double across =
+            std::abs(direction(other.yaw).dot(Eigen::Vector2d(-along.y(), along.x())));
+        return dy < beside + across * other.length / 2 &&
+               dx < (car_length + other.length) / 2 + margin;
+    });
+}
+
+std::vector<OccupiedBox> InsertionPoints::occupied(std::span<const Car> cars,
+                                                   const world::TickView& last,
+                                                   const world::TickDraft& next) const {
+    const auto models = world::vehicle_models();
+    std::vector<OccupiedBox> boxes;
+    for (const Car& car : cars)
+        boxes.push_back(box_of(car));
+    for (const world::VehicleState& vehicle : last.vehicles())
+        boxes.push_back({{vehicle.position().x(), vehicle.position().y()},
+                         2 * std::atan2(vehicle.orientation().z(), vehicle.orientation().w()),
+                         models[vehicle.model()].length,
+                         true});
+    // Those that come in this very tick.
+    for (const world::CommandT& command : next.tick.commands) {
+        const bool comes = command.kind == world::CommandKind::spawn &&
+                           command.driver != world::Driver::walker &&
+                           command.lane < town_->lanes.size();
+        if (!comes || command.model >= models.size())
+            continue;
+        const double length = models[command.model].length;
+        OccupiedBox box =
+            box_at({command.lane, command.s + origin_to_front(command.model)}, length);
+        box.length += 20;  // its driver needs time to look around
+        boxes.push_back(box);
+    }
+    return boxes;
+}
+
+}  // namespace reprise::traffic

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+#include "traffic/cars.h"
+#include "traffic/road_graph.h"
+#include "traffic/route_planner.h"
+#include "world/episode_generated.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::traffic {
+
+/// What a scenario tells cars that SUMO drives: speeds, lane changes, routes.
+class Orders {
+  public:
+    /// All of them must outlive this.
+    Orders(const world::EpisodeT& episode,
+           const world::TownT& town,
+           const RoadGraph& graph,
+           const RoutePlanner& routes);
+
+    /// Takes a command for this car in the tick being made. Throws world::Error, with the script's
+    /// line, for a route to a lane that cannot be reached.
+    void give(const world::CommandT& command, Car& car, std::uint64_t tick) const;
+
+    /// Asks of SUMO what the orders want in this tick; ends those that are carried out.
+    void follow(Cars& cars, std::uint64_t tick) const;
+
+  private:
+    void take_speed(const world::CommandT& command, Car& car, std::uint64_t tick) const;
+    void take_lane(const world::CommandT& command, Car& car, std::uint64_t tick) const;
+    void take_route(const world::CommandT& command, Car& car) const;
+    void follow_lane_order(Car& car, std::uint64_t tick) const;
+
+    const world::EpisodeT* episode_;
+    const world::TownT* town_;
+    const RoadGraph* graph_;
+    const RoutePlanner* routes_;
+    double step_;  ///< [s]
+};
+
+}  // namespace reprise::traffic

@@ -1,0 +1,136 @@
+#include "traffic/scripted_spawns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <libsumo/libsumo.h>
+
+#include "traffic/fleet.h"
+#include "world/check.h"
+#include "world/models/vehicle_classes.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+using world::none;
+
+// SUMO's lane change mode of scripted cars: 1 changes lanes where the route asks for it and no
+// order speaks against it; 256 carries an order out as soon as nobody is hit by it. No changes for
+// speed, courtesy or the keep-right rule: a scenario's car stays where it was put.
+constexpr int changes_as_told = 1 + 256;
+
+[[noreturn]] void fail_spawn(const world::EpisodeT& episode,
+                             const world::CommandT& command,
+                             const std::string& what) {
+    throw world::Error(fmt::format("{}:{}: spawn: {}", episode.scenario_path, command.line, what));
+}
+
+/// Does a parked car stand in the way of a car that drives in the middle of the lane?
+bool stands_in_the_way(const world::LaneT& lane, const world::VehicleModel& model, double offset) {
+    constexpr double half_car = 1.0;
+    return world::is_for_cars(lane) && std::abs(offset) - model.width / 2 < half_car;
+}
+
+}  // namespace
+
+/// The command's s is the origin's, as for every vehicle; SUMO wants the front bumper. Without a
+/// lane any free place will do.
+InsertionPoint ScriptedSpawns::point_of(const world::CommandT& command,
+                                        const Cars& cars,
+                                        const world::TickView& last,
+                                        const world::TickDraft& next) const {
+    if (command.lane != none) {
+        if (command.lane >= town_->lanes.size())
+            fail_spawn(*episode_, command, fmt::format("no lane of index {}", command.lane));
+        return {command.lane, command.s + origin_to_front(command.model)};
+    }
+    const world::VehicleModel& model = world::vehicle_models()[command.model];
+    InsertionSearch search{model.length,
+                           world::class_bit("passenger"),
+                           episode_->seed,
+                           next.tick.index,
+                           world::Purpose::place,
+                           std::uint64_t{command.actor} << 16U,
+                           400,
+                           20,
+                           40};
+    const auto found = points_->find(points_->occupied(cars.all(), last, next), search);
+    if (!found)
+        fail_spawn(*episode_, command, fmt::format("no free place for a {}", model.name));
+    return *found;
+}
+
+bool ScriptedSpawns::is_on_road(std::uint32_t lane) const {
+    return world::is_for_cars(town_->lanes[lane]) && graph_->edge_of(lane) != none;
+}
+
+/// Takes out background cars that stand there.
+void ScriptedSpawns::make_room(const InsertionPoint& point,
+                               double car_length,
+                               Cars& cars,
+                               world::TickDraft& next) const {
+    for (std::size_t i = cars.size(); i-- > 0;) {
+        const OccupiedBox other = box_of(cars[i]);
+        if (cars[i].origin == Origin::demand &&
+            !points_->is_free(point, car_length, std::span(&other, 1), 2, 0))
+            cars.remove_from_sumo(i, next);
+    }
+}
+
+/// Stands the car there, `offset` [m] left of the middle of the lane.
+void ScriptedSpawns::park(Car& car, const InsertionPoint& point, double offset) const {
+    const world::LaneT& lane = town_->lanes[point.lane];
+    const double length = origin_to_front(car.model);
+    const world::LanePoint at = world::point_at(lane, point.s - length);
+    const Eigen::Vector3d left(-std::sin(at.yaw), std::cos(at.yaw), 0);
+    car.lane = point.lane;
+    car.lane_position = std::min(point.s / lane.length, 1.0) * lane.sumo_length;
+    car.rear = at.position + left * offset;
+    car.yaw = at.yaw;
+    car.pitch = at.pitch;
+    const Eigen::Vector3d behind(-std::cos(at.yaw), -std::sin(at.yaw), -std::tan(at.pitch));
+    car.trail.start(car.rear - behind * length, behind, length);
+}
+
+void ScriptedSpawns::spawn(const world::CommandT& command,
+                           Cars& cars,
+                           const world::TickView& last,
+                           world::TickDraft& next) const {
+    const auto models = world::vehicle_models();
+    REPRISE_CHECK(
+        command.model < models.size() && cars.find(command.actor) == nullptr,
+        fmt::format("actor {} model {} tick {}", command.actor, command.model, next.tick.index));
+    const world::VehicleModel& model = models[command.model];
+    const bool parked = command.driver == world::Driver::parked;
+    Car car;
+    car.id = command.actor;
+    car.model = command.model;
+    car.origin = parked ? Origin::parked : Origin::scripted;
+    car.speed = parked ? 0 : command.speed;
+
+    const InsertionPoint point = point_of(command, cars, last, next);
+    const world::LaneT& lane = town_->lanes[point.lane];
+    const bool on_road = is_on_road(point.lane);
+    if (!parked && !on_road)
+        fail_spawn(*episode_, command, fmt::format("lane '{}' is not for cars", lane.name));
+
+    const InsertionPoint on_lane{point.lane, std::min(point.s, lane.length)};
+    make_room(on_lane, model.length, cars, next);
+
+    if (!parked || (on_road && stands_in_the_way(lane, model, command.offset))) {
+        using libsumo::Vehicle;
+        insertion_->insert(car, on_lane, scripted_type(car.model));
+        Vehicle::setLaneChangeMode(car.sumo, parked ? 0 : changes_as_told);
+        if (parked) {
+            Vehicle::setSpeedMode(car.sumo, 0);
+            Vehicle::setSpeed(car.sumo, 0);
+        }
+    }
+    if (parked)
+        park(car, point, command.offset);
+    cars.add(std::move(car), command.text, command.line, next);
+}
+
+}  // namespace reprise::traffic

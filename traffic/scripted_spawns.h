@@ -1,0 +1,55 @@
+#pragma once
+
+#include "traffic/cars.h"
+#include "traffic/insertion.h"
+#include "traffic/insertion_points.h"
+#include "traffic/road_graph.h"
+#include "world/episode_generated.h"
+#include "world/models/catalogue.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::traffic {
+
+/// Cars that a scenario spawns and traffic owns: driven by SUMO, or parked.
+class ScriptedSpawns {
+  public:
+    /// All of them must outlive this.
+    ScriptedSpawns(const world::EpisodeT& episode,
+                   const world::TownT& town,
+                   const RoadGraph& graph,
+                   const InsertionPoints& points,
+                   const Insertion& insertion)
+        : episode_(&episode),
+          town_(&town),
+          graph_(&graph),
+          points_(&points),
+          insertion_(&insertion) {}
+
+    /// Carries out a spawn command; background cars that stand there are taken out. Throws
+    /// world::Error, with the script's line, where the car cannot stand.
+    void spawn(const world::CommandT& command,
+               Cars& cars,
+               const world::TickView& last,
+               world::TickDraft& next) const;
+
+  private:
+    InsertionPoint point_of(const world::CommandT& command,
+                            const Cars& cars,
+                            const world::TickView& last,
+                            const world::TickDraft& next) const;
+    bool is_on_road(std::uint32_t lane) const;
+    void make_room(const InsertionPoint& point,
+                   double car_length,
+                   Cars& cars,
+                   world::TickDraft& next) const;
+    void park(Car& car, const InsertionPoint& point, double offset) const;
+
+    const world::EpisodeT* episode_;
+    const world::TownT* town_;
+    const RoadGraph* graph_;
+    const InsertionPoints* points_;
+    const Insertion* insertion_;
+};
+
+}  // namespace reprise::traffic
