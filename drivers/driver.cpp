@@ -13,8 +13,8 @@
 #include "drivers/navigator.h"
 #include "drivers/pedals.h"
 #include "drivers/steering.h"
-#include "drivers/swing.h"
 #include "drivers/turn_around.h"
+#include "drivers/wide_turn.h"
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/models/car_model.h"
@@ -54,7 +54,7 @@ struct Autopilot::State {
     const Way& way() const { return navigator.way(); }
 
     bool has_tight_bends() const;
-    void plan_swing(const Ego& ego);
+    void plan_wide_turns(const Ego& ego);
     double change_lanes(const world::TickView& last, Ego& ego);
     double cruise(const Ego& ego) const;
     double approach_turn(const Ego& ego);
@@ -67,9 +67,9 @@ struct Autopilot::State {
     DrivingStyle style;
     const RoadMap* map;
     Navigator navigator;
-    std::optional<Swing> swing;      ///< once there was a bend that needs it
-    std::uint64_t swing_of_way = 0;  ///< the way's plan() that it was planned for
-    bool swings = false;             ///< on the way ahead
+    std::optional<WideTurnPlan> wide_turn;  ///< once there was a bend that needs it
+    std::uint64_t wide_turn_of_way = 0;     ///< the way's plan_digest() that it was planned for
+    bool has_wide_turn = false;             ///< on the way ahead
     Hazards hazards;
     Gatekeeper gatekeeper;
     Pedals pedals;
@@ -133,16 +133,17 @@ world::Control Autopilot::decide(const world::TickView& last) {
         state.gatekeeper.reset();
 
     // Who is in the way, and may I go on? The most careful answer counts.
-    state.plan_swing(ego);
+    state.plan_wide_turns(ego);
     double acceleration = state.cruise(ego);
     acceleration = std::min(acceleration, state.change_lanes(last, ego));
     acceleration = std::min(acceleration, state.approach_turn(ego));
-    state.plan_swing(ego);
-    state.hazards.look(last,
-                       ego,
-                       state.way().path(),
-                       state.style,
-                       state.swings ? state.swing->swept() : std::span<const SweptWidth>());
+    state.plan_wide_turns(ego);
+    state.hazards.look(
+        last,
+        ego,
+        state.way().path(),
+        state.style,
+        state.has_wide_turn ? state.wide_turn->swept() : std::span<const SweptWidth>());
     acceleration = std::min(acceleration, state.hazards.acceleration());
     acceleration =
         std::min(acceleration,
@@ -155,7 +156,8 @@ world::Control Autopilot::decide(const world::TickView& last) {
         state.pedals.press(acceleration, ego.speed, climb, state.car, state.step);
     control.mutate_throttle(pedals.throttle);
     control.mutate_brake(pedals.brake);
-    control.mutate_steer(state.swings ? steer(ego, *state.swing) : steer(ego, state.way().path()));
+    control.mutate_steer(state.has_wide_turn ? steer(ego, *state.wide_turn)
+                                             : steer(ego, state.way().path()));
     control.mutate_lamps(state.lamps(last, ego));
     return control;
 }
@@ -180,17 +182,17 @@ bool Autopilot::State::has_tight_bends() const {
 }
 
 /// Bends that need it are planned when the way has changed.
-void Autopilot::State::plan_swing(const Ego& ego) {
-    if (swing_of_way == way().plan() && !(swings && swing->empty()))
+void Autopilot::State::plan_wide_turns(const Ego& ego) {
+    if (wide_turn_of_way == way().plan_digest() && !(has_wide_turn && wide_turn->empty()))
         return;
-    swing_of_way = way().plan();
-    swings = Swing::is_needed(*car.catalogue) || has_tight_bends();
-    if (!swings)
+    wide_turn_of_way = way().plan_digest();
+    has_wide_turn = WideTurnPlan::is_needed(*car.catalogue) || has_tight_bends();
+    if (!has_wide_turn)
         return;
-    if (!swing)
-        swing.emplace(*car.catalogue, map->rooms);
-    swing->plan(way().path(), ego);
-    swings = !swing->empty();
+    if (!wide_turn)
+        wide_turn.emplace(*car.catalogue, map->clearances);
+    wide_turn->plan(way().path(), ego);
+    has_wide_turn = !wide_turn->empty();
 }
 
 /// Before the path leaves our lane: is there room on the other one? If not, leave it later, and at
@@ -225,7 +227,7 @@ double Autopilot::State::cruise(const Ego& ego) const {
     const double s = ego.rear_axle_s + middle + ego.speed * step;
     const auto squared_speed = [&](double at) {
         const double most = path.at(at).squared_speed;
-        return swings ? std::min(most, swing->at(at - middle).squared_speed) : most;
+        return has_wide_turn ? std::min(most, wide_turn->at(at - middle).squared_speed) : most;
     };
     const double here = squared_speed(s);
     const double allowed = std::sqrt(here);
@@ -328,9 +330,9 @@ std::uint64_t Autopilot::digest() const {
     hasher.add(state.turns_into);
     hasher.add(state.speed_cap.value_or(-1));  // a cap is never negative
     hasher.add(state.waiting_ticks);
-    hasher.add(state.swings);
-    if (state.swings)
-        state.swing->add_to(hasher);
+    hasher.add(state.has_wide_turn);
+    if (state.has_wide_turn)
+        state.wide_turn->add_to(hasher);
     return hasher.digest64();
 }
 

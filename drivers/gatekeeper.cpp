@@ -18,7 +18,7 @@ constexpr double yellow_braking = 3.5;  // [m/s^2] harder than this we rather dr
 constexpr double red_braking = 7;       // [m/s^2] at red only what is hardly possible
 constexpr double patience = 12;         // [s]
 constexpr double creep_speed = 1.8;     // [m/s]
-constexpr double foe_sight = 120;       // [m]
+constexpr double conflict_sight = 120;  // [m]
 constexpr double time_margin = 0.8;     // [s] between them and us
 constexpr double space_margin = 2;      // [m] around the place where the ways meet
 
@@ -34,9 +34,12 @@ bool is_right(Turn turn) {
     return turn == Turn::right || turn == Turn::partially_right;
 }
 
-/// Before the junction: does the foe go before us?
-bool goes_first(const Foe& foe, SignalColor foe_color, SignalColor our_color, Turn our_turn) {
-    switch (foe_color) {
+/// Before the junction: does the traffic of that lane go before us?
+bool goes_first(const ConflictPoint& conflict,
+                SignalColor their_color,
+                SignalColor our_color,
+                Turn our_turn) {
+    switch (their_color) {
         case SignalColor::red:
         case SignalColor::red_yellow:
         case SignalColor::stop:
@@ -46,16 +49,17 @@ bool goes_first(const Foe& foe, SignalColor foe_color, SignalColor our_color, Tu
             return true;
         case SignalColor::green_minor:
             return our_color != SignalColor::green_minor ||
-                   (is_left(our_turn) && !is_left(foe.turn));
+                   (is_left(our_turn) && !is_left(conflict.turn));
         case SignalColor::off:
             break;
     }
-    if (!foe.yields)
+    if (!conflict.yields)
         return true;
-    return foe.from_right || (foe.oncoming && is_left(our_turn) && !is_left(foe.turn));
+    return conflict.from_right ||
+           (conflict.oncoming && is_left(our_turn) && !is_left(conflict.turn));
 }
 
-/// A foe as it comes: where its front bumper is on the foe's lane, and how fast.
+/// Somebody on a conflicting lane: where the front bumper is on that lane, and how fast.
 struct Comer {
     double front_s = 0;
     double speed = 0;
@@ -73,16 +77,19 @@ bool meet(const Stay& ours, const Stay& theirs) {
     return theirs.from < ours.to + time_margin && theirs.to > ours.from - time_margin;
 }
 
-bool conflicts(const Comer& comer, const Foe& foe, const Stay& ours, const world::LaneT& lane) {
-    const double to_meeting = foe.to_conflict - comer.front_s;
+bool conflicts(const Comer& comer,
+               const ConflictPoint& conflict,
+               const Stay& ours,
+               const world::LaneT& lane) {
+    const double to_meeting = conflict.to_conflict - comer.front_s;
     if (to_meeting + comer.length + space_margin < 0)
         return false;
-    if (!foe.inside) {
+    if (!conflict.inside) {
         // Stands in a queue, or shows that it turns another way.
         if (comer.speed < 0.5 && lane.length - comer.front_s > 8)
             return false;
-        if (((comer.lamps & world::lamp_left) != 0 && !is_left(foe.turn)) ||
-            ((comer.lamps & world::lamp_right) != 0 && !is_right(foe.turn)))
+        if (((comer.lamps & world::lamp_left) != 0 && !is_left(conflict.turn)) ||
+            ((comer.lamps & world::lamp_right) != 0 && !is_right(conflict.turn)))
             return false;
     } else if (comer.speed < 0.3 && to_meeting > 3) {
         return false;  // waits in the junction, perhaps for us
@@ -205,25 +212,26 @@ bool Gatekeeper::has_gap(const world::TickView& last,
                          const Gate& gate) const {
     const SignalColor our_color = color_of(last, gate.signal);
     const auto threatens = [&](const Comer& comer, std::uint32_t lane) {
-        return std::any_of(gate.foes.begin(), gate.foes.end(), [&](const Foe& foe) {
-            if (foe.lane != lane)
-                return false;
-            const SignalColor foe_color = color_of(last, foe.signal);
-            if (!foe.inside && !goes_first(foe, foe_color, our_color, gate.turn))
-                return false;
-            const double top =
-                std::max({ego.speed, std::sqrt(way.path().at(foe.our_s).squared_speed), 3.0});
-            const double ahead = foe.our_s - ego.front_s();
-            const Stay ours{
-                travel_time(ahead - space_margin, ego.speed, 2, top),
-                travel_time(ahead + ego.model->length + space_margin, ego.speed, 1.5, top)};
-            return conflicts(comer, foe, ours, town_->lanes[lane]);
-        });
+        return std::any_of(
+            gate.conflicts.begin(), gate.conflicts.end(), [&](const ConflictPoint& conflict) {
+                if (conflict.lane != lane)
+                    return false;
+                const SignalColor their_color = color_of(last, conflict.signal);
+                if (!conflict.inside && !goes_first(conflict, their_color, our_color, gate.turn))
+                    return false;
+                const double top = std::max(
+                    {ego.speed, std::sqrt(way.path().at(conflict.our_s).squared_speed), 3.0});
+                const double ahead = conflict.our_s - ego.front_s();
+                const Stay ours{
+                    travel_time(ahead - space_margin, ego.speed, 2, top),
+                    travel_time(ahead + ego.model->length + space_margin, ego.speed, 1.5, top)};
+                return conflicts(comer, conflict, ours, town_->lanes[lane]);
+            });
     };
     for (const world::CarState& car : last.cars()) {
         if (car.lane() == world::none ||
-            std::abs(car.position().x() - ego.position.x()) > foe_sight ||
-            std::abs(car.position().y() - ego.position.y()) > foe_sight)
+            std::abs(car.position().x() - ego.position.x()) > conflict_sight ||
+            std::abs(car.position().y() - ego.position.y()) > conflict_sight)
             continue;
         const Comer comer{static_cast<double>(car.lane_s()),
                           static_cast<double>(car.speed()),

@@ -17,8 +17,8 @@ namespace reprise::drivers {
 ///
 /// MUST    stop at red; at yellow where that is comfortable; give way where the link says so; leave
 ///         the junction free when there is no room behind it.
-/// ASSUMES foes accelerate no harder than 2 m/s^2 and hold their lane; lamps that are on tell where
-///         a car turns.
+/// ASSUMES others accelerate no harder than 2 m/s^2 and hold their lane; lamps that are on tell
+///         where a car turns.
 /// GOES    through the gates ahead, nearest first, until one says stop.
 /// KEEPS   what was decided at yellow, and how long we have waited: after 12 s it creeps on,
 ///         because several who all give way would wait for ever.

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "drivers/road_room.h"
+#include "drivers/lateral_clearance.h"
 #include "drivers/way/lane_graph.h"
 #include "world/obstacle.h"
 #include "world/town.h"
@@ -18,12 +18,12 @@ struct RoadMap {
         : town(town_of_run),
           lanes(lane_map),
           graph(town),
-          rooms(town, lanes, obstacles) {}
+          clearances(town, lanes, obstacles) {}
 
     const world::TownT& town;
     const world::LaneMap& lanes;
     LaneGraph graph;
-    RoadRooms rooms;
+    LateralClearances clearances;
 };
 
 }  // namespace reprise::drivers

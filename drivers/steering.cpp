@@ -55,16 +55,16 @@ double steer(const Ego& ego, const Path& path) {
     return steer_to(ego, aim, ahead);
 }
 
-double steer(const Ego& ego, const Swing& swing) {
+double steer(const Ego& ego, const WideTurnPlan& wide_turn) {
     const double ahead = tracked_share * ego.model->wheelbase;
-    const SwingPoint here = swing.at(ego.rear_axle_s);
+    const WideTurnPoint here = wide_turn.at(ego.rear_axle_s);
     const Eigen::Vector2d direction(std::cos(here.yaw), std::sin(here.yaw));
     const double soon = ego.rear_axle_s + preview * std::max(ego.speed, 0.0);
     const Aim aim{here.position + ahead * direction,
                   direction,
                   here.yaw,
                   here.curvature,
-                  swing.at(soon).curvature};
+                  wide_turn.at(soon).curvature};
     return steer_to(ego, aim, ahead);
 }
 

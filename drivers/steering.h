@@ -1,8 +1,8 @@
 #pragma once
 
 #include "drivers/ego.h"
-#include "drivers/swing.h"
 #include "drivers/way/path.h"
+#include "drivers/wide_turn.h"
 
 namespace reprise::drivers {
 
@@ -16,6 +16,6 @@ namespace reprise::drivers {
 double steer(const Ego& ego, const Path& path);
 
 /// As above, for a long vehicle: it tracks the plan of its rear axle.
-double steer(const Ego& ego, const Swing& swing);
+double steer(const Ego& ego, const WideTurnPlan& wide_turn);
 
 }  // namespace reprise::drivers

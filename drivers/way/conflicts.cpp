@@ -62,28 +62,28 @@ double end_yaw(const LaneT& lane) {
     return world::point_at(lane, lane.length).yaw;
 }
 
-void add_foe(const LaneGraph& graph,
-             std::uint32_t lane,
-             const Link& link,
-             const std::vector<std::uint32_t>& inside,
-             const Meeting& meeting,
-             const Foe& pattern,
-             std::vector<Foe>& foes) {
-    Foe foe = pattern;
-    foe.signal = link.signal();
-    foe.turn = link.turn();
-    foe.yields = link.yields();
+void add_conflict(const LaneGraph& graph,
+                  std::uint32_t lane,
+                  const Link& link,
+                  const std::vector<std::uint32_t>& inside,
+                  const Meeting& meeting,
+                  const ConflictPoint& pattern,
+                  std::vector<ConflictPoint>& conflicts) {
+    ConflictPoint conflict = pattern;
+    conflict.signal = link.signal();
+    conflict.turn = link.turn();
+    conflict.yields = link.yields();
     // Seen from the lane that leads to the junction ...
-    foe.lane = lane;
-    foe.to_conflict = graph.town().lanes[lane].length + meeting.theirs;
-    foes.push_back(foe);
+    conflict.lane = lane;
+    conflict.to_conflict = graph.town().lanes[lane].length + meeting.theirs;
+    conflicts.push_back(conflict);
     // ... and from every internal lane up to the place.
-    foe.inside = true;
+    conflict.inside = true;
     double start = 0;
     for (const std::uint32_t internal : inside) {
-        foe.lane = internal;
-        foe.to_conflict = meeting.theirs - start;
-        foes.push_back(foe);
+        conflict.lane = internal;
+        conflict.to_conflict = meeting.theirs - start;
+        conflicts.push_back(conflict);
         start += graph.town().lanes[internal].length;
         if (start > meeting.theirs)
             break;
@@ -92,22 +92,22 @@ void add_foe(const LaneGraph& graph,
 
 }  // namespace
 
-std::vector<Foe> find_foes(const LaneGraph& graph,
-                           std::uint32_t lane,
-                           const world::Link& link,
-                           double gate_s) {
-    std::vector<Foe> foes;
+std::vector<ConflictPoint> find_conflicts(const LaneGraph& graph,
+                                          std::uint32_t lane,
+                                          const world::Link& link,
+                                          double gate_s) {
+    std::vector<ConflictPoint> conflicts;
     const LaneT& from = graph.town().lanes[lane];
     const Line ours = line_of(graph, graph.inside(link));
     if (ours.points.empty())
-        return foes;
+        return conflicts;
     for (const std::uint32_t other : graph.incoming(from.junction)) {
         const LaneT& other_lane = graph.town().lanes[other];
         if (other == lane || other_lane.edge == from.edge)
             continue;
         // How much we would have to turn to drive as they do.
         const double turn = world::wrap_angle(end_yaw(other_lane) - end_yaw(from));
-        Foe pattern;
+        ConflictPoint pattern;
         pattern.from_right = turn > std::numbers::pi / 6 && turn < std::numbers::pi * 5 / 6;
         pattern.oncoming = std::abs(turn) >= std::numbers::pi * 5 / 6;
         for (const Link& other_link : other_lane.links) {
@@ -121,10 +121,10 @@ std::vector<Foe> find_foes(const LaneGraph& graph,
             if (!meeting)
                 continue;
             pattern.our_s = gate_s + meeting->ours;
-            add_foe(graph, other, other_link, inside, *meeting, pattern, foes);
+            add_conflict(graph, other, other_link, inside, *meeting, pattern, conflicts);
         }
     }
-    return foes;
+    return conflicts;
 }
 
 }  // namespace reprise::drivers

@@ -9,23 +9,23 @@
 namespace reprise::drivers {
 
 /// A place on a lane whose traffic crosses or joins our way through a junction.
-struct Foe {
+struct ConflictPoint {
     std::uint32_t lane = 0;
     double to_conflict = 0;                    ///< [m] from the lane's start to where the ways meet
     double our_s = 0;                          ///< the same place along our path
-    std::uint32_t signal = world::none;        ///< of the foe's link
-    world::Turn turn = world::Turn::straight;  ///< of the foe's link
+    std::uint32_t signal = world::none;        ///< of that lane's link
+    world::Turn turn = world::Turn::straight;  ///< of that lane's link
     bool inside = false;  ///< an internal lane: who is there is in the junction already
-    bool yields = false;  ///< the foe's link must give way, too
+    bool yields = false;  ///< that lane's link must give way, too
     bool from_right = false;
     bool oncoming = false;
 };
 
 /// All whose way meets ours when we take `link` out of `lane`; our path enters the junction at
 /// `gate_s`. Found by geometry: centre lines that cross, or that end in the same lane.
-std::vector<Foe> find_foes(const LaneGraph& graph,
-                           std::uint32_t lane,
-                           const world::Link& link,
-                           double gate_s);
+std::vector<ConflictPoint> find_conflicts(const LaneGraph& graph,
+                                          std::uint32_t lane,
+                                          const world::Link& link,
+                                          double gate_s);
 
 }  // namespace reprise::drivers

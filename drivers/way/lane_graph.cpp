@@ -37,23 +37,23 @@ LaneGraph::LaneGraph(const world::TownT& town)
     find_dead_ends();
 }
 
-Outlook LaneGraph::outlook(const Link& link) const {
+Continuation LaneGraph::continuation(const Link& link) const {
     if (!leads_somewhere(*town_, link))
-        return Outlook::nowhere;
-    const Outlook behind = outlook_[link.to()];
-    return link.turn() == world::Turn::around ? std::min(behind, Outlook::turning) : behind;
+        return Continuation::dead_end;
+    const Continuation behind = continuation_[link.to()];
+    return link.turn() == world::Turn::around ? std::min(behind, Continuation::turning) : behind;
 }
 
-Outlook LaneGraph::straight_outlook(std::uint32_t lane) const {
-    Outlook best = Outlook::nowhere;
+Continuation LaneGraph::straight_continuation(std::uint32_t lane) const {
+    Continuation best = Continuation::dead_end;
     for (const Link& link : town_->lanes[lane].links)
-        best = std::max(best, outlook(link));
+        best = std::max(best, continuation(link));
     return best;
 }
 
 void LaneGraph::find_dead_ends() {
     const auto count = static_cast<std::uint32_t>(town_->lanes.size());
-    outlook_.assign(count, Outlook::free);
+    continuation_.assign(count, Continuation::free);
     // Mark down what promises more than its links and neighbours hold until nothing changes; as
     // many rounds as the longest blind alley.
     for (bool changed = true; changed;) {
@@ -61,24 +61,24 @@ void LaneGraph::find_dead_ends() {
         for (std::uint32_t i = 0; i < count; ++i) {
             if (town_->lanes[i].kind != LaneKind::driving)
                 continue;
-            Outlook best = straight_outlook(i);
-            if (best < outlook_[i])
+            Continuation best = straight_continuation(i);
+            if (best < continuation_[i])
                 for (const std::uint32_t to : reachable_sideways(i))
-                    best = std::max(best, straight_outlook(to));
-            changed = changed || best < outlook_[i];
-            outlook_[i] = std::min(outlook_[i], best);
+                    best = std::max(best, straight_continuation(to));
+            changed = changed || best < continuation_[i];
+            continuation_[i] = std::min(continuation_[i], best);
         }
     }
 }
 
 std::vector<std::uint32_t> LaneGraph::choices(std::uint32_t lane) const {
     const std::vector<Link>& links = town_->lanes[lane].links;
-    const Outlook best = straight_outlook(lane);
+    const Continuation best = straight_continuation(lane);
     // To turn here is no better than to turn later, unless there is no later.
     for (const bool around : {false, true}) {
         std::vector<std::uint32_t> found;
         for (std::uint32_t i = 0; i < links.size(); ++i)
-            if (leads_somewhere(*town_, links[i]) && outlook(links[i]) == best &&
+            if (leads_somewhere(*town_, links[i]) && continuation(links[i]) == best &&
                 (around || links[i].turn() != world::Turn::around))
                 found.push_back(i);
         if (!found.empty())
@@ -107,10 +107,10 @@ std::vector<std::uint32_t> LaneGraph::reachable_sideways(std::uint32_t lane) con
 }
 
 std::uint32_t LaneGraph::better_neighbour(std::uint32_t lane) const {
-    const Outlook here = straight_outlook(lane);
+    const Continuation here = straight_continuation(lane);
     const std::vector<std::uint32_t> sideways = reachable_sideways(lane);
     const auto better = std::find_if(sideways.begin(), sideways.end(), [&](std::uint32_t to) {
-        return straight_outlook(to) > here;
+        return straight_continuation(to) > here;
     });
     if (better == sideways.end())
         return world::none;

@@ -12,8 +12,8 @@
 namespace reprise::drivers {
 
 /// Where a way leads in the end.
-enum class Outlook : std::uint8_t {
-    nowhere,  ///< into a dead end
+enum class Continuation : std::uint8_t {
+    dead_end,
     turning,  ///< on, but not without turning around
     free
 };
@@ -39,12 +39,12 @@ class LaneGraph {
 
     const world::TownT& town() const { return *town_; }
 
-    /// Links of a lane that a wandering driver may take: those with the best outlook; to turn
+    /// Links of a lane that a wandering driver may take: those with the best continuation; to turn
     /// around only where nothing else is left. Indices in lane.links.
     std::vector<std::uint32_t> choices(std::uint32_t lane) const;
 
     /// The neighbour towards the nearest lane in the same direction whose own links have a better
-    /// outlook; none when there is no such lane. Ties go to the right.
+    /// continuation; none when there is no such lane. Ties go to the right.
     std::uint32_t better_neighbour(std::uint32_t lane) const;
 
     /// The internal lanes of a link, in driving order.
@@ -67,13 +67,13 @@ class LaneGraph {
                                  double last_s) const;
 
   private:
-    Outlook outlook(const world::Link& link) const;
-    Outlook straight_outlook(std::uint32_t lane) const;  ///< without changing lanes
+    Continuation continuation(const world::Link& link) const;
+    Continuation straight_continuation(std::uint32_t lane) const;  ///< without changing lanes
     std::vector<std::uint32_t> reachable_sideways(std::uint32_t lane) const;  ///< nearest first
     void find_dead_ends();
 
     const world::TownT* town_;
-    std::vector<Outlook> outlook_;
+    std::vector<Continuation> continuation_;
     std::vector<std::uint32_t> exit_;
     std::vector<std::vector<std::uint32_t>> incoming_;
 };

@@ -255,7 +255,7 @@ void Way::append_junction(std::uint32_t lane, std::uint32_t link_index) {
         append_straight(internal, 0);
     gate.exit_s = path_.end();
     if (link.yields() || link.signal() != world::none)
-        gate.foes = find_foes(*graph_, lane, link, gate.s);
+        gate.conflicts = find_conflicts(*graph_, lane, link, gate.s);
     gates_.push_back(std::move(gate));
     next_lane_ = link.to();
     next_s_ = car_ahead_ = 0;
@@ -291,8 +291,8 @@ void Way::add_to(world::Hasher& hasher) const {
     hasher.add(ended_);
 }
 
-/// The long part of the digest: 20 kB of path, which changes a few times a minute only. Foes follow
-/// from their gate and the town.
+/// The long part of the digest: 20 kB of path, which changes a few times a minute only. Conflict
+/// points follow from their gate and the town.
 void Way::note_plan() {
     world::Hasher hasher;
     path_.add_to(hasher);
@@ -304,7 +304,7 @@ void Way::note_plan() {
             hasher.add(number);
         hasher.add(gate.turn);
         hasher.add(gate.yields);
-        hasher.add(std::uint64_t{gate.foes.size()});
+        hasher.add(std::uint64_t{gate.conflicts.size()});
     }
     hasher.add(std::uint64_t{changes_.size()});
     for (const LaneChange& change : changes_) {

@@ -30,7 +30,7 @@ struct Gate {
     std::uint32_t to = 0;
     world::Turn turn = world::Turn::straight;
     bool yields = false;
-    std::vector<Foe> foes;
+    std::vector<ConflictPoint> conflicts;
 };
 
 /// A change of lanes along the path.
@@ -93,7 +93,7 @@ class Way {
     bool ended() const { return ended_; }
 
     /// Changes whenever path, gates or changes do.
-    std::uint64_t plan() const { return plan_digest_; }
+    std::uint64_t plan_digest() const { return plan_digest_; }
 
     void add_to(world::Hasher& hasher) const;
 

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/town/towns.h"
-#include "drivers/swing.h"
+#include "drivers/wide_turn.h"
 #include "kernel/kernel.h"
 #include "scripting/scenario.h"
 #include "towns/town_reader.h"
@@ -185,7 +185,7 @@ Watch drive(const towns::Network& network,
     Watch watch;
     watch.length = world::Planner(town).plan(pair.from, pair.to)->length;
     const auto index = world::find_vehicle_model(model);
-    if (index && drivers::Swing::is_needed(world::vehicle_models()[*index]))
+    if (index && drivers::WideTurnPlan::is_needed(world::vehicle_models()[*index]))
         watch.most_opposite = most_across;
     const world::Recording recording = recording_of(network, town, pair, model);
     kernel::Kernel kernel(recording);

@@ -1,4 +1,4 @@
-#include "drivers/swing.h"
+#include "drivers/wide_turn.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,13 +6,14 @@
 
 #include <gtest/gtest.h>
 
+#include "ground/obstacles.h"
 #include "tests/drivers/kinematic_car.h"
 
 namespace reprise::test {
 namespace {
 
 using drivers::Path;
-using drivers::Swing;
+using drivers::WideTurnPlan;
 
 constexpr double quarter = std::numbers::pi / 2;
 
@@ -87,11 +88,12 @@ TEST_P(LongVehicles, CutACircleByWhatTheTextbookSays) {
     world::TownT town;
     town.name = "meadow";
     const world::LaneMap lanes(town);
+    const drivers::LateralClearances clearances(town, lanes, ground::obstacles_of(town));
     for (const double radius : {15.0, 40.0}) {
         const Path path = path_along(Turtle(0, 0, 0).turn(1.5 * std::numbers::pi, radius));
-        Swing swing(model, town, lanes);
-        swing.plan(path, ego_at(model, 0, 0));
-        const drivers::SwingPoint middle = swing.at(path.end() / 2);
+        WideTurnPlan wide_turn(model, clearances);
+        wide_turn.plan(path, ego_at(model, 0, 0));
+        const drivers::WideTurnPoint middle = wide_turn.at(path.end() / 2);
         const double rear = std::sqrt(radius * radius - model.wheelbase * model.wheelbase / 4);
         const Eigen::Vector2d centre(0, radius);
         EXPECT_NEAR((middle.position - centre).norm(), rear, 0.03) << "radius " << radius;
@@ -121,7 +123,7 @@ TEST_P(LongVehicles, KeepOffTheKerbsOfATightCorner) {
     EXPECT_LT(sharpest, model.max_steering_angle);
 }
 
-TEST(Swing, WaitsForTheCarThatItWouldSwingInto) {
+TEST(WideTurnPlan, WaitsForTheCarThatItWouldSwingInto) {
     const auto index = *world::find_vehicle_model("bus");
     const world::VehicleModel& bus = world::vehicle_models()[index];
     Drive drive(corner(), 7, index);
@@ -145,55 +147,59 @@ TEST(Swing, WaitsForTheCarThatItWouldSwingInto) {
     EXPECT_LT(drive.car.y, -40) << "does not go on";
 }
 
-TEST(Swing, LeavesRoomForAPoleBesideTheLane) {
+TEST(WideTurnPlan, LeavesRoomForAPoleBesideTheLane) {
     const world::VehicleModel& bus = model_of("bus");
     world::TownT town;
     town.name = "pole";
     town.lanes.push_back(make_lane("way", Turtle(0, 0, 0).ahead(120)));
     town.props.push_back(pole_at(60, -1.4));
     const world::LaneMap lanes(town);
-    Swing swing(bus, town, lanes);
+    const drivers::LateralClearances clearances(town, lanes, ground::obstacles_of(town));
+    WideTurnPlan wide_turn(bus, clearances);
     const Path path = path_along(Turtle(0, 0, 0).ahead(120));
-    swing.plan(path, ego_at(bus, 0, 0));
+    wide_turn.plan(path, ego_at(bus, 0, 0));
     double nearest = 100;
     for (double s = 40; s < 80; s += 0.1) {
-        const drivers::SwingPoint point = swing.at(s);
+        const drivers::WideTurnPoint point = wide_turn.at(s);
         for (const Eigen::Vector2d& place : outline_of(bus, point.position, point.yaw))
             nearest = std::min(nearest, (place - Eigen::Vector2d(60, -1.4)).norm());
     }
     EXPECT_GT(nearest, 0.3);
-    EXPECT_NEAR(swing.at(10).position.y(), 0, 0.02) << "swings far too early";
-    EXPECT_NEAR(swing.at(110).position.y(), 0, 0.02) << "does not come back";
+    EXPECT_NEAR(wide_turn.at(10).position.y(), 0, 0.02) << "swings far too early";
+    EXPECT_NEAR(wide_turn.at(110).position.y(), 0, 0.02) << "does not come back";
 }
 
-TEST(Swing, KeepsToTheLaneOnAStraightRoad) {
+TEST(WideTurnPlan, KeepsToTheLaneOnAStraightRoad) {
     const world::TownT town = straight_road(200);
     const world::LaneMap lanes(town);
-    Swing swing(model_of("bus"), town, lanes);
-    swing.plan(path_along(Turtle(0, -1.75, 0).ahead(200)), ego_at(model_of("bus"), 0, -1.75));
+    const drivers::LateralClearances clearances(town, lanes, ground::obstacles_of(town));
+    WideTurnPlan wide_turn(model_of("bus"), clearances);
+    wide_turn.plan(path_along(Turtle(0, -1.75, 0).ahead(200)), ego_at(model_of("bus"), 0, -1.75));
     for (double s = 0; s < 200; s += 1) {
-        EXPECT_NEAR(swing.at(s).position.y(), -1.75, 1e-6);
-        EXPECT_NEAR(swing.at(s).curvature, 0, 1e-6);
+        EXPECT_NEAR(wide_turn.at(s).position.y(), -1.75, 1e-6);
+        EXPECT_NEAR(wide_turn.at(s).curvature, 0, 1e-6);
     }
 }
 
-TEST(Swing, GoesOnFromWhereTheVehicleIs) {
+TEST(WideTurnPlan, GoesOnFromWhereTheVehicleIs) {
     const world::TownT town = straight_road(200);
     const world::LaneMap lanes(town);
+    const drivers::LateralClearances clearances(town, lanes, ground::obstacles_of(town));
     const world::VehicleModel& bus = model_of("bus");
-    Swing swing(bus, town, lanes);
+    WideTurnPlan wide_turn(bus, clearances);
     drivers::Ego ego = ego_at(bus, 50, -1.0);
     ego.steering_angle = -0.1;
-    swing.plan(path_along(Turtle(0, -1.75, 0).ahead(200)), ego);
-    EXPECT_NEAR(swing.at(50).position.y(), -1.0, 0.02);
-    EXPECT_NEAR(swing.at(50).yaw, 0, 0.02);
-    EXPECT_NEAR(swing.at(50).curvature, std::tan(-0.1) / bus.wheelbase, 0.01);
-    EXPECT_NEAR(swing.at(100).position.y(), -1.75, 0.1);
+    wide_turn.plan(path_along(Turtle(0, -1.75, 0).ahead(200)), ego);
+    EXPECT_NEAR(wide_turn.at(50).position.y(), -1.0, 0.02);
+    EXPECT_NEAR(wide_turn.at(50).yaw, 0, 0.02);
+    EXPECT_NEAR(wide_turn.at(50).curvature, std::tan(-0.1) / bus.wheelbase, 0.01);
+    EXPECT_NEAR(wide_turn.at(100).position.y(), -1.75, 0.1);
 }
 
-TEST(Swing, DependsOnPathAndPlaceNotOnWhatWasPlannedBefore) {
+TEST(WideTurnPlan, DependsOnPathAndPlaceNotOnWhatWasPlannedBefore) {
     const world::TownT town = corner();
     const world::LaneMap lanes(town);
+    const drivers::LateralClearances clearances(town, lanes, ground::obstacles_of(town));
     Path path;
     std::vector<Eigen::Vector3d> line;
     for (const world::Vec3& point : town.lanes[2].centre)
@@ -202,7 +208,7 @@ TEST(Swing, DependsOnPathAndPlaceNotOnWhatWasPlannedBefore) {
     path.append(std::span(line).first(8), 10);
     path.finish({});
     drivers::Ego ego = ego_at(model_of("bus"), 5, 0);
-    Swing experienced(model_of("bus"), town, lanes);
+    WideTurnPlan experienced(model_of("bus"), clearances);
     experienced.plan(path, ego);
     path.append(std::span(line).subspan(7), 10);
     path.finish({});
@@ -210,7 +216,7 @@ TEST(Swing, DependsOnPathAndPlaceNotOnWhatWasPlannedBefore) {
     path.drop_before(30);
     ego = ego_at(model_of("bus"), 40, 0.1);
     experienced.plan(path, ego);
-    Swing fresh(model_of("bus"), town, lanes);
+    WideTurnPlan fresh(model_of("bus"), clearances);
     fresh.plan(path, ego);
     for (double s = 40; s < path.end(); s += 0.7) {
         EXPECT_EQ(experienced.at(s).position, fresh.at(s).position) << s;
@@ -218,32 +224,34 @@ TEST(Swing, DependsOnPathAndPlaceNotOnWhatWasPlannedBefore) {
     }
 }
 
-TEST(Swing, AsksForNoMoreThanTheSteeringCanGive) {
+TEST(WideTurnPlan, AsksForNoMoreThanTheSteeringCanGive) {
     const world::VehicleModel& bus = model_of("bus");
     world::TownT town;
     town.name = "meadow";
     const world::LaneMap lanes(town);
-    Swing swing(bus, town, lanes);
+    const drivers::LateralClearances clearances(town, lanes, ground::obstacles_of(town));
+    WideTurnPlan wide_turn(bus, clearances);
     const Path path = path_along(Turtle(0, 0, 0).ahead(40).turn(std::numbers::pi, 6).ahead(40));
-    swing.plan(path, ego_at(bus, 0, 0));
+    wide_turn.plan(path, ego_at(bus, 0, 0));
     double sharpest = 0;
     for (double s = 0; s < path.end(); s += 0.5)
-        sharpest = std::max(sharpest, swing.at(s).curvature);
+        sharpest = std::max(sharpest, wide_turn.at(s).curvature);
     EXPECT_LT(sharpest, std::tan(bus.max_steering_angle) / bus.wheelbase);
     EXPECT_GT(sharpest, 0.1) << "does not turn";
 }
 
-TEST(Swing, SlowsDownBeforeABendAndNotOnAStraight) {
+TEST(WideTurnPlan, SlowsDownBeforeABendAndNotOnAStraight) {
     const world::TownT town = corner();
     const world::LaneMap lanes(town);
-    Swing swing(model_of("bus"), town, lanes);
+    const drivers::LateralClearances clearances(town, lanes, ground::obstacles_of(town));
+    WideTurnPlan wide_turn(model_of("bus"), clearances);
     const Path path = path_along(Turtle(0, 0, 0).ahead(60).turn(-quarter, 7.75).ahead(60));
-    swing.plan(path, ego_at(model_of("bus"), 0, 0));
-    const double slow = swing.at(66).squared_speed;
-    EXPECT_LT(slow * std::abs(swing.at(66).curvature), 1.51);
+    wide_turn.plan(path, ego_at(model_of("bus"), 0, 0));
+    const double slow = wide_turn.at(66).squared_speed;
+    EXPECT_LT(slow * std::abs(wide_turn.at(66).curvature), 1.51);
     EXPECT_GT(slow, 4) << "crawls";
-    EXPECT_GT(swing.at(10).squared_speed, 100);
-    EXPECT_GT(swing.at(110).squared_speed, 100);
+    EXPECT_GT(wide_turn.at(10).squared_speed, 100);
+    EXPECT_GT(wide_turn.at(110).squared_speed, 100);
 }
 
 }  // namespace

@@ -12,25 +12,26 @@
 
 namespace reprise::drivers {
 
-/// How far the road reaches to one side of a place, across it. [m], at most RoadRooms::sight.
-struct RoadRoom {
-    double to_kerb = 0;   ///< to the first sidewalk
-    double to_thing = 0;  ///< to the first thing that stands: pole, trunk, wall, building
+/// How far the road reaches to one side of a place, across it. [m], at most what
+/// LateralClearances sees.
+struct LateralClearance {
+    double to_kerb = 0;      ///< to the first sidewalk
+    double to_obstacle = 0;  ///< to the first thing that stands: pole, trunk, wall, building
 };
 
 /// Looks across the road for kerbs, and for what stands behind them.
-class RoadRooms {
+class LateralClearances {
   public:
     static constexpr double sight = 6;  ///< [m]
 
     /// Looks into `town` and `lanes`, which must outlive this. O(obstacles).
-    RoadRooms(const world::TownT& town,
-              const world::LaneMap& lanes,
-              std::span<const world::Obstacle> obstacles);
+    LateralClearances(const world::TownT& town,
+                      const world::LaneMap& lanes,
+                      std::span<const world::Obstacle> obstacles);
 
     /// From p_world towards `side` (unit, in plan). About 20 us.
     /// Things count from half a metre beside the line on: lines half a metre apart miss none.
-    RoadRoom look(const Eigen::Vector3d& p_world, const Eigen::Vector2d& side) const;
+    LateralClearance look(const Eigen::Vector3d& p_world, const Eigen::Vector2d& side) const;
 
   private:
     /// Seen from above: an outline, a line or a point, and how far it reaches beyond.

@@ -1,4 +1,4 @@
-#include "drivers/swing.h"
+#include "drivers/wide_turn.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +10,13 @@ namespace reprise::drivers {
 
 namespace {
 
-constexpr int rounds = 30;              // of Gauss-Newton
-constexpr double small_step = 0.01;     // [m] near enough
-constexpr double first_damping = 1;     // of Levenberg and Marquardt
-constexpr double from_kerb = 0.25;      // [m] kept from kerbs
-constexpr double from_thing = 0.15;     // [m] kept from what stands, beyond what RoadRooms keeps
-constexpr double least_room = 0.9;      // [m] no kerb of a good map is nearer (town check)
-constexpr double steering_share = 0.9;  // of the greatest angle: the rest corrects
+constexpr int rounds = 30;                    // of Gauss-Newton
+constexpr double small_step = 0.01;           // [m] near enough
+constexpr double first_damping = 1;           // of Levenberg and Marquardt
+constexpr double from_kerb = 0.25;            // [m] kept from kerbs
+constexpr double from_obstacle = 0.15;        // [m] beyond what LateralClearances keeps
+constexpr double least_clearance = 0.9;       // [m] no kerb of a good map is nearer (town check)
+constexpr double steering_share = 0.9;        // of the greatest angle: the rest corrects
 constexpr double lateral_acceleration = 1.5;  // [m/s^2] standing passengers, high loads
 constexpr double deceleration = 1.5;          // [m/s^2] before bends
 
@@ -26,7 +26,7 @@ constexpr std::size_t fewest_stations = 12;  // behind the axle, and some ahead
 // What counts as much as what.
 constexpr double driven_error = 0.01;      // [m]
 constexpr double kerb_error = 0.05;        // [m]
-constexpr double thing_error = 0.02;       // [m]
+constexpr double obstacle_error = 0.02;    // [m]
 constexpr double middle_error = 1.0;       // [m]
 constexpr double steering_error = 0.03;    // [1/m^2] change of curvature along the track
 constexpr double curvature_error = 0.005;  // [1/m] beyond the sharpest
@@ -38,10 +38,10 @@ Eigen::Vector2d to_left(const Eigen::Vector2d& v) {
 }  // namespace
 
 /// A sample of the path, what is beside it, and the vehicle with its rear axle there.
-struct Swing::Station {
+struct WideTurnPlan::Station {
     Eigen::Vector3d path;
     Eigen::Vector2d left;  ///< unit, across the path
-    RoadRoom room_left, room_right;
+    LateralClearance clearance_left, clearance_right;
     double offset = 0;  ///< [m] of the rear axle, to the left
     Eigen::Vector2d axle;
     Eigen::Vector2d ahead;  ///< unit: the body's x axis
@@ -49,20 +49,20 @@ struct Swing::Station {
 };
 
 /// A point of the body.
-struct Swing::Corner {
+struct WideTurnPlan::Corner {
     std::size_t station = 0;            ///< of the rear axle
     std::size_t beside = 0;             ///< the station that the point is nearest to
     double offset = 0;                  ///< [m] left of the path
     std::array<double, 3> change = {};  ///< of it, for a metre of offset station - 1, 0, + 1
 };
 
-Swing::Swing(const world::VehicleModel& model, const RoadRooms& rooms)
+WideTurnPlan::WideTurnPlan(const world::VehicleModel& model, const LateralClearances& clearances)
     : model_(&model),
-      rooms_(&rooms) {}
+      clearances_(&clearances) {}
 
-Swing::~Swing() = default;
+WideTurnPlan::~WideTurnPlan() = default;
 
-void Swing::plan(const Path& path, const Ego& ego) {
+void WideTurnPlan::plan(const Path& path, const Ego& ego) {
     look_around(path, ego.rear_axle_s);
     points_.clear();
     swept_.clear();
@@ -92,7 +92,7 @@ void Swing::plan(const Path& path, const Ego& ego) {
 
 /// The plan goes on from how the vehicle stands: the stations up to the one ahead of its rear axle
 /// lie on the circle that it drives.
-void Swing::start_here(const Ego& ego) {
+void WideTurnPlan::start_here(const Ego& ego) {
     const double curvature = std::tan(ego.steering_angle) / model_->wheelbase;
     const auto reached = static_cast<std::size_t>((ego.rear_axle_s - start_) / Path::spacing);
     driven_.clear();
@@ -105,7 +105,7 @@ void Swing::start_here(const Ego& ego) {
 }
 
 /// The vehicle with its rear axle at these offsets, [m] left of the path, and what is wrong then.
-BandEquations Swing::equations_at(const Eigen::VectorXd& offsets) {
+BandEquations WideTurnPlan::equations_at(const Eigen::VectorXd& offsets) {
     place(offsets);
     BandEquations equations(stations_.size());
     for (std::size_t i = 0; i < driven_.size(); ++i)
@@ -117,7 +117,7 @@ BandEquations Swing::equations_at(const Eigen::VectorXd& offsets) {
 
 /// Takes the samples over from just behind the rear axle on, with what is known of those that have
 /// not changed.
-void Swing::look_around(const Path& path, double rear_axle_s) {
+void WideTurnPlan::look_around(const Path& path, double rear_axle_s) {
     const std::vector<Station> known = std::move(stations_);
     const double known_start = start_;
     const std::size_t first = path.index(rear_axle_s - behind);
@@ -132,18 +132,18 @@ void Swing::look_around(const Path& path, double rear_axle_s) {
         station.left = to_left(point.direction);
         if (before < known.size() && known[before].path == station.path &&
             known[before].left == station.left) {
-            station.room_left = known[before].room_left;
-            station.room_right = known[before].room_right;
+            station.clearance_left = known[before].clearance_left;
+            station.clearance_right = known[before].clearance_right;
         } else {
-            station.room_left = rooms_->look(station.path, station.left);
-            station.room_right = rooms_->look(station.path, -station.left);
+            station.clearance_left = clearances_->look(station.path, station.left);
+            station.clearance_right = clearances_->look(station.path, -station.left);
         }
         stations_.push_back(station);
     }
 }
 
 /// Puts the vehicle where the offsets say.
-void Swing::place(const Eigen::VectorXd& offsets) {
+void WideTurnPlan::place(const Eigen::VectorXd& offsets) {
     for (std::size_t i = 0; i < stations_.size(); ++i) {
         Station& station = stations_[i];
         station.offset = offsets[static_cast<Eigen::Index>(i)];
@@ -159,7 +159,7 @@ void Swing::place(const Eigen::VectorXd& offsets) {
 }
 
 /// The track's bends, and the middle of the vehicle on the path.
-void Swing::add_track(BandEquations& equations) const {
+void WideTurnPlan::add_track(BandEquations& equations) const {
     const double sharpest =
         std::tan(steering_share * model_->max_steering_angle) / model_->wheelbase;
     double curvature_before = 0;
@@ -192,7 +192,7 @@ void Swing::add_track(BandEquations& equations) const {
     }
 }
 
-void Swing::add_footprint(BandEquations& equations) const {
+void WideTurnPlan::add_footprint(BandEquations& equations) const {
     for (std::size_t i = std::max<std::size_t>(driven_.size(), 1); i + 1 < stations_.size(); ++i)
         add_middle(equations, i);
     for_each_corner([&](const Corner& corner) { add_corner(equations, corner); });
@@ -200,7 +200,7 @@ void Swing::add_footprint(BandEquations& equations) const {
 
 /// Both sides of the body at each sample, as far as the path reaches.
 template <typename Visit>
-void Swing::for_each_corner(Visit&& visit) const {
+void WideTurnPlan::for_each_corner(Visit&& visit) const {
     const double front = model_->length - model_->rear_overhang;
     const double base = model_->wheelbase;
     const double side = model_->width / 2;
@@ -214,7 +214,7 @@ void Swing::for_each_corner(Visit&& visit) const {
             }
 }
 
-Swing::Corner Swing::corner(std::size_t station, double ahead, double left) const {
+WideTurnPlan::Corner WideTurnPlan::corner(std::size_t station, double ahead, double left) const {
     const Station& here = stations_[station];
     const Eigen::Vector2d across = to_left(here.ahead);
     const Eigen::Vector2d position = here.axle + ahead * here.ahead + left * across;
@@ -231,28 +231,29 @@ Swing::Corner Swing::corner(std::size_t station, double ahead, double left) cons
     return corner;
 }
 
-void Swing::add_middle(BandEquations& equations, std::size_t station) const {
+void WideTurnPlan::add_middle(BandEquations& equations, std::size_t station) const {
     const Corner middle = corner(station, model_->wheelbase / 2, 0);
     if (middle.beside + 1 < stations_.size())
         equations.add(station - 1, middle.change, middle.offset, middle_error);
 }
 
-void Swing::add_corner(BandEquations& equations, const Corner& corner) const {
+void WideTurnPlan::add_corner(BandEquations& equations, const Corner& corner) const {
     const Station& there = stations_[corner.beside];
     for (const double sign : {1.0, -1.0}) {
-        const RoadRoom& room = sign > 0 ? there.room_left : there.room_right;
+        const LateralClearance& clearance = sign > 0 ? there.clearance_left : there.clearance_right;
         const double offset = sign * corner.offset;
-        const double over_kerb = offset - std::max(room.to_kerb - from_kerb, least_room);
+        const double over_kerb = offset - std::max(clearance.to_kerb - from_kerb, least_clearance);
         if (over_kerb > 0)
             equations.add(corner.station - 1, corner.change, sign * over_kerb, kerb_error);
-        const double over_thing = offset - std::max(room.to_thing - from_thing, least_room);
-        if (over_thing > 0)
-            equations.add(corner.station - 1, corner.change, sign * over_thing, thing_error);
+        const double over_obstacle =
+            offset - std::max(clearance.to_obstacle - from_obstacle, least_clearance);
+        if (over_obstacle > 0)
+            equations.add(corner.station - 1, corner.change, sign * over_obstacle, obstacle_error);
     }
 }
 
 /// The sample nearest to p, downhill from a guess.
-std::size_t Swing::nearest(const Eigen::Vector2d& p, std::size_t guess) const {
+std::size_t WideTurnPlan::nearest(const Eigen::Vector2d& p, std::size_t guess) const {
     const auto distance = [&](std::size_t i) {
         return (stations_[i].path.head<2>() - p).squaredNorm();
     };
@@ -265,7 +266,7 @@ std::size_t Swing::nearest(const Eigen::Vector2d& p, std::size_t guess) const {
 }
 
 /// Headings, curvatures, and the speeds that they allow.
-void Swing::finish() {
+void WideTurnPlan::finish() {
     const std::size_t count = stations_.size();
     points_.assign(count, {});
     for (std::size_t i = 0; i < count; ++i) {
@@ -294,7 +295,7 @@ void Swing::finish() {
     }
 }
 
-void Swing::sweep(const Path& path) {
+void WideTurnPlan::sweep(const Path& path) {
     swept_.assign(path.points().size(), {model_->width / 2, model_->width / 2});
     const std::size_t first = swept_.size() - stations_.size();
     for_each_corner([&](const Corner& corner) {
@@ -307,21 +308,21 @@ void Swing::sweep(const Path& path) {
     });
 }
 
-void Swing::add_to(world::Hasher& hasher) const {
+void WideTurnPlan::add_to(world::Hasher& hasher) const {
     hasher.add(start_);
-    for (const SwingPoint& point : points_)
+    for (const WideTurnPoint& point : points_)
         for (const double number : {point.position.x(), point.position.y(), point.squared_speed})
             hasher.add(number);
 }
 
-SwingPoint Swing::at(double s) const {
+WideTurnPoint WideTurnPlan::at(double s) const {
     const double steps = std::max((s - start_) / Path::spacing, 0.0);
     const auto i = static_cast<std::size_t>(steps);
     if (i + 1 >= points_.size())
         return points_.back();
     const double share = steps - static_cast<double>(i);
-    const SwingPoint& source = points_[i];
-    const SwingPoint& target = points_[i + 1];
+    const WideTurnPoint& source = points_[i];
+    const WideTurnPoint& target = points_[i + 1];
     const auto mix = [share](double a, double b) { return a + (b - a) * share; };
     return {source.position + (target.position - source.position) * share,
             mix(source.yaw, target.yaw),

@@ -9,7 +9,7 @@
 
 #include "drivers/band_equations.h"
 #include "drivers/ego.h"
-#include "drivers/road_room.h"
+#include "drivers/lateral_clearance.h"
 #include "drivers/way/path.h"
 #include "world/digest.h"
 #include "world/models/catalogue.h"
@@ -17,7 +17,7 @@
 namespace reprise::drivers {
 
 /// Where the rear axle of a long vehicle should run, and how the body stands there.
-struct SwingPoint {
+struct WideTurnPoint {
     Eigen::Vector2d position;  ///< world, in plan, of the rear axle's middle
     double yaw = 0;            ///< [rad] of the body, unwrapped along the path
     double curvature = 0;      ///< [1/m] of the rear axle's track
@@ -39,15 +39,14 @@ struct SwingPoint {
 ///         beyond the steering's, change of curvature, the middle's distance from the path.
 /// KEEPS   what it saw beside the path, for the samples that come again: the plan is a function of
 ///         town, path and where the vehicle is.
-class Swing {
+class WideTurnPlan {
   public:
     /// Do bends need a plan? Cars fit into their lanes as they are.
     static bool is_needed(const world::VehicleModel& model) { return model.wheelbase > 3.3; }
 
-    /// All must outlive this.
-    /// `rooms` must outlive this.
-    Swing(const world::VehicleModel& model, const RoadRooms& rooms);
-    ~Swing();
+    /// Both must outlive this.
+    WideTurnPlan(const world::VehicleModel& model, const LateralClearances& clearances);
+    ~WideTurnPlan();
 
     /// Plans from where the vehicle is to the end of the path. About 8 ms for 200 m.
     void plan(const Path& path, const Ego& ego);
@@ -56,7 +55,7 @@ class Swing {
     bool empty() const { return points_.empty(); }
 
     /// Interpolated; s as in the path, clamped. Not when empty.
-    SwingPoint at(double s) const;
+    WideTurnPoint at(double s) const;
 
     /// What the footprint sweeps, one for each sample of the path.
     std::span<const SweptWidth> swept() const { return swept_; }
@@ -83,9 +82,9 @@ class Swing {
     void sweep(const Path& path);
 
     const world::VehicleModel* model_;
-    const RoadRooms* rooms_;
+    const LateralClearances* clearances_;
     std::vector<Station> stations_;  ///< samples of the path
-    std::vector<SwingPoint> points_;
+    std::vector<WideTurnPoint> points_;
     std::vector<SweptWidth> swept_;
     std::vector<double> driven_;  ///< [m] offsets of the first stations, which are settled
     double start_ = 0;            ///< s of the first station

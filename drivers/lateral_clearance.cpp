@@ -1,4 +1,4 @@
-#include "drivers/road_room.h"
+#include "drivers/lateral_clearance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,9 +32,9 @@ world::Loop outline_of(const world::Obstacle& obstacle) {
 
 }  // namespace
 
-RoadRooms::RoadRooms(const world::TownT& town,
-                     const world::LaneMap& lanes,
-                     std::span<const world::Obstacle> obstacles)
+LateralClearances::LateralClearances(const world::TownT& town,
+                                     const world::LaneMap& lanes,
+                                     std::span<const world::Obstacle> obstacles)
     : town_(&town),
       lanes_(&lanes) {
     std::vector<world::BoxGrid::Entry> entries;
@@ -49,7 +49,7 @@ RoadRooms::RoadRooms(const world::TownT& town,
 }
 
 /// As physics has it: slabs are cut clear of lanes.
-bool RoadRooms::is_sidewalk(const Eigen::Vector3d& p_world) const {
+bool LateralClearances::is_sidewalk(const Eigen::Vector3d& p_world) const {
     const auto found = lanes_->walkable_at(p_world);
     const bool slab = std::any_of(found.begin(), found.end(), [this](const auto& walkable) {
         return town_->lanes[walkable.lane].kind != world::LaneKind::crossing;
@@ -57,12 +57,13 @@ bool RoadRooms::is_sidewalk(const Eigen::Vector3d& p_world) const {
     return slab && lanes_->at(p_world).empty();
 }
 
-RoadRoom RoadRooms::look(const Eigen::Vector3d& p_world, const Eigen::Vector2d& side) const {
+LateralClearance LateralClearances::look(const Eigen::Vector3d& p_world,
+                                         const Eigen::Vector2d& side) const {
     const Eigen::Vector3d across(side.x(), side.y(), 0);
-    RoadRoom room{sight, sight};
+    LateralClearance clearance{sight, sight};
     for (double far = step; far < sight; far += step)
         if (is_sidewalk(p_world + far * across)) {
-            room.to_kerb = far - step / 2;
+            clearance.to_kerb = far - step / 2;
             break;
         }
     const Eigen::Vector2d from = p_world.head<2>();
@@ -76,7 +77,7 @@ RoadRoom RoadRooms::look(const Eigen::Vector3d& p_world, const Eigen::Vector2d& 
             continue;
         // Halve: how far can one go?
         double free = 0;
-        double met = room.to_thing;
+        double met = clearance.to_obstacle;
         const auto touches = [&](double far) {
             return world::distance_to(thing.outline, from, from + far * side) <
                    thing.radius + aside;
@@ -87,9 +88,9 @@ RoadRoom RoadRooms::look(const Eigen::Vector3d& p_world, const Eigen::Vector2d& 
             const double middle = (free + met) / 2;
             (touches(middle) ? met : free) = middle;
         }
-        room.to_thing = free;
+        clearance.to_obstacle = free;
     }
-    return room;
+    return clearance;
 }
 
 }  // namespace reprise::drivers
