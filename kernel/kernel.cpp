@@ -1,6 +1,6 @@
 #include "kernel/kernel.h"
 
-#include "ground/mesh/ground.h"
+#include "ground/mesh/build_ground.h"
 #include "ground/obstacles.h"
 #include "kernel/digests.h"
 #include "kernel/measurements.h"

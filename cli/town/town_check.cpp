@@ -9,6 +9,8 @@
 
 #include "cli/process/guard.h"
 #include "cli/town/towns.h"
+#include "ground/mesh/build_ground.h"
+#include "ground/paint/markings.h"
 #include "towns/check/furniture_check.h"
 #include "towns/check/ground_check.h"
 #include "towns/check/standing_check.h"

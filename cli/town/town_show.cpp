@@ -7,6 +7,8 @@
 
 #include "cli/process/guard.h"
 #include "cli/town/towns.h"
+#include "ground/mesh/build_ground.h"
+#include "ground/paint/markings.h"
 #include "render/map/town_map.h"
 #include "render/picture.h"
 #include "world/check.h"

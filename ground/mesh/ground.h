@@ -6,8 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "world/town_generated.h"
-
 namespace reprise::ground {
 
 /// What a piece of ground is made of. Values are recorded (WheelState.surface).
@@ -31,17 +29,8 @@ struct GroundMesh {
 /// Height of a sidewalk above its road. [m]
 inline constexpr double kerb_height = 0.15;
 
-/// The ground that wheels and walkers stand on, and that cameras see: the same triangles for both.
-/// Sidewalk slabs are cut clear of everything that cars drive over; every level of a town with
-/// bridges keeps its own height. A pure function of the town: same bytes every time.
-/// Town 1: about 40 ms and 7,400 triangles.
-GroundMesh build_ground(const world::TownT& town);
-
-/// Painted lines of the town (Surface::marking). Derived, because road networks do not hold them:
-/// dashes between lanes of one direction; between directions a centre line, dashed in towns and
-/// solid near junctions, in bends and on fast or wide roads; edge lines where there is no kerb;
-/// stop lines at signals and stop signs, shark's teeth where one must give way; arrows where lanes
-/// lead to different turns; zebra stripes.
-GroundMesh build_markings(const world::TownT& town);
+/// Half of what a car needs: 1.9 m of car and 0.3 m of air on both sides. Road is at least this
+/// wide on both sides of every path, and no sidewalk comes nearer. [m]
+inline constexpr double car_clearance = 1.25;
 
 }  // namespace reprise::ground

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "ground/mesh/ground.h"
 #include "ground/mesh/ribbon.h"
-#include "ground/mesh/slabs.h"
 #include "world/frames.h"
 #include "world/town.h"
 #include "world/units.h"

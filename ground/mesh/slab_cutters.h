@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "world/geometry2d.h"
+#include "world/town_generated.h"
 
 namespace reprise::ground {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ground/mesh/ground_builder.h"
+#include "world/town_generated.h"
 
 namespace reprise::ground {
 

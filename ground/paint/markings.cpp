@@ -4,11 +4,12 @@
 //   slopes; dashes are stretches of it. Stop lines and arrows: stop_lines.h, turn_arrows.h. Paths
 //   through junctions carry no lines.
 // Keeps: every line 5 mm above the road.
+#include "ground/paint/markings.h"
+
 #include <algorithm>
 #include <set>
 #include <string_view>
 
-#include "ground/mesh/ground.h"
 #include "ground/mesh/junction_surface.h"
 #include "ground/paint/paint.h"
 #include "ground/paint/stop_lines.h"

@@ -3,6 +3,7 @@
 #include "ground/mesh/ground.h"
 #include "world/geometry2d.h"
 #include "world/sensor.h"
+#include "world/town_generated.h"
 
 namespace reprise::render {
 

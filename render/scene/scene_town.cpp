@@ -2,7 +2,8 @@
 #include <cmath>
 #include <map>
 
-#include "ground/mesh/ground.h"
+#include "ground/mesh/build_ground.h"
+#include "ground/paint/markings.h"
 #include "render/scene/scene.h"
 #include "render/shapes/street/plant_mesh.h"
 #include "render/shapes/street/signal_parts.h"

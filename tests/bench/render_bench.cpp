@@ -7,7 +7,7 @@
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
 
-#include "ground/mesh/ground.h"
+#include "ground/mesh/build_ground.h"
 #include "kernel/kernel.h"
 #include "render/sensors.h"
 #include "tests/bench/drive.h"

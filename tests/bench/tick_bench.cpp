@@ -10,6 +10,7 @@
 #include <benchmark/benchmark.h>
 #include <libsumo/libsumo.h>
 
+#include "ground/mesh/build_ground.h"
 #include "kernel/kernel.h"
 #include "replay/trace_writer.h"
 #include "tests/bench/bare_bullet.h"

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "ground/mesh/build_ground.h"
 #include "render/look/look.h"
 #include "render/shapes/street/plot_mesh.h"
 #include "render/shapes/street/prop_mesh.h"

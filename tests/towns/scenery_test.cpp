@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ground/mesh/ground.h"
+#include "ground/mesh/build_ground.h"
 #include "tests/support/towns.h"
 #include "tests/towns/sampled_town.h"
 #include "towns/check/standing_check.h"

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ground/mesh/build_ground.h"
 #include "ground/mesh/ground_probe.h"
 #include "towns/bridges/height_profile.h"
 #include "towns/check/furniture_check.h"

@@ -5,6 +5,7 @@
 #include "ground/mesh/ground.h"
 #include "towns/check/criterion.h"
 #include "world/digest.h"
+#include "world/town_generated.h"
 
 namespace reprise::towns {
 

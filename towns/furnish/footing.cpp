@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ground/mesh/ground.h"
+#include "ground/mesh/build_ground.h"
 #include "ground/mesh/ground_probe.h"
 
 namespace reprise::towns {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "ground/mesh/slabs.h"
+#include "ground/mesh/ground.h"
 #include "towns/furnish/props.h"
 #include "world/models/catalogue.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ground/mesh/ground.h"
+#include "world/town_generated.h"
 
 namespace reprise::towns {
 

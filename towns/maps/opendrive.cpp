@@ -12,7 +12,6 @@
 
 #include "towns/maps/opendrive_check.h"
 #include "towns/maps/reference_line.h"
-#include "towns/maps/signal_words.h"
 #include "towns/network/network_xml.h"
 #include "world/check.h"
 

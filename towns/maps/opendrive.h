@@ -1,18 +1,18 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "towns/maps/signal_words.h"
 #include "world/town_generated.h"
 
 namespace reprise::towns {
 
 /// A signal or sign of an OpenDRIVE road.
 struct RoadSignal {
-    enum class Kind : std::uint8_t { light, stop, yield, speed_limit };
+    using Kind = SignalKind;
 
     std::string id;
     Kind kind = Kind::light;

@@ -12,7 +12,7 @@ namespace reprise::towns {
 
 namespace {
 
-using Kind = RoadSignal::Kind;
+using Kind = SignalKind;
 
 std::string lower(std::string_view text) {
     std::string lowered(text);
@@ -75,7 +75,7 @@ double german_limit(const SignalWords& signal) {
 
 }  // namespace
 
-std::optional<RoadSignal::Kind> kind_of(const SignalWords& signal) {
+std::optional<SignalKind> kind_of(const SignalWords& signal) {
     const std::string_view type = signal.type, name = signal.name;
     if (signal.dynamic)
         return type.starts_with("10000") || contains(name, "light") || contains(name, "signal")

@@ -9,6 +9,7 @@
 
 #include "world/check.h"
 #include "world/frames.h"
+#include "world/lanes/make_route.h"
 
 namespace reprise::world {
 

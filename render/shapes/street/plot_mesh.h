@@ -4,6 +4,7 @@
 
 #include "ground/mesh/ground.h"
 #include "render/shapes/mesh.h"
+#include "world/town_generated.h"
 
 namespace reprise::render {
 

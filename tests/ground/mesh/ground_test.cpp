@@ -1,11 +1,11 @@
-#include "ground/mesh/ground.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "ground/mesh/build_ground.h"
+#include "ground/paint/markings.h"
 #include "tests/support/places.h"
 #include "tests/support/worlds.h"
 #include "world/town.h"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ground/mesh/build_ground.h"
 #include "tests/support/places.h"
 #include "towns/check/ground_check.h"
 #include "world/town.h"

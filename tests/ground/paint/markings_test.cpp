@@ -1,9 +1,11 @@
+#include "ground/paint/markings.h"
+
 #include <cmath>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "ground/mesh/ground.h"
+#include "ground/mesh/build_ground.h"
 #include "tests/support/places.h"
 #include "tests/support/worlds.h"
 

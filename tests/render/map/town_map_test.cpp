@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "ground/mesh/build_ground.h"
+#include "ground/paint/markings.h"
 #include "tests/support/worlds.h"
 
 namespace reprise::render {

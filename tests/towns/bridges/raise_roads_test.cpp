@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "ground/mesh/build_ground.h"
 #include "ground/mesh/ground_probe.h"
 #include "tests/towns/street_map.h"
 #include "towns/bridges/height_faults.h"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ground/mesh/build_ground.h"
 #include "ground/mesh/ground_probe.h"
 #include "tests/support/places.h"
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ground/mesh/build_ground.h"
 #include "tests/support/towns.h"
 #include "towns/check/walk_check.h"
 #include "world/check.h"

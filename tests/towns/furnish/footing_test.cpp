@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ground/mesh/ground.h"
+#include "ground/mesh/build_ground.h"
 #include "ground/mesh/terrain.h"
 #include "tests/support/worlds.h"
 #include "towns/buildings/floors.h"

@@ -5,7 +5,7 @@
 //   terrain.cpp under it all, and decks.cpp where something hangs over it. Everything is local,
 //   never one map in plan: bridges keep their level.
 // Keeps: surfaces of the same level meet or lane_overlap at the same height; there are no cracks.
-#include "ground/mesh/ground.h"
+#include "ground/mesh/build_ground.h"
 
 #include <algorithm>
 #include <cmath>
