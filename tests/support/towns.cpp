@@ -22,6 +22,20 @@ const Loaded& own_town(const std::string& name) {
     return towns.emplace(name, load(folder / name / (name + ".net.xml"))).first->second;
 }
 
+std::filesystem::path own_map(const std::string& name) {
+    return std::filesystem::path(REPRISE_SOURCE_DIR) / "tests/maps" / name;
+}
+
+std::filesystem::path real_map(const std::string& name) {
+    const auto beside = std::filesystem::path(REPRISE_SOURCE_DIR) / "../shared/maps" / name;
+    const auto debian = std::filesystem::path("/usr/share/sumo/tools/game") / name;
+    return std::filesystem::exists(debian) ? debian : beside;
+}
+
+std::string missing_map(const std::filesystem::path& map) {
+    return "SKIPPED: the real map " + map.string() + " is not there; own maps were tested";
+}
+
 std::uint32_t lane(const world::TownT& town, std::string_view name) {
     const auto found = world::find_lane(town, name);
     if (!found) {

@@ -21,6 +21,17 @@ const Loaded& own_town(const std::string& name);
 
 Loaded load(const std::filesystem::path& network);
 
+/// tests/maps/NAME: small maps of our own (make_maps.py there), so that what maps promise is always
+/// tested.
+std::filesystem::path own_map(const std::string& name);
+
+/// A map that nobody here wrote, from ../shared/maps beside the project or from Debian's
+/// sumo-tools. It need not be there: tests over it are extras, which skip with missing_map().
+std::filesystem::path real_map(const std::string& name);
+
+/// Why a test over a real map is skipped.
+std::string missing_map(const std::filesystem::path& map);
+
 /// Index of a lane; fails the process when there is none.
 std::uint32_t lane(const world::TownT& town, std::string_view name);
 

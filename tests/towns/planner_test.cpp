@@ -164,18 +164,20 @@ class PlannerInNets : public ::testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Others,
                          PlannerInNets,
-                         ::testing::Values("Town04_sumo115.net.xml", "DRT/osm.net.xml"),
+                         ::testing::Values("quarter.net.xml",
+                                           "Town04_sumo115.net.xml",
+                                           "DRT/osm.net.xml"),
                          [](const auto& net) {
                              const std::string name = net.param;
-                             return name.substr(0, name.find_first_of("/_"));
+                             return name.substr(0, name.find_first_of("/_."));
                          });
 
 TEST_P(PlannerInNets, TakesTheShortestWays) {
-    fs::path path = fs::path(REPRISE_SOURCE_DIR) / "../shared/maps" / GetParam();
+    fs::path path = test::own_map(GetParam());
     if (!fs::exists(path))
-        path = fs::path("/usr/share/sumo/tools/game") / GetParam();
+        path = test::real_map(GetParam());
     if (!fs::exists(path))
-        GTEST_SKIP() << "skipped: no map " << path;
+        GTEST_SKIP() << test::missing_map(path);
     expect_shortest_ways(test::load(path).town, 20);
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/towns.h"
 #include "tests/traffic/stage.h"
 
 namespace reprise::towns {
@@ -11,21 +12,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Networks that nobody here wrote; those of Debian's sumo-tools are always there.
-fs::path find_net(const std::string& name) {
-    const fs::path maps = fs::path(REPRISE_SOURCE_DIR) / "../shared/maps" / name;
-    return fs::exists(maps) ? maps : fs::path("/usr/share/sumo/tools/game") / name;
-}
-
 std::string short_name(const ::testing::TestParamInfo<const char*>& net) {
     const std::string name = net.param;
-    return name.substr(0, name.find_first_of("/_"));
+    return name.substr(0, name.find_first_of("/_."));
 }
 
-class RealNets : public ::testing::TestWithParam<const char*> {};
+class Networks : public ::testing::TestWithParam<const char*> {};
 
-INSTANTIATE_TEST_SUITE_P(Nets,
-                         RealNets,
+INSTANTIATE_TEST_SUITE_P(Own, Networks, ::testing::Values("quarter.net.xml"), short_name);
+
+/// Networks that nobody here wrote.
+INSTANTIATE_TEST_SUITE_P(Real,
+                         Networks,
                          ::testing::Values("Town04_sumo115.net.xml",
                                            "DRT/osm.net.xml",
                                            "A10KW/osm.net.xml",
@@ -33,10 +31,12 @@ INSTANTIATE_TEST_SUITE_P(Nets,
                                            "grid6/grid6.net.xml"),
                          short_name);
 
-TEST_P(RealNets, CarryACityOfCars) {
-    const fs::path path = find_net(GetParam());
+TEST_P(Networks, CarryACityOfCars) {
+    fs::path path = test::own_map(GetParam());
     if (!fs::exists(path))
-        GTEST_SKIP() << "skipped: no map " << path;
+        path = test::real_map(GetParam());
+    if (!fs::exists(path))
+        GTEST_SKIP() << test::missing_map(path);
     const test::Loaded loaded = test::load(path);
     test::Stage stage(loaded, 100);
     double driven = 0;

@@ -118,15 +118,14 @@ inline bool any_road(const LaneT& lane) {
     return lane.kind != LaneKind::crossing && lane.kind != LaneKind::walking_area;
 }
 
-/// Own towns, and networks of others when they are there.
+/// Own towns and maps, and networks of others when they are there.
 inline const world::TownT* find_town(const std::string& name) {
     if (name.find('.') == std::string::npos)
         return &own_town(name).town;
     static std::map<std::string, Loaded> loaded;
-    std::filesystem::path path =
-        std::filesystem::path(REPRISE_SOURCE_DIR) / "../shared/maps" / name;
+    std::filesystem::path path = own_map(name);
     if (!std::filesystem::exists(path))
-        path = std::filesystem::path("/usr/share/sumo/tools/game") / name;
+        path = real_map(name);
     if (!std::filesystem::exists(path))
         return nullptr;
     auto found = loaded.find(name);
@@ -140,7 +139,7 @@ class AnyTown : public ::testing::TestWithParam<const char*> {
     void SetUp() override {
         town_ = find_town(GetParam());
         if (town_ == nullptr)
-            GTEST_SKIP() << "skipped: no map " << GetParam();
+            GTEST_SKIP() << missing_map(real_map(GetParam()));
     }
 
     const TownT& town() const { return *town_; }
@@ -151,12 +150,13 @@ class AnyTown : public ::testing::TestWithParam<const char*> {
 
 inline std::string short_name(const ::testing::TestParamInfo<const char*>& net) {
     const std::string name = net.param;
-    return name.substr(0, name.find_first_of("/_"));
+    return name.substr(0, name.find_first_of("/_."));
 }
 
-/// Our own towns, and two that nobody here made.
+/// Our own towns and network, and two that nobody here made.
 inline auto any_town() {
-    return ::testing::Values("town1", "town2", "Town04_sumo115.net.xml", "DRT/osm.net.xml");
+    return ::testing::Values(
+        "town1", "town2", "quarter.net.xml", "Town04_sumo115.net.xml", "DRT/osm.net.xml");
 }
 
 }  // namespace reprise::test

@@ -70,6 +70,20 @@ class Imports : public ::testing::Test {
         return "no error";
     }
 
+    void expect_same_bytes(const fs::path& map) const {
+        const std::string name = map.stem().string();
+        import_town({map, "", false, false}, empty(name + "1"));
+        import_town({map, "", false, false}, empty(name + "2"));
+        for (const std::string& ending :
+             {name + ".net.xml", name + ".place.xml", std::string("import.txt")}) {
+            const std::string first = bytes(folder_ / (name + "1") / ending);
+            EXPECT_FALSE(first.empty()) << ending;
+            EXPECT_EQ(first, bytes(folder_ / (name + "2") / ending)) << ending;
+        }
+    }
+
+    void expect_traffic(const fs::path& map, int cars, int ticks) const;
+
     fs::path folder_;
 };
 
@@ -83,10 +97,6 @@ double driven(const world::TownT& town) {
     for (const world::LaneT& lane : town.lanes)
         length += lane.kind == LaneKind::driving ? lane.length : 0;
     return length;
-}
-
-fs::path shared_map(const std::string& name) {
-    return fs::path(REPRISE_SOURCE_DIR) / "../shared/maps" / name;
 }
 
 TEST_F(Imports, AStreetMapBecomesATown) {
@@ -347,21 +357,15 @@ TEST_F(Imports, CourtyardsOfSeveralWaysAreCountedAndFilled) {
 }
 
 TEST_F(Imports, TheSameMapGivesTheSameBytes) {
-    for (const fs::path& map : {village(), shared_map("Town07.xodr")}) {
-        if (!fs::exists(map)) {
-            std::printf("skipped: no map %s\n", map.c_str());
-            continue;
-        }
-        const std::string name = map.stem().string();
-        import_town({map, "", false, false}, empty(name + "1"));
-        import_town({map, "", false, false}, empty(name + "2"));
-        for (const std::string& ending :
-             {name + ".net.xml", name + ".place.xml", std::string("import.txt")}) {
-            const std::string first = bytes(folder_ / (name + "1") / ending);
-            EXPECT_FALSE(first.empty()) << ending;
-            EXPECT_EQ(first, bytes(folder_ / (name + "2") / ending)) << ending;
-        }
-    }
+    expect_same_bytes(village());
+    expect_same_bytes(test::own_map("bridge.xodr"));
+}
+
+TEST_F(Imports, TheSameRealMapGivesTheSameBytes) {
+    const fs::path map = test::real_map("Town07.xodr");
+    if (!fs::exists(map))
+        GTEST_SKIP() << test::missing_map(map);
+    expect_same_bytes(map);
 }
 
 TEST_F(Imports, PackedMapsAreTheSame) {
@@ -596,9 +600,7 @@ TEST_F(Imports, EachLaneKeepsTheLightThatHangsOverIt) {
 }
 
 TEST_F(Imports, StreetNamesStayAndMadeUpOnesGo) {
-    if (!fs::exists(shared_map("Town01.xodr")))
-        GTEST_SKIP() << "skipped: no map";
-    std::string map = bytes(shared_map("Town01.xodr"));
+    std::string map = bytes(test::own_map("bridge.xodr"));
     const std::string made_up = "<road name=\"Road 1\"";
     map.replace(map.find(made_up), made_up.size(), "<road name=\"Road 1 &amp; Quay\"");
     import_town({write("named.xodr", map), "", false, false}, empty("t"));
@@ -621,10 +623,49 @@ void expect_heads_suit(const ImportedRoads& roads, const Place& place) {
             }
 }
 
+/// tests/maps/make_maps.py says what it holds.
+TEST_F(Imports, AMapKeepsItsLightsSignsLimitsAndBridge) {
+    const fs::path file = test::own_map("bridge.xodr");
+    import_town({file, "", false, false}, empty("t"));
+    const std::string network = bytes(folder_ / "t/bridge.net.xml");
+    const ImportedRoads roads = read_roads(network, "bridge");
+    const Place place = read_place(bytes(folder_ / "t/bridge.place.xml"), "bridge.place.xml");
+    EXPECT_EQ(place.heads.size(), 4U) << "one on each arm";
+    expect_heads_suit(roads, place);
+    std::map<world::PropKind, int> signs;
+    for (const world::Prop& sign : place.signs)
+        ++signs[sign.kind()];
+    EXPECT_EQ(signs,
+              (std::map<world::PropKind, int>{{world::PropKind::stop_sign, 1},
+                                              {world::PropKind::speed_limit_sign, 1}}));
+    const OpenDrive map = read_opendrive(bytes(file), "bridge.xodr");
+    const SignsThatBind bind = signs_that_bind(lane_signs(map, roads), roads.town);
+    EXPECT_EQ(bind.roads, 1);
+    EXPECT_EQ(bind.giving_way, 1);
+
+    const world::TownT town = read_town(load_network(folder_ / "t/bridge.net.xml"));
+    std::set<long> limits_kmh;
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind == LaneKind::driving)
+            limits_kmh.insert(std::lround(lane.speed_limit * 3.6));
+    EXPECT_EQ(limits_kmh, (std::set<long>{30, 50}));
+    // Where the road crosses itself, 95 m east of the crossing, it lies on the ground and 7 m
+    // higher.
+    std::set<long> heights;
+    for (const world::LaneT& lane : town.lanes)
+        for (double s = 0; lane.kind == LaneKind::driving && s < lane.length; s += 0.5) {
+            const Eigen::Vector3d p = world::point_at(lane, s).position;
+            if (std::hypot(p.x() - 95, p.y()) < 3)
+                heights.insert(std::lround(p.z()));
+        }
+    EXPECT_EQ(heights, (std::set<long>{0, 7}));
+}
+
 TEST_F(Imports, Town01KeepsItsLightsAndLimits) {
-    if (!fs::exists(shared_map("Town01.xodr")))
-        GTEST_SKIP() << "skipped: no map";
-    import_town({shared_map("Town01.xodr"), "", false, false}, empty("t"));
+    const fs::path file = test::real_map("Town01.xodr");
+    if (!fs::exists(file))
+        GTEST_SKIP() << test::missing_map(file);
+    import_town({file, "", false, false}, empty("t"));
     const fs::path network = folder_ / "t/Town01.net.xml";
     const world::TownT town = read_town(load_network(network));
     EXPECT_EQ(town.junctions.size(), 12U);
@@ -652,9 +693,10 @@ TEST_F(Imports, Town01KeepsItsLightsAndLimits) {
 }
 
 TEST_F(Imports, Town07FollowsItsStopAndYieldSigns) {
-    if (!fs::exists(shared_map("Town07.xodr")))
-        GTEST_SKIP() << "skipped: no map";
-    import_town({shared_map("Town07.xodr"), "", false, false}, empty("t"));
+    const fs::path file = test::real_map("Town07.xodr");
+    if (!fs::exists(file))
+        GTEST_SKIP() << test::missing_map(file);
+    import_town({file, "", false, false}, empty("t"));
     const Place place = read_place(bytes(folder_ / "t/Town07.place.xml"), "Town07.place.xml");
     std::map<world::PropKind, int> signs;
     for (const world::Prop& sign : place.signs)
@@ -666,7 +708,7 @@ TEST_F(Imports, Town07FollowsItsStopAndYieldSigns) {
     const ImportedRoads roads = read_roads(network, "Town07");
     expect_heads_suit(roads, place);
     EXPECT_THAT(network, HasSubstr("type=\"allway_stop\""));
-    const OpenDrive map = read_opendrive(bytes(shared_map("Town07.xodr")), "Town07.xodr");
+    const OpenDrive map = read_opendrive(bytes(file), "Town07.xodr");
     const SignsThatBind bind = signs_that_bind(lane_signs(map, roads), roads.town);
     EXPECT_EQ(bind.roads, 39);
     EXPECT_GE(bind.giving_way, 36) << "the rest stand where a road only goes on";
@@ -677,23 +719,29 @@ TEST_F(Imports, Town07FollowsItsStopAndYieldSigns) {
         }
 }
 
+void Imports::expect_traffic(const fs::path& map, int cars, int ticks) const {
+    const fs::path made = empty(map.stem().string());
+    import_town({map, "", false, false}, made);
+    const test::Loaded loaded = test::load(made / (map.stem().string() + ".net.xml"));
+    test::Stage stage(loaded, static_cast<std::uint32_t>(cars));
+    double fastest = 0;
+    for (int i = 0; i < ticks; ++i)
+        for (const world::CarState& car : stage.step().traffic.cars)
+            fastest = std::max(fastest, static_cast<double>(car.speed()));
+    EXPECT_GT(fastest, 5) << map;
+    EXPECT_GE(stage.draft().traffic.cars.size(), cars * 3U / 4) << map;
+}
+
 TEST_F(Imports, ImportedTownsCarryTraffic) {
-    for (const fs::path& map : {village(), shared_map("Town07.xodr")}) {
-        if (!fs::exists(map)) {
-            std::printf("skipped: no map %s\n", map.c_str());
-            continue;
-        }
-        const fs::path made = empty(map.stem().string());
-        import_town({map, "", false, false}, made);
-        const test::Loaded loaded = test::load(made / (map.stem().string() + ".net.xml"));
-        test::Stage stage(loaded, 20);
-        double fastest = 0;
-        for (int i = 0; i < 200; ++i)
-            for (const world::CarState& car : stage.step().traffic.cars)
-                fastest = std::max(fastest, static_cast<double>(car.speed()));
-        EXPECT_GT(fastest, 5) << map;
-        EXPECT_GE(stage.draft().traffic.cars.size(), 15U) << map;
-    }
+    expect_traffic(village(), 20, 200);
+    expect_traffic(test::own_map("bridge.xodr"), 20, 200);
+}
+
+TEST_F(Imports, ImportedRealTownsCarryTraffic) {
+    const fs::path map = test::real_map("Town07.xodr");
+    if (!fs::exists(map))
+        GTEST_SKIP() << test::missing_map(map);
+    expect_traffic(map, 20, 200);
 }
 
 TEST_F(Imports, WhatIsNoMapIsRefusedInOneLine) {
