@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -38,6 +39,21 @@ inline Eigen::Vector2d in_plan(const Vec3& p) {
 
 inline double cross(const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
     return p.x() * q.y() - p.y() * q.x();
+}
+
+/// Unit vector of a yaw [rad], counter-clockwise from east.
+inline Eigen::Vector2d ahead_of(double yaw) {
+    return {std::cos(yaw), std::sin(yaw)};
+}
+
+/// Unit vector to the left of a yaw. [rad]
+inline Eigen::Vector2d left_of(double yaw) {
+    return {-std::sin(yaw), std::cos(yaw)};
+}
+
+/// A vector turned by a quarter, counter-clockwise.
+inline Eigen::Vector2d turned_left(const Eigen::Vector2d& v) {
+    return {-v.y(), v.x()};
 }
 
 Loop in_plan(const std::vector<Vec3>& outline);

@@ -6,6 +6,7 @@
 
 #include "world/check.h"
 #include "world/frames.h"
+#include "world/geometry2d.h"
 
 namespace reprise::world {
 
@@ -48,7 +49,7 @@ Eigen::Vector2d heading(const LaneT& lane, std::size_t segment) {
 double left_of(const LaneT& lane, std::size_t segment, const Foot& foot, const Eigen::Vector3d& p) {
     const Eigen::Vector3d offset = p - foot.position;
     const auto across = [&](const Eigen::Vector2d& along) {
-        return along.x() * offset.y() - along.y() * offset.x();
+        return cross(along, offset.head<2>());
     };
     const Eigen::Vector2d along = heading(lane, segment);
     const double distance = std::hypot(offset.x(), offset.y());
@@ -131,12 +132,10 @@ double curve_radius(const LaneT& lane, double s) {
         }
     }
     // Circumscribed circle in plan: R = a b c / (4 area). A hill's crest is no curve.
-    const auto flat = [&](std::size_t i) {
-        return Eigen::Vector2d(lane.centre[i].x(), lane.centre[i].y());
-    };
+    const auto flat = [&](std::size_t i) { return in_plan(lane.centre[i]); };
     const Eigen::Vector2d first = flat(middle) - flat(middle - 1);
     const Eigen::Vector2d second = flat(middle + 1) - flat(middle);
-    const double twice_area = std::abs(first.x() * second.y() - first.y() * second.x());
+    const double twice_area = std::abs(cross(first, second));
     const double sides = first.norm() * second.norm() * (first + second).norm();
     return sides < 2 * twice_area * straight_radius ? sides / (2 * twice_area) : straight_radius;
 }

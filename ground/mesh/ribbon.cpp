@@ -27,7 +27,7 @@ Eigen::Vector2d flat(const Eigen::Vector3d& p) {
 /// Unit vector to the left of the segment that starts at `from`, in plan.
 Eigen::Vector2d left_normal(const Line& line, std::size_t from) {
     const Eigen::Vector2d along = flat(line[from + 1]) - flat(line[from]);
-    return Eigen::Vector2d(-along.y(), along.x()) / along.norm();
+    return world::turned_left(along) / along.norm();
 }
 
 Eigen::Vector3d beside(const Eigen::Vector3d& p, const Eigen::Vector2d& normal, double offset) {

@@ -31,14 +31,6 @@ double gap(const ground::GroundProbe& probe, const Vector2d& p, double z) {
     return ground ? z - ground->z : no_ground;
 }
 
-Vector2d along(double yaw) {
-    return {std::cos(yaw), std::sin(yaw)};
-}
-
-Vector2d left_of(const Vector2d& direction) {
-    return {-direction.y(), direction.x()};
-}
-
 /// Those that are as long as they look: the foot of all others is their middle.
 bool has_ends(world::PropKind kind) {
     return kind == world::PropKind::fence || kind == world::PropKind::wall ||
@@ -49,8 +41,8 @@ bool has_ends(world::PropKind kind) {
 /// Of its middle and, where it has them, its ends. A wall may stand at the edge of a bridge: the
 /// ground beside it counts as well.
 double gap_of(const ground::GroundProbe& probe, const world::Prop& prop) {
-    const Vector2d x = along(prop.yaw());
-    const Vector2d aside = left_of(x) * (prop.width() / 2 + at_edge);
+    const Vector2d x = world::ahead_of(prop.yaw());
+    const Vector2d aside = world::turned_left(x) * (prop.width() / 2 + at_edge);
     double worst = 0;
     for (const double share : {0.0, -0.5, 0.5}) {
         if (share != 0 && !has_ends(prop.kind()))
@@ -95,7 +87,7 @@ double door_gap(const ground::GroundProbe& probe,
     double door = no_ground;
     for (std::size_t i = first_side; i < first_side + sides; ++i) {
         const Vector2d side = outline[(i + 1) % outline.size()] - outline[i];
-        const Vector2d out = -left_of(side.normalized());
+        const Vector2d out = -world::turned_left(side.normalized());
         const Vector2d place = outline[i] + side / 2 + out * before_door;
         door = std::min(door, std::abs(gap(probe, place, floor)));
     }
@@ -108,8 +100,8 @@ Criterion check_doors(const world::TownT& town, const ground::GroundProbe& probe
     Measured off("doors on the ground", doors_limit, "m");
     for (std::size_t i = 0; i < town.buildings.size(); ++i) {
         const world::Building& b = town.buildings[i];
-        const Vector2d x = along(b.yaw()) * b.length() / 2;
-        const Vector2d y = left_of(along(b.yaw())) * b.width() / 2;
+        const Vector2d x = world::ahead_of(b.yaw()) * b.length() / 2;
+        const Vector2d y = world::left_of(b.yaw()) * b.width() / 2;
         const Vector2d c = world::in_plan(b.centre());
         const world::Loop outline{c - x - y, c + x - y, c + x + y, c - x + y};
         off.take(numbered("building", i), c, door_gap(probe, outline, b.centre().z(), 0, 1));
