@@ -46,11 +46,11 @@ void add_side(const GroundProbe& probe,
     const double length = along.head<2>().norm();
     if (length < 1e-3)
         return;
-    constexpr double beside_step = 0.15;  // [m]
-    const Vector3d outward = Vector3d(along.y(), -along.x(), 0) / length * beside_step;
+    constexpr double probe_offset = 0.15;  // [m]
+    const Vector3d outward = Vector3d(along.y(), -along.x(), 0) / length * probe_offset;
     const Vector3d middle = (from + to) / 2;
-    const auto next = probe.below(middle + outward + beside_step * Vector3d::UnitZ());
-    if (!next || next->z < middle.z() - beside_step)
+    const auto next = probe.below(middle + outward + probe_offset * Vector3d::UnitZ());
+    if (!next || next->z < middle.z() - probe_offset)
         ground.add_wall(from, to, -deck_depth, 0, Surface::deck);
 }
 

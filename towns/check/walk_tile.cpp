@@ -23,8 +23,8 @@ namespace {
 
 constexpr float cell_height = 0.05F;  // [m]
 
-void require(bool done, const char* step) {
-    REPRISE_CHECK(done, std::string("walk map: ") + step);
+void require(bool done, const char* stage) {
+    REPRISE_CHECK(done, std::string("walk map: ") + stage);
 }
 
 rcConfig make_config(const TilePlace& place) {
