@@ -5,9 +5,9 @@
 #include "towns/buildings/gardens.h"
 #include "towns/buildings/plots.h"
 #include "towns/furnish/heads.h"
-#include "towns/furnish/land.h"
 #include "towns/furnish/parapets.h"
 #include "towns/furnish/parked_cars.h"
+#include "towns/furnish/placement_context.h"
 #include "towns/furnish/plants.h"
 #include "towns/furnish/signs.h"
 #include "towns/furnish/spawn_points.h"
@@ -18,21 +18,21 @@ namespace reprise::towns {
 void place_scenery(world::TownT& town,
                    const Place& place,
                    const std::vector<GiveWay>& right_of_way) {
-    Land land(town, place, right_of_way);
+    PlacementContext context(town, place, right_of_way);
     // What drivers need first; then what takes the most room; what finds a place anywhere last.
-    place_heads(land);
-    place_signs(land);
-    lay_out_plots(land);
-    keep_drawn_buildings(land);
-    const std::vector<Lot> lots = place_buildings(land);
-    place_parapets(land);
-    place_bus_stops(land);
-    place_street_lights(land);
-    lay_out_gardens(land, lots);
-    place_street_trees(land);
-    park_along_wide_lanes(land);
-    place_small_furniture(land);
-    place_spawn_points(land);
+    place_heads(context);
+    place_signs(context);
+    lay_out_plots(context);
+    keep_drawn_buildings(context);
+    const std::vector<StreetBuilding> street_buildings = place_buildings(context);
+    place_parapets(context);
+    place_bus_stops(context);
+    place_street_lights(context);
+    lay_out_gardens(context, street_buildings);
+    place_street_trees(context);
+    park_along_wide_lanes(context);
+    place_small_furniture(context);
+    place_spawn_points(context);
 }
 
 }  // namespace reprise::towns

@@ -67,7 +67,7 @@ bool all_pass(const std::vector<Criterion>& criteria) {
 }  // namespace
 
 /// In the flat town, too?
-bool HeightJudge::was_there(const Criterion& criterion, const Criterion::Place& place) {
+bool HeightFaultFinder::was_there(const Criterion& criterion, const Criterion::Place& place) {
     if (!criteria_of_flat_) {
         const world::TownT town = read_town(flat_);
         const ground::GroundMesh ground = ground::build_ground(town);
@@ -84,7 +84,7 @@ bool HeightJudge::was_there(const Criterion& criterion, const Criterion::Place& 
     return false;
 }
 
-std::vector<HeightFault> HeightJudge::faults(const std::string& xml) {
+std::vector<HeightFault> HeightFaultFinder::faults(const std::string& xml) {
     const world::TownT town = read_town({flat_.name, xml, "", flat_.place});
     std::vector<HeightFault> found;
     find_ramps(town, found);

@@ -10,7 +10,7 @@
 
 namespace reprise::towns {
 
-/// A place of a town that its bridges, tunnels and ramps spoil.
+/// A place where the heights of bridges, tunnels and ramps break a promise of the town.
 struct HeightFault {
     enum class Kind : std::uint8_t {
         steep,  ///< a ramp of more than 15 %
@@ -23,10 +23,10 @@ struct HeightFault {
 };
 
 /// Finds out whether a town that was good when it was flat still is with heights.
-class HeightJudge {
+class HeightFaultFinder {
   public:
     /// The town before it got heights.
-    explicit HeightJudge(Network flat) : flat_(std::move(flat)) {}
+    explicit HeightFaultFinder(Network flat) : flat_(std::move(flat)) {}
 
     /// What is wrong with the same town, its network being `xml` now; the worst places of each kind
     /// only. Empty: nothing that was not wrong already. Costs half a `town check`, and little

@@ -217,8 +217,8 @@ void LevelFinder::mark_spans() {
     for (const Track& track : roads_.tracks) {
         const std::size_t last = track.points.size() - 1;
         for (std::size_t i = 0; i <= last && last > 0; ++i) {
-            const LineSpot spot =
-                spot_along(track.line, static_cast<double>(i) / static_cast<double>(last));
+            const LinePoint spot =
+                point_along(track.line, static_cast<double>(i) / static_cast<double>(last));
             const std::uint32_t span = spans_.at(spot.place, spot.direction, track);
             if (level(span) != 0)
                 mark(track.points[i], span);

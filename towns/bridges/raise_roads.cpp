@@ -3,8 +3,8 @@
 // What it assumes: all heights are 0.
 // How it goes: the roads as points (road_chains); levels of those that must be up or down (levels);
 //   heights of all (road_heights); then these are written into every shape (height_profile). Where
-//   the town that comes out of it is worse than the flat one, the bridge to blame stays flat, and
-//   all begins anew.
+//   the town that comes out of it is worse than the flat one, the span that causes it stays flat,
+//   and all begins anew.
 // What it keeps: places in plan, lengths, and the order of the file.
 #include "towns/bridges/raise_roads.h"
 
@@ -17,9 +17,9 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
-#include "towns/bridges/blame.h"
 #include "towns/bridges/height_profile.h"
 #include "towns/bridges/levels.h"
+#include "towns/bridges/responsible_span.h"
 #include "towns/bridges/road_chains.h"
 #include "towns/bridges/road_heights.h"
 #include "towns/network/network_xml.h"
@@ -191,10 +191,10 @@ struct Flattened {
 /// Few at a time, those with the most faults first: with one bridge flat, its neighbours may do.
 std::vector<Flattened> to_flatten(const Raised& raised, const std::vector<HeightFault>& faults) {
     constexpr std::size_t parts = 8;
-    const Blame blame(raised.roads, raised.levels, raised.heights);
+    const ResponsibleSpan responsible_span(raised.roads, raised.levels, raised.heights);
     std::map<std::uint32_t, std::vector<HeightFault::Kind>> faults_of;
     for (const HeightFault& fault : faults)
-        faults_of[blame.at(fault.place)].push_back(fault.kind);
+        faults_of[responsible_span.at(fault.place)].push_back(fault.kind);
     std::vector<std::uint32_t> order;
     for (const auto& [span, kinds] : faults_of)
         order.push_back(span);

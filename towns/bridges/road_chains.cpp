@@ -130,7 +130,7 @@ void ChainReader::add_chain(const pugi::xml_node& edge, const Loop& line) {
     const int count = std::max(1, static_cast<int>(std::ceil(length / point_spacing)));
     Chain chain;
     for (int i = 0; i <= count; ++i)
-        chain.places.push_back(spot_along(line, static_cast<double>(i) / count).place);
+        chain.places.push_back(point_along(line, static_cast<double>(i) / count).place);
     chain.points.push_back(roads_.junctions.at(edge.attribute("from").value()));
     for (int i = 1; i < count; ++i)
         chain.points.push_back(add_point(chain.places[static_cast<std::size_t>(i)]));
@@ -269,7 +269,7 @@ double plan_length(const Loop& line) {
     return length;
 }
 
-LineSpot spot_along(const Loop& line, double share) {
+LinePoint point_along(const Loop& line, double share) {
     double rest = share * plan_length(line);
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         const Vector2d along = line[i + 1] - line[i];

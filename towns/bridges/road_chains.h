@@ -71,12 +71,12 @@ std::vector<double> distances(const RoadChains& roads,
 /// Of an open line. [m]
 double plan_length(const world::Loop& line);
 
-struct LineSpot {
+struct LinePoint {
     Eigen::Vector2d place;
     Eigen::Vector2d direction;  ///< of length 1
 };
 
 /// At a share of an open line's length, 0 to 1.
-LineSpot spot_along(const world::Loop& line, double share);
+LinePoint point_along(const world::Loop& line, double share);
 
 }  // namespace reprise::towns

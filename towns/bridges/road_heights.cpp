@@ -19,9 +19,9 @@ namespace reprise::towns {
 
 namespace {
 
-constexpr double usual_slope = 0.08;                              ///< the steepest of main roads
-constexpr double steepness = 1.5;                                 ///< of smooth_step
-constexpr double ramp = steepness * storey_height / usual_slope;  ///< [m]
+constexpr double usual_slope = 0.08;                             ///< the steepest of main roads
+constexpr double steepness = 1.5;                                ///< of smooth_step
+constexpr double ramp = steepness * level_height / usual_slope;  ///< [m]
 constexpr double rounding = 12;  ///< [m] about this far from it a kink is felt
 constexpr int fixed = -1;        ///< a point that is not smoothed
 
@@ -49,7 +49,7 @@ void add_storey(int storey,
         const double down = std::max(to_upper[i], 0.0);
         const double up = std::min(to_lower[i], ramp - down);
         if (up > 0)
-            heights[i] += sign * storey_height * smooth_step(up / (up + down));
+            heights[i] += sign * level_height * smooth_step(up / (up + down));
     }
 }
 

@@ -7,8 +7,8 @@
 
 namespace reprise::towns {
 
-/// From one level to the next: 4.5 m for lorries and 1.5 m for a deck. [m]
-inline constexpr double storey_height = 6.0;
+/// Between the road surfaces of one level and the next: 4.5 m for lorries, 1.5 m for a deck. [m]
+inline constexpr double level_height = 6.0;
 
 /// A height for each point of a road network. [m] Points with a level have its height; the others
 /// climb between them by about 8 % at most, or evenly where there is no room for that, without

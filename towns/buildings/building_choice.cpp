@@ -44,7 +44,7 @@ constexpr Choice centre_behind[] = {{"glass_tower", 3}, {"office_tower", 3}, {"f
 
 // clang-format on
 
-std::span<const Choice> choices(BuildingStyle style, Situation situation) {
+std::span<const Choice> choices(BuildingStyle style, StreetSetting street_setting) {
     const std::array<std::array<std::span<const Choice>, 3>, 5> all{{
         {village_quiet, village_street, village_behind},
         {old_quiet, old_street, old_behind},
@@ -52,7 +52,7 @@ std::span<const Choice> choices(BuildingStyle style, Situation situation) {
         {modern_quiet, modern_street, modern_behind},
         {centre_quiet, centre_street, centre_behind},
     }};
-    return all[static_cast<std::size_t>(style)][static_cast<std::size_t>(situation)];
+    return all[static_cast<std::size_t>(style)][static_cast<std::size_t>(street_setting)];
 }
 
 /// Where the most driving lanes come together; ties to the first by name.
@@ -84,11 +84,13 @@ std::optional<BuildingStyle> find_building_style(std::string_view name) {
     return std::nullopt;
 }
 
-Districts::Districts(const Land& land) : seed_(land.seed), middle_(greatest_junction(land.town)) {
-    for (auto plot = land.place.plots.rbegin(); plot != land.place.plots.rend(); ++plot)
+Districts::Districts(const PlacementContext& context)
+    : seed_(context.seed),
+      middle_(greatest_junction(context.town)) {
+    for (auto plot = context.place.plots.rbegin(); plot != context.place.plots.rend(); ++plot)
         if (plot->kind == world::PlotKind::square && !plot->outline.empty())
             middle_ = mean_of(plot->outline);
-    for (const Place::District& district : land.place.districts)
+    for (const Place::District& district : context.place.districts)
         if (const auto style = find_building_style(district.style))
             regions_.push_back({*style, world::in_plan(district.outline)});
 }
@@ -114,8 +116,8 @@ BuildingStyle Districts::at(const Vector2d& p) const {
                                                         static_cast<std::uint32_t>(row)));
 }
 
-std::uint32_t choose_model(BuildingStyle style, Situation situation, double drawn) {
-    const std::span<const Choice> from = choices(style, situation);
+std::uint32_t choose_model(BuildingStyle style, StreetSetting street_setting, double drawn) {
+    const std::span<const Choice> from = choices(style, street_setting);
     int sum = 0;
     for (const Choice& choice : from)
         sum += choice.weight;

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "towns/furnish/land.h"
+#include "towns/furnish/placement_context.h"
 
 namespace reprise::towns {
 
@@ -18,7 +18,7 @@ std::optional<BuildingStyle> find_building_style(std::string_view name);
 /// there are none, centre around the greatest junction, and one drawn for each region of 160 m.
 class Districts {
   public:
-    explicit Districts(const Land& land);
+    explicit Districts(const PlacementContext& context);
 
     BuildingStyle at(const Eigen::Vector2d& p) const;
 
@@ -36,14 +36,14 @@ class Districts {
     std::vector<Region> regions_;
 };
 
-/// Where a building may stand.
-enum class Situation : std::uint8_t {
-    quiet,   ///< along a street of one lane and at most 30 km/h
-    street,  ///< along any other
-    behind   ///< in the second row
+/// The kind of street a building stands at; together with the style it decides the model.
+enum class StreetSetting : std::uint8_t {
+    quiet_street,  ///< along a street of one lane and at most 30 km/h
+    street,        ///< along any other
+    second_row     ///< behind the buildings of a street
 };
 
 /// Index in world::building_models(); `drawn` in [0, 1).
-std::uint32_t choose_model(BuildingStyle style, Situation situation, double drawn);
+std::uint32_t choose_model(BuildingStyle style, StreetSetting street_setting, double drawn);
 
 }  // namespace reprise::towns

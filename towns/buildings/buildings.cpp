@@ -51,13 +51,13 @@ struct Draft {
 
 class Builder {
   public:
-    explicit Builder(Land& land) : land_(land), districts_(land) {}
+    explicit Builder(PlacementContext& context) : context_(context), districts_(context) {}
 
     void add_landmarks();
     void add_rows();
     void add_rows_behind();
 
-    std::vector<Lot> take_lots() { return std::move(lots_); }
+    std::vector<StreetBuilding> take_street_buildings() { return std::move(street_buildings_); }
 
   private:
     Draft draft(
@@ -70,14 +70,14 @@ class Builder {
                                      double away,
                                      Draws& draws) const;
     void add_landmark(const char* model, double from_middle, std::uint64_t item);
-    Situation situation(const Roadside& roadside) const;
+    StreetSetting street_setting(const Roadside& roadside) const;
     double share(double spacing) const;
 
-    Land& land_;
+    PlacementContext& context_;
     Districts districts_;
     Clearance rows_{1};
     Clearance detached_{8};
-    std::vector<Lot> lots_;
+    std::vector<StreetBuilding> street_buildings_;
 };
 
 double setback_of(const BuildingModel& model, Draws& draws) {
@@ -111,12 +111,13 @@ Draft Builder::draft(
     found.footprint.length = small ? m.shortest : length;
     found.footprint.width = small ? m.shallowest : width;
     found.setback = setback_of(m, draws) + (roadside.walk > 0 ? 0 : verge);
-    const Site at =
-        site(roadside, s + found.footprint.length / 2, found.setback + found.footprint.width / 2);
+    const RoadsidePose at = roadside_pose(
+        roadside, s + found.footprint.length / 2, found.setback + found.footprint.width / 2);
     found.footprint.centre = at.position;
     found.footprint.yaw = facing_yaw(roadside, at);
     // On a slope the lower end decides: no door hangs in the air.
-    found.z = std::min(site(roadside, s, 0).z, site(roadside, s + found.footprint.length, 0).z);
+    found.z = std::min(roadside_pose(roadside, s, 0).z,
+                       roadside_pose(roadside, s + found.footprint.length, 0).z);
     return found;
 }
 
@@ -124,12 +125,13 @@ bool Builder::is_clear(const Draft& draft, double gap) const {
     const Footprint& f = draft.footprint;
     const double front = std::max(0.4, 0.8 * draft.setback - 0.1);
     const bool in_row = is_in_row(world::building_models()[draft.model]) && gap <= detached_gap;
-    return land_.walks.is_clear(f, std::min(front, 4.0)) && land_.roads.is_clear(f, 1.5) &&
-           land_.junctions.is_clear(f, 0.5) && land_.reserved.is_clear(f, 0.5) &&
+    return context_.walks.is_clear(f, std::min(front, 4.0)) && context_.roads.is_clear(f, 1.5) &&
+           context_.junctions.is_clear(f, 0.5) && context_.reserved.is_clear(f, 0.5) &&
            detached_.is_clear(f, gap) && rows_.is_clear(f, 0) &&
-           (in_row ? rows_.is_clear(f, party_wall / 2) : land_.buildings.is_clear(f, gap)) &&
-           land_.solid.is_clear(f, party_wall / 2) && land_.sights.is_clear(f, sight_distance) &&
-           !land_.is_steep(f.centre) && floor_on(land_.footing, f, draft.z).has_value();
+           (in_row ? rows_.is_clear(f, party_wall / 2) : context_.buildings.is_clear(f, gap)) &&
+           context_.solid.is_clear(f, party_wall / 2) &&
+           context_.sights.is_clear(f, sight_distance) && !context_.is_steep(f.centre) &&
+           floor_on(context_.ground_heights, f, draft.z).has_value();
 }
 
 void Builder::build(std::uint32_t roadside, const Draft& draft, Draws& draws) {
@@ -138,34 +140,35 @@ void Builder::build(std::uint32_t roadside, const Draft& draft, Draws& draws) {
     const int floors = m.fewest_floors + static_cast<int>(draws.index(static_cast<std::size_t>(
                                              m.most_floors - m.fewest_floors + 1)));
     const double eaves = m.ground_floor + m.floor_height * (floors - 1);
-    lots_.push_back(
-        {static_cast<std::uint32_t>(land_.town.buildings.size()), roadside, draft.setback});
-    const double floor = floor_on(land_.footing, f, draft.z).value_or(draft.z);
-    land_.town.buildings.emplace_back(Vec3(f.centre.x(), f.centre.y(), floor),
-                                      f.yaw,
-                                      f.length,
-                                      f.width,
-                                      eaves,
-                                      draws.style(),
-                                      draft.model + 1);
+    street_buildings_.push_back(
+        {static_cast<std::uint32_t>(context_.town.buildings.size()), roadside, draft.setback});
+    const double floor = floor_on(context_.ground_heights, f, draft.z).value_or(draft.z);
+    context_.town.buildings.emplace_back(Vec3(f.centre.x(), f.centre.y(), floor),
+                                         f.yaw,
+                                         f.length,
+                                         f.width,
+                                         eaves,
+                                         draws.style(),
+                                         draft.model + 1);
     (is_in_row(m) ? rows_ : detached_).add_footprint(f);
-    land_.buildings.add_footprint(f);
-    land_.solid.add_footprint(f);
+    context_.buildings.add_footprint(f);
+    context_.solid.add_footprint(f);
 }
 
-Situation Builder::situation(const Roadside& roadside) const {
-    if (roadside.driven == world::none || land_.is_country(roadside))
-        return Situation::quiet;
-    const world::LaneT& lane = land_.town.lanes[roadside.driven];
+StreetSetting Builder::street_setting(const Roadside& roadside) const {
+    if (roadside.driven == world::none || context_.is_rural(roadside))
+        return StreetSetting::quiet_street;
+    const world::LaneT& lane = context_.town.lanes[roadside.driven];
     const bool single = lane.left == world::none && lane.right == world::none;
-    return single && lane.speed_limit < quiet_speed ? Situation::quiet : Situation::street;
+    return single && lane.speed_limit < quiet_speed ? StreetSetting::quiet_street
+                                                    : StreetSetting::street;
 }
 
 /// Share of the sites to use, so that a large network ends near the cap instead of filling its
 /// first roads only.
 double Builder::share(double spacing) const {
     double length = 0;
-    for (const Roadside& roadside : land_.roadsides)
+    for (const Roadside& roadside : context_.roadsides)
         length += roadside.border.length;
     return std::min(1.0, most_buildings * spacing / std::max(length, 1.0));
 }
@@ -174,13 +177,13 @@ void Builder::add_landmark(const char* name, double from_middle, std::uint64_t i
     const auto model = world::find_building_model(name);
     REPRISE_CHECK(model.has_value(), name);
     constexpr int sites = 120;
-    Draws draws(land_.seed, Purpose::building_model, item);
+    Draws draws(context_.seed, Purpose::building_model, item);
     std::optional<Draft> best;
     std::uint32_t best_roadside = 0;
     double least = 1e9;
     for (int i = 0; i < sites; ++i) {
-        const std::uint32_t index = draws.index(land_.roadsides.size());
-        const Roadside& roadside = land_.roadsides[index];
+        const std::uint32_t index = draws.index(context_.roadsides.size());
+        const Roadside& roadside = context_.roadsides[index];
         const double s = draws.between(0, roadside.border.length);
         const Draft found = draft(roadside, s, *model, draws, false);
         const double off =
@@ -199,7 +202,7 @@ void Builder::add_landmark(const char* name, double from_middle, std::uint64_t i
 void Builder::add_landmarks() {
     constexpr double smallest_town = 1500;  ///< [m] of roadsides
     double length = 0;
-    for (const Roadside& roadside : land_.roadsides)
+    for (const Roadside& roadside : context_.roadsides)
         length += roadside.border.length;
     if (length < smallest_town)
         return;
@@ -221,12 +224,13 @@ void Builder::add_landmarks() {
 /// A building with its near corner at s: a large one, the same model or another at its smallest, or
 /// a small one of the quiet kind.
 std::optional<Draft> Builder::find(const Roadside& roadside, double s, Draws& draws) const {
-    const BuildingStyle style = land_.is_country(roadside)
+    const BuildingStyle style = context_.is_rural(roadside)
                                     ? BuildingStyle::village
-                                    : districts_.at(site(roadside, s, 8).position);
-    const std::uint32_t wanted = choose_model(style, situation(roadside), draws.between(0, 1));
-    const std::uint32_t other = choose_model(style, situation(roadside), draws.between(0, 1));
-    const std::uint32_t modest = choose_model(style, Situation::quiet, draws.between(0, 1));
+                                    : districts_.at(roadside_pose(roadside, s, 8).position);
+    const std::uint32_t wanted = choose_model(style, street_setting(roadside), draws.between(0, 1));
+    const std::uint32_t other = choose_model(style, street_setting(roadside), draws.between(0, 1));
+    const std::uint32_t modest =
+        choose_model(style, StreetSetting::quiet_street, draws.between(0, 1));
     const std::array<std::pair<std::uint32_t, bool>, 4> tries{
         {{wanted, false}, {wanted, true}, {other, true}, {modest, true}}};
     for (const auto& [model, small] : tries) {
@@ -240,10 +244,10 @@ std::optional<Draft> Builder::find(const Roadside& roadside, double s, Draws& dr
 
 void Builder::add_rows() {
     const double kept = share(18);
-    for (std::uint32_t i = 0; i < land_.roadsides.size(); ++i) {
-        const Roadside& roadside = land_.roadsides[i];
-        Draws draws(land_.seed, Purpose::building, i);
-        const bool country = land_.is_country(roadside);
+    for (std::uint32_t i = 0; i < context_.roadsides.size(); ++i) {
+        const Roadside& roadside = context_.roadsides[i];
+        Draws draws(context_.seed, Purpose::building, i);
+        const bool country = context_.is_rural(roadside);
         double s = draws.between(0, 2);
         while (s < roadside.border.length - 6) {
             if (!draws.chance(country ? country_share * kept : kept)) {
@@ -268,11 +272,11 @@ std::optional<Draft> Builder::find_behind(const Roadside& roadside,
                                           double s,
                                           double away,
                                           Draws& draws) const {
-    const BuildingStyle style = districts_.at(site(roadside, s, away).position);
-    const std::uint32_t model = choose_model(style, Situation::behind, draws.between(0, 1));
+    const BuildingStyle style = districts_.at(roadside_pose(roadside, s, away).position);
+    const std::uint32_t model = choose_model(style, StreetSetting::second_row, draws.between(0, 1));
     Draft found = draft(roadside, s, model, draws, draws.chance(0.4));
-    const Site at =
-        site(roadside, s + found.footprint.length / 2, away + found.footprint.width / 2);
+    const RoadsidePose at =
+        roadside_pose(roadside, s + found.footprint.length / 2, away + found.footprint.width / 2);
     found.footprint.centre = at.position;
     found.setback = away;
     if (s + found.footprint.length > roadside.border.length + 10 || !is_clear(found, behind_gap))
@@ -282,11 +286,11 @@ std::optional<Draft> Builder::find_behind(const Roadside& roadside,
 
 void Builder::add_rows_behind() {
     const double kept = share(40);
-    for (std::uint32_t i = 0; i < land_.roadsides.size(); ++i) {
-        const Roadside& roadside = land_.roadsides[i];
-        if (roadside.driven == world::none || land_.is_country(roadside))
+    for (std::uint32_t i = 0; i < context_.roadsides.size(); ++i) {
+        const Roadside& roadside = context_.roadsides[i];
+        if (roadside.driven == world::none || context_.is_rural(roadside))
             continue;
-        Draws draws(land_.seed, Purpose::building, 1U << 24 | i);
+        Draws draws(context_.seed, Purpose::building, 1U << 24 | i);
         for (const double row : {24.0, 44.0})
             for (double s = draws.between(0, 10); s < roadside.border.length - 10;) {
                 const double away = row + draws.between(0, 6);
@@ -301,14 +305,14 @@ void Builder::add_rows_behind() {
 
 }  // namespace
 
-std::vector<Lot> place_buildings(Land& land) {
-    if (!land.place.buildings.empty() || land.roadsides.empty())
+std::vector<StreetBuilding> place_buildings(PlacementContext& context) {
+    if (!context.place.buildings.empty() || context.roadsides.empty())
         return {};
-    Builder builder(land);
+    Builder builder(context);
     builder.add_landmarks();
     builder.add_rows();
     builder.add_rows_behind();
-    return builder.take_lots();
+    return builder.take_street_buildings();
 }
 
 }  // namespace reprise::towns

@@ -2,14 +2,14 @@
 
 #include <vector>
 
-#include "towns/furnish/land.h"
+#include "towns/furnish/placement_context.h"
 
 namespace reprise::towns {
 
-/// A building that looks at a street, for what is laid out around it.
-struct Lot {
+/// A building whose front faces a street: gardens and forecourts are laid out around it.
+struct StreetBuilding {
     std::uint32_t building = 0;  ///< index in town.buildings
-    std::uint32_t roadside = 0;  ///< index in land.roadsides
+    std::uint32_t roadside = 0;  ///< index in context.roadsides
     double setback = 0;          ///< [m] from the border to its front
 };
 
@@ -19,6 +19,6 @@ struct Lot {
 /// church, town hall, school, fire station and market hall near the middle of a town. They stand
 /// clear of all that is driven and walked on, of plots and of the sight triangles of unlit
 /// junctions.
-std::vector<Lot> place_buildings(Land& land);
+std::vector<StreetBuilding> place_buildings(PlacementContext& context);
 
 }  // namespace reprise::towns

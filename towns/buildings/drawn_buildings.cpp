@@ -36,19 +36,22 @@ bool leaves_lanes_free(const world::Loop& loop, const Clearance& lanes) {
 
 /// A whole building of its model, with roof, door and chimneys, where the footprint allows. False:
 /// it stays as drawn.
-bool stand_as_model(Land& land, const world::DrawnBuildingT& drawn, const Streets& streets) {
-    if (land.town.buildings.size() >= most_models)
+bool stand_as_model(PlacementContext& context,
+                    const world::DrawnBuildingT& drawn,
+                    const Streets& streets) {
+    if (context.town.buildings.size() >= most_models)
         return false;
     const world::BuildingModel& model = world::building_models()[drawn.model - 1];
     const auto site = rectangular_site(world::in_plan(drawn.outline), streets);
     const auto f = site ? fit(model, *site, streets) : std::nullopt;
     if (!f)
         return false;
-    land.solid.add_footprint(*f);
+    context.solid.add_footprint(*f);
     // The model's door may be on another side than the one that the outline's floor was set for.
     const double z = drawn.outline.front().z();
-    land.town.buildings.emplace_back(
-        world::Vec3(f->centre.x(), f->centre.y(), floor_on(land.footing, *f, z).value_or(z)),
+    context.town.buildings.emplace_back(
+        world::Vec3(
+            f->centre.x(), f->centre.y(), floor_on(context.ground_heights, *f, z).value_or(z)),
         f->yaw,
         f->length,
         f->width,
@@ -60,15 +63,15 @@ bool stand_as_model(Land& land, const world::DrawnBuildingT& drawn, const Street
 
 }  // namespace
 
-void keep_drawn_buildings(Land& land) {
+void keep_drawn_buildings(PlacementContext& context) {
     Clearance lanes(1);
-    for (const world::LaneT& lane : land.town.lanes)
+    for (const world::LaneT& lane : context.town.lanes)
         if (world::is_for_cars(lane))
             lanes.add_line(lane.centre, std::max(0.1, lane.width / 2 - overlap_allowed));
-    const Districts districts(land);
-    const Streets streets(land.town);
-    for (std::size_t i = 0; i < land.place.buildings.size(); ++i) {
-        world::DrawnBuildingT drawn = land.place.buildings[i];
+    const Districts districts(context);
+    const Streets streets(context.town);
+    for (std::size_t i = 0; i < context.place.buildings.size(); ++i) {
+        world::DrawnBuildingT drawn = context.place.buildings[i];
         const double area = world::signed_area(world::in_plan(drawn.outline));
         if (std::abs(area) < smallest_drawn)
             continue;
@@ -77,17 +80,17 @@ void keep_drawn_buildings(Land& land) {
         const world::Loop loop = world::in_plan(drawn.outline);
         if (!leaves_lanes_free(loop, lanes))
             continue;
-        set_floor(land, drawn);
-        Draws draws(land.seed, Purpose::building_model, 1U << 24 | i);
+        set_floor(context, drawn);
+        Draws draws(context.seed, Purpose::building_model, 1U << 24 | i);
         if (drawn.style == 0)
             drawn.style = draws.style();
         if (drawn.model == 0)
             drawn.model =
-                1 + choose_model(districts.at(loop[0]), Situation::street, draws.between(0, 1));
-        land.solid.add_polygon(loop);
-        if (!stand_as_model(land, drawn, streets))
-            land.town.drawn_buildings.push_back(std::move(drawn));
-        land.buildings.add_polygon(loop);
+                1 + choose_model(districts.at(loop[0]), StreetSetting::street, draws.between(0, 1));
+        context.solid.add_polygon(loop);
+        if (!stand_as_model(context, drawn, streets))
+            context.town.drawn_buildings.push_back(std::move(drawn));
+        context.buildings.add_polygon(loop);
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "towns/furnish/land.h"
+#include "towns/furnish/placement_context.h"
 
 namespace reprise::towns {
 
@@ -9,6 +9,6 @@ namespace reprise::towns {
 /// Where a footprint is nearly a rectangle of a size that its model can take, the whole model goes
 /// into town.buildings (see rectangular_site.h), the first 1500 of them; the rest go into
 /// town.drawn_buildings.
-void keep_drawn_buildings(Land& land);
+void keep_drawn_buildings(PlacementContext& context);
 
 }  // namespace reprise::towns

@@ -1,6 +1,5 @@
 #include "towns/buildings/floors.h"
 
-#include <cmath>
 #include <limits>
 
 #include "ground/mesh/terrain.h"
@@ -18,7 +17,7 @@ constexpr double shortest = 1.6;    ///< [m] side of a building that has room fo
 
 /// Where one stands before the door of the street side: of the sides nearest to a road the longest
 /// one.
-std::optional<Vector2d> door_of(const Land& land, const world::Loop& loop) {
+std::optional<Vector2d> door_of(const PlacementContext& context, const world::Loop& loop) {
     std::optional<Vector2d> best;
     double nearest = std::numeric_limits<double>::max();
     double longest = 0;
@@ -29,7 +28,7 @@ std::optional<Vector2d> door_of(const Land& land, const world::Loop& loop) {
             continue;
         const Vector2d out = Vector2d(along.y(), -along.x()) / length;
         const Vector2d door = loop[i] + along / 2 + out * before_door;
-        const double to_road = land.roads.of(door);
+        const double to_road = context.roads.of(door);
         if (to_road > nearest || (to_road == nearest && length <= longest))
             continue;
         best = door;
@@ -41,29 +40,31 @@ std::optional<Vector2d> door_of(const Land& land, const world::Loop& loop) {
 
 }  // namespace
 
-std::optional<double> floor_on(const Footing& footing, const Footprint& footprint, double road_z) {
-    if (footing.is_level())
+std::optional<double> floor_on(const GroundHeights& ground_heights,
+                               const Footprint& footprint,
+                               double road_z) {
+    if (ground_heights.is_level())
         return road_z;
-    const Vector2d back(-std::sin(footprint.yaw), std::cos(footprint.yaw));
+    const Vector2d back = world::left_of(footprint.yaw);
     const Vector2d door = footprint.centre - back * (footprint.width / 2 + before_door);
-    const auto ground = footing.at(door, road_z);
+    const auto ground = ground_heights.at(door, road_z);
     if (!ground)
         return std::nullopt;
     const double floor = *ground + ground::terrain_depth;
-    const auto under = footing.under(footprint, *ground);
-    const auto front = footing.under({door, footprint.yaw, footprint.length, 0}, *ground);
+    const auto under = ground_heights.under(footprint, *ground);
+    const auto front = ground_heights.under({door, footprint.yaw, footprint.length, 0}, *ground);
     if (!under || !front || under->low < floor - off_floor || under->high > floor + off_floor ||
         front->rise() > front_rise)
         return std::nullopt;
     return floor;
 }
 
-void set_floor(const Land& land, world::DrawnBuildingT& drawn) {
-    if (land.footing.is_level())
+void set_floor(const PlacementContext& context, world::DrawnBuildingT& drawn) {
+    if (context.ground_heights.is_level())
         return;
     const world::Loop loop = world::in_plan(drawn.outline);
-    const Vector2d door = door_of(land, loop).value_or(loop[0]);
-    const auto ground = land.footing.at(door, drawn.outline[0].z());
+    const Vector2d door = door_of(context, loop).value_or(loop[0]);
+    const auto ground = context.ground_heights.at(door, drawn.outline[0].z());
     if (!ground)
         return;
     for (world::Vec3& corner : drawn.outline)

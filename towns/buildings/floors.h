@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "towns/furnish/land.h"
+#include "towns/furnish/placement_context.h"
 
 namespace reprise::towns {
 
@@ -10,10 +10,12 @@ namespace reprise::towns {
 /// door, in the middle of the front. `road_z`: of the road beside it; the floor in a level town.
 /// None: the ground falls or rises by more than 1.2 m from there under the footprint, or by more
 /// than 1 m along the front. [m]
-std::optional<double> floor_on(const Footing& footing, const Footprint& footprint, double road_z);
+std::optional<double> floor_on(const GroundHeights& ground_heights,
+                               const Footprint& footprint,
+                               double road_z);
 
 /// Moves a drawn building to the height of its street side, where its door is. It stays where it is
 /// in a level town and beyond the terrain.
-void set_floor(const Land& land, world::DrawnBuildingT& drawn);
+void set_floor(const PlacementContext& context, world::DrawnBuildingT& drawn);
 
 }  // namespace reprise::towns

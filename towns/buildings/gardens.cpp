@@ -72,7 +72,7 @@ class LotFrame {
 
 class Gardener {
   public:
-    explicit Gardener(Land& land) : land_(land) {}
+    explicit Gardener(PlacementContext& context) : context_(context) {}
 
     void lay_out_house(const LotFrame& lot, Draws& draws);
     void lay_out_shop(const LotFrame& lot, Draws& draws);
@@ -84,48 +84,48 @@ class Gardener {
     void add_fence_piece(const LotFrame& lot,
                          const Vector2d& from,
                          const Vector2d& to,
-                         const Item& like);
+                         const PropCandidate& like);
     bool add_driveway(const LotFrame& lot, double side, Draws& draws);
     void add_plants(const LotFrame& lot, double driveway_side, Draws& draws);
 
-    Land& land_;
+    PlacementContext& context_;
 };
 
 /// Off all that is driven and walked on; else there is none.
 bool Gardener::add_plot(const Footprint& footprint, double z, PlotKind kind) {
-    if (!land_.roads.is_clear(footprint, 0.02) || !land_.walks.is_clear(footprint, 0.02) ||
-        !land_.junctions.is_clear(footprint, 0.1) || !land_.reserved.is_clear(footprint, 0.1) ||
-        land_.is_steep(footprint.centre))
+    if (!context_.roads.is_clear(footprint, 0.02) || !context_.walks.is_clear(footprint, 0.02) ||
+        !context_.junctions.is_clear(footprint, 0.1) ||
+        !context_.reserved.is_clear(footprint, 0.1) || context_.is_steep(footprint.centre))
         return false;
     world::PlotT plot;
     plot.kind = kind;
     for (const Vector2d& corner : corners(footprint))
         plot.outline.emplace_back(corner.x(), corner.y(), z);
-    land_.town.plots.push_back(std::move(plot));
+    context_.town.plots.push_back(std::move(plot));
     return true;
 }
 
 void Gardener::add_fence_piece(const LotFrame& lot,
                                const Vector2d& from,
                                const Vector2d& to,
-                               const Item& like) {
+                               const PropCandidate& like) {
     const Vector2d start = lot.world(from.x(), from.y());
     const Vector2d along = lot.world(to.x(), to.y()) - start;
     if (along.norm() < 0.8)
         return;
-    Item piece = like;
+    PropCandidate piece = like;
     piece.footprint = {start + along / 2,
                        std::atan2(along.y(), along.x()),
                        along.norm() - 0.3,  // so that pieces meet in a post's width
                        like.footprint.width};
-    place_prop(land_, piece);
+    place_prop(context_, piece);
 }
 
 /// Along the street but for the opening, and back to the house on both sides.
 void Gardener::add_fence(const LotFrame& lot, double gap_from, double gap_to, Draws& draws) {
     constexpr std::array<PropKind, 4> kinds{
         PropKind::fence, PropKind::hedge, PropKind::wall, PropKind::hedge};
-    Item like;
+    PropCandidate like;
     like.kind = kinds[draws.index(kinds.size())];
     like.height = like.kind == PropKind::hedge ? draws.between(0.8, 1.4) : draws.between(0.8, 1.1);
     like.footprint.width = like.kind == PropKind::hedge  ? 0.6
@@ -136,8 +136,8 @@ void Gardener::add_fence(const LotFrame& lot, double gap_from, double gap_to, Dr
     like.from_solid = 0.02;
     like.from_walk = 0.05;
     // Low ones where drivers must see over them.
-    if (!land_.sights.is_clear(lot.rectangle(-lot.half(), lot.half(), lot.border(), lot.front()),
-                               sight_distance))
+    if (!context_.sights.is_clear(lot.rectangle(-lot.half(), lot.half(), lot.border(), lot.front()),
+                                  sight_distance))
         like.height = std::min(like.height, 0.95);
     const double y = lot.border() + fence_offset + like.footprint.width / 2;
     const double end = lot.half() + side_strip - 0.1;
@@ -159,7 +159,7 @@ bool Gardener::add_driveway(const LotFrame& lot, double side, Draws& draws) {
     const Vector2d middle = lot.world(x, lot.front() - 0.5 - 2.35);
     const double yaw = lot.building().yaw() + (draws.chance(0.7) ? 0.5 : -0.5) * std::numbers::pi;
     if (draws.chance(0.65))
-        park(land_, middle, yaw, z, draws);
+        park(context_, middle, yaw, z, draws);
     return true;
 }
 
@@ -174,7 +174,8 @@ void Gardener::add_plants(const LotFrame& lot, double driveway_side, Draws& draw
         const bool at_door = std::abs(x) < 1.2;
         const bool on_drive = driveway_side != 0 && x * driveway_side > lot.half() - driveway - 0.8;
         if (!at_door && !on_drive)
-            place_bush(land_, kind, lot.world(x, lot.front() - draws.between(0.9, 1.4)), z, draws);
+            place_bush(
+                context_, kind, lot.world(x, lot.front() - draws.between(0.9, 1.4)), z, draws);
     }
     constexpr std::array<PlantKind, 4> trees{
         PlantKind::cherry, PlantKind::birch, PlantKind::maple, PlantKind::spruce};
@@ -183,7 +184,7 @@ void Gardener::add_plants(const LotFrame& lot, double driveway_side, Draws& draw
         const double x = draws.between(-lot.half(), lot.half());
         const double y = lot.back() + draws.between(3, back_garden);
         if (draws.chance(0.6))
-            place_tree(land_, kind, lot.world(x, y), z, draws);
+            place_tree(context_, kind, lot.world(x, y), z, draws);
     }
 }
 
@@ -222,27 +223,27 @@ void Gardener::lay_out_shop(const LotFrame& lot, Draws& draws) {
     const Footprint footprint =
         lot.rectangle(-half, half, lot.back() + 1, lot.back() + 1 + car_park_depth);
     const double z = lot.building().centre().z();
-    if (!land_.solid.is_clear(footprint, 0.5) || !add_plot(footprint, z, PlotKind::car_park))
+    if (!context_.solid.is_clear(footprint, 0.5) || !add_plot(footprint, z, PlotKind::car_park))
         return;
-    land_.reserved.add_footprint(footprint);
-    fill_car_park(land_, corners(footprint), z, draws);
+    context_.reserved.add_footprint(footprint);
+    fill_car_park(context_, corners(footprint), z, draws);
 }
 
 }  // namespace
 
-void lay_out_gardens(Land& land, std::span<const Lot> lots) {
+void lay_out_gardens(PlacementContext& context, std::span<const StreetBuilding> street_buildings) {
     constexpr std::size_t most = 1200;
-    Gardener gardener(land);
-    for (const Lot& lot : lots) {
-        if (land.town.plots.size() > most)
+    Gardener gardener(context);
+    for (const StreetBuilding& built : street_buildings) {
+        if (context.town.plots.size() > most)
             return;
-        const Building building = land.town.buildings[lot.building];
+        const Building building = context.town.buildings[built.building];
         const BuildingUse use = world::building_models()[building.model() - 1].use;
-        Draws draws(land.seed, Purpose::plant, 1ULL << 32 | lot.building);
-        const LotFrame frame(building, lot.setback);
-        if (use != BuildingUse::house && lot.setback < forecourt)
+        Draws draws(context.seed, Purpose::plant, 1ULL << 32 | built.building);
+        const LotFrame frame(building, built.setback);
+        if (use != BuildingUse::house && built.setback < forecourt)
             gardener.pave_front(frame);
-        if (use == BuildingUse::house && lot.setback < 12)
+        if (use == BuildingUse::house && built.setback < 12)
             gardener.lay_out_house(frame, draws);
         else if ((use == BuildingUse::shop || use == BuildingUse::office) && draws.chance(0.5))
             gardener.lay_out_shop(frame, draws);

@@ -28,8 +28,8 @@ constexpr double smallest_plot = 4;  ///< [m2]
 class Layout {
   public:
     /// `over`: plots that lie over this one.
-    Layout(Land& land, const PlotT& plot, std::span<const PlotT> over, Draws& draws)
-        : land_(land),
+    Layout(PlacementContext& context, const PlotT& plot, std::span<const PlotT> over, Draws& draws)
+        : context_(context),
           loop_(world::in_plan(plot.outline)),
           draws_(draws) {
         for (const PlotT& other : over)
@@ -46,7 +46,7 @@ class Layout {
     void playground();
     void forest();
 
-    void car_park() { fill_car_park(land_, loop_, z_, draws_); }
+    void car_park() { fill_car_park(context_, loop_, z_, draws_); }
 
     void lawn() { scatter_trees(16, 0.5, lawn_kinds); }
 
@@ -66,7 +66,7 @@ class Layout {
     void add_along_border(double inwards, double spacing);
     void add_around(PropKind kind, double radius, int count);
 
-    Land& land_;
+    PlacementContext& context_;
     Loop loop_;
     Clearance over_{4};
     Draws& draws_;
@@ -91,15 +91,15 @@ bool Layout::add(
     PropKind kind, const Vector2d& p, double yaw, double length, double width, double height) {
     if (!is_inside(p, 0.5 * std::hypot(length, width)))
         return false;
-    Item item;
-    item.kind = kind;
-    item.footprint = {p, yaw, length, width};
-    item.height = height;
-    item.road_z = z_;
-    item.from_solid = 0.6;
-    item.from_walk = 0.3;
-    item.style = draws_.style();
-    return place_prop(land_, item);
+    PropCandidate candidate;
+    candidate.kind = kind;
+    candidate.footprint = {p, yaw, length, width};
+    candidate.height = height;
+    candidate.road_z = z_;
+    candidate.from_solid = 0.6;
+    candidate.from_walk = 0.3;
+    candidate.style = draws_.style();
+    return place_prop(context_, candidate);
 }
 
 /// On a grid, each moved a little.
@@ -111,7 +111,7 @@ void Layout::scatter_trees(double spacing, double share, const std::array<PlantK
             const Vector2d p(x + off_x, y + off_y);
             const PlantKind kind = kinds[draws_.index(kinds.size())];
             if (draws_.chance(share) && is_inside(p, 1.5))
-                place_tree(land_, kind, p, z_, draws_);
+                place_tree(context_, kind, p, z_, draws_);
         }
 }
 
@@ -124,7 +124,7 @@ void Layout::scatter_bushes(int count) {
         const Vector2d p(x, y);
         const PlantKind kind = kinds[draws_.index(kinds.size())];
         if (is_inside(p, 1.5))
-            place_bush(land_, kind, p, z_, draws_);
+            place_bush(context_, kind, p, z_, draws_);
     }
 }
 
@@ -207,18 +207,18 @@ void fill(Layout& layout, PlotKind kind) {
 
 }  // namespace
 
-void lay_out_plots(Land& land) {
-    for (std::size_t i = 0; i < land.place.plots.size(); ++i) {
-        PlotT plot = land.place.plots[i];
+void lay_out_plots(PlacementContext& context) {
+    for (std::size_t i = 0; i < context.place.plots.size(); ++i) {
+        PlotT plot = context.place.plots[i];
         const double area = world::signed_area(world::in_plan(plot.outline));
         if (std::abs(area) < smallest_plot)
             continue;
         if (area < 0)
             std::reverse(plot.outline.begin(), plot.outline.end());
-        Draws draws(land.seed, Purpose::furniture, 1ULL << 32 | i);
-        Layout layout(land, plot, std::span(land.place.plots).subspan(i + 1), draws);
+        Draws draws(context.seed, Purpose::furniture, 1ULL << 32 | i);
+        Layout layout(context, plot, std::span(context.place.plots).subspan(i + 1), draws);
         fill(layout, plot.kind);
-        land.town.plots.push_back(std::move(plot));
+        context.town.plots.push_back(std::move(plot));
     }
 }
 

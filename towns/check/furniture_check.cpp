@@ -33,8 +33,8 @@ struct Footprint {
 };
 
 world::Loop rectangle(const world::Vec3& centre, double yaw, double length, double width) {
-    const Eigen::Vector2d along = Eigen::Vector2d(std::cos(yaw), std::sin(yaw)) * length / 2;
-    const Eigen::Vector2d across = Eigen::Vector2d(-std::sin(yaw), std::cos(yaw)) * width / 2;
+    const Eigen::Vector2d along = world::ahead_of(yaw) * length / 2;
+    const Eigen::Vector2d across = world::left_of(yaw) * width / 2;
     const Eigen::Vector2d middle = world::in_plan(centre);
     return {middle - along - across,
             middle + along - across,
@@ -153,7 +153,7 @@ Criterion check_ways(const world::TownT& town, const Standing& standing) {
         for (std::size_t i = 0; i + 1 < lane.centre.size(); ++i)
             standing.for_each_on(lane.centre[i],
                                  lane.centre[i + 1],
-                                 is_sidewalk ? clear_for_walkers : for_cars,
+                                 is_sidewalk ? walker_clearance : for_cars,
                                  [&](const Footprint& thing) {
                                      const std::string name = thing.name + " on " + lane.name;
                                      faults.try_emplace(name, Place{name, thing.loop[0], 1});
@@ -217,7 +217,7 @@ Criterion check_spawn_points(const world::TownT& town, const Standing& standing)
         std::string fault = fault_of(town, point);
         standing.for_each_on(point.position(),
                              point.position(),
-                             point.for_walkers() ? clear_for_walkers : for_cars,
+                             point.for_walkers() ? walker_clearance : for_cars,
                              [&](const Footprint& thing) { fault = thing.name + " stands there"; });
         if (!fault.empty())
             faults.push_back(

@@ -8,7 +8,7 @@
 namespace reprise::towns {
 
 /// Half the width of the way along the middle of a sidewalk in which nothing stands. [m]
-inline constexpr double clear_for_walkers = 0.3;
+inline constexpr double walker_clearance = 0.3;
 
 /// What is taken as the radius of a pole's foot. [m]
 inline constexpr double pole_radius = 0.15;
@@ -16,7 +16,7 @@ inline constexpr double pole_radius = 0.15;
 /// What a town promises about the things in it: every group of signals has a head that shows it,
 /// actors can start at every spawn point, and no building, plant or piece of furniture stands where
 /// cars drive (0.9 m either side of a centre line) or in the middle of a sidewalk
-/// (clear_for_walkers).
+/// (walker_clearance).
 std::vector<Criterion> check_furniture(const world::TownT& town);
 
 }  // namespace reprise::towns

@@ -65,9 +65,9 @@ double distance_to_box(const Vector2d& from, const Vector2d& to, const Vector2d&
 }  // namespace
 
 world::Loop corners(const Footprint& footprint) {
-    const Vector2d along = Vector2d(std::cos(footprint.yaw), std::sin(footprint.yaw));
+    const Vector2d along = world::ahead_of(footprint.yaw);
     const Vector2d x = along * (footprint.length / 2);
-    const Vector2d y = Vector2d(-along.y(), along.x()) * (footprint.width / 2);
+    const Vector2d y = world::turned_left(along) * (footprint.width / 2);
     const Vector2d& c = footprint.centre;
     return {c - x - y, c + x - y, c + x + y, c - x + y};
 }

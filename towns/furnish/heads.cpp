@@ -22,14 +22,10 @@ constexpr double height_over_road = 5.2;  ///< lorries pass below
 constexpr double walker_height = 2.3;
 constexpr double pole_from_kerb = 0.6;  ///< of the middle of the pole
 constexpr double longest_arm = 8;
-constexpr double on_pole = 1.7;     ///< [m] beside its lane a housing needs no arm
-constexpr double pole_search = 30;  ///< farther from its lane no pole makes sense
-constexpr double pole_radius = 0.1;
-constexpr double lowest = 2.1;  ///< [m] of a housing over its foot: heads pass below
-
-Vector2d left_of(double yaw) {
-    return {-std::sin(yaw), std::cos(yaw)};
-}
+constexpr double on_pole = 1.7;             ///< [m] beside its lane a housing needs no arm
+constexpr double pole_search = 30;          ///< farther from its lane no pole makes sense
+constexpr double signal_pole_radius = 0.1;  ///< [m]
+constexpr double lowest = 2.1;              ///< [m] of a housing over its foot: heads pass below
 
 /// Signals that one head shows: of one program, facing one lane.
 struct Group {
@@ -55,7 +51,7 @@ std::vector<Group> groups(const world::TownT& town) {
 /// Makes the heads of one town, approach by approach.
 class Heads {
   public:
-    explicit Heads(Land& land) : land_(land), town_(land.town) {}
+    explicit Heads(PlacementContext& context) : context_(context), town_(context.town) {}
 
     void take_known(std::vector<Group>& groups);
     void add(const Group& group);
@@ -70,13 +66,13 @@ class Heads {
     /// Puts the head's foot on the ground beside a road at height `z`, its housing as high over the
     /// road as it is over the foot.
     void set_up(SignalHeadT& head, const Vector2d& foot, double z) const {
-        head.foot = Vec3(foot.x(), foot.y(), land_.ground(foot, z));
-        const double drop = land_.drop(foot, z);
+        head.foot = Vec3(foot.x(), foot.y(), context_.ground(foot, z));
+        const double drop = context_.drop(foot, z);
         if (drop != 0)
             head.height = std::max(lowest, head.height + drop);
     }
 
-    Land& land_;
+    PlacementContext& context_;
     world::TownT& town_;
     /// Poles that carry the heads of several lanes, by (edge, side of the road).
     std::map<std::pair<std::string, double>, Vector2d> poles_;
@@ -84,9 +80,9 @@ class Heads {
 
 /// Heads that the place knows: they take their signals away from the groups.
 void Heads::take_known(std::vector<Group>& groups) {
-    for (const Place::Head& known : land_.place.heads) {
+    for (const Place::Head& known : context_.place.heads) {
         const Vector2d foot = world::in_plan(known.foot);
-        if (!land_.may_stand(foot, pole_margin))
+        if (!context_.may_stand(foot, pole_margin))
             continue;
         std::vector<std::uint32_t> signals;
         bool for_walkers = false;
@@ -147,9 +143,9 @@ Vector2d Heads::foot_beside(const LaneT& lane, double side) {
         return pole->second;
     const world::LanePoint end = world::point_at(lane, lane.length);
     const Vector2d wish = end.position.head<2>() +
-                          left_of(end.yaw) * (side * (lane.width / 2 + pole_from_kerb)) -
-                          Vector2d(std::cos(end.yaw), std::sin(end.yaw)) * 0.3;
-    pole->second = land_.pole_place(wish, pole_search, end.position.z()).value_or(wish);
+                          world::left_of(end.yaw) * (side * (lane.width / 2 + pole_from_kerb)) -
+                          world::ahead_of(end.yaw) * 0.3;
+    pole->second = context_.pole_place(wish, pole_search, end.position.z()).value_or(wish);
     stand(pole->second);
     return pole->second;
 }
@@ -162,11 +158,11 @@ void Heads::add_over_lane(const Group& group) {
     const LaneT& outer = town_.lanes[outermost(group.lane, false)];
     const LaneT& inner = town_.lanes[outermost(group.lane, true)];
     Vector2d foot = foot_beside(outer, kerb_side);
-    double arm = left_of(end.yaw).dot(middle - foot);
+    double arm = world::left_of(end.yaw).dot(middle - foot);
     // Wide one-way roads have a second pole on their inner side.
     if (std::abs(arm) > longest_arm && inner.opposite == world::none) {
         foot = foot_beside(inner, -kerb_side);
-        arm = left_of(end.yaw).dot(middle - foot);
+        arm = world::left_of(end.yaw).dot(middle - foot);
     }
     SignalHeadT head;
     head.signals = group.signals;
@@ -183,10 +179,10 @@ void Heads::add_at_crossing(const Group& group, bool at_end) {
     const world::LanePoint point = world::point_at(crossing, at_end ? crossing.length : 0);
     // Walkers look at the lamp behind the road; it stands on their right.
     const double yaw = at_end ? point.yaw : point.yaw + std::numbers::pi;
-    const Vector2d ahead(std::cos(yaw), std::sin(yaw));
+    const Vector2d ahead = world::ahead_of(yaw);
     const Vector2d wish =
-        point.position.head<2>() + ahead * 0.5 - left_of(yaw) * (crossing.width / 2 + 0.4);
-    const Vector2d foot = land_.pole_place(wish, pole_search, point.position.z()).value_or(wish);
+        point.position.head<2>() + ahead * 0.5 - world::left_of(yaw) * (crossing.width / 2 + 0.4);
+    const Vector2d foot = context_.pole_place(wish, pole_search, point.position.z()).value_or(wish);
     SignalHeadT head;
     head.signals = group.signals;
     head.yaw = world::wrap_angle(yaw);
@@ -198,19 +194,19 @@ void Heads::add_at_crossing(const Group& group, bool at_end) {
 }
 
 void Heads::stand(const Vector2d& foot) {
-    land_.solid.add_point(foot, pole_radius);
+    context_.solid.add_point(foot, signal_pole_radius);
 }
 
 }  // namespace
 
-void place_heads(Land& land) {
-    std::vector<Group> wanted = groups(land.town);
-    Heads heads(land);
+void place_heads(PlacementContext& context) {
+    std::vector<Group> wanted = groups(context.town);
+    Heads heads(context);
     heads.take_known(wanted);
     for (const Group& group : wanted)
         heads.add(group);
-    std::stable_sort(land.town.heads.begin(),
-                     land.town.heads.end(),
+    std::stable_sort(context.town.heads.begin(),
+                     context.town.heads.end(),
                      [](const SignalHeadT& p, const SignalHeadT& q) {
                          return p.signals.front() < q.signals.front();
                      });

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "towns/furnish/land.h"
+#include "towns/furnish/placement_context.h"
 
 namespace reprise::towns {
 
@@ -8,6 +8,6 @@ namespace reprise::towns {
 /// crossing. Poses that the place knows are kept, where the pole does not stand on a road; others
 /// are derived: a pole beside the kerb with the housing of the outermost lane, and those of inner
 /// lanes on arms over the road.
-void place_heads(Land& land);
+void place_heads(PlacementContext& context);
 
 }  // namespace reprise::towns

@@ -87,30 +87,30 @@ class Roads {
 };
 
 Vector3d at(const Roadside& roadside, double s, double away) {
-    const Site place = site(roadside, s, away);
+    const RoadsidePose place = roadside_pose(roadside, s, away);
     return {place.position.x(), place.position.y(), place.z};
 }
 
-void add_wall(Land& land, const Roadside& roadside, double from, double to) {
+void add_wall(PlacementContext& context, const Roadside& roadside, double from, double to) {
     const Vector3d start = at(roadside, from, thickness / 2);
     const Vector3d end = at(roadside, to, thickness / 2);
     const Vector3d middle = (start + end) / 2;
-    land.town.props.emplace_back(world::Vec3(middle.x(), middle.y(), middle.z()),
-                                 std::atan2(end.y() - start.y(), end.x() - start.x()),
-                                 (end - start).head<2>().norm(),
-                                 thickness,
-                                 height,
-                                 stone,
-                                 std::uint16_t{0},
-                                 world::PropKind::wall,
-                                 std::uint8_t{0});
+    context.town.props.emplace_back(world::Vec3(middle.x(), middle.y(), middle.z()),
+                                    std::atan2(end.y() - start.y(), end.x() - start.x()),
+                                    (end - start).head<2>().norm(),
+                                    thickness,
+                                    height,
+                                    stone,
+                                    std::uint16_t{0},
+                                    world::PropKind::wall,
+                                    std::uint8_t{0});
 }
 
 }  // namespace
 
-void place_parapets(Land& land) {
-    const Roads roads(land.town);
-    for (const Roadside& roadside : land.roadsides) {
+void place_parapets(PlacementContext& context) {
+    const Roads roads(context.town);
+    for (const Roadside& roadside : context.roadsides) {
         const auto count = static_cast<std::size_t>(roadside.border.length / step);
         std::vector<bool> walled(count, false);
         for (std::size_t i = 0; i < count; ++i)
@@ -121,7 +121,7 @@ void place_parapets(Land& land) {
             const double s = static_cast<double>(i) * step;
             if ((walled[i] || walled[i + 1]) &&
                 !roads.is_driven(at(roadside, s + step, thickness / 2)))
-                add_wall(land, roadside, s, s + piece * step);
+                add_wall(context, roadside, s, s + piece * step);
         }
     }
 }

@@ -55,22 +55,26 @@ std::uint16_t choose_parked_model(Draws& draws) {
     return cars[draws.index(cars.size())];
 }
 
-bool park(Land& land, const Vector2d& middle, double yaw, double road_z, Draws& draws) {
+bool park(
+    PlacementContext& context, const Vector2d& middle, double yaw, double road_z, Draws& draws) {
     const std::uint16_t model = choose_parked_model(draws);
     const VehicleModel& car = world::vehicle_models()[model];
-    Item item;
-    item.kind = world::PropKind::parked_vehicle;
-    item.footprint = {middle, yaw, car.length, car.width};
-    item.height = car.height;
-    item.road_z = road_z;
-    item.from_solid = 0.3;
-    item.from_walk = 0.1;
-    item.style = draws.style();
-    item.value = model;
-    return place_prop(land, item);
+    PropCandidate candidate;
+    candidate.kind = world::PropKind::parked_vehicle;
+    candidate.footprint = {middle, yaw, car.length, car.width};
+    candidate.height = car.height;
+    candidate.road_z = road_z;
+    candidate.from_solid = 0.3;
+    candidate.from_walk = 0.1;
+    candidate.style = draws.style();
+    candidate.value = model;
+    return place_prop(context, candidate);
 }
 
-void fill_car_park(Land& land, const world::Loop& outline, double road_z, Draws& draws) {
+void fill_car_park(PlacementContext& context,
+                   const world::Loop& outline,
+                   double road_z,
+                   Draws& draws) {
     if (outline.size() < 3)
         return;
     const std::uint32_t side = longest_side(outline);
@@ -90,44 +94,45 @@ void fill_car_park(Land& land, const world::Loop& outline, double road_z, Draws&
             const bool wanted = draws.chance(taken);
             const bool turned = draws.chance(0.5);
             if (wanted && holds(outline, {middle, yaw, bay_depth, bay - 0.2}))
-                park(land, middle, turned ? yaw + std::numbers::pi : yaw, road_z, draws);
+                park(context, middle, turned ? yaw + std::numbers::pi : yaw, road_z, draws);
         }
     }
 }
 
-void park_along_wide_lanes(Land& land) {
-    const double side = land.town.left_hand ? 1 : -1;
-    for (std::uint32_t i = 0; i < land.roadsides.size(); ++i) {
-        const Roadside& roadside = land.roadsides[i];
+void park_along_wide_lanes(PlacementContext& context) {
+    const double side = context.town.left_hand ? 1 : -1;
+    for (std::uint32_t i = 0; i < context.roadsides.size(); ++i) {
+        const Roadside& roadside = context.roadsides[i];
         if (!roadside.kerb_side || roadside.driven == world::none)
             continue;
-        const world::LaneT& lane = land.town.lanes[roadside.driven];
-        Draws draws(land.seed, Purpose::furniture, 3ULL << 32 | i);
+        const world::LaneT& lane = context.town.lanes[roadside.driven];
+        Draws draws(context.seed, Purpose::furniture, 3ULL << 32 | i);
         for (double s = 20; s < lane.length - 20; s += 6.5) {
             const std::uint16_t model = choose_parked_model(draws);
             const VehicleModel& car = world::vehicle_models()[model];
             const double offset = lane.width / 2 - car_from_kerb - car.width / 2;
             const world::LanePoint at = world::point_at(lane, s);
-            const Vector2d middle = at.position.head<2>() +
-                                    Vector2d(-std::sin(at.yaw), std::cos(at.yaw)) * (side * offset);
+            const Vector2d middle =
+                at.position.head<2>() + world::left_of(at.yaw) * (side * offset);
             const Footprint footprint{middle, at.yaw, car.length, car.width};
             if (offset - car.width / 2 < ground::car_clearance + 0.2 || draws.chance(0.4) ||
-                !land.solid.is_clear(footprint, 0.8) || !land.crossings.is_clear(footprint, 5))
+                !context.solid.is_clear(footprint, 0.8) ||
+                !context.crossings.is_clear(footprint, 5))
                 continue;
-            const auto ground = land.footing.under(footprint, at.position.z());
+            const auto ground = context.ground_heights.under(footprint, at.position.z());
             if (!ground || ground->rise() > car_slope)
                 continue;
-            land.solid.add_footprint(footprint);
+            context.solid.add_footprint(footprint);
             const double z = (ground->low + ground->high) / 2;
-            land.town.props.emplace_back(world::Vec3(middle.x(), middle.y(), z),
-                                         at.yaw,
-                                         car.length,
-                                         car.width,
-                                         car.height,
-                                         draws.style(),
-                                         model,
-                                         world::PropKind::parked_vehicle,
-                                         std::uint8_t{0});
+            context.town.props.emplace_back(world::Vec3(middle.x(), middle.y(), z),
+                                            at.yaw,
+                                            car.length,
+                                            car.width,
+                                            car.height,
+                                            draws.style(),
+                                            model,
+                                            world::PropKind::parked_vehicle,
+                                            std::uint8_t{0});
         }
     }
 }

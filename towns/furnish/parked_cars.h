@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "towns/furnish/draws.h"
-#include "towns/furnish/land.h"
+#include "towns/furnish/placement_context.h"
 
 namespace reprise::towns {
 
@@ -11,12 +11,19 @@ namespace reprise::towns {
 std::uint16_t choose_parked_model(Draws& draws);
 
 /// A parked car there, where it is clear. `yaw`: the way it points. False: it is not.
-bool park(Land& land, const Eigen::Vector2d& middle, double yaw, double road_z, Draws& draws);
+bool park(PlacementContext& context,
+          const Eigen::Vector2d& middle,
+          double yaw,
+          double road_z,
+          Draws& draws);
 
 /// Rows of cars on a car park, as its shape allows: bays of 2.5 m along its longest side.
-void fill_car_park(Land& land, const world::Loop& outline, double road_z, Draws& draws);
+void fill_car_park(PlacementContext& context,
+                   const world::Loop& outline,
+                   double road_z,
+                   Draws& draws);
 
 /// Cars along the kerbs of lanes so wide that a path of 2.5 m stays free beside them.
-void park_along_wide_lanes(Land& land);
+void park_along_wide_lanes(PlacementContext& context);
 
 }  // namespace reprise::towns

@@ -56,25 +56,28 @@ Growth growth(PlantKind kind) {
     }
 }
 
-void add_plant(Land& land,
+void add_plant(PlacementContext& context,
                PlantKind kind,
                const Vector2d& foot,
                double road_z,
                double height,
                double crown,
                Draws& draws) {
-    land.town.trees.emplace_back(world::Vec3(foot.x(), foot.y(), land.ground(foot, road_z)),
-                                 height,
-                                 crown,
-                                 draws.style(),
-                                 kind);
+    context.town.trees.emplace_back(world::Vec3(foot.x(), foot.y(), context.ground(foot, road_z)),
+                                    height,
+                                    crown,
+                                    draws.style(),
+                                    kind);
 }
 
 /// The largest crown up to `wish` that leaves buildings, and the air over roads, free.
-double crown_there(const Land& land, const Vector2d& foot, double height, double wish) {
-    double crown = std::min(wish, land.buildings.of(foot) - 0.3);
+double crown_there(const PlacementContext& context,
+                   const Vector2d& foot,
+                   double height,
+                   double wish) {
+    double crown = std::min(wish, context.buildings.of(foot) - 0.3);
     if (height - 2 * crown < lorry_height)
-        crown = std::min(crown, std::max(land.roads.of(foot), (height - lorry_height) / 2));
+        crown = std::min(crown, std::max(context.roads.of(foot), (height - lorry_height) / 2));
     return crown;
 }
 
@@ -90,8 +93,8 @@ constexpr std::array<PlantKind, 7> wild_kinds{PlantKind::birch,
 
 /// One kind for a street, at an even distance, behind the sidewalk or on its outer edge where that
 /// is wide.
-void add_row(Land& land, const Roadside& roadside, Draws& draws) {
-    const bool country = land.is_country(roadside);
+void add_row(PlacementContext& context, const Roadside& roadside, Draws& draws) {
+    const bool country = context.is_rural(roadside);
     const bool has_row = draws.chance(country ? 0.7 : 0.65);
     const PlantKind kind = country ? PlantKind::poplar : street_kinds[draws.index(3)];
     const double spacing = country ? draws.between(11, 15) : draws.between(8, 12);
@@ -101,14 +104,14 @@ void add_row(Land& land, const Roadside& roadside, Draws& draws) {
     if (!has_row)
         return;
     for (double s = draws.between(3, 8); s < roadside.border.length - 3; s += spacing) {
-        const Site at = site(roadside, s, away);
+        const RoadsidePose at = roadside_pose(roadside, s, away);
         if (draws.chance(0.93))
-            place_tree(land, kind, at.position, at.z, draws, away < 0);
+            place_tree(context, kind, at.position, at.z, draws, away < 0);
     }
 }
 
 /// Groups of one or two kinds behind the first houses.
-void add_groups(Land& land, const Roadside& roadside, double kept, Draws& draws) {
+void add_groups(PlacementContext& context, const Roadside& roadside, double kept, Draws& draws) {
     for (double s = draws.between(0, 20); s < roadside.border.length; s += draws.between(14, 30)) {
         if (!draws.chance(kept))
             continue;
@@ -118,73 +121,80 @@ void add_groups(Land& land, const Roadside& roadside, double kept, Draws& draws)
         for (std::uint32_t i = 0; i < count; ++i) {
             const double off_s = draws.between(-6, 6);
             const double off_away = draws.between(-6, 6);
-            const Site at = site(roadside, s + off_s, away + off_away);
-            if (land.roads.is_clear(at.position, 5) && land.reserved.is_clear(at.position, 1))
-                place_tree(land, kind, at.position, at.z, draws);
+            const RoadsidePose at = roadside_pose(roadside, s + off_s, away + off_away);
+            if (context.roads.is_clear(at.position, 5) && context.reserved.is_clear(at.position, 1))
+                place_tree(context, kind, at.position, at.z, draws);
         }
     }
 }
 
 /// A wood around the town, so that streets do not end in an empty plain.
-void add_belt(Land& land, const Roadside& roadside, double kept, Draws& draws) {
+void add_belt(PlacementContext& context, const Roadside& roadside, double kept, Draws& draws) {
     constexpr double nearest = 95;
     constexpr double deepest = 130;
     for (double s = draws.between(0, 3); s < roadside.border.length; s += 3) {
         const PlantKind kind = wild_kinds[draws.index(wild_kinds.size())];
-        const Site at = site(roadside, s, draws.between(nearest, deepest));
-        if (draws.chance(kept) && land.is_outside(at.position) &&
-            land.reserved.is_clear(at.position, 1))
-            place_tree(land, kind, at.position, at.z, draws);
+        const RoadsidePose at = roadside_pose(roadside, s, draws.between(nearest, deepest));
+        if (draws.chance(kept) && context.is_outside(at.position) &&
+            context.reserved.is_clear(at.position, 1))
+            place_tree(context, kind, at.position, at.z, draws);
     }
 }
 
 }  // namespace
 
-bool place_tree(
-    Land& land, PlantKind kind, const Vector2d& foot, double road_z, Draws& draws, bool on_walk) {
+bool place_tree(PlacementContext& context,
+                PlantKind kind,
+                const Vector2d& foot,
+                double road_z,
+                Draws& draws,
+                bool on_walk) {
     const Growth grows = growth(kind);
     const double height = draws.between(grows.lowest, grows.highest);
     const double wish = height * draws.between(grows.slenderest, grows.widest);
-    if (land.town.trees.size() >= most_plants || !land.roads.is_clear(foot, trunk_to_kerb) ||
-        !land.crossings.is_clear(foot, 1) || !land.may_stand(foot, trunk_to_kerb) ||
-        (!on_walk && !land.walks.is_clear(foot, trunk_to_walk)) ||
-        !land.solid.is_clear(foot, trunk_to_solid) || !land.sights.is_clear(foot, sight_distance) ||
-        land.is_steep(foot) || !land.footing.at(foot, road_z))
+    if (context.town.trees.size() >= most_plants || !context.roads.is_clear(foot, trunk_to_kerb) ||
+        !context.crossings.is_clear(foot, 1) || !context.may_stand(foot, trunk_to_kerb) ||
+        (!on_walk && !context.walks.is_clear(foot, trunk_to_walk)) ||
+        !context.solid.is_clear(foot, trunk_to_solid) ||
+        !context.sights.is_clear(foot, sight_distance) || context.is_steep(foot) ||
+        !context.ground_heights.at(foot, road_z))
         return false;
-    const double crown = crown_there(land, foot, height, wish);
+    const double crown = crown_there(context, foot, height, wish);
     if (crown < std::max(smallest_crown, 0.5 * wish))
         return false;
-    add_plant(land, kind, foot, road_z, height, crown, draws);
-    land.solid.add_point(foot, 0.3);
+    add_plant(context, kind, foot, road_z, height, crown, draws);
+    context.solid.add_point(foot, 0.3);
     return true;
 }
 
-bool place_bush(Land& land, PlantKind kind, const Vector2d& foot, double road_z, Draws& draws) {
+bool place_bush(
+    PlacementContext& context, PlantKind kind, const Vector2d& foot, double road_z, Draws& draws) {
     const Growth grows = growth(kind);
     double height = draws.between(grows.lowest, grows.highest);
     const double crown = height * draws.between(grows.slenderest, grows.widest);
-    if (!land.sights.is_clear(foot, sight_distance))
+    if (!context.sights.is_clear(foot, sight_distance))
         height = std::min(height, 0.9);
-    if (land.town.trees.size() >= most_plants || !land.roads.is_clear(foot, crown + 0.5) ||
-        !land.walks.is_clear(foot, crown + 0.1) || !land.solid.is_clear(foot, crown * 0.8) ||
-        !land.may_stand(foot, 0.5) || land.is_steep(foot) || !land.footing.at(foot, road_z))
+    if (context.town.trees.size() >= most_plants || !context.roads.is_clear(foot, crown + 0.5) ||
+        !context.walks.is_clear(foot, crown + 0.1) || !context.solid.is_clear(foot, crown * 0.8) ||
+        !context.may_stand(foot, 0.5) || context.is_steep(foot) ||
+        !context.ground_heights.at(foot, road_z))
         return false;
-    add_plant(land, kind, foot, road_z, height, crown, draws);
-    land.solid.add_point(foot, crown * 0.6);
+    add_plant(context, kind, foot, road_z, height, crown, draws);
+    context.solid.add_point(foot, crown * 0.6);
     return true;
 }
 
-void place_street_trees(Land& land) {
+void place_street_trees(PlacementContext& context) {
     double length = 0;
-    for (const Roadside& roadside : land.roadsides)
+    for (const Roadside& roadside : context.roadsides)
         length += roadside.border.length;
     const double kept = std::min(1.0, most_plants * 5 / std::max(length, 1.0));
-    for (std::uint32_t i = 0; i < land.roadsides.size(); ++i) {
-        Draws draws(land.seed, Purpose::tree, i);
-        if (land.roadsides[i].kerb_side && draws.chance(kept))
-            add_row(land, land.roadsides[i], draws);
-        add_groups(land, land.roadsides[i], kept, draws);
-        add_belt(land, land.roadsides[i], 0.7 * kept, draws);
+    for (std::uint32_t i = 0; i < context.roadsides.size(); ++i) {
+        Draws draws(context.seed, Purpose::tree, i);
+        if (context.roadsides[i].kerb_side && draws.chance(kept))
+            add_row(context, context.roadsides[i], draws);
+        add_groups(context, context.roadsides[i], kept, draws);
+        add_belt(context, context.roadsides[i], 0.7 * kept, draws);
     }
 }
 

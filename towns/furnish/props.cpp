@@ -1,7 +1,6 @@
 #include "towns/furnish/props.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace reprise::towns {
@@ -19,9 +18,9 @@ bool is_pole(world::PropKind kind) {
 }
 
 /// The foot of a street light is its pole: the rest is above.
-Footprint on_the_ground(const Item& item) {
-    Footprint foot = item.footprint;
-    if (is_pole(item.kind))
+Footprint on_the_ground(const PropCandidate& candidate) {
+    Footprint foot = candidate.footprint;
+    if (is_pole(candidate.kind))
         foot.length = foot.width;
     return foot;
 }
@@ -33,30 +32,32 @@ bool goes_in_steps(world::PropKind kind) {
 
 /// One of `count` equal pieces along its length.
 Footprint piece_of(const Footprint& whole, int index, int count) {
-    const Eigen::Vector2d along(std::cos(whole.yaw), std::sin(whole.yaw));
+    const Eigen::Vector2d along = world::ahead_of(whole.yaw);
     Footprint piece = whole;
     piece.length = whole.length / count;
     piece.centre += along * ((index + 0.5) * piece.length - whole.length / 2);
     return piece;
 }
 
-bool is_even(const Land& land, const Footprint& foot, double near, double most) {
-    const auto ground = land.footing.under(foot, near);
+bool is_even(const PlacementContext& context, const Footprint& foot, double near, double most) {
+    const auto ground = context.ground_heights.under(foot, near);
     return ground && ground->rise() <= most;
 }
 
 /// Into how many level pieces it is cut to follow the ground; none: that is too steep for it.
-std::optional<int> pieces_on(const Land& land, const Item& item, const Footprint& foot) {
-    const double near = land.ground(foot.centre, item.road_z);
-    const double most = item.kind == world::PropKind::parked_vehicle ? car_slope : even;
-    if (is_even(land, foot, near, most))
+std::optional<int> pieces_on(const PlacementContext& context,
+                             const PropCandidate& candidate,
+                             const Footprint& foot) {
+    const double near = context.ground(foot.centre, candidate.road_z);
+    const double most = candidate.kind == world::PropKind::parked_vehicle ? car_slope : even;
+    if (is_even(context, foot, near, most))
         return 1;
-    if (!goes_in_steps(item.kind))
+    if (!goes_in_steps(candidate.kind))
         return std::nullopt;
     for (int count = 2; foot.length >= count * shortest; ++count) {
         int even_ones = 0;
         while (even_ones < count &&
-               is_even(land, piece_of(foot, even_ones, count), near, fence_step))
+               is_even(context, piece_of(foot, even_ones, count), near, fence_step))
             ++even_ones;
         if (even_ones == count)
             return count;
@@ -66,52 +67,55 @@ std::optional<int> pieces_on(const Land& land, const Item& item, const Footprint
 
 /// Where it stands, on the lowest ground under it; a car on the middle of its slope, poles where
 /// they are, and lamps as high over the road as elsewhere.
-void stand(Land& land, const Item& item, const Footprint& foot, double length) {
+void stand(PlacementContext& context,
+           const PropCandidate& candidate,
+           const Footprint& foot,
+           double length) {
     const Eigen::Vector2d& p = foot.centre;
-    double z = land.ground(p, item.road_z);
-    double height = item.height;
-    if (item.kind == world::PropKind::street_light)
-        height += std::max(0.0, land.drop(p, item.road_z));
-    else if (!is_pole(item.kind) && item.kind != world::PropKind::parked_vehicle)
-        if (const auto ground = land.footing.under(foot, z))
+    double z = context.ground(p, candidate.road_z);
+    double height = candidate.height;
+    if (candidate.kind == world::PropKind::street_light)
+        height += std::max(0.0, context.drop(p, candidate.road_z));
+    else if (!is_pole(candidate.kind) && candidate.kind != world::PropKind::parked_vehicle)
+        if (const auto ground = context.ground_heights.under(foot, z))
             z = ground->low;
-    land.town.props.emplace_back(world::Vec3(p.x(), p.y(), z),
-                                 item.footprint.yaw,
-                                 length,
-                                 item.footprint.width,
-                                 height,
-                                 item.style,
-                                 item.value,
-                                 item.kind,
-                                 std::uint8_t{0});
+    context.town.props.emplace_back(world::Vec3(p.x(), p.y(), z),
+                                    candidate.footprint.yaw,
+                                    length,
+                                    candidate.footprint.width,
+                                    height,
+                                    candidate.style,
+                                    candidate.value,
+                                    candidate.kind,
+                                    std::uint8_t{0});
 }
 
 }  // namespace
 
-bool place_prop(Land& land, const Item& item) {
-    const Footprint foot = on_the_ground(item);
-    const bool pole = is_pole(item.kind);
-    if (!land.roads.is_clear(foot, pole ? pole_margin : kerb_margin) ||
-        !land.crossings.is_clear(foot, 0.3) ||
-        !land.ways.is_clear(foot, pole ? towns::pole_radius : 0) ||
-        !land.solid.is_clear(foot, item.from_solid) || land.is_steep(foot.centre))
+bool place_prop(PlacementContext& context, const PropCandidate& candidate) {
+    const Footprint foot = on_the_ground(candidate);
+    const bool pole = is_pole(candidate.kind);
+    if (!context.roads.is_clear(foot, pole ? pole_margin : kerb_margin) ||
+        !context.crossings.is_clear(foot, 0.3) ||
+        !context.walkways.is_clear(foot, pole ? towns::pole_radius : 0) ||
+        !context.solid.is_clear(foot, candidate.from_solid) || context.is_steep(foot.centre))
         return false;
-    if (item.from_walk >= 0 && !land.walks.is_clear(foot, item.from_walk))
+    if (candidate.from_walk >= 0 && !context.walks.is_clear(foot, candidate.from_walk))
         return false;
-    if (!land.may_stand(foot.centre, 0))
+    if (!context.may_stand(foot.centre, 0))
         return false;
-    if (!pole && item.height > sight_height && !land.sights.is_clear(foot, sight_distance))
+    if (!pole && candidate.height > sight_height && !context.sights.is_clear(foot, sight_distance))
         return false;
-    const std::optional<int> pieces = pieces_on(land, item, foot);
+    const std::optional<int> pieces = pieces_on(context, candidate, foot);
     if (!pieces)
         return false;
-    land.solid.add_footprint(foot);
+    context.solid.add_footprint(foot);
     if (*pieces == 1)
-        stand(land, item, foot, item.footprint.length);
+        stand(context, candidate, foot, candidate.footprint.length);
     else
         for (int i = 0; i < *pieces; ++i) {
             const Footprint piece = piece_of(foot, i, *pieces);
-            stand(land, item, piece, piece.length);
+            stand(context, candidate, piece, piece.length);
         }
     return true;
 }

@@ -2,12 +2,12 @@
 
 #include <cstdint>
 
-#include "towns/furnish/land.h"
+#include "towns/furnish/placement_context.h"
 
 namespace reprise::towns {
 
-/// Something that could stand somewhere: its footprint, and how far that must be from what.
-struct Item {
+/// A piece of furniture that place_prop() may add: its footprint, and the distances it must keep.
+struct PropCandidate {
     world::PropKind kind = world::PropKind::bench;
     Footprint footprint;
     double height = 1;
@@ -24,6 +24,6 @@ inline constexpr double car_slope = 0.3;
 /// Adds it to town.props when it stands clear: kerb_margin from the road, off crossings and
 /// junctions, not in sight triangles when it is higher than 1 m, on ground that is even enough.
 /// Fences, walls and hedges go down a slope in steps. False: it does not stand.
-bool place_prop(Land& land, const Item& item);
+bool place_prop(PlacementContext& context, const PropCandidate& candidate);
 
 }  // namespace reprise::towns

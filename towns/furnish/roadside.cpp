@@ -71,14 +71,14 @@ std::vector<Roadside> roadsides(const TownT& town) {
     return found;
 }
 
-Site site(const Roadside& roadside, double s, double away) {
+RoadsidePose roadside_pose(const Roadside& roadside, double s, double away) {
     const world::LanePoint at = world::point_at(roadside.border, s);
-    const Eigen::Vector2d left(-std::sin(at.yaw), std::cos(at.yaw));
+    const Eigen::Vector2d left = world::left_of(at.yaw);
     const Eigen::Vector2d out = left * roadside.side;
     return {at.position.head<2>() + out * away, at.position.z(), at.yaw, out};
 }
 
-double facing_yaw(const Roadside& roadside, const Site& at) {
+double facing_yaw(const Roadside& roadside, const RoadsidePose& at) {
     return roadside.side > 0 ? at.yaw : at.yaw + std::numbers::pi;
 }
 

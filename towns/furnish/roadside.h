@@ -20,8 +20,8 @@ struct Roadside {
     world::LaneT border;  ///< only its centre line and length are filled
 };
 
-/// A place beside a road. Metres and radians.
-struct Site {
+/// A pose beside a road. Metres and radians.
+struct RoadsidePose {
     Eigen::Vector2d position;
     double z = 0;         ///< of the road
     double yaw = 0;       ///< driving direction
@@ -32,9 +32,9 @@ struct Site {
 std::vector<Roadside> roadsides(const world::TownT& town);
 
 /// `s` metres along the border, `away` metres out of it (negative: over the sidewalk and the road).
-Site site(const Roadside& roadside, double s, double away);
+RoadsidePose roadside_pose(const Roadside& roadside, double s, double away);
 
 /// The yaw of a building whose front looks at the road: x along the street, front at -y.
-double facing_yaw(const Roadside& roadside, const Site& at);
+double facing_yaw(const Roadside& roadside, const RoadsidePose& at);
 
 }  // namespace reprise::towns

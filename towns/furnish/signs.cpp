@@ -30,7 +30,7 @@ constexpr double facing_alike = 0.7;  ///< cosine of the angle between two ways
 /// Makes the signs of one town. Roads are told by the kerb-side border of their driving lanes.
 class Signs {
   public:
-    explicit Signs(Land& land) : land_(land), town_(land.town) {}
+    explicit Signs(PlacementContext& context) : context_(context), town_(context.town) {}
 
     void take_known();
     void add_limits();
@@ -47,7 +47,7 @@ class Signs {
     std::vector<std::uint32_t> roads() const;
     std::set<std::string> changed_limits() const;
 
-    Land& land_;
+    PlacementContext& context_;
     world::TownT& town_;
 };
 
@@ -64,30 +64,30 @@ bool is_sign(PropKind kind) {
 }
 
 bool Signs::knows(PropKind kind) const {
-    return std::any_of(land_.place.signs.begin(), land_.place.signs.end(), [&](const Prop& sign) {
-        return sign.kind() == kind;
-    });
+    return std::any_of(context_.place.signs.begin(),
+                       context_.place.signs.end(),
+                       [&](const Prop& sign) { return sign.kind() == kind; });
 }
 
 /// The driving lane at the kerb of every road.
 std::vector<std::uint32_t> Signs::roads() const {
     std::vector<std::uint32_t> found;
-    for (const Roadside& roadside : land_.roadsides)
+    for (const Roadside& roadside : context_.roadsides)
         if (roadside.kerb_side && roadside.driven != world::none)
             found.push_back(roadside.driven);
     return found;
 }
 
 void Signs::take_known() {
-    for (const Prop& sign : land_.place.signs) {
+    for (const Prop& sign : context_.place.signs) {
         const Vector2d wish = world::in_plan(sign.position());
-        const auto foot = land_.pole_place(wish, search, sign.position().z());
+        const auto foot = context_.pole_place(wish, search, sign.position().z());
         if (!foot)
             continue;
         Prop kept = sign;
         kept.mutable_position() =
-            Vec3(foot->x(), foot->y(), land_.ground(*foot, sign.position().z()));
-        land_.solid.add_point(*foot, 0.05);
+            Vec3(foot->x(), foot->y(), context_.ground(*foot, sign.position().z()));
+        context_.solid.add_point(*foot, 0.05);
         town_.props.push_back(kept);
     }
 }
@@ -104,21 +104,21 @@ bool Signs::near_another(const Vector2d& foot, double yaw, double within) const 
 Vector2d Signs::wish_at(std::uint32_t lane, double s) const {
     const world::LanePoint at = world::point_at(town_.lanes[lane], s);
     const double side = town_.left_hand ? 1 : -1;
-    const Vector2d left(-std::sin(at.yaw), std::cos(at.yaw));
+    const Vector2d left = world::left_of(at.yaw);
     return at.position.head<2>() + left * (side * (town_.lanes[lane].width / 2 + from_kerb));
 }
 
 void Signs::add(PropKind kind, std::uint32_t lane, double s, int value, double height) {
     const world::LanePoint at = world::point_at(town_.lanes[lane], s);
-    const auto foot = land_.pole_place(wish_at(lane, s), search, at.position.z());
+    const auto foot = context_.pole_place(wish_at(lane, s), search, at.position.z());
     if (!foot)
         return;
-    land_.solid.add_point(*foot, 0.05);
-    town_.props.emplace_back(Vec3(foot->x(), foot->y(), land_.ground(*foot, at.position.z())),
+    context_.solid.add_point(*foot, 0.05);
+    town_.props.emplace_back(Vec3(foot->x(), foot->y(), context_.ground(*foot, at.position.z())),
                              at.yaw,
                              0.1,
                              plate,
-                             height + std::max(0.0, land_.drop(*foot, at.position.z())),
+                             height + std::max(0.0, context_.drop(*foot, at.position.z())),
                              0U,
                              static_cast<std::uint16_t>(value),
                              kind,
@@ -177,11 +177,12 @@ void Signs::add_priorities() {
         return;
     for (const std::uint32_t road : roads()) {
         const LaneT& lane = town_.lanes[road];
-        if (land_.right_of_way[road] == GiveWay::none)
+        if (context_.right_of_way[road] == GiveWay::none)
             continue;
         const double s = std::max(lane.length - 1, lane.length / 2);
         const bool crowded = near_another(wish_at(road, s), world::point_at(lane, s).yaw);
-        add(land_.right_of_way[road] == GiveWay::stop ? PropKind::stop_sign : PropKind::yield_sign,
+        add(context_.right_of_way[road] == GiveWay::stop ? PropKind::stop_sign
+                                                         : PropKind::yield_sign,
             road,
             s,
             0,
@@ -194,7 +195,7 @@ bool Signs::is_governed(std::uint32_t index) const {
     constexpr double reach = 15;
     const LaneT& lane = town_.lanes[index];
     const world::LanePoint end = world::point_at(lane, lane.length);
-    return land_.right_of_way[index] != GiveWay::none ||
+    return context_.right_of_way[index] != GiveWay::none ||
            std::any_of(lane.links.begin(),
                        lane.links.end(),
                        [](const world::Link& link) { return link.signal() != world::none; }) ||
@@ -232,8 +233,8 @@ void Signs::add_crossings() {
 
 }  // namespace
 
-void place_signs(Land& land) {
-    Signs signs(land);
+void place_signs(PlacementContext& context) {
+    Signs signs(context);
     signs.take_known();
     signs.add_priorities();
     signs.add_crossings();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "towns/furnish/land.h"
+#include "towns/furnish/placement_context.h"
 
 namespace reprise::towns {
 
@@ -9,6 +9,6 @@ namespace reprise::towns {
 /// with another limit. Likewise stop and yield signs: at every road that must give way to vehicles
 /// at a junction without lights. Crossing signs stand at crossings without lights where no such
 /// sign makes drivers give way already. No derived sign hides another.
-void place_signs(Land& land);
+void place_signs(PlacementContext& context);
 
 }  // namespace reprise::towns

@@ -107,8 +107,8 @@ std::string stop_only_at(const std::set<std::string>& edges, const std::string& 
     return std::move(text).str();
 }
 
-SignsThatBind signs_that_bind(const std::vector<LaneSign>& signs, const world::TownT& town) {
-    SignsThatBind bind;
+ObeyedSigns obeyed_signs(const std::vector<LaneSign>& signs, const world::TownT& town) {
+    ObeyedSigns bind;
     for (const auto& [junction, approaches] : signed_junctions(signs, town)) {
         std::set<std::string> edges = approaches.with_stop;
         edges.insert(approaches.with_yield.begin(), approaches.with_yield.end());

@@ -37,12 +37,13 @@ RightOfWay right_of_way(const std::vector<LaneSign>& signs, const world::TownT& 
 /// roads give way without a stop; all-way stops stay.
 std::string stop_only_at(const std::set<std::string>& edges, const std::string& network);
 
-/// How many of the roads with a stop or yield sign (at junctions without lights) give way.
-struct SignsThatBind {
+/// Roads with a stop or yield sign at junctions without lights, and how many of them do give way in
+/// the network.
+struct ObeyedSigns {
     int roads = 0;
     int giving_way = 0;
 };
 
-SignsThatBind signs_that_bind(const std::vector<LaneSign>& signs, const world::TownT& town);
+ObeyedSigns obeyed_signs(const std::vector<LaneSign>& signs, const world::TownT& town);
 
 }  // namespace reprise::towns

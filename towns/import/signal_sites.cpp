@@ -109,7 +109,7 @@ bool on_the_road(const world::TownT& town, const Vec3& point) {
 
 /// Is it in the middle of a sidewalk or crossing?
 bool in_the_way_of_walkers(const world::TownT& town, const Vec3& point) {
-    constexpr double pole_radius = 0.2, way = towns::clear_for_walkers + pole_radius;  // [m]
+    constexpr double pole_radius = 0.2, way = towns::walker_clearance + pole_radius;  // [m]
     return std::any_of(town.lanes.begin(), town.lanes.end(), [&](const LaneT& lane) {
         return (lane.kind == LaneKind::sidewalk || lane.kind == LaneKind::crossing) &&
                world::project(lane, vector(point)).distance < way;

@@ -229,7 +229,7 @@ class Import {
         convert(words);
         network = stop_only_at(patch.edges_with_stops, network);
         const ImportedRoads now = read_roads(network, map_);
-        const SignsThatBind bind = signs_that_bind(find_signs(now), now.town);
+        const ObeyedSigns bind = obeyed_signs(find_signs(now), now.town);
         say("right of way: {} junctions follow their stop and yield signs; {} of {} roads with "
             "such a "
             "sign give way",
@@ -281,7 +281,7 @@ class Import {
     /// netconvert's own heights (--osm.layer-elevation) reach as far as the next junction at most,
     /// and leave everything beyond a bridge up.
     void raise(const MapShapes& shapes) {
-        HeightJudge judge({source_.name, network, "", place});
+        HeightFaultFinder judge({source_.name, network, "", place});
         const RaisedRoads raised = raise_roads(
             network, shapes.ways, [&](const std::string& xml) { return judge.faults(xml); });
         if (shapes.ways.empty())

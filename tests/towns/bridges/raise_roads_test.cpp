@@ -325,7 +325,7 @@ std::string stretched(const std::string& network, double factor) {
 
 TEST_F(RaiseRoads, LowBridgesAndSteepRampsAreFaults) {
     import(interchange({{"bridge", "yes"}, { "layer", "1" }}));
-    HeightJudge judge({"hill", stretched(network_, 0), "", ""});
+    HeightFaultFinder judge({"hill", stretched(network_, 0), "", ""});
     EXPECT_TRUE(judge.faults(network_).empty());
     EXPECT_TRUE(judge.faults(stretched(network_, 0.9)).empty());
     const auto low = judge.faults(stretched(network_, 0.7));

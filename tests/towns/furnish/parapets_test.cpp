@@ -36,8 +36,8 @@ world::TownT crossing_at(double z) {
 
 std::vector<world::Prop> walls_of(world::TownT& town) {
     const Place place;
-    Land land(town, place, {});
-    place_parapets(land);
+    PlacementContext context(town, place, {});
+    place_parapets(context);
     return town.props;
 }
 

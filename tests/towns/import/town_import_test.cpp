@@ -639,7 +639,7 @@ TEST_F(Imports, AMapKeepsItsLightsSignsLimitsAndBridge) {
               (std::map<world::PropKind, int>{{world::PropKind::stop_sign, 1},
                                               {world::PropKind::speed_limit_sign, 1}}));
     const OpenDrive map = read_opendrive(bytes(file), "bridge.xodr");
-    const SignsThatBind bind = signs_that_bind(lane_signs(map, roads), roads.town);
+    const ObeyedSigns bind = obeyed_signs(lane_signs(map, roads), roads.town);
     EXPECT_EQ(bind.roads, 1);
     EXPECT_EQ(bind.giving_way, 1);
 
@@ -709,7 +709,7 @@ TEST_F(Imports, Town07FollowsItsStopAndYieldSigns) {
     expect_heads_suit(roads, place);
     EXPECT_THAT(network, HasSubstr("type=\"allway_stop\""));
     const OpenDrive map = read_opendrive(bytes(file), "Town07.xodr");
-    const SignsThatBind bind = signs_that_bind(lane_signs(map, roads), roads.town);
+    const ObeyedSigns bind = obeyed_signs(lane_signs(map, roads), roads.town);
     EXPECT_EQ(bind.roads, 39);
     EXPECT_GE(bind.giving_way, 36) << "the rest stand where a road only goes on";
     // The signs stand on their own side of the road.

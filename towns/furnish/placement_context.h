@@ -8,36 +8,38 @@
 
 #include "towns/check/furniture_check.h"
 #include "towns/furnish/clearance.h"
-#include "towns/furnish/footing.h"
 #include "towns/furnish/give_way.h"
+#include "towns/furnish/ground_heights.h"
 #include "towns/furnish/roadside.h"
 #include "towns/network/place.h"
 #include "world/town_generated.h"
 
 namespace reprise::towns {
 
-/// What all that fills a town with scenery works on: the town so far, and what its land is taken
-/// by.
-struct Land {
-    Land(world::TownT& target, const Place& source, const std::vector<GiveWay>& signed_lanes);
+/// What every furnishing step (heads, signs, buildings, plants, ...) reads and writes: the town so
+/// far, and the space that is taken already.
+struct PlacementContext {
+    PlacementContext(world::TownT& target,
+                     const Place& source,
+                     const std::vector<GiveWay>& signed_lanes);
 
     world::TownT& town;
     const Place& place;
     const std::vector<GiveWay>& right_of_way;  ///< one for each lane
     std::uint64_t seed;                        ///< of the town's name
     std::vector<Roadside> roadsides;
-    Footing footing;
+    GroundHeights ground_heights;
 
-    // Each as far as what stands must be able to ask about. Metres from the border.
+    // Obstacles by kind. [m] The largest distance that a step asks for.
     Clearance roads{20};     ///< lanes for vehicles, and the paths of cars across junctions
     Clearance junctions{4};  ///< their outlines, walking areas included
     Clearance walks{8};      ///< sidewalks and walking areas
-    Clearance ways{1};       ///< what nothing may narrow: the middle of sidewalks and crossings
+    Clearance walkways{1};   ///< the middle of sidewalks and crossings, which nothing may narrow
     Clearance crossings{4};
     Clearance reserved{8};    ///< plots, and what must be kept clear of buildings and plants
     Clearance solid{8};       ///< what stands: buildings, furniture, trunks, parked cars
     Clearance buildings{20};  ///< again, for crowns
-    Clearance sights{12};     ///< ends of the kerbs at unlit junctions
+    Clearance sights{12};     ///< corners of unlit junctions that drivers look across
 
     /// Do roads within some 30 m lie at different heights? Nothing stands there, because the land
     /// beside the road is then not as high as the road.
@@ -46,9 +48,9 @@ struct Land {
     /// Is there no road within some 80 m?
     bool is_outside(const Eigen::Vector2d& p) const;
 
-    /// Outside of built-up streets: fast roads, and one-way roads without a sidewalk (ramps,
-    /// carriageways of a motorway).
-    bool is_country(const Roadside& roadside) const;
+    /// Is the road outside of built-up streets? Fast roads, and one-way roads without a sidewalk
+    /// (ramps, carriageways of a motorway).
+    bool is_rural(const Roadside& roadside) const;
 
     /// Height of the ground beside or under the side of a road that is at this height: sidewalks
     /// are raised. [m]
@@ -62,8 +64,9 @@ struct Land {
     /// sidewalk or beside the road.
     bool may_stand(const Eigen::Vector2d& p, double margin) const;
 
-    /// Is a pole there off the sidewalks, or at their kerb or outer edge, where walkers pass by?
-    bool leaves_way(const Eigen::Vector2d& p) const;
+    /// Does a pole there leave walkers a way past it: off the sidewalks, or at their kerb or outer
+    /// edge?
+    bool leaves_walkway_free(const Eigen::Vector2d& p) const;
 
     /// The place nearest to `wish` where a pole may stand, on ground about as high as its road, and
     /// leaves walkers their way; else where it may stand at all. At most `reach` away. [m]
@@ -94,7 +97,7 @@ inline constexpr double kerb_margin = 0.5;
 inline constexpr double pole_margin = 0.3;
 
 /// Beside the middle of a sidewalk nothing stands: a little more than what is checked. [m]
-inline constexpr double middle_half = towns::clear_for_walkers + 0.02;
+inline constexpr double walkway_half_width = towns::walker_clearance + 0.02;
 
 /// What walkers need to pass by. [m]
 inline constexpr double walking_width = 1.2;

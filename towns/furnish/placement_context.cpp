@@ -1,4 +1,4 @@
-#include "towns/furnish/land.h"
+#include "towns/furnish/placement_context.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,8 +29,7 @@ std::pair<std::int32_t, std::int32_t> level_cell_of(const Vector2d& p) {
 
 Vector2d kerb_point(const LaneT& lane, double s, double side) {
     const world::LanePoint at = world::point_at(lane, s);
-    return at.position.head<2>() +
-           Vector2d(-std::sin(at.yaw), std::cos(at.yaw)) * (side * lane.width / 2);
+    return at.position.head<2>() + world::left_of(at.yaw) * (side * lane.width / 2);
 }
 
 constexpr int directions = 16;
@@ -43,13 +42,15 @@ Vector2d direction(int k) {
 
 }  // namespace
 
-Land::Land(world::TownT& target, const Place& source, const std::vector<GiveWay>& signed_lanes)
+PlacementContext::PlacementContext(world::TownT& target,
+                                   const Place& source,
+                                   const std::vector<GiveWay>& signed_lanes)
     : town(target),
       place(source),
       right_of_way(signed_lanes),
       seed(world::digest128(target.name).low()),
       roadsides(towns::roadsides(target)),
-      footing(target) {
+      ground_heights(target) {
     add_lanes();
     for (const world::JunctionT& junction : town.junctions)
         junctions.add_polygon(junction.outline);
@@ -60,7 +61,7 @@ Land::Land(world::TownT& target, const Place& source, const std::vector<GiveWay>
     add_sights();
 }
 
-void Land::add_lanes() {
+void PlacementContext::add_lanes() {
     for (const LaneT& lane : town.lanes) {
         if (lane.kind == LaneKind::crossing)
             crossings.add_polygon(lane.outline);
@@ -69,7 +70,7 @@ void Land::add_lanes() {
         else if (lane.kind == LaneKind::sidewalk)
             walks.add_line(lane.centre, lane.width / 2);
         if (lane.kind == LaneKind::crossing || lane.kind == LaneKind::sidewalk)
-            ways.add_line(lane.centre, middle_half);
+            walkways.add_line(lane.centre, walkway_half_width);
         else if (lane.kind != LaneKind::walking_area)
             roads.add_line(lane.centre,
                            std::max(lane.width / 2,
@@ -78,7 +79,7 @@ void Land::add_lanes() {
     }
 }
 
-void Land::add_level(const LaneT& lane) {
+void PlacementContext::add_level(const LaneT& lane) {
     for (double s = 0; s < lane.length + level_cell / 2; s += level_cell / 2) {
         const Eigen::Vector3d p = world::point_at(lane, s).position;
         const Levels here{p.z(), p.z()};
@@ -87,7 +88,7 @@ void Land::add_level(const LaneT& lane) {
     }
 }
 
-void Land::add_sights() {
+void PlacementContext::add_sights() {
     // A junction where somebody must give way, and no light says who.
     std::vector<char> unlit(town.junctions.size(), 0);
     for (const LaneT& lane : town.lanes)
@@ -106,7 +107,7 @@ void Land::add_sights() {
     }
 }
 
-bool Land::is_steep(const Vector2d& p) const {
+bool PlacementContext::is_steep(const Vector2d& p) const {
     const auto middle = level_cell_of(p);
     double low = 1e9;
     double high = -1e9;
@@ -119,7 +120,7 @@ bool Land::is_steep(const Vector2d& p) const {
     return high - low > level_apart;
 }
 
-bool Land::is_outside(const Vector2d& p) const {
+bool PlacementContext::is_outside(const Vector2d& p) const {
     constexpr std::int32_t cells = 3;
     const auto middle = level_cell_of(p);
     for (std::int32_t x = middle.first - cells; x <= middle.first + cells; ++x)
@@ -129,7 +130,7 @@ bool Land::is_outside(const Vector2d& p) const {
     return true;
 }
 
-bool Land::is_country(const Roadside& roadside) const {
+bool PlacementContext::is_rural(const Roadside& roadside) const {
     if (roadside.driven == world::none)
         return false;
     std::uint32_t lane = roadside.driven;
@@ -145,32 +146,32 @@ bool Land::is_country(const Roadside& roadside) const {
     return roadside.walk == 0 || town.lanes[lane].speed_limit > country_speed;
 }
 
-double Land::level_ground(const Vector2d& p, double road_z) const {
+double PlacementContext::level_ground(const Vector2d& p, double road_z) const {
     return road_z + (walks.is_clear(p, 0) ? -ground::terrain_depth : ground::kerb_height);
 }
 
-double Land::ground(const Vector2d& p, double road_z) const {
+double PlacementContext::ground(const Vector2d& p, double road_z) const {
     const double wish = level_ground(p, road_z);
-    return footing.at(p, wish).value_or(wish);
+    return ground_heights.at(p, wish).value_or(wish);
 }
 
-double Land::drop(const Vector2d& p, double road_z) const {
+double PlacementContext::drop(const Vector2d& p, double road_z) const {
     return level_ground(p, road_z) - ground(p, road_z);
 }
 
-bool Land::may_stand(const Vector2d& p, double margin) const {
+bool PlacementContext::may_stand(const Vector2d& p, double margin) const {
     if (!roads.is_clear(p, margin) || !crossings.is_clear(p, 0.1))
         return false;
     // The outline of a junction holds its walking areas; the rest of it is road.
     return !walks.is_clear(p, 0) || junctions.is_clear(p, 0.1);
 }
 
-bool Land::leaves_way(const Vector2d& p) const {
+bool PlacementContext::leaves_walkway_free(const Vector2d& p) const {
     constexpr double at_kerb = 0.75;
     constexpr double at_edge = 0.35;
     if (walks.is_clear(p, 0))
         return true;
-    if (!ways.is_clear(p, towns::pole_radius))
+    if (!walkways.is_clear(p, towns::pole_radius))
         return false;
     if (!roads.is_clear(p, at_kerb))
         return true;
@@ -183,7 +184,9 @@ bool Land::leaves_way(const Vector2d& p) const {
     return false;
 }
 
-std::optional<Vector2d> Land::pole_place(const Vector2d& wish, double reach, double road_z) const {
+std::optional<Vector2d> PlacementContext::pole_place(const Vector2d& wish,
+                                                     double reach,
+                                                     double road_z) const {
     constexpr double ring = 0.3;
     constexpr double about_level = 1;  // [m]
     const auto is_level = [&](const Vector2d& p) {
@@ -195,7 +198,7 @@ std::optional<Vector2d> Land::pole_place(const Vector2d& wish, double reach, dou
             for (int k = 0; k < (i == 0 ? 1 : directions); ++k) {
                 const Vector2d p = wish + direction(k) * (i * ring);
                 if (may_stand(p, pole_margin) && solid.is_clear(p, 0.3) &&
-                    (!out_of_the_way || leaves_way(p)) && (!on_level || is_level(p)))
+                    (!out_of_the_way || leaves_walkway_free(p)) && (!on_level || is_level(p)))
                     return p;
             }
     return std::nullopt;

@@ -1,4 +1,4 @@
-#include "towns/furnish/footing.h"
+#include "towns/furnish/ground_heights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,26 +27,27 @@ bool lies_level(const world::TownT& town) {
 
 }  // namespace
 
-struct Footing::Hills {
+struct GroundHeights::Hills {
     explicit Hills(const world::TownT& town) : ground(ground::build_ground(town)), probe(ground) {}
 
     ground::GroundMesh ground;
     ground::GroundProbe probe;
 };
 
-Footing::Footing(const world::TownT& town)
+GroundHeights::GroundHeights(const world::TownT& town)
     : hills_(lies_level(town) ? nullptr : std::make_unique<const Hills>(town)) {}
 
-Footing::~Footing() = default;
+GroundHeights::~GroundHeights() = default;
 
-std::optional<double> Footing::at(const Eigen::Vector2d& p, double near) const {
+std::optional<double> GroundHeights::at(const Eigen::Vector2d& p, double near) const {
     if (is_level())
         return near;
     const auto hit = hills_->probe.nearest({p.x(), p.y(), near});
     return hit ? std::optional(hit->z) : std::nullopt;
 }
 
-std::optional<Footing::Span> Footing::under(const Footprint& footprint, double near) const {
+std::optional<GroundHeights::Span> GroundHeights::under(const Footprint& footprint,
+                                                        double near) const {
     if (is_level())
         return Span{near, near};
     const world::Loop corner = corners(footprint);

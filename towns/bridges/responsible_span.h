@@ -7,13 +7,15 @@
 
 namespace reprise::towns {
 
-/// The bridge or tunnel (an index into levels.spans, of which one at least has points) whose ramps
-/// are about a place: from its raised points there, the nearest along the roads. Where none is
-/// raised, the nearest in plan.
-class Blame {
+/// Finds the bridge or tunnel that gave a place its height (an index into levels.spans, of which at
+/// least one has points): of the raised points near the place, the span nearest along the roads;
+/// where no point is raised, the span nearest in plan.
+class ResponsibleSpan {
   public:
     /// `heights` are those of the points of `roads`. [m] Looks into all three.
-    Blame(const RoadChains& roads, const Levels& levels, const std::vector<double>& heights);
+    ResponsibleSpan(const RoadChains& roads,
+                    const Levels& levels,
+                    const std::vector<double>& heights);
 
     std::uint32_t at(const Eigen::Vector2d& place) const;
 

@@ -1,4 +1,4 @@
-#include "towns/bridges/blame.h"
+#include "towns/bridges/responsible_span.h"
 
 #include <cmath>
 #include <limits>
@@ -15,7 +15,9 @@ constexpr double farthest = 1000;  ///< [m] longer than all ramps
 
 }  // namespace
 
-Blame::Blame(const RoadChains& roads, const Levels& levels, const std::vector<double>& heights)
+ResponsibleSpan::ResponsibleSpan(const RoadChains& roads,
+                                 const Levels& levels,
+                                 const std::vector<double>& heights)
     : roads_(roads),
       levels_(levels),
       heights_(heights),
@@ -34,7 +36,7 @@ Blame::Blame(const RoadChains& roads, const Levels& levels, const std::vector<do
     }
 }
 
-std::uint32_t Blame::at(const Eigen::Vector2d& place) const {
+std::uint32_t ResponsibleSpan::at(const Eigen::Vector2d& place) const {
     std::uint32_t found = world::none;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < roads_.places.size(); ++i)

@@ -1,4 +1,4 @@
-#include "towns/furnish/footing.h"
+#include "towns/furnish/ground_heights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,7 @@ std::ptrdiff_t count(const TownT& town, PropKind kind) {
     });
 }
 
-TEST(Footing, EverythingStandsOnASlope) {
+TEST(GroundHeights, EverythingStandsOnASlope) {
     for (const double slope : {0.02, 0.05}) {
         const TownT town = street(slope);
         EXPECT_GT(town.trees.size(), 40U);
@@ -64,10 +64,10 @@ TEST(Footing, EverythingStandsOnASlope) {
 }
 
 /// Where all is level the ground is not looked up: heights are the lane's and a constant.
-TEST(Footing, LevelTownsNeedNoGround) {
+TEST(GroundHeights, LevelTownsNeedNoGround) {
     const TownT town = street(0);
-    EXPECT_TRUE(Footing(town).is_level());
-    EXPECT_EQ(Footing(town).at(Vector2d(1e6, 0), 3), 3);
+    EXPECT_TRUE(GroundHeights(town).is_level());
+    EXPECT_EQ(GroundHeights(town).at(Vector2d(1e6, 0), 3), 3);
     for (const world::Tree& tree : town.trees)
         EXPECT_TRUE(tree.position().z() == -ground::terrain_depth ||
                     tree.position().z() == ground::kerb_height)
@@ -76,7 +76,7 @@ TEST(Footing, LevelTownsNeedNoGround) {
         EXPECT_EQ(building.centre().z(), 0);
 }
 
-TEST(Footing, HedgesGoDownASlopeInSteps) {
+TEST(GroundHeights, HedgesGoDownASlopeInSteps) {
     constexpr double slope = 0.06;
     const TownT town = street(slope);
     double longest = 0;
@@ -91,7 +91,7 @@ TEST(Footing, HedgesGoDownASlopeInSteps) {
 }
 
 /// Its pole may stand a metre lower, but drivers look for it over the road.
-TEST(Footing, LampsHangAtTheirHeightOverTheRoad) {
+TEST(GroundHeights, LampsHangAtTheirHeightOverTheRoad) {
     TownT level = test::straight_road_with_signal(400);
     level.lanes[1].links.clear();  // it leads nowhere
     const std::vector<GiveWay> right_of_way(level.lanes.size());
@@ -108,7 +108,7 @@ TEST(Footing, LampsHangAtTheirHeightOverTheRoad) {
     EXPECT_LE(figure(steep, "things on the ground"), 0.25);
 }
 
-TEST(Footing, StaysOnItsLevel) {
+TEST(GroundHeights, StaysOnItsLevel) {
     TownT town = test::straight_road(100);
     const std::vector<world::LaneT> low = town.lanes;
     for (world::LaneT lane : low) {
@@ -117,33 +117,37 @@ TEST(Footing, StaysOnItsLevel) {
             p = Vec3(50, p.x() - 50, 6 + p.y() / 100);
         town.lanes.push_back(std::move(lane));
     }
-    const Footing footing(town);
+    const GroundHeights ground_heights(town);
     const Vector2d crossing(50, 1.75);
-    EXPECT_NEAR(*footing.at(crossing, 1), 0, 0.01);
-    EXPECT_NEAR(*footing.at(crossing, 5), 6, 0.1);
-    EXPECT_LT(*footing.at(Vector2d(60, 6), 6), 1) << "beside the bridge";
-    const auto under = footing.under({crossing, 0, 30, 0.2}, 0);
+    EXPECT_NEAR(*ground_heights.at(crossing, 1), 0, 0.01);
+    EXPECT_NEAR(*ground_heights.at(crossing, 5), 6, 0.1);
+    EXPECT_LT(*ground_heights.at(Vector2d(60, 6), 6), 1) << "beside the bridge";
+    const auto under = ground_heights.under({crossing, 0, 30, 0.2}, 0);
     ASSERT_TRUE(under);
     EXPECT_LT(under->rise(), 0.1);
-    EXPECT_FALSE(footing.at(Vector2d(9000, 0), 0)) << "beyond the terrain";
+    EXPECT_FALSE(ground_heights.at(Vector2d(9000, 0), 0)) << "beyond the terrain";
 }
 
 TEST(Floors, AreAStepOverTheGroundBeforeTheDoor) {
     TownT town = test::straight_road(400);
     tilt(town, 0.08);
-    const Footing footing(town);
+    const GroundHeights ground_heights(town);
     // Its front looks south at the road; 10 m along it, that is, 0.8 m of height.
     const Footprint house{{200, 15}, 0, 10, 8};
-    const auto floor = floor_on(footing, house, 16);
+    const auto floor = floor_on(ground_heights, house, 16);
     ASSERT_TRUE(floor);
-    EXPECT_NEAR(*floor, *footing.at(Vector2d(200, 10.7), 16) + 0.05, 1e-9);
+    EXPECT_NEAR(*floor, *ground_heights.at(Vector2d(200, 10.7), 16) + 0.05, 1e-9);
     EXPECT_NEAR(*floor, 16, 0.3) << "about as high as the road";
-    EXPECT_FALSE(floor_on(footing, {{200, 15}, 0, 40, 8}, 16)) << "3.2 m of height along it";
-    EXPECT_FALSE(floor_on(footing, {{200, 15}, 0, 16, 8}, 16)) << "1.3 m of height along the front";
+    EXPECT_FALSE(floor_on(ground_heights, {{200, 15}, 0, 40, 8}, 16)) << "3.2 m of height along it";
+    EXPECT_FALSE(floor_on(ground_heights, {{200, 15}, 0, 16, 8}, 16))
+        << "1.3 m of height along the front";
     const double uphill = std::acos(0.0);
-    EXPECT_TRUE(floor_on(footing, {{200, 15}, uphill, 8, 12}, 16)) << "1 m from front to back";
-    EXPECT_FALSE(floor_on(footing, {{200, 15}, uphill, 8, 17}, 16)) << "1.4 m below the back door";
-    EXPECT_FALSE(floor_on(footing, {{200, 15}, -uphill, 8, 17}, 16)) << "1.4 m over the back door";
+    EXPECT_TRUE(floor_on(ground_heights, {{200, 15}, uphill, 8, 12}, 16))
+        << "1 m from front to back";
+    EXPECT_FALSE(floor_on(ground_heights, {{200, 15}, uphill, 8, 17}, 16))
+        << "1.4 m below the back door";
+    EXPECT_FALSE(floor_on(ground_heights, {{200, 15}, -uphill, 8, 17}, 16))
+        << "1.4 m over the back door";
 }
 
 TEST(Floors, OfDrawnBuildingsFaceTheStreet) {

@@ -8,14 +8,14 @@
 
 namespace reprise::towns {
 
-/// Heights of the ground that a town's things stand on: those of ground::build_ground, which wheels
-/// roll on and cameras see. Where all lanes lie at one height there is nothing to look up, and
-/// nothing is built.
-class Footing {
+/// Heights of the ground under a town's buildings, plants and furniture: those of
+/// ground::build_ground, which wheels roll on and cameras see. Where all lanes lie at one height
+/// there is nothing to look up, and nothing is built.
+class GroundHeights {
   public:
     /// The town needs its lanes, links, junctions and box. As long as build_ground takes.
-    explicit Footing(const world::TownT& town);
-    ~Footing();
+    explicit GroundHeights(const world::TownT& town);
+    ~GroundHeights();
 
     /// Do all lanes lie at one height?
     bool is_level() const { return hills_ == nullptr; }
