@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
-#include "world/check.h"
-
 #include "exchange/tick_table.h"
+#include "world/check.h"
 
 namespace reprise::exchange {
 

@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <vector>
 
-#include "replay/trace_file.h"
-#include "world/check.h"
+#include <fmt/format.h>
 
 #include "exchange/foxglove_scene.h"
 #include "exchange/geo_origin.h"
 #include "foxglove_schemas.h"
+#include "replay/trace_file.h"
+#include "world/check.h"
 
 namespace reprise::exchange {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+
 #include <nlohmann/json.hpp>
 
 #include "world/tick.h"

@@ -1,6 +1,7 @@
 #include "exchange/geo_origin.h"
 
 #include <cstdio>
+
 #include <proj.h>
 
 namespace reprise::exchange {

@@ -1,6 +1,7 @@
 #include "replay/level.h"
 
 #include <array>
+
 #include <fmt/format.h>
 
 #include "world/check.h"

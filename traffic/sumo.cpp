@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fmt/format.h>
 #include <iostream>
 #include <numbers>
 #include <sstream>
@@ -11,6 +10,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include <fmt/format.h>
 #include <libsumo/libsumo.h>
 
 #include "traffic/fleet.h"

@@ -3,6 +3,7 @@
 #include <clocale>
 #include <cstdint>
 #include <locale>
+
 #include <xmmintrin.h>
 
 namespace reprise::world {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio>
+
 #include <xxhash.h>
 
 namespace reprise::world {

@@ -2,12 +2,13 @@
 // that has neither. Separate processes, in turn, because a program has one libm.
 #include <algorithm>
 #include <array>
-#include <benchmark/benchmark.h>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <benchmark/benchmark.h>
 
 namespace {
 

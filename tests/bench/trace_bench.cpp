@@ -1,10 +1,11 @@
 // Encoding, writing, playing and verifying a trace of 100 cars and 100 walkers, each beside a bare
 // zstd pass over the same bytes, in turn.
-#include <benchmark/benchmark.h>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <benchmark/benchmark.h>
 #include <zlib.h>
 #include <zstd.h>
 

@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <optional>
+
 #include <zstd.h>
 
 #include "replay/trace_format.h"

@@ -2,6 +2,7 @@
 // chunk less one, a chunk, one more, several.
 #include <cstdio>
 #include <filesystem>
+
 #include <fmt/format.h>
 
 #include "tests/replay/synthetic_run.h"

@@ -2,9 +2,9 @@
 // code with the room: records in order, and every checksum computed again, bit by bit.
 #include <cstring>
 #include <map>
-#include <zstd.h>
 
 #include <gmock/gmock.h>
+#include <zstd.h>
 
 #include "tests/replay/synthetic_run.h"
 
