@@ -8,7 +8,7 @@
 #include "replay/mcap/compression.h"
 #include "replay/mcap/files.h"
 #include "replay/mcap/mcap.h"
-#include "replay/trace_reader.h"
+#include "replay/recorded_tick.h"
 
 namespace reprise::replay {
 

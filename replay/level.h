@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "replay/trace_reader.h"
+#include "replay/recorded_tick.h"
 #include "world/tick.h"
 
 namespace reprise::replay {

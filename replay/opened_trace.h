@@ -10,8 +10,8 @@
 #include "replay/chunk_reader.h"
 #include "replay/mcap/aligned_copy.h"
 #include "replay/mcap/files.h"
+#include "replay/recorded_tick.h"
 #include "replay/trace_index.h"
-#include "replay/trace_reader.h"
 
 namespace reprise::replay {
 
