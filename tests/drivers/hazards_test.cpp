@@ -1,0 +1,106 @@
+#include "drivers/hazards.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/drivers/kinematic_car.h"
+#include "tests/support/worlds.h"
+#include "world/units.h"
+
+namespace reprise::drivers {
+namespace {
+
+constexpr double north = std::numbers::pi / 2;
+
+/// A sedan at x = 0 that drives east on a path along y = 0.
+class Road {
+  public:
+    explicit Road(double speed)
+        : hazards(town_),
+          ego_(ego_of(test::vehicle_at(1, 0, 0, 0, speed))) {
+        std::vector<Eigen::Vector3d> line;
+        for (const world::Vec3& point : test::Turtle(0, 0, 0).ahead(300).line())
+            line.push_back(world::to_eigen(point));
+        path_.append(line, 30);
+        path_.finish({});
+    }
+
+    double look(std::vector<world::CarState> cars, std::vector<world::WalkerState> walkers = {}) {
+        world::TickDraft draft;
+        draft.traffic.cars = std::move(cars);
+        draft.traffic.walkers = std::move(walkers);
+        const world::SealedTick tick = world::seal(draft, {});
+        hazards.look(tick.view(), ego_, path_, style);
+        return hazards.acceleration();
+    }
+
+    double front() const { return ego_.front_s(); }
+
+  private:
+    world::TownT town_;
+    Path path_;
+
+  public:
+    Hazards hazards;
+    DrivingStyle style;
+
+  private:
+    Ego ego_;
+};
+
+world::WalkerState walker(double x, double y, double yaw, double speed) {
+    return {world::Vec3(x, y, 0),
+            static_cast<float>(yaw),
+            static_cast<float>(speed),
+            0,
+            9,
+            0,
+            false,
+            0,
+            0};
+}
+
+}  // namespace
+
+TEST(Hazards, AnEmptyRoadAllowsEverything) {
+    EXPECT_EQ(Road(15).look({}), world::infinity);
+}
+
+TEST(Hazards, ALeaderIsFollowedByTheIntelligentDriverModel) {
+    const world::VehicleModel& sedan = world::vehicle_models()[0];
+    Road road(15);
+    const double allowed = road.look({test::car_at(1'000'000, 60, 0, 0, 12)});
+    ASSERT_EQ(road.hazards.overlaps().size(), 1U);
+    const double rear = 60 - sedan.rear_overhang;
+    EXPECT_NEAR(road.hazards.overlaps()[0].s, rear, 0.02);
+    EXPECT_NEAR(road.hazards.overlaps()[0].speed, 12, 1e-6);
+    EXPECT_NEAR(allowed, follow_acceleration(rear - road.front(), 15, 12, road.style), 0.01);
+}
+
+TEST(Hazards, WhoStandsOnTheNextLaneDoesNotConcernUs) {
+    Road road(15);
+    EXPECT_EQ(road.look({test::car_at(1'000'000, 60, 3.5, 0, 0)}), world::infinity);
+    EXPECT_TRUE(road.hazards.overlaps().empty());
+}
+
+TEST(Hazards, TheNearestOfSeveralDecides) {
+    Road road(15);
+    const world::CarState near = test::car_at(1'000'000, 40, 0, 0, 0);
+    const double alone = road.look({near});
+    EXPECT_EQ(road.look({near, test::car_at(1'000'001, 50, 0, 0, 0)}), alone);
+    EXPECT_EQ(road.hazards.overlaps().size(), 2U);
+}
+
+TEST(Hazards, AWalkerWhoWillStepOntoThePathIsSeenBeforeHeIsThere) {
+    // 2.2 m beside the path at 1.5 m/s he reaches our corridor within the 1.5 s that are foreseen;
+    // at 10 m/s we are 20 m ahead of the bumper in 2 s.
+    Road road(10);
+    const double x = road.front() + 15;
+    EXPECT_LT(road.look({}, {walker(x, -2.2, north, 1.5)}), 0);
+    EXPECT_TRUE(road.hazards.overlaps().empty());
+    EXPECT_EQ(road.look({}, {walker(x, -2.2, -north, 1.5)}), world::infinity) << "walks away";
+    EXPECT_EQ(road.look({}, {walker(x, -2.2, north, 0)}), world::infinity) << "stands";
+}
+
+}  // namespace reprise::drivers
