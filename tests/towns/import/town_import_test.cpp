@@ -651,11 +651,12 @@ TEST_F(Imports, AMapKeepsItsLightsSignsLimitsAndBridge) {
     EXPECT_EQ(limits_kmh, (std::set<long>{30, 50}));
     // Where the road crosses itself, 95 m east of the crossing, it lies on the ground and 7 m
     // higher.
+    const Eigen::Vector2d crossed = Eigen::Vector2d(95, 0) + offset_of(map, roads);
     std::set<long> heights;
     for (const world::LaneT& lane : town.lanes)
         for (double s = 0; lane.kind == LaneKind::driving && s < lane.length; s += 0.5) {
             const Eigen::Vector3d p = world::point_at(lane, s).position;
-            if (std::hypot(p.x() - 95, p.y()) < 3)
+            if ((p.head<2>() - crossed).norm() < 3)
                 heights.insert(std::lround(p.z()));
         }
     EXPECT_EQ(heights, (std::set<long>{0, 7}));
