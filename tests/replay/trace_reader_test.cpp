@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "replay/chain_seed.h"
 #include "replay/mcap/files.h"
 #include "replay/trace_format.h"
 #include "replay/trace_index.h"
