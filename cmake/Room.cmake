@@ -66,6 +66,7 @@ function(reprise_test name)
   target_link_libraries(${name} PRIVATE reprise_build ${TEST_ROOMS} ${TEST_LIBRARIES} GTest::gmock
                                         GTest::gtest_main)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  reprise_unity(${name})
   set(properties TIMEOUT 300)
   if(TEST_FOREIGN_BYTES)
     add_dependencies(foreign_bytes ${name})

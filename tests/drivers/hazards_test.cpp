@@ -11,7 +11,7 @@
 namespace reprise::drivers {
 namespace {
 
-constexpr double north = std::numbers::pi / 2;
+constexpr double northward = std::numbers::pi / 2;
 
 /// A sedan at x = 0 that drives east on a path along y = 0.
 class Road {
@@ -97,10 +97,10 @@ TEST(Hazards, AWalkerWhoWillStepOntoThePathIsSeenBeforeHeIsThere) {
     // at 10 m/s we are 20 m ahead of the bumper in 2 s.
     Road road(10);
     const double x = road.front() + 15;
-    EXPECT_LT(road.look({}, {walker(x, -2.2, north, 1.5)}), 0);
+    EXPECT_LT(road.look({}, {walker(x, -2.2, northward, 1.5)}), 0);
     EXPECT_TRUE(road.hazards.overlaps().empty());
-    EXPECT_EQ(road.look({}, {walker(x, -2.2, -north, 1.5)}), world::infinity) << "walks away";
-    EXPECT_EQ(road.look({}, {walker(x, -2.2, north, 0)}), world::infinity) << "stands";
+    EXPECT_EQ(road.look({}, {walker(x, -2.2, -northward, 1.5)}), world::infinity) << "walks away";
+    EXPECT_EQ(road.look({}, {walker(x, -2.2, northward, 0)}), world::infinity) << "stands";
 }
 
 }  // namespace reprise::drivers

@@ -15,7 +15,7 @@ namespace {
 using drivers::Path;
 using drivers::WideTurnPlan;
 
-constexpr double quarter = std::numbers::pi / 2;
+constexpr double quarter_turn = std::numbers::pi / 2;
 
 const world::VehicleModel& model_of(const char* name) {
     return world::vehicle_models()[*world::find_vehicle_model(name)];
@@ -46,7 +46,7 @@ drivers::Ego ego_at(const world::VehicleModel& model, double x, double y) {
 world::TownT corner() {
     const double kerb = 6;
     const auto line = [&](double left) {
-        return Turtle(0, left, 0).ahead(60).turn(-quarter, kerb + 1.75 + left).ahead(60);
+        return Turtle(0, left, 0).ahead(60).turn(-quarter_turn, kerb + 1.75 + left).ahead(60);
     };
     world::TownT town;
     town.name = "corner";
@@ -129,7 +129,7 @@ TEST(WideTurnPlan, WaitsForTheCarThatItWouldSwingInto) {
     Drive drive(corner(), 7, index);
     drive.place(2, 5, 8);
     // A sedan waits on the other lane, behind the corner: its sides are beside our own lane.
-    drive.cars = {car_at(1'000'000, 71.25, -12, quarter)};
+    drive.cars = {car_at(1'000'000, 71.25, -12, quarter_turn)};
     const auto is_in_it = [](const Eigen::Vector2d& p) {
         return std::abs(p.x() - 71.25) < 0.91 && p.y() > -13.0 && p.y() < -8.3;
     };
@@ -245,7 +245,7 @@ TEST(WideTurnPlan, SlowsDownBeforeABendAndNotOnAStraight) {
     const world::LaneMap lanes(town);
     const drivers::LateralClearances clearances(town, lanes, ground::obstacles_of(town));
     WideTurnPlan wide_turn(model_of("bus"), clearances);
-    const Path path = path_along(Turtle(0, 0, 0).ahead(60).turn(-quarter, 7.75).ahead(60));
+    const Path path = path_along(Turtle(0, 0, 0).ahead(60).turn(-quarter_turn, 7.75).ahead(60));
     wide_turn.plan(path, ego_at(model_of("bus"), 0, 0));
     const double slow = wide_turn.at(66).squared_speed;
     EXPECT_LT(slow * std::abs(wide_turn.at(66).curvature), 1.51);

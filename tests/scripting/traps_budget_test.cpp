@@ -22,7 +22,7 @@ using testing::StartsWith;
 namespace {
 
 constexpr const char* spent = "more than 10,000,000 instructions in one tick";
-constexpr const char* full = "the scenario needs more than 64 MB of memory";
+constexpr const char* full_budget = "the scenario needs more than 64 MB of memory";
 
 /// How often this work fits into a tick that has nothing else to do: 2 to the power of it.
 int rounds_in_a_tick(const std::string& before, const std::string& work) {
@@ -64,12 +64,12 @@ TEST(Trap20, NoProtectedCallCatchesTheEndOfMemory) {
             std::string body = call;
             body.replace(body.find('@'), 1, fill);
             EXPECT_THAT(mistake("local t = {} while true do do " + body + " end t = {} end"),
-                        AnyOf(HasSubstr(full), HasSubstr(spent)))
+                        AnyOf(HasSubstr(full_budget), HasSubstr(spent)))
                 << body;
         }
     EXPECT_EQ(
         mistake("local t = {}\npcall(function()\nfor i = 1, 1e9 do t[i] = i end end) t = nil"),
-        std::string("test.lua:3: ") + full);
+        std::string("test.lua:3: ") + full_budget);
 }
 
 TEST(Trap20, WhatNobodyHoldsDoesNotCount) {

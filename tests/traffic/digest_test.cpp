@@ -20,7 +20,7 @@ using test::Stage;
 using test::vehicle_on;
 using world::CommandKind;
 
-constexpr std::uint32_t actor = 3;
+constexpr std::uint32_t some_actor = 3;
 
 struct After {
     std::vector<std::uint8_t> cars;  ///< as recorded
@@ -37,7 +37,7 @@ After after(const Stage& stage) {
 After after_order(const world::CommandT& order) {
     const auto& loaded = own_town("town1");
     Stage stage(loaded, 0);
-    stage.step({spawn(actor, lane(loaded.town, "l1_b1_2"), 50, 10)});
+    stage.step({spawn(some_actor, lane(loaded.town, "l1_b1_2"), 50, 10)});
     stage.steps(3);
     stage.step({order});
     return after(stage);
@@ -50,7 +50,7 @@ void expect_only_digests_differ(const After& one, const After& other) {
 
 TEST(TrafficDigest, KnowsHowLongALaneChangeWillTake) {
     const auto order = [](double duration) {
-        world::CommandT change = command(CommandKind::change_lane, actor);
+        world::CommandT change = command(CommandKind::change_lane, some_actor);
         change.lanes = {lane(own_town("town1").town, "l1_b1_1") + 40};  // of another road
         change.duration = duration;
         return after_order(change);
@@ -70,7 +70,7 @@ TEST(TrafficDigest, KnowsWhichWayACarWillTake) {
         return graph.shortest(graph.edge_of(from), graph.edge_of(to)).size();
     };
     const auto order = [](std::uint32_t first, std::uint32_t last) {
-        world::CommandT route = command(CommandKind::set_route, actor);
+        world::CommandT route = command(CommandKind::set_route, some_actor);
         route.lanes = {first, last};
         return after_order(route);
     };

@@ -19,7 +19,7 @@ Loop square(double x, double y, double side) {
     return {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
 }
 
-double covered(const Area& area) {
+double covered_area(const Area& area) {
     double sum = 0;
     for (const Loop& piece : area.pieces())
         sum += world::signed_area(piece);
@@ -35,7 +35,7 @@ double bordered(const Area& area) {
 
 void expect_size(const Area& area, double size) {
     EXPECT_NEAR(area.size(), size, 1e-6);
-    EXPECT_NEAR(covered(area), size, 1e-6);
+    EXPECT_NEAR(covered_area(area), size, 1e-6);
     EXPECT_NEAR(bordered(area), size, 1e-6);
 }
 

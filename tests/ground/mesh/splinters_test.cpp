@@ -8,7 +8,7 @@ namespace {
 using ground::Area;
 using world::Loop;
 
-Loop rectangle(double x, double y, double length, double width) {
+Loop rectangle_of(double x, double y, double length, double width) {
     return {{x, y}, {x + length, y}, {x + length, y + width}, {x, y + width}};
 }
 
@@ -31,9 +31,9 @@ ground::Patch patch(const Area& area,
 using Found = std::vector<bool>;
 
 TEST(Splinters, JoinWhatTheyTouchOnTheirLevel) {
-    const Area small = filled(rectangle(0, 0, 1, 1));
-    const Area beside = filled(rectangle(1.04, 0, 4, 1));
-    const Area apart = filled(rectangle(1.06, 0, 4, 1));
+    const Area small = filled(rectangle_of(0, 0, 1, 1));
+    const Area beside = filled(rectangle_of(1.04, 0, 4, 1));
+    const Area apart = filled(rectangle_of(1.06, 0, 4, 1));
     EXPECT_EQ(ground::find_splinters({patch(small)}), Found({true}));
     EXPECT_EQ(ground::find_splinters({patch(small), patch(beside)}), Found({false, false}));
     EXPECT_EQ(ground::find_splinters({patch(small), patch(apart)}), Found({true, false}));
@@ -42,9 +42,9 @@ TEST(Splinters, JoinWhatTheyTouchOnTheirLevel) {
 }
 
 TEST(Splinters, AreWholeIslands) {
-    const Area first = filled(rectangle(0, 0, 1.9, 1));
-    const Area second = filled(rectangle(1.9, 0, 1.9, 1));
-    const Area third = filled(rectangle(3.8, 0, 1.9, 1));
+    const Area first = filled(rectangle_of(0, 0, 1.9, 1));
+    const Area second = filled(rectangle_of(1.9, 0, 1.9, 1));
+    const Area third = filled(rectangle_of(3.8, 0, 1.9, 1));
     EXPECT_EQ(ground::find_splinters({patch(third), patch(first)}), Found({true, true}));
     EXPECT_EQ(ground::find_splinters({patch(third), patch(first), patch(second)}),
               Found({false, false, false}));
@@ -54,26 +54,26 @@ TEST(Splinters, AreWholeIslands) {
 }
 
 TEST(Splinters, AreNarrowUnlessLong) {
-    const Area narrow = filled(rectangle(0, 0, 9, 0.5));
-    const Area wider = filled(rectangle(0, 0, 9, 0.7));
-    const Area longer = filled(rectangle(0, 0, 30, 0.4));
+    const Area narrow = filled(rectangle_of(0, 0, 9, 0.5));
+    const Area wider = filled(rectangle_of(0, 0, 9, 0.7));
+    const Area longer = filled(rectangle_of(0, 0, 30, 0.4));
     EXPECT_EQ(ground::find_splinters({patch(narrow)}), Found({true}));
     EXPECT_EQ(ground::find_splinters({patch(wider)}), Found({false}));
     EXPECT_EQ(ground::find_splinters({patch(longer)}), Found({false}));
 }
 
 TEST(Splinters, AreNotRefugesOnCrossings) {
-    const Area refuge = filled(rectangle(0, 0, 1.5, 1));
-    const Area corner = filled(rectangle(0, 0, 0.9, 1));
+    const Area refuge = filled(rectangle_of(0, 0, 1.5, 1));
+    const Area corner = filled(rectangle_of(0, 0, 0.9, 1));
     EXPECT_EQ(ground::find_splinters({patch(refuge), patch(refuge, true)}), Found({false, false}));
     EXPECT_EQ(ground::find_splinters({patch(corner, true)}), Found({true}));
 }
 
 TEST(Splinters, InAHoleOfASidewalkAreNotJoinedToIt) {
-    Area ring = filled(rectangle(0, 0, 8, 8));
-    ring.subtract(filled(rectangle(2, 2, 4, 4)));
-    const Area inside = filled(rectangle(3, 3, 1, 1));
-    const Area at_its_edge = filled(rectangle(2.03, 3, 1, 1));
+    Area ring = filled(rectangle_of(0, 0, 8, 8));
+    ring.subtract(filled(rectangle_of(2, 2, 4, 4)));
+    const Area inside = filled(rectangle_of(3, 3, 1, 1));
+    const Area at_its_edge = filled(rectangle_of(2.03, 3, 1, 1));
     EXPECT_EQ(ground::find_splinters({patch(ring), patch(inside)}), Found({false, true}));
     EXPECT_EQ(ground::find_splinters({patch(ring), patch(at_its_edge)}), Found({false, false}));
 }

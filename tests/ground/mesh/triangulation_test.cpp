@@ -23,14 +23,14 @@ double area_of(const std::vector<std::array<Eigen::Vector2d, 3>>& triangles) {
     return area;
 }
 
-const Loop square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+const Loop unit_square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
 const Loop hole{{3, 3}, {3, 6}, {6, 6}, {6, 3}};
 
 TEST(Triangulation, CoversWhatTheBordersEnclose) {
-    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({square})), 100);
-    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({square, hole})), 91);
+    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({unit_square})), 100);
+    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({unit_square, hole})), 91);
     const Loop island{{4, 4}, {5, 4}, {5, 5}, {4, 5}};
-    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({square, hole, island})), 92);
+    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({unit_square, hole, island})), 92);
 }
 
 TEST(Triangulation, AddsNoCorners) {
@@ -46,7 +46,7 @@ TEST(Triangulation, TakesRepeatedPointsAndBordersThatTouch) {
     const Loop repeated{{0, 0}, {10, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}};
     EXPECT_DOUBLE_EQ(area_of(ground::triangulate({repeated})), 100);
     const Loop touching{{0, 5}, {4, 3}, {4, 7}};
-    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({square, touching})), 92);
+    EXPECT_DOUBLE_EQ(area_of(ground::triangulate({unit_square, touching})), 92);
 }
 
 TEST(Triangulation, OfNothingIsNothing) {

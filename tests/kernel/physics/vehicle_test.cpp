@@ -233,7 +233,7 @@ TEST_P(EveryModel, SlidesOrRollsOverInAFastTurn) {
         EXPECT_LT(last, 0.5);
 }
 
-Eigen::Vector3d velocity_of_mass(const world::CarModel& car, const world::VehicleState& state) {
+Eigen::Vector3d speed_of_mass(const world::CarModel& car, const world::VehicleState& state) {
     const Eigen::Vector3d arm =
         world::to_eigen(state.orientation()) * Eigen::Vector3d(car.com_ahead, 0, car.com_height);
     return world::to_eigen(state.velocity()) + world::to_eigen(state.angular_velocity()).cross(arm);
@@ -250,7 +250,7 @@ TEST_P(EveryModel, TurnsNoTighterThanItsGripAllows) {
         double most = 0;
         for (int tick = 0; tick < 60; ++tick) {
             ground.step(drive(0, 0, 0.5));
-            const Eigen::Vector3d velocity = velocity_of_mass(car, ground.vehicle());
+            const Eigen::Vector3d velocity = speed_of_mass(car, ground.vehicle());
             most = std::max(most, (velocity - last).head<2>().norm() / tick_seconds);
             last = velocity;
         }

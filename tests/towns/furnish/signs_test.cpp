@@ -163,8 +163,8 @@ TEST_P(OwnSigns, CrossingSignsStandWhereNobodyElseMakesDriversGiveWay) {
     EXPECT_GE(crossings, 4);
 }
 
-/// The figure at the start of a road of 200 m from nowhere.
-int figure(double limit) {
+/// The shown_figure at the start of a road of 200 m from nowhere.
+int shown_figure(double limit) {
     const TownT town = read_town(
         {"tiny",
          fmt::format("<net version=\"1.9\"><edge id=\"e\" from=\"A\" to=\"B\"><lane id=\"e_0\" "
@@ -181,15 +181,15 @@ int figure(double limit) {
 }
 
 TEST(Signs, ShowNoHigherFigureThanTheLimit) {
-    EXPECT_EQ(figure(17.88), 64) << "40 miles an hour";
-    EXPECT_EQ(figure(11.18), 40) << "25 miles an hour";
-    EXPECT_EQ(figure(29.06), 104) << "65 miles an hour";
+    EXPECT_EQ(shown_figure(17.88), 64) << "40 miles an hour";
+    EXPECT_EQ(shown_figure(11.18), 40) << "25 miles an hour";
+    EXPECT_EQ(shown_figure(29.06), 104) << "65 miles an hour";
     // As km/h come out in networks.
-    EXPECT_EQ(figure(8.33), 30);
-    EXPECT_EQ(figure(8.3), 30);
-    EXPECT_EQ(figure(13.89), 50);
-    EXPECT_EQ(figure(13.9), 50);
-    EXPECT_EQ(figure(33.33), 120);
+    EXPECT_EQ(shown_figure(8.33), 30);
+    EXPECT_EQ(shown_figure(8.3), 30);
+    EXPECT_EQ(shown_figure(13.89), 50);
+    EXPECT_EQ(shown_figure(13.9), 50);
+    EXPECT_EQ(shown_figure(33.33), 120);
 }
 
 }  // namespace
