@@ -97,10 +97,15 @@ TEST(Diff, OfTwoBuildsIsEqualWithinATolerance) {
 }
 
 /// A crash with all that a tick records; the numbers of the collisions are left open.
-class Info : public testing::Test {
+class InfoOfACrash : public testing::Test {
   protected:
     void SetUp() override {
-        const Result run = reprise({"run", source("tests/cli/crash/crash.lua"), "-o", trace_});
+        const Result run = reprise({"run",
+                                    source("tests/cli/crash/crash.lua"),
+                                    "--town",
+                                    source("tests/cli/crash/small.net.xml"),
+                                    "-o",
+                                    trace_});
         EXPECT_EQ(run.code, 1) << run.out;
     }
 
@@ -108,7 +113,7 @@ class Info : public testing::Test {
     const std::string trace_ = folder_ / "crash.mcap";
 };
 
-TEST_F(Info, TellsARunOnOneScreen) {
+TEST_F(InfoOfACrash, TellsARunOnOneScreen) {
     const Result info = reprise({"info", trace_});
     EXPECT_EQ(info.code, 0);
     EXPECT_LE(std::count(info.out.begin(), info.out.end(), '\n'), 24);
@@ -130,7 +135,7 @@ TEST_F(Info, TellsARunOnOneScreen) {
     EXPECT_THAT(reprise({"info", trace_, "--long"}).out, HasSubstr("libsumocpp "));
 }
 
-TEST_F(Info, IsJsonForPrograms) {
+TEST_F(InfoOfACrash, IsJsonForPrograms) {
     const Result info = reprise({"info", trace_, "--json"});
     EXPECT_EQ(info.code, 0);
     for (const char* text : {"\"seed\": \"11\"",
