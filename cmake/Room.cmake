@@ -6,10 +6,18 @@ set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g")
 
 set(REPRISE_FLAGS -ffp-contract=off -march=x86-64 -mtune=generic)
 
+# A newcomer's build compiles the files of a folder together, at most this many at a time: headers are
+# read once for all of them (a third of the time of single files). 0: each file alone, for work on them.
+set(REPRISE_UNITY 0 CACHE STRING "Files compiled together; 0: each alone")
+
 add_library(reprise_build INTERFACE)
 target_compile_options(reprise_build INTERFACE
-  ${REPRISE_FLAGS} -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast
+  ${REPRISE_FLAGS} -Wall -Wextra -Wpedantic -Wconversion -Wnon-virtual-dtor -Wold-style-cast
   -Wdouble-promotion)
+# What one file hides from another of its folder, and types of its own inside of a class, are only seen
+# by the compiler when files are compiled together; alone, names that hide others are told.
+target_compile_options(reprise_build INTERFACE
+  $<IF:$<BOOL:${REPRISE_UNITY}>,-Wno-subobject-linkage,-Wshadow>)
 # State maths uses Eigen's fixed sizes only; without its own vector code their results do not depend
 # on where an array happens to lie in memory.
 target_compile_definitions(reprise_build INTERFACE EIGEN_DONT_VECTORIZE EIGEN_DONT_PARALLELIZE)
@@ -18,10 +26,6 @@ if(REPRISE_SANITIZE)
     -fsanitize=${REPRISE_SANITIZE} -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(reprise_build INTERFACE -fsanitize=${REPRISE_SANITIZE})
 endif()
-
-# A newcomer's build compiles the files of a folder together, at most this many at a time: headers are
-# read once for all of them (a third of the time of single files). 0: each file alone, for work on them.
-set(REPRISE_UNITY 0 CACHE STRING "Files compiled together; 0: each alone")
 
 # Only files of one folder are compiled together: they are about one thing, and their names do not clash.
 function(reprise_unity target)

@@ -10,13 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-world::Loop in_plan(const std::vector<Vector3d>& face) {
-    world::Loop loop;
-    for (const Vector3d& p : face)
-        loop.push_back(p.head<2>());
-    return loop;
-}
-
 double covered(const world::Loop& outline, double overhang) {
     double area = 0;
     for (const auto& face : hipped_faces(outline, overhang))
