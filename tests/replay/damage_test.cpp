@@ -44,8 +44,9 @@ class DamagedTrace : public testing::Test {
             for (std::uint64_t index = 1; index <= trace.ticks(); ++index) {
                 if (trace.damage(index)) {
                     found = true;
-                    if (const auto tick = trace.salvaged(index))
+                    if (const auto tick = trace.salvaged(index)) {
                         EXPECT_EQ(tick->view.index(), index);  // its values may be wrong
+                    }
                     continue;
                 }
                 EXPECT_LE(index, ticks_.size());
