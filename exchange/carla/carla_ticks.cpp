@@ -57,7 +57,7 @@ float on_grid(double value, double per_unit) {
 }
 
 /// Of the id alone: colours that CARLA recorded are not paints of ours.
-world::Look look_of(std::uint32_t actor) {
+world::Look look_of_imported(std::uint32_t actor) {
     return world::drawn_look(0, actor);
 }
 
@@ -173,7 +173,7 @@ void CarlaTicks::State::add_car(const Body& body, world::TickDraft& draft) {
                                     survey.roles.at(body.id).model,
                                     body.lamps,
                                     on_grid(acceleration, per_acceleration));
-    draft.traffic.looks.push_back(look_of(body.id));
+    draft.traffic.looks.push_back(look_of_imported(body.id));
 }
 
 void CarlaTicks::State::add_walker(const Body& body, world::TickDraft& draft) {
@@ -196,7 +196,7 @@ void CarlaTicks::State::add_walker(const Body& body, world::TickDraft& draft) {
         model,
         false,
         std::uint8_t{0},
-        look_of(body.id).look());
+        look_of_imported(body.id).look());
 }
 
 void CarlaTicks::State::add_bodies(double time, world::TickDraft& draft) {

@@ -124,7 +124,7 @@ std::string known_classes(std::string_view list, std::map<std::string, int>& unk
 }
 
 /// Takes classes that newer versions of SUMO invented out of every list: SUMO 1.15 refuses to load
-/// a network that names them. A lane for such classes only becomes a lane for nobody.
+/// a network that names them. A lane that only such classes may use is then closed to all.
 void strip_unknown_classes(pugi::xml_node node, std::map<std::string, int>& unknown) {
     for (const char* name : {"allow", "disallow", "changeLeft", "changeRight", "vClasses"}) {
         pugi::xml_attribute list = node.attribute(name);
