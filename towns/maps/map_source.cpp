@@ -107,7 +107,7 @@ std::string name_of(const fs::path& path) {
     std::string name = path.filename().string();
     for (const std::string_view ending : {".gz", ".xml", ".net", ".osm", ".xodr"})
         if (name.size() > ending.size() && name.ends_with(ending))
-            name.resize(name.size() - ending.size());
+            name.erase(name.size() - ending.size());
     return harmless_name(name);
 }
 
