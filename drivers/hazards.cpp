@@ -291,7 +291,7 @@ double Hazards::first_contact(const Body& body, const Path& path) const {
             const Eigen::Vector2d left(-direction.y(), direction.x());
             const Eigen::Vector2d middle = p.head<2>() + (width.left - width.right) / 2 * left;
             const Eigen::Vector2d half = (width.left + width.right) / 2 * left;
-            return std::abs(p.z() - body.z) < world::reach_of_level && body.meets(middle, half);
+            return std::abs(p.z() - body.z) < world::level_clearance && body.meets(middle, half);
         };
     for (std::size_t k = 0; k < coarse_.size(); ++k) {
         if ((coarse_[k] - body.centre).squaredNorm() > reach * reach)

@@ -73,7 +73,7 @@ LateralClearance LateralClearances::look(const Eigen::Vector3d& p_world,
     for (const std::uint32_t index : things_by_place_.near(box)) {
         const Thing& thing = things_[index];
         const double above = thing.z - p_world.z();
-        if (above < lowest_thing - world::reach_of_level || above > world::reach_of_level)
+        if (above < lowest_thing - world::level_clearance || above > world::level_clearance)
             continue;
         // Halve: how far can one go?
         double free = 0;

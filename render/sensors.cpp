@@ -12,7 +12,7 @@
 
 #include "render/scene/scene.h"
 #include "render/shade/frame.h"
-#include "render/trace/plain_floats.h"
+#include "render/trace/default_float_mode.h"
 #include "world/check.h"
 
 namespace reprise::render {
@@ -27,7 +27,7 @@ struct Sensors::Scene {
             arena.initialize(options.threads);
         }
         arena.execute([&] {
-            const PlainFloats plain;
+            const DefaultFloatMode plain;
             scene.emplace(town, options.portable);
         });
     }
@@ -119,7 +119,7 @@ std::vector<world::SensorFrame> Sensors::observe(const world::TickView& tick,
 std::vector<world::SensorFrame> Sensors::Scene::observe(const world::TickView& tick,
                                                         const world::SensorRig& rig,
                                                         const world::Weather& weather) {
-    const PlainFloats plain;
+    const DefaultFloatMode plain;
     render::Scene& placed = *scene;
     // Who carries cameras, and from where they look.
     std::vector<std::uint32_t> mounts;

@@ -10,9 +10,9 @@
 namespace reprise::render {
 
 /// What the cameras see at a tick, under any weather. Reads a tick and a Town, nothing else: live
-/// and replayed frames come out of the same code. Embree traces the rays, or PlainTracer. Frames do
-/// not depend on the number of threads, depth and semantic ones not on the weather either. 800x600
-/// RGB: about 0.2 s on two cores.
+/// and replayed frames come out of the same code. Embree traces the rays, or PortableTracer. Frames
+/// do not depend on the number of threads, depth and semantic ones not on the weather either.
+/// 800x600 RGB: about 0.2 s on two cores.
 class Sensors {
   public:
     struct Options {

@@ -15,6 +15,6 @@ inline constexpr double degree = std::numbers::pi / 180;
 inline constexpr double level_spacing = 2.5;
 
 /// [m] The same for what a driver counts with: bodies and things reach up from their road.
-inline constexpr double reach_of_level = 3;
+inline constexpr double level_clearance = 3;
 
 }  // namespace reprise::world

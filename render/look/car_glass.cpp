@@ -1,4 +1,4 @@
-#include "render/look/car_spot.h"
+#include "render/look/car_surface_point.h"
 
 namespace reprise::render {
 
@@ -12,7 +12,7 @@ struct SideWindows {
     bool quarter;
 };
 
-SideWindows side_windows(const CarSpot& at) {
+SideWindows side_windows(const CarSurfacePoint& at) {
     switch (at.shape.style) {
         case BodyStyle::sedan:
             return {0.02F, false};
@@ -32,7 +32,7 @@ SideWindows side_windows(const CarSpot& at) {
 }
 
 /// `top`: of the body's outline here.
-bool is_side_glass(const CarSpot& at, float top) {
+bool is_side_glass(const CarSurfacePoint& at, float top) {
     if (std::abs(at.normal.y()) < 0.62F || at.z > std::min(top - 0.10F, 0.915F * at.height))
         return false;
     const SideWindows windows = side_windows(at);
@@ -44,7 +44,7 @@ bool is_side_glass(const CarSpot& at, float top) {
 }
 
 /// Windows of cars with one cabin. Front and rear doors meet at the middle pillar.
-bool is_car_glass(const CarSpot& at) {
+bool is_car_glass(const CarSurfacePoint& at) {
     const float top = at.shape.top(at.x);
     if (top - at.belt < 0.16F || at.z < at.belt + 0.045F)
         return false;
@@ -57,7 +57,7 @@ bool is_car_glass(const CarSpot& at) {
     return is_side_glass(at, top);
 }
 
-bool is_bus_glass(const CarSpot& at) {
+bool is_bus_glass(const CarSurfacePoint& at) {
     if (at.normal.x() > 0.5F)
         return at.z > 0.30F * at.height && at.z < 0.90F * at.height && at.side < at.half * 0.93F;
     if (at.normal.x() < -0.5F)
@@ -76,7 +76,7 @@ bool is_bus_glass(const CarSpot& at) {
            fraction(at.from_front / 1.46F) > 0.05F;
 }
 
-bool is_cab_glass(const CarSpot& at) {
+bool is_cab_glass(const CarSurfacePoint& at) {
     if (at.normal.x() > 0.4F)
         return at.z > 0.535F * at.height && at.z < 0.82F * at.height && at.side < at.half * 0.9F;
     return std::abs(at.normal.y()) > 0.6F && at.z > 0.535F * at.height &&
@@ -85,7 +85,7 @@ bool is_cab_glass(const CarSpot& at) {
 
 }  // namespace
 
-bool is_glass(const CarSpot& at) {
+bool is_glass(const CarSurfacePoint& at) {
     switch (at.shape.style) {
         case BodyStyle::bus:
             return is_bus_glass(at);

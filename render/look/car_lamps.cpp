@@ -1,18 +1,22 @@
-#include "render/look/car_spot.h"
+#include "render/look/car_surface_point.h"
 
 namespace reprise::render {
 
 namespace {
 
-bool flashing(const CarSpot& at) {
+bool flashing(const CarSurfacePoint& at) {
     const unsigned bit = at.y > 0 ? world::lamp_left : world::lamp_right;
     return (at.lamps & bit) != 0 && flashes_now(at.tick);
 }
 
 }  // namespace
 
-bool front_lamp(
-    Look& look, const ShadingInput& input, const CarSpot& at, float low, float high, float inner) {
+bool front_lamp(Look& look,
+                const ShadingInput& input,
+                const CarSurfacePoint& at,
+                float low,
+                float high,
+                float inner) {
     if (at.z < low || at.z > high || at.side < inner)
         return false;
     const float light = 1 / input.sky.exposure();
@@ -32,8 +36,12 @@ bool front_lamp(
     return true;
 }
 
-bool rear_lamp(
-    Look& look, const ShadingInput& input, const CarSpot& at, float low, float high, float inner) {
+bool rear_lamp(Look& look,
+               const ShadingInput& input,
+               const CarSurfacePoint& at,
+               float low,
+               float high,
+               float inner) {
     if (at.z < low || at.z > high || at.side < inner)
         return false;
     const float light = 1 / input.sky.exposure();
@@ -55,7 +63,7 @@ bool rear_lamp(
 }
 
 /// A number plate: white, framed, seven dark signs; unique by the actor.
-bool number_plate(Look& look, const CarSpot& at, float low, std::uint32_t actor) {
+bool number_plate(Look& look, const CarSurfacePoint& at, float low, std::uint32_t actor) {
     const float u = at.y + 0.26F;
     const float v = at.z - low;
     if (u < 0 || u > 0.52F || v < 0 || v > 0.115F)

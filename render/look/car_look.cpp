@@ -1,4 +1,4 @@
-#include "render/look/car_spot.h"
+#include "render/look/car_surface_point.h"
 #include "render/shapes/paint.h"
 
 namespace reprise::render {
@@ -22,22 +22,25 @@ void as_glass(Look& look) {
     look.roughness = 0.03F;
 }
 
-bool has_van_doors(const CarSpot& at) {
+bool has_van_doors(const CarSurfacePoint& at) {
     return at.shape.style == BodyStyle::van || at.shape.style == BodyStyle::minibus;
 }
 
 /// The number plate sits below a boot lid rather than in a hatch.
-bool is_low_tailed(const CarSpot& at) {
+bool is_low_tailed(const CarSurfacePoint& at) {
     const BodyStyle style = at.shape.style;
     return style == BodyStyle::sedan || style == BodyStyle::coupe || style == BodyStyle::pickup;
 }
 
 /// A seam between panels at `edge`, 9 mm wide.
-bool seam(const CarSpot& at, float where, float edge) {
+bool seam(const CarSurfacePoint& at, float where, float edge) {
     return at.fine > 0.35F && std::abs(where - edge) < 0.0045F + 0.004F * (1 - at.fine);
 }
 
-bool front_details(Look& look, const ShadingInput& input, const CarSpot& at, std::uint32_t actor) {
+bool front_details(Look& look,
+                   const ShadingInput& input,
+                   const CarSurfacePoint& at,
+                   std::uint32_t actor) {
     const float h = at.height;
     if (is_long(at)) {
         if (at.from_front > 0.25F || at.normal.x() < 0.4F)
@@ -108,7 +111,7 @@ RearLamps rear_lamps(BodyStyle style) {
 
 bool rear_details(Look& look,
                   const ShadingInput& input,
-                  const CarSpot& at,
+                  const CarSurfacePoint& at,
                   std::uint32_t actor,
                   const Color& color) {
     const float h = at.height;
@@ -141,7 +144,7 @@ bool rear_details(Look& look,
 }
 
 /// Doors, handles, sills on the sides.
-void side_details(Look& look, const CarSpot& at, const Color& color) {
+void side_details(Look& look, const CarSurfacePoint& at, const Color& color) {
     if (at.z < at.shape.sill + (is_long(at) ? 0.03F : 0.085F)) {
         as_trim(look);
         return;
@@ -168,7 +171,7 @@ void side_details(Look& look, const CarSpot& at, const Color& color) {
 }
 
 Look cargo_look(const ShadingInput& input,
-                const CarSpot& at,
+                const CarSurfacePoint& at,
                 std::uint32_t actor,
                 const Color& brand) {
     Look look;
@@ -194,20 +197,20 @@ Look car_look(const ShadingInput& input, const Surface& surface) {
     const Instance& car = *surface.instance;
     const CarShape& shape = input.scene.car_shape(car.model);
     const Vector3f& p = surface.local;
-    const CarSpot at{shape,
-                     p.x(),
-                     p.y(),
-                     p.z(),
-                     std::abs(p.y()),
-                     static_cast<float>(shape.model->width) * 0.5F,
-                     shape.height(),
-                     shape.belt(p.x()),
-                     shape.front - p.x(),
-                     p.x() - shape.rear,
-                     surface.local_normal,
-                     detail(surface, 0.03F),
-                     car.lamps,
-                     input.tick};
+    const CarSurfacePoint at{shape,
+                             p.x(),
+                             p.y(),
+                             p.z(),
+                             std::abs(p.y()),
+                             static_cast<float>(shape.model->width) * 0.5F,
+                             shape.height(),
+                             shape.belt(p.x()),
+                             shape.front - p.x(),
+                             p.x() - shape.rear,
+                             surface.local_normal,
+                             detail(surface, 0.03F),
+                             car.lamps,
+                             input.tick};
     Look look;
     const Color& color = car.color;
     if (surface.material == Material::car_under) {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "render/look/car_spot.h"
+#include "render/look/car_surface_point.h"
 #include "render/shapes/cars/car_parts.h"
 
 namespace reprise::render {
@@ -119,7 +119,7 @@ Look car_part_look(const ShadingInput& input, const Surface& at) {
     return look;
 }
 
-void paint_livery(Look& look, const CarSpot& at) {
+void paint_livery(Look& look, const CarSurfacePoint& at) {
     const Livery livery = at.shape.model->livery;
     const bool is_side = std::abs(at.normal.y()) > 0.6F;
     const float up = at.z / at.height;

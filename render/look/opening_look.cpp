@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "render/look/wall_spot.h"
+#include "render/look/wall_point.h"
 #include "render/shapes/noise.h"
 
 namespace reprise::render {
@@ -15,7 +15,7 @@ using world::FacadeKind;
 void glaze(Look& look,
            const ShadingInput& input,
            const Surface& at,
-           const WallSpot& spot,
+           const WallPoint& spot,
            const Opening& opening,
            float u,
            float z) {
@@ -73,8 +73,12 @@ void glaze(Look& look,
     look.emission = lamp * 0.8F;
 }
 
-void door_leaf(
-    Look& look, const Surface& at, const WallSpot& spot, const Opening& opening, float u, float z) {
+void door_leaf(Look& look,
+               const Surface& at,
+               const WallPoint& spot,
+               const Opening& opening,
+               float u,
+               float z) {
     const float edge = opening.edge(u, z);
     const float middle = 0.5F * (opening.left + opening.right);
     // Homes of a row have doors of their own.
@@ -103,7 +107,7 @@ void door_leaf(
 void gate_leaf(Look& look,
                const ShadingInput& input,
                const Surface& at,
-               const WallSpot& spot,
+               const WallPoint& spot,
                const Opening& opening,
                float u,
                float z) {
@@ -154,7 +158,7 @@ bool on_bar(const BuildingPaint& paint, const Opening& opening, float u, float z
 
 /// Darkens what the reveal keeps the sun from. `depth`: of the pane behind the wall. [m]
 float sun_in_reveal(const ShadingInput& input,
-                    const WallSpot& spot,
+                    const WallPoint& spot,
                     const Opening& opening,
                     float u,
                     float z,
@@ -170,7 +174,7 @@ float sun_in_reveal(const ShadingInput& input,
 
 }  // namespace
 
-WallSpot::WallSpot(const Wall& of, const BuildingPaint& painted, const Surface& at)
+WallPoint::WallPoint(const Wall& of, const BuildingPaint& painted, const Surface& at)
     : wall(of),
       paint(painted),
       inwards(-at.flat) {
@@ -184,7 +188,7 @@ WallSpot::WallSpot(const Wall& of, const BuildingPaint& painted, const Surface& 
 
 Look opening_look(const ShadingInput& input,
                   const Surface& at,
-                  const WallSpot& spot,
+                  const WallPoint& spot,
                   const Opening& opening) {
     const BuildingPaint& paint = spot.paint;
     Look look;

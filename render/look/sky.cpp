@@ -6,7 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "render/shapes/noise.h"
-#include "render/trace/plain_floats.h"
+#include "render/trace/default_float_mode.h"
 
 namespace reprise::render {
 
@@ -195,7 +195,7 @@ void Sky::fill_table() {
     clear_table_.resize(size);
     table_.resize(size);
     tbb::parallel_for(0, table_size, [&](int row) {
-        const PlainFloats plain;
+        const DefaultFloatMode plain;
         for (int column = 0; column < table_size; ++column) {
             const Vector3f direction =
                 direction_at(static_cast<float>(column) * 2 / (table_size - 1) - 1,

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/look/wall_spot.h"
+#include "render/look/wall_point.h"
 #include "render/shapes/noise.h"
 
 namespace reprise::render {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "render/look/car_spot.h"
+#include "render/look/car_surface_point.h"
 
 namespace reprise::render {
 

@@ -139,7 +139,7 @@ std::uint32_t Scene::mask_hiding(std::uint32_t actor) const {
 
 void Scene::commit() {
     if (!device_) {
-        plain_tracer_.emplace(instances_);
+        portable_tracer_.emplace(instances_);
         return;
     }
     if (top_ != nullptr)

@@ -18,7 +18,7 @@
 #include "render/shapes/people/wardrobe.h"
 #include "render/shapes/street/plot_mesh.h"
 #include "render/trace/instance.h"
-#include "render/trace/plain_tracer.h"
+#include "render/trace/portable_tracer.h"
 #include "world/tick.h"
 #include "world/town_generated.h"
 
@@ -35,7 +35,7 @@ struct BuildingFrame {
     Facade facade;
 };
 
-/// All geometry at a tick, in Embree, or in our own PlainTracer when pictures must be `portable`
+/// All geometry at a tick, in Embree, or in our own PortableTracer when pictures must be `portable`
 /// between CPUs. Owns the device. The scene's frame is the world's, moved to
 /// `origin` (whole metres), so that single precision stays exact to 0.1 mm far from the map's zero.
 class Scene {
@@ -57,7 +57,9 @@ class Scene {
     RTCSceneTy* tree() const { return top_; }
 
     /// Instead of tree() when pictures must be portable; else none.
-    const PlainTracer* plain_tracer() const { return plain_tracer_ ? &*plain_tracer_ : nullptr; }
+    const PortableTracer* portable_tracer() const {
+        return portable_tracer_ ? &*portable_tracer_ : nullptr;
+    }
 
     std::span<const Instance> instances() const { return instances_; }
 
@@ -116,7 +118,7 @@ class Scene {
 
     std::unique_ptr<Device> device_;  // none when portable
     RTCSceneTy* top_ = nullptr;
-    std::optional<PlainTracer> plain_tracer_;
+    std::optional<PortableTracer> portable_tracer_;
     Eigen::Vector3d origin_;
     LaneRaster lanes_;
     std::deque<Prototype> prototypes_;  // a deque keeps their addresses

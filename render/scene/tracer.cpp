@@ -8,7 +8,7 @@
 #include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
 
-#include "render/trace/plain_floats.h"
+#include "render/trace/default_float_mode.h"
 
 namespace reprise::render {
 
@@ -63,8 +63,8 @@ void trace_nearest(const Scene& scene,
                    std::span<const Ray> rays,
                    bool coherent,
                    std::span<Hit> hits) {
-    if (scene.plain_tracer() != nullptr)
-        return scene.plain_tracer()->trace_nearest(rays, hits);
+    if (scene.portable_tracer() != nullptr)
+        return scene.portable_tracer()->trace_nearest(rays, hits);
     RTCIntersectContext context = context_of(coherent);
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         alignas(32) RTCRayHit8 packet;
@@ -92,8 +92,8 @@ void trace_nearest(const Scene& scene,
 void trace_visibility(const Scene& scene,
                       std::span<const Ray> rays,
                       std::span<std::uint8_t> visible) {
-    if (scene.plain_tracer() != nullptr)
-        return scene.plain_tracer()->trace_visibility(rays, visible);
+    if (scene.portable_tracer() != nullptr)
+        return scene.portable_tracer()->trace_visibility(rays, visible);
     RTCIntersectContext context = context_of(true);
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         alignas(32) RTCRay8 packet;
@@ -133,7 +133,7 @@ void trace_primary(const Scene& scene,
     const int columns = (width + tile - 1) / tile;
     const int rows = (height + tile - 1) / tile;
     tbb::parallel_for(0, columns * rows, [&](int index) {
-        const PlainFloats plain;
+        const DefaultFloatMode plain;
         std::array<Ray, tile * tile> rays;
         std::array<Hit, tile * tile> found;
         const Eigen::Vector2i corner(index % columns * tile, index / columns * tile);

@@ -7,7 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "render/trace/plain_floats.h"
+#include "render/trace/default_float_mode.h"
 
 namespace reprise::render {
 
@@ -49,7 +49,7 @@ void for_tiles(const Camera& camera,
     const int columns = (camera.width() + tile - 1) / tile;
     const int rows = (camera.height() + tile - 1) / tile;
     tbb::parallel_for(0, columns * rows, [&](int index) {
-        const PlainFloats plain;
+        const DefaultFloatMode plain;
         work({index % columns * tile, index / columns * tile});
     });
 }

@@ -4,7 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include "render/shade/frame.h"
-#include "render/trace/plain_floats.h"
+#include "render/trace/default_float_mode.h"
 #include "world/random.h"
 
 namespace reprise::render {
@@ -40,7 +40,7 @@ float film(float x) {
 std::vector<std::uint8_t> tone_map(const Frame& frame, std::uint64_t tick) {
     std::vector<std::uint8_t> bytes(frame.colors.size() * 3);
     tbb::parallel_for(0, frame.height, [&](int y) {
-        const PlainFloats plain;
+        const DefaultFloatMode plain;
         for (int x = 0; x < frame.width; ++x) {
             const std::size_t index = frame.index(x, y);
             // Half a step of noise hides the steps of smooth skies.

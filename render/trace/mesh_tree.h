@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/shapes/mesh.h"
-#include "render/trace/box_tree.h"
+#include "render/trace/bounding_volumes.h"
 
 namespace reprise::render {
 
@@ -20,7 +20,7 @@ class MeshTree {
         std::uint32_t number;  ///< in the mesh
     };
 
-    const BoxTree& tree() const { return tree_; }
+    const BoundingVolumes& tree() const { return tree_; }
 
     /// In the order of the tree's leaves.
     std::span<const Triangle> triangles() const { return triangles_; }
@@ -28,7 +28,7 @@ class MeshTree {
     const Box& bound() const { return bound_; }
 
   private:
-    BoxTree tree_;
+    BoundingVolumes tree_;
     std::vector<Triangle> triangles_;
     Box bound_;
 };

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/look/car_spot.h"
+#include "render/look/car_surface_point.h"
 #include "render/shapes/cars/car_parts.h"
 #include "render/shapes/cars/two_wheeler.h"
 #include "render/shapes/paint.h"

@@ -46,7 +46,7 @@ class Roads {
 
     bool passes_below(const Vector3d& p) const {
         return any_near(p, [&](const LaneT& lane, double aside, double above) {
-            return above < -world::reach_of_level && aside < lane.width / 2 + beside;
+            return above < -world::level_clearance && aside < lane.width / 2 + beside;
         });
     }
 
@@ -55,7 +55,7 @@ class Roads {
         return any_near(p, [&](const LaneT& lane, double aside, double above) {
             const double half =
                 lane.kind == LaneKind::internal ? clear + thickness / 2 : lane.width / 2;
-            return std::abs(above) < world::reach_of_level && lane.kind != LaneKind::sidewalk &&
+            return std::abs(above) < world::level_clearance && lane.kind != LaneKind::sidewalk &&
                    aside < half;
         });
     }

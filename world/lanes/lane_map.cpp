@@ -34,7 +34,7 @@ void add_boxes(const LaneT& lane, std::uint32_t index, std::vector<BoxGrid::Entr
 
 bool is_near_in_height(const std::vector<Vec3>& outline, double z) {
     return std::any_of(outline.begin(), outline.end(), [&](const Vec3& p) {
-        return std::abs(p.z() - z) <= reach_of_level;
+        return std::abs(p.z() - z) <= level_clearance;
     });
 }
 
@@ -48,7 +48,7 @@ bool is_on_ribbon(const LaneT& lane,
     const Eigen::Vector3d offset = p - point_at(lane, at.s).position;
     const double squared_overshoot = offset.head<2>().squaredNorm() - at.t * at.t;
     const double reach = std::max(margin, seam);
-    return std::abs(offset.z()) <= reach_of_level && squared_overshoot <= reach * reach;
+    return std::abs(offset.z()) <= level_clearance && squared_overshoot <= reach * reach;
 }
 
 }  // namespace

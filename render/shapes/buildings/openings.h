@@ -22,7 +22,8 @@ struct Opening {
     float edge(float u, float z) const;
 };
 
-/// The opening of the column and floor that a place belongs to, `u` and `z` as those of a WallSpot.
+/// The opening of the column and floor that a place belongs to, `u` and `z` as those of a
+/// WallPoint.
 Opening opening_at(const Wall& wall, const BuildingPaint& paint, float u, float z);
 
 }  // namespace reprise::render

@@ -66,9 +66,9 @@ bool is_one_piece(Clothing clothing) {
     return clothing == Clothing::dress || clothing == Clothing::gown || clothing == Clothing::coat;
 }
 
-void add_torso(Mesh& mesh, const world::WalkerModel& model, const Build& build) {
+void add_torso(Mesh& mesh, const world::WalkerModel& model, const BodyProportions& body) {
     const double h = model.height;
-    const double t = build.trunk;
+    const double t = body.trunk;
     const double waist = model.girth / (2 * std::numbers::pi);
     const double hips = std::max(0.094 * h, 1.12 * waist);
     const double chest = 0.385 * model.shoulder_width;
@@ -136,11 +136,11 @@ std::vector<Slice> hem_slices(const world::WalkerModel& model) {
     const double length = hem_length(model);
     if (length == 0)
         return {};
-    const Build build(model);
+    const BodyProportions body(model);
     const double h = model.height;
     const double waist = model.girth / (2 * std::numbers::pi);
     const double hips = std::max(0.094 * h, 1.12 * waist);
-    const double legs = build.half_hip + thigh_radius(build);
+    const double legs = body.half_hip + thigh_radius(body);
     const double wide = std::max(hips, 1.02 * legs);
     const double bent = model.age == world::Age::senior ? 0.018 * h : 0;  // the trunk, see stoop
     const auto [flare, fall] = flare_of(model.clothing);
@@ -153,18 +153,18 @@ std::vector<Slice> hem_slices(const world::WalkerModel& model) {
              0,
              cloth},
             {std::max(-0.03 * h, -0.4 * length), 1.06 * wide, 0.90 * hips + bent, -0.004, cloth},
-            {0.10 * build.trunk, 1.03 * hips, 0.84 * hips, 0, cloth},
+            {0.10 * body.trunk, 1.03 * hips, 0.84 * hips, 0, cloth},
             // Ends inside of the trunk, also when strides stretch it.
-            {0.22 * build.trunk, 0.62 * hips, 0.50 * hips, 0, cloth}};
+            {0.22 * body.trunk, 0.62 * hips, 0.50 * hips, 0, cloth}};
 }
 
 }  // namespace
 
 Mesh trunk_mesh(const world::WalkerModel& model) {
     Mesh mesh;
-    const Build build(model);
-    add_torso(mesh, model, build);
-    add_head(mesh, model, build);
+    const BodyProportions body(model);
+    add_torso(mesh, model, body);
+    add_head(mesh, model, body);
     drop_degenerate(mesh);
     smooth(mesh, 1.2);
     return mesh;

@@ -78,27 +78,26 @@ Affine3d at(const Vector3d& place) {
 
 }  // namespace
 
-void hold(Posture& posture, const Build& build, const Carried& carried, bool rains) {
-    const double h = build.height;
+void hold(Posture& posture, const BodyProportions& body, const Carried& carried, bool rains) {
+    const double h = body.height;
     const Eigen::Isometry3d trunk = posture.trunk();
-    const double arm = 0.98 * (build.upper_arm + build.forearm);
+    const double arm = 0.98 * (body.upper_arm + body.forearm);
     if (carried.rolling_bag)
         posture.wrist[1] =
-            posture.shoulder(build, 1) + Vector3d(-0.38, -0.10, -0.90).normalized() * arm;
+            posture.shoulder(body, 1) + Vector3d(-0.38, -0.10, -0.90).normalized() * arm;
     if (carried.suitcase)
-        posture.wrist[1] =
-            posture.shoulder(build, 1) + Vector3d(0.02, -0.12, -1).normalized() * arm;
+        posture.wrist[1] = posture.shoulder(body, 1) + Vector3d(0.02, -0.12, -1).normalized() * arm;
     if (carried.phone)
-        posture.wrist[1] = trunk * Vector3d(0.155 * h, -0.045 * h, build.trunk - 0.055 * h);
+        posture.wrist[1] = trunk * Vector3d(0.155 * h, -0.045 * h, body.trunk - 0.055 * h);
     if (carried.shopping_bags)
-        posture.wrist[0] = posture.shoulder(build, 0) + Vector3d(0.02, 0.10, -1).normalized() * arm;
+        posture.wrist[0] = posture.shoulder(body, 0) + Vector3d(0.02, 0.10, -1).normalized() * arm;
     if (carried.umbrella && rains)
-        posture.wrist[0] = trunk * Vector3d(0.125 * h, 0.05 * h, build.trunk - 0.10 * h);
+        posture.wrist[0] = trunk * Vector3d(0.125 * h, 0.05 * h, body.trunk - 0.10 * h);
 }
 
 void add_carried(std::vector<FigurePart>& parts,
                  const Posture& posture,
-                 const Build& build,
+                 const BodyProportions& body,
                  const Carried& carried,
                  bool rains) {
     using Shape = FigurePart::Shape;
@@ -106,17 +105,17 @@ void add_carried(std::vector<FigurePart>& parts,
     const auto add = [&](Shape shape, const Affine3d& pose) {
         parts.push_back({shape, Material::bag, pose});
     };
-    const double depth = 0.075 * build.height;
+    const double depth = 0.075 * body.height;
     if (carried.backpack)
         add(Shape::backpack,
-            trunk * at({-depth, 0, 0.58 * build.trunk}) * Eigen::Scaling(build.height / 1.75));
+            trunk * at({-depth, 0, 0.58 * body.trunk}) * Eigen::Scaling(body.height / 1.75));
     if (carried.guitar_case)
         add(Shape::guitar_case,
             trunk * at({-depth - 0.07, -0.10, -0.16}) *
                 Eigen::AngleAxisd(-0.30, Vector3d::UnitX()));
     const Vector3d& right = posture.wrist[1];
     const Vector3d& left = posture.wrist[0];
-    const Vector3d palm(0, 0, -0.04 * build.height);
+    const Vector3d palm(0, 0, -0.04 * body.height);
     if (carried.phone)
         add(Shape::phone,
             at(right + Vector3d(.02, .01, .05)) * Eigen::AngleAxisd(-0.55, Vector3d::UnitY()));

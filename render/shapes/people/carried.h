@@ -10,12 +10,12 @@
 namespace reprise::render {
 
 /// Moves the hands to where they hold what is carried.
-void hold(Posture& posture, const Build& build, const Carried& carried, bool rains);
+void hold(Posture& posture, const BodyProportions& body, const Carried& carried, bool rains);
 
 /// The things themselves. The posture must be one that holds them.
 void add_carried(std::vector<FigurePart>& parts,
                  const Posture& posture,
-                 const Build& build,
+                 const BodyProportions& body,
                  const Carried& carried,
                  bool rains);
 

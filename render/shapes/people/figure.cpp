@@ -70,39 +70,39 @@ Cover cover_of(Clothing clothing, const Outfit& outfit) {
 
 void add_leg(std::vector<FigurePart>& parts,
              const Posture& posture,
-             const Build& build,
+             const BodyProportions& body,
              const Cover& cover,
              std::size_t side) {
-    const double h = build.height * build.stoutness;
+    const double h = body.height * body.stoutness;
     const double out = side == 0 ? 1 : -1;
-    const Vector3d hip = posture.hip + Vector3d(0, out * build.half_hip, 0);
-    const Vector3d ankle = posture.ankle(build, side);
+    const Vector3d hip = posture.hip + Vector3d(0, out * body.half_hip, 0);
+    const Vector3d ankle = posture.ankle(body, side);
     const Vector3d knee =
-        joint_between(hip, ankle, build.thigh, build.thigh, Vector3d(1, 0.08 * out, 0));
+        joint_between(hip, ankle, body.thigh, body.thigh, Vector3d(1, 0.08 * out, 0));
     const bool loose = cover.shank == Material::trousers;
     parts.push_back(
-        {FigurePart::Shape::bone, cover.thigh, stretched_bone(hip, knee, thigh_radius(build))});
+        {FigurePart::Shape::bone, cover.thigh, stretched_bone(hip, knee, thigh_radius(body))});
     parts.push_back({FigurePart::Shape::bone,
                      cover.shank,
                      stretched_bone(knee, ankle, (loose ? .040 : .036) * h)});
     Affine3d shoe = Affine3d::Identity();
     shoe.translation() = posture.toe[side];
     shoe.rotate(Eigen::AngleAxisd(posture.pitch[side], Vector3d::UnitY()));
-    shoe.scale(build.foot);
+    shoe.scale(body.foot);
     parts.push_back({FigurePart::Shape::shoe, Material::shoe, shoe});
 }
 
 void add_arm(std::vector<FigurePart>& parts,
              const Posture& posture,
-             const Build& build,
+             const BodyProportions& body,
              const Cover& cover,
              std::size_t side) {
-    const double h = build.height * build.stoutness;
+    const double h = body.height * body.stoutness;
     const double out = side == 0 ? 1 : -1;
-    const Vector3d shoulder = posture.shoulder(build, side) - Vector3d(0, 0, 0.012 * h);
+    const Vector3d shoulder = posture.shoulder(body, side) - Vector3d(0, 0, 0.012 * h);
     const Vector3d& wrist = posture.wrist[side];
-    const Vector3d elbow = joint_between(
-        shoulder, wrist, build.upper_arm, build.forearm, Vector3d(-1, 0.5 * out, -0.3));
+    const Vector3d elbow =
+        joint_between(shoulder, wrist, body.upper_arm, body.forearm, Vector3d(-1, 0.5 * out, -0.3));
     const Vector3d along = (wrist - elbow).normalized();
     parts.push_back({FigurePart::Shape::ball,
                      cover.upper_arm,
@@ -114,22 +114,22 @@ void add_arm(std::vector<FigurePart>& parts,
     parts.push_back(
         {FigurePart::Shape::bone,
          Material::skin,
-         stretched_bone(wrist - 0.004 * h * along, wrist + .085 * build.height * along, .020 * h)});
+         stretched_bone(wrist - 0.004 * h * along, wrist + .085 * body.height * along, .020 * h)});
 }
 
 /// Where body_parts() puts the thighs; shank and shoe follow each.
 constexpr std::size_t first_leg = 1, second_leg = 8;
 
 std::vector<FigurePart> body_parts(const world::WalkerModel& model,
-                                   const Build& build,
+                                   const BodyProportions& body,
                                    const Posture& posture,
                                    const Outfit& outfit) {
     std::vector<FigurePart> parts;
     const Cover cover = cover_of(model.clothing, outfit);
     parts.push_back({FigurePart::Shape::trunk, Material::skin, Affine3d(posture.trunk())});
     for (const std::size_t side : {0U, 1U}) {
-        add_leg(parts, posture, build, cover, side);
-        add_arm(parts, posture, build, cover, side);
+        add_leg(parts, posture, body, cover, side);
+        add_arm(parts, posture, body, cover, side);
     }
     return parts;
 }
@@ -192,7 +192,7 @@ std::uint32_t appearance_bits(const world::WalkerState& walker) {
 std::vector<FigurePart> figure(const world::WalkerModel& model,
                                const world::WalkerState& walker,
                                bool rains) {
-    const Build build(model);
+    const BodyProportions body(model);
     const std::uint32_t look = appearance_bits(walker);
     const Outfit outfit = outfit_of(model, look);
     const auto speed = static_cast<double>(walker.speed());
@@ -200,12 +200,12 @@ std::vector<FigurePart> figure(const world::WalkerModel& model,
     Posture posture = walks ? striding(model, speed, static_cast<double>(walker.phase()))
                             : standing(model, hash(look, 40));
     if (!walker.down())
-        hold(posture, build, outfit.carried, rains);
-    std::vector<FigurePart> parts = body_parts(model, build, posture, outfit);
+        hold(posture, body, outfit.carried, rains);
+    std::vector<FigurePart> parts = body_parts(model, body, posture, outfit);
     if (hem_length(model) > 0)
         parts.push_back(hem(model, posture, parts));
     if (!walker.down()) {
-        add_carried(parts, posture, build, outfit.carried, rains);
+        add_carried(parts, posture, body, outfit.carried, rains);
         return parts;
     }
     Affine3d lying = Affine3d::Identity();
@@ -221,10 +221,10 @@ std::vector<FigurePart> rider(const CarShape& shape,
                               double steering,
                               double crank) {
     const world::WalkerModel& model = rider_of(shape.style);
-    const Build build(model);
+    const BodyProportions body(model);
     const Seat seat = seat_of(shape);
     Posture posture;
-    posture.hip = seat.saddle + Vector3d(0, 0, 0.05 * build.height);
+    posture.hip = seat.saddle + Vector3d(0, 0, 0.05 * body.height);
     posture.lean = seat.lean;
     const Vector3d axle(static_cast<double>(shape.wheelbase()), 0, 0);
     for (const std::size_t side : {0U, 1U}) {
@@ -233,13 +233,13 @@ std::vector<FigurePart> rider(const CarShape& shape,
         const Vector3d pedal = seat.foot.cwiseProduct(mirror) -
                                seat.crank * Vector3d(std::sin(angle), 0, std::cos(angle));
         posture.pitch[side] = seat.crank > 0 ? 0.15 - 0.25 * std::cos(angle) : 0.1;
-        posture.toe[side] = pedal + Vector3d(0.3 * build.foot, 0, 0.01);
+        posture.toe[side] = pedal + Vector3d(0.3 * body.foot, 0, 0.01);
         const Vector3d grip = seat.grip.cwiseProduct(mirror) - axle;
         const Vector3d turned = axle + Eigen::AngleAxisd(steering, Vector3d::UnitZ()) * grip;
         // The wrist is behind the hand.
-        posture.wrist[side] = turned - Vector3d(0.045 * build.height, 0, -0.012 * build.height);
+        posture.wrist[side] = turned - Vector3d(0.045 * body.height, 0, -0.012 * body.height);
     }
-    return body_parts(model, build, posture, outfit);
+    return body_parts(model, body, posture, outfit);
 }
 
 const world::WalkerModel& rider_of(world::BodyStyle style) {

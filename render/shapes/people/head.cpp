@@ -65,9 +65,9 @@ void add_hair(Mesh& mesh, const world::WalkerModel& model, const Vector3f& c, fl
 
 }  // namespace
 
-void add_head(Mesh& mesh, const world::WalkerModel& model, const Build& build) {
-    const auto s = static_cast<float>(build.head / 2);
-    const auto crown = static_cast<float>(build.height - build.hip);
+void add_head(Mesh& mesh, const world::WalkerModel& model, const BodyProportions& body) {
+    const auto s = static_cast<float>(body.head / 2);
+    const auto crown = static_cast<float>(body.height - body.hip);
     const Vector3f c(0.10F * s, 0, crown - s);
     const auto blob = [&](const Vector3f& at, const Vector3f& radii, Material material, int sides) {
         add_ellipsoid(mesh, c + at * s, radii * s, sides, {material});

@@ -6,6 +6,6 @@
 namespace reprise::render {
 
 /// Face, hair and what is worn on them, in the frame of a trunk (see trunk_mesh).
-void add_head(Mesh& mesh, const world::WalkerModel& model, const Build& build);
+void add_head(Mesh& mesh, const world::WalkerModel& model, const BodyProportions& body);
 
 }  // namespace reprise::render

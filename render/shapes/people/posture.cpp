@@ -24,7 +24,7 @@ Eigen::AngleAxisd pitched(double angle) {
 /// How the feet move in a cycle.
 struct Gait {
     Gait(const world::WalkerModel& model, double speed)
-        : build(model),
+        : body(model),
           cycle(world::walk_cycle_length(speed, model.height)),
           run(static_cast<double>(smooth_step(1.9F, 2.5F, static_cast<float>(speed)))),
           stance(0.62 - 0.30 * run),
@@ -36,7 +36,7 @@ struct Gait {
     Vector3d ankle(double phase) const;
     double reach(double phase) const;
 
-    Build build;
+    BodyProportions body;
     double cycle;   ///< [m]
     double run;     ///< 0 walks, 1 runs
     double stance;  ///< share of the cycle that a foot is on the ground
@@ -46,7 +46,7 @@ struct Gait {
 /// Of the tip of the sole, relative to the hips.
 double Gait::toe_x(double phase) const {
     const double reached = cycle * stance / 2;
-    const double ahead = 0.55 * build.foot - 0.08 * run * cycle;
+    const double ahead = 0.55 * body.foot - 0.08 * run * cycle;
     if (phase < stance)
         return ahead + reached - cycle * phase;
     // A cubic that leaves and meets the ground at the ground's speed.
@@ -58,10 +58,10 @@ double Gait::toe_x(double phase) const {
 
 double Gait::toe_z(double phase) const {
     if (phase < stance)
-        return build.foot * std::max(0.0, std::sin(-pitch(phase)));
+        return body.foot * std::max(0.0, std::sin(-pitch(phase)));
     const double u = (phase - stance) / (1 - stance);
     const double bump = std::sin(std::numbers::pi * u);
-    return lift * bump * bump + build.foot * u * u * std::max(0.0, std::sin(-pitch(phase)));
+    return lift * bump * bump + body.foot * u * u * std::max(0.0, std::sin(-pitch(phase)));
 }
 
 double Gait::pitch(double phase) const {
@@ -82,19 +82,19 @@ double Gait::pitch(double phase) const {
 
 Vector3d Gait::ankle(double phase) const {
     return Vector3d(toe_x(phase), 0, toe_z(phase)) +
-           pitched(pitch(phase)) * Vector3d(-build.foot, 0, build.ankle);
+           pitched(pitch(phase)) * Vector3d(-body.foot, 0, body.ankle);
 }
 
 /// Height of the hips at which this leg is almost straight.
 double Gait::reach(double phase) const {
     const Vector3d foot = ankle(phase);
-    const double leg = 2 * build.thigh * 0.99;
+    const double leg = 2 * body.thigh * 0.99;
     return foot.z() + std::sqrt(std::max(0.0, leg * leg - foot.x() * foot.x()));
 }
 
 double hip_height(const Gait& gait, double phase) {
     constexpr int samples = 8;
-    double low = gait.build.hip;
+    double low = gait.body.hip;
     for (int i = 0; i <= samples; ++i)
         low = std::min(low, gait.reach(gait.stance * i / samples));
     // A foot also reaches far right after it left the ground and before it comes down.
@@ -104,22 +104,25 @@ double hip_height(const Gait& gait, double phase) {
     // Walking, the body is highest over the standing foot; running, between the steps.
     const double walk = low + 0.5 * free * (0.5 - 0.5 * std::cos(2 * turn * (phase - 0.06)));
     const double run =
-        low - 0.025 * gait.build.height +
-        0.035 * gait.build.height * (0.5 - 0.5 * std::cos(2 * turn * (phase - gait.stance / 2)));
+        low - 0.025 * gait.body.height +
+        0.035 * gait.body.height * (0.5 - 0.5 * std::cos(2 * turn * (phase - gait.stance / 2)));
     return walk + gait.run * (run - walk);
 }
 
 /// Where the hand is when the arm swings forward by `swing` and the elbow bends by `bend`. [rad]
-Vector3d hand_at(
-    const Posture& posture, const Build& build, std::size_t side, double swing, double bend) {
+Vector3d hand_at(const Posture& posture,
+                 const BodyProportions& body,
+                 std::size_t side,
+                 double swing,
+                 double bend) {
     const double out = side == 0 ? 1 : -1;
-    const Vector3d elbow(build.upper_arm * std::sin(swing),
-                         out * 0.10 * build.upper_arm,
-                         -build.upper_arm * std::cos(swing));
-    const Vector3d wrist(build.forearm * std::sin(swing + bend),
-                         -out * 0.02 * build.forearm,
-                         -build.forearm * std::cos(swing + bend));
-    return posture.shoulder(build, side) + elbow + wrist;
+    const Vector3d elbow(body.upper_arm * std::sin(swing),
+                         out * 0.10 * body.upper_arm,
+                         -body.upper_arm * std::cos(swing));
+    const Vector3d wrist(body.forearm * std::sin(swing + bend),
+                         -out * 0.02 * body.forearm,
+                         -body.forearm * std::cos(swing + bend));
+    return posture.shoulder(body, side) + elbow + wrist;
 }
 
 double stoop(const world::WalkerModel& model) {
@@ -128,7 +131,7 @@ double stoop(const world::WalkerModel& model) {
 
 }  // namespace
 
-Build::Build(const world::WalkerModel& model) : height(model.height) {
+BodyProportions::BodyProportions(const world::WalkerModel& model) : height(model.height) {
     const double child = std::clamp((1.6 - height) / 0.7, 0.0, 1.0);
     head = 0.178 + 0.036 * height;
     hip = (0.53 - 0.055 * child) * height;
@@ -144,8 +147,8 @@ Build::Build(const world::WalkerModel& model) : height(model.height) {
     stoutness = std::sqrt(model.mass / (22.5 * height * height));
 }
 
-double thigh_radius(const Build& build) {
-    return .055 * build.height * build.stoutness;
+double thigh_radius(const BodyProportions& body) {
+    return .055 * body.height * body.stoutness;
 }
 
 Isometry3d Posture::trunk() const {
@@ -156,41 +159,40 @@ Isometry3d Posture::trunk() const {
     return pose;
 }
 
-Vector3d Posture::shoulder(const Build& build, std::size_t side) const {
-    return trunk() * Vector3d(0, (side == 0 ? 1 : -1) * build.half_shoulder, build.trunk);
+Vector3d Posture::shoulder(const BodyProportions& body, std::size_t side) const {
+    return trunk() * Vector3d(0, (side == 0 ? 1 : -1) * body.half_shoulder, body.trunk);
 }
 
-Vector3d Posture::ankle(const Build& build, std::size_t side) const {
-    return toe[side] + pitched(pitch[side]) * Vector3d(-build.foot, 0, build.ankle);
+Vector3d Posture::ankle(const BodyProportions& body, std::size_t side) const {
+    return toe[side] + pitched(pitch[side]) * Vector3d(-body.foot, 0, body.ankle);
 }
 
 Posture standing(const world::WalkerModel& model, std::uint32_t habit) {
-    const Build build(model);
+    const BodyProportions body(model);
     Posture posture;
-    const double shift = habit % 3 == 0 ? 0 : (habit % 3 == 1 ? 0.012 : -0.012) * build.height;
-    posture.hip = {0, shift, build.hip - 0.002 * build.height - std::abs(shift) * 0.3};
+    const double shift = habit % 3 == 0 ? 0 : (habit % 3 == 1 ? 0.012 : -0.012) * body.height;
+    posture.hip = {0, shift, body.hip - 0.002 * body.height - std::abs(shift) * 0.3};
     posture.lean = stoop(model);
     for (std::size_t side : {0U, 1U}) {
         const double out = side == 0 ? 1 : -1;
         const double ahead = (habit >> 2U) % 2 == side ? 0.02 : -0.015;
         posture.toe[side] = {
-            build.foot + (ahead - 0.005) * build.height, out * 1.05 * build.half_hip, 0};
-        posture.wrist[side] = hand_at(posture, build, side, 0.04, 0.22);
+            body.foot + (ahead - 0.005) * body.height, out * 1.05 * body.half_hip, 0};
+        posture.wrist[side] = hand_at(posture, body, side, 0.04, 0.22);
     }
     if ((habit >> 4U) % 4 == 0)  // hands folded in front
         for (std::size_t side : {0U, 1U})
-            posture.wrist[side] =
-                posture.trunk() * Vector3d(0.12 * build.height,
-                                           (side == 0 ? .02 : -.02) * build.height,
-                                           0.10 * build.height);
+            posture.wrist[side] = posture.trunk() * Vector3d(0.12 * body.height,
+                                                             (side == 0 ? .02 : -.02) * body.height,
+                                                             0.10 * body.height);
     return posture;
 }
 
 Posture striding(const world::WalkerModel& model, double speed, double phase) {
     const Gait gait(model, speed);
-    const Build& build = gait.build;
+    const BodyProportions& body = gait.body;
     Posture posture;
-    const double sway = 0.012 * build.height * (1 - gait.run);
+    const double sway = 0.012 * body.height * (1 - gait.run);
     posture.hip = {0, sway * std::sin(turn * (phase + 0.19)), hip_height(gait, phase)};
     posture.lean = stoop(model) + 0.03 + 0.11 * gait.run;
     const double vigour = std::clamp(0.35 + speed / 2.2, 0.0, 1.0);
@@ -198,12 +200,12 @@ Posture striding(const world::WalkerModel& model, double speed, double phase) {
     for (std::size_t side : {0U, 1U}) {
         const double out = side == 0 ? 1 : -1;
         const double own = side == 0 ? phase : phase - 0.5 - std::floor(phase - 0.5);
-        posture.toe[side] = {gait.toe_x(own), out * 0.75 * build.half_hip, gait.toe_z(own)};
+        posture.toe[side] = {gait.toe_x(own), out * 0.75 * body.half_hip, gait.toe_z(own)};
         posture.pitch[side] = gait.pitch(own);
         // Arms swing against the legs.
         const double swing = -(0.40 + 0.25 * gait.run) * vigour * std::cos(turn * own);
         const double bend = 0.28 + 0.25 * std::max(0.0, swing) + 1.25 * gait.run;
-        posture.wrist[side] = hand_at(posture, build, side, swing - 0.15 * gait.run, bend);
+        posture.wrist[side] = hand_at(posture, body, side, swing - 0.15 * gait.run, bend);
     }
     return posture;
 }

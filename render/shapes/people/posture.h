@@ -11,8 +11,8 @@ namespace reprise::render {
 /// Lengths of a body, from its height, age and weight. [m] Shares of the height after Winter,
 /// "Biomechanics and Motor Control of Human Movement", 4th ed., ch. 4; children have larger heads
 /// and shorter legs.
-struct Build {
-    explicit Build(const world::WalkerModel& model);
+struct BodyProportions {
+    explicit BodyProportions(const world::WalkerModel& model);
 
     double height;
     double hip;       ///< height of the hip joints when standing
@@ -29,7 +29,7 @@ struct Build {
 };
 
 /// Of a thigh, trousers included, at the hip. [m]
-double thigh_radius(const Build& build);
+double thigh_radius(const BodyProportions& body);
 
 /// Where a body's joints are. Frame of the walker: x ahead, y left, z up, origin on the ground
 /// between the feet. Index 0 is left, 1 right.
@@ -42,8 +42,8 @@ struct Posture {
     std::array<Eigen::Vector3d, 2> wrist;
 
     Eigen::Isometry3d trunk() const;  ///< at the hips, z along it
-    Eigen::Vector3d shoulder(const Build& build, std::size_t side) const;  ///< joint
-    Eigen::Vector3d ankle(const Build& build, std::size_t side) const;
+    Eigen::Vector3d shoulder(const BodyProportions& body, std::size_t side) const;  ///< joint
+    Eigen::Vector3d ankle(const BodyProportions& body, std::size_t side) const;
 };
 
 /// `habit`: bits that decide how he stands.

@@ -162,11 +162,11 @@ TEST(Posture, AStandingFootStaysWhereItIsInTheWorld) {
 /// A foot in the air may miss its place by a centimetre.
 TEST(Posture, LegsReachTheirFeetWithoutStretching) {
     for (const WalkerModel& model : world::walker_models()) {
-        const Build build(model);
+        const BodyProportions body(model);
         for (double phase = 0; phase < 1; phase += 0.02) {
             const Posture posture = striding(model, model.walking_speed, phase);
-            const Vector3d hip = posture.hip + Vector3d(0, build.half_hip, 0);
-            EXPECT_LT((posture.ankle(build, 0) - hip).norm(), 2 * build.thigh * 1.02)
+            const Vector3d hip = posture.hip + Vector3d(0, body.half_hip, 0);
+            EXPECT_LT((posture.ankle(body, 0) - hip).norm(), 2 * body.thigh * 1.02)
                 << model.name << phase;
             EXPECT_GE(posture.toe[0].z(), -1e-9) << model.name << phase;
         }

@@ -4,7 +4,7 @@
 //   where area times number is least (Wald, "On fast Construction of SAH-based Bounding Volume
 //   Hierarchies", 2007); halves by number where that would become too deep.
 // What it keeps: nodes in the order of a walk, first children right behind their parents.
-#include "render/trace/box_tree.h"
+#include "render/trace/bounding_volumes.h"
 
 #include <algorithm>
 #include <limits>
@@ -36,10 +36,10 @@ Box widened(const Box& box) {
     return {box.low - margin, box.high + margin};
 }
 
-struct BoxTree::Builder {
+struct BoundingVolumes::Builder {
     std::span<const Box> boxes;
     std::size_t leaf_size;
-    BoxTree& tree;
+    BoundingVolumes& tree;
     std::vector<Vector3f> middles;
 
     std::size_t bin_of(std::uint32_t item, int axis, float low, float scale) const {
@@ -122,7 +122,8 @@ struct BoxTree::Builder {
     }
 };
 
-BoxTree::BoxTree(std::span<const Box> boxes, std::size_t leaf_size) : order_(boxes.size()) {
+BoundingVolumes::BoundingVolumes(std::span<const Box> boxes, std::size_t leaf_size)
+    : order_(boxes.size()) {
     if (boxes.empty())
         return;
     std::iota(order_.begin(), order_.end(), 0U);
@@ -133,7 +134,7 @@ BoxTree::BoxTree(std::span<const Box> boxes, std::size_t leaf_size) : order_(box
     builder.build(0, boxes.size(), 1);
 }
 
-Box BoxTree::bound() const {
+Box BoundingVolumes::bound() const {
     if (nodes_.empty())
         return {Vector3f::Zero(), Vector3f::Zero()};
     const Node& root = nodes_.front();

@@ -6,7 +6,7 @@
 namespace reprise::render {
 
 /// A hit on a car's body, with what is asked about it again and again.
-struct CarSpot {
+struct CarSurfacePoint {
     const CarShape& shape;
     float x, y, z;
     float side;              ///< |y|
@@ -21,7 +21,7 @@ struct CarSpot {
     std::uint64_t tick;
 };
 
-inline bool is_long(const CarSpot& at) {
+inline bool is_long(const CarSurfacePoint& at) {
     return at.shape.style == world::BodyStyle::bus || at.shape.style == world::BodyStyle::lorry;
 }
 
@@ -34,10 +34,10 @@ inline void as_trim(Look& look, const Color& color = black) {
     look.roughness = 0.45F;
 }
 
-bool is_glass(const CarSpot& at);
+bool is_glass(const CarSurfacePoint& at);
 
 /// x of the pillar behind the front doors.
-inline float middle_pillar(const CarSpot& at) {
+inline float middle_pillar(const CarSurfacePoint& at) {
     switch (at.shape.style) {
         case world::BodyStyle::coupe:
             return 0.26F * at.shape.wheelbase();
@@ -52,14 +52,22 @@ inline float middle_pillar(const CarSpot& at) {
 
 // Each paints its thing and says so, when the spot lies on it. `low` and `high` are heights,
 // `inner` the distance from the middle where a lamp begins.
-bool front_lamp(
-    Look& look, const ShadingInput& input, const CarSpot& at, float low, float high, float inner);
-bool rear_lamp(
-    Look& look, const ShadingInput& input, const CarSpot& at, float low, float high, float inner);
-bool number_plate(Look& look, const CarSpot& at, float low, std::uint32_t actor);
+bool front_lamp(Look& look,
+                const ShadingInput& input,
+                const CarSurfacePoint& at,
+                float low,
+                float high,
+                float inner);
+bool rear_lamp(Look& look,
+               const ShadingInput& input,
+               const CarSurfacePoint& at,
+               float low,
+               float high,
+               float inner);
+bool number_plate(Look& look, const CarSurfacePoint& at, float low, std::uint32_t actor);
 
 /// Stripes and checks on the sides and ends of a service's vehicle.
-void paint_livery(Look& look, const CarSpot& at);
+void paint_livery(Look& look, const CarSurfacePoint& at);
 
 /// Lamps flash 1.5 times a second, all vehicles together: ticks are 50 ms.
 inline bool flashes_now(std::uint64_t tick) {

@@ -42,10 +42,10 @@ struct Packet {
 
 /// A binary tree of boxes over numbered items, by the surface-area heuristic. The same boxes give
 /// the same tree: it is built by one thread, out of additions and comparisons.
-class BoxTree {
+class BoundingVolumes {
   public:
     /// Some 0.5 us an item.
-    BoxTree(std::span<const Box> boxes, std::size_t leaf_size);
+    BoundingVolumes(std::span<const Box> boxes, std::size_t leaf_size);
 
     /// The items, leaf by leaf.
     std::span<const std::uint32_t> order() const { return order_; }
@@ -78,7 +78,7 @@ class BoxTree {
 };
 
 /// Plain SSE2, which every x86-64 CPU has: exact rules for each operation, nothing approximated.
-inline unsigned BoxTree::met(const Node& node, const Packet& packet) {
+inline unsigned BoundingVolumes::met(const Node& node, const Packet& packet) {
     unsigned lanes = 0;
     for (std::size_t half = 0; half < Packet::lanes; half += 4) {
         __m128 near = _mm_setzero_ps();
@@ -98,7 +98,7 @@ inline unsigned BoxTree::met(const Node& node, const Packet& packet) {
 }
 
 template <typename Visit>
-void BoxTree::walk(const Packet& packet, const Visit& visit) const {
+void BoundingVolumes::walk(const Packet& packet, const Visit& visit) const {
     std::array<std::uint32_t, deepest> stack;
     std::size_t size = 0;
     if (!nodes_.empty())

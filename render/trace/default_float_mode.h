@@ -6,14 +6,14 @@ namespace reprise::render {
 
 /// Sets the floating-point mode of a task and restores the old one: TBB's threads keep whatever
 /// mode they were started with, and Embree's flushes denormals.
-class PlainFloats {
+class DefaultFloatMode {
   public:
-    PlainFloats() : saved_(_mm_getcsr()) { _mm_setcsr(plain); }
+    DefaultFloatMode() : saved_(_mm_getcsr()) { _mm_setcsr(plain); }
 
-    ~PlainFloats() { _mm_setcsr(saved_); }
+    ~DefaultFloatMode() { _mm_setcsr(saved_); }
 
-    PlainFloats(const PlainFloats&) = delete;
-    PlainFloats& operator=(const PlainFloats&) = delete;
+    DefaultFloatMode(const DefaultFloatMode&) = delete;
+    DefaultFloatMode& operator=(const DefaultFloatMode&) = delete;
 
   private:
     static constexpr unsigned plain = 0x1f80;  // no exceptions, round to nearest, denormals kept

@@ -17,10 +17,10 @@ struct Ray;
 /// which CPU it runs on. What a ray meets is defined without the tree: of all triangles in its way
 /// the one with the least (distance, instance, triangle), in double precision. Twice
 /// Embree's time.
-class PlainTracer {
+class PortableTracer {
   public:
     /// Keeps nothing of earlier instances; borrows these ones' prototypes.
-    explicit PlainTracer(std::span<const Instance> instances);
+    explicit PortableTracer(std::span<const Instance> instances);
 
     /// As the functions of these names in render/scene/tracer.h.
     void trace_nearest(std::span<const Ray> rays, std::span<Hit> hits) const;
@@ -36,7 +36,7 @@ class PlainTracer {
 
   private:
     std::vector<Placed> placed_;
-    BoxTree tree_;
+    BoundingVolumes tree_;
 };
 
 }  // namespace reprise::render

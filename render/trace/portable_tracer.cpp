@@ -6,7 +6,7 @@
 //   their triangles; the rest are tested in double precision in the mesh's own frame. Additions,
 //   multiplications and divisions only: IEEE 754 defines each bit of them.
 // What it keeps: nothing between calls.
-#include "render/trace/plain_tracer.h"
+#include "render/trace/portable_tracer.h"
 
 #include <algorithm>
 
@@ -96,7 +96,10 @@ void for_lanes(unsigned set, const Work& work) {
 }
 
 /// The rays of `wanted` lanes in the frame of a mesh. Lengths along a ray stay what they are.
-void move(const Bundle& world, const PlainTracer::Placed& placed, unsigned wanted, Bundle& local) {
+void move(const Bundle& world,
+          const PortableTracer::Placed& placed,
+          unsigned wanted,
+          Bundle& local) {
     for (std::size_t row = 0; row < 3; ++row) {
         const std::array<double, 4>& m = placed.to_mesh[row];
         for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -115,15 +118,15 @@ void move(const Bundle& world, const PlainTracer::Placed& placed, unsigned wante
 /// Calls `reach = take(lane, found, instance, triangle)` for each hit found: how far the
 /// ray of this lane is of interest from now on.
 template <typename Take>
-void walk(const BoxTree& tree,
-          std::span<const PlainTracer::Placed> placed,
+void walk(const BoundingVolumes& tree,
+          std::span<const PortableTracer::Placed> placed,
           Bundle& world,
           const Take& take) {
     TriangleHits found;
     Bundle moved;
     tree.walk(world.packet, [&](std::uint32_t place, std::uint32_t, unsigned met) {
         const std::uint32_t instance = tree.order()[place];
-        const PlainTracer::Placed& thing = placed[instance];
+        const PortableTracer::Placed& thing = placed[instance];
         const unsigned wanted = met & world.lanes_matching(thing.mask);
         if (wanted == 0)
             return;
@@ -147,7 +150,8 @@ void walk(const BoxTree& tree,
 
 }  // namespace
 
-PlainTracer::PlainTracer(std::span<const Instance> instances) : tree_(placed_boxes(instances), 1) {
+PortableTracer::PortableTracer(std::span<const Instance> instances)
+    : tree_(placed_boxes(instances), 1) {
     placed_.reserve(instances.size());
     for (const Instance& instance : instances) {
         Placed& placed = placed_.emplace_back();
@@ -162,7 +166,7 @@ PlainTracer::PlainTracer(std::span<const Instance> instances) : tree_(placed_box
     }
 }
 
-void PlainTracer::trace_nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
+void PortableTracer::trace_nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         Bundle bundle = bundle_of(rays, first);
         Nearest nearest;
@@ -183,8 +187,8 @@ void PlainTracer::trace_nearest(std::span<const Ray> rays, std::span<Hit> hits) 
     }
 }
 
-void PlainTracer::trace_visibility(std::span<const Ray> rays,
-                                   std::span<std::uint8_t> visible) const {
+void PortableTracer::trace_visibility(std::span<const Ray> rays,
+                                      std::span<std::uint8_t> visible) const {
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         Bundle bundle = bundle_of(rays, first);
         unsigned blocked = 0;

@@ -1,4 +1,4 @@
-#include "render/trace/plain_tracer.h"
+#include "render/trace/portable_tracer.h"
 
 #include <deque>
 #include <limits>
@@ -129,16 +129,16 @@ Mesh square(float x) {
     return mesh;
 }
 
-Hit single(const PlainTracer& tracer, const Ray& ray) {
+Hit single(const PortableTracer& tracer, const Ray& ray) {
     Hit hit;
     tracer.trace_nearest({&ray, 1}, {&hit, 1});
     return hit;
 }
 
-TEST(PlainTracer, FindsWhatLookingAtEverythingFinds) {
+TEST(PortableTracer, FindsWhatLookingAtEverythingFinds) {
     Numbers numbers;
     const World world = crumbled_world(numbers);
-    const PlainTracer tracer(world.instances);
+    const PortableTracer tracer(world.instances);
     for (const float far : {infinite, 12.0F}) {
         const std::vector<Ray> rays = rays_about(numbers, 403, far);  // no multiple of a packet
         std::vector<Hit> hits(rays.size());
@@ -161,10 +161,10 @@ TEST(PlainTracer, FindsWhatLookingAtEverythingFinds) {
     }
 }
 
-TEST(PlainTracer, AnswersDoNotDependOnTheOtherRaysOfAPacket) {
+TEST(PortableTracer, AnswersDoNotDependOnTheOtherRaysOfAPacket) {
     Numbers numbers;
     const World world = crumbled_world(numbers);
-    const PlainTracer tracer(world.instances);
+    const PortableTracer tracer(world.instances);
     const std::vector<Ray> rays = rays_about(numbers, 64, infinite);
     std::vector<Hit> hits(rays.size());
     tracer.trace_nearest(rays, hits);
@@ -177,7 +177,7 @@ TEST(PlainTracer, AnswersDoNotDependOnTheOtherRaysOfAPacket) {
     }
 }
 
-TEST(PlainTracer, OfThingsEquallyFarTheFirstIsMet) {
+TEST(PortableTracer, OfThingsEquallyFarTheFirstIsMet) {
     World world;
     const Prototype& same = world.add(square(0));
     for (const double x : {9, 5, 5, 5})
@@ -185,33 +185,34 @@ TEST(PlainTracer, OfThingsEquallyFarTheFirstIsMet) {
     // From both sides, so that the order of looking cannot decide.
     for (const float from : {0.0F, 8.0F}) {
         const Ray ray{{from, .25F, .25F}, {from < 5 ? 1.0F : -1.0F, 0, 0}, infinite, ~0U};
-        const Hit hit = single(PlainTracer(world.instances), ray);
+        const Hit hit = single(PortableTracer(world.instances), ray);
         EXPECT_EQ(hit.instance, 1U);
         EXPECT_EQ(hit.distance, from < 5 ? 5.0F : 3.0F);
     }
     // The edge between a square's two triangles belongs to both.
-    const Hit edge = single(PlainTracer(world.instances), {{0, 0, 0}, {1, 0, 0}, infinite, ~0U});
+    const Hit edge = single(PortableTracer(world.instances), {{0, 0, 0}, {1, 0, 0}, infinite, ~0U});
     EXPECT_EQ(edge.instance, 1U);
     EXPECT_EQ(edge.triangle, 0U);
 }
 
-TEST(PlainTracer, MeetsNothingWhereThereIsNothing) {
+TEST(PortableTracer, MeetsNothingWhereThereIsNothing) {
     World world;
     const Ray ray{{0, 0, 0}, {1, 0, 0}, infinite, ~0U};
-    EXPECT_EQ(single(PlainTracer(world.instances), ray).instance, no_instance);
+    EXPECT_EQ(single(PortableTracer(world.instances), ray).instance, no_instance);
     world.place(world.add(Mesh{}));
-    EXPECT_EQ(single(PlainTracer(world.instances), ray).instance, no_instance);
+    EXPECT_EQ(single(PortableTracer(world.instances), ray).instance, no_instance);
     world.place(world.add(square(5))).mask = 4;
     EXPECT_EQ(
-        single(PlainTracer(world.instances), {ray.origin, ray.direction, infinite, 3U}).instance,
+        single(PortableTracer(world.instances), {ray.origin, ray.direction, infinite, 3U}).instance,
         no_instance);
-    EXPECT_EQ(single(PlainTracer(world.instances), {ray.origin, ray.direction, 4.9F, ~0U}).instance,
-              no_instance);
-    const float none = std::numeric_limits<float>::quiet_NaN();
     EXPECT_EQ(
-        single(PlainTracer(world.instances), {{none, 0, 0}, ray.direction, infinite, ~0U}).instance,
+        single(PortableTracer(world.instances), {ray.origin, ray.direction, 4.9F, ~0U}).instance,
         no_instance);
-    EXPECT_EQ(single(PlainTracer(world.instances), ray).instance, 1U);
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(single(PortableTracer(world.instances), {{none, 0, 0}, ray.direction, infinite, ~0U})
+                  .instance,
+              no_instance);
+    EXPECT_EQ(single(PortableTracer(world.instances), ray).instance, 1U);
 }
 
 }  // namespace
