@@ -107,7 +107,7 @@ std::span<const world::Control> inputs(std::optional<replay::TraceReader>& befor
     return before->recorded(tick).view.controls();
 }
 
-/// What happened, as it happens: printed lines, collisions, checks.
+/// What happened, as it happens: printed lines, collisions, blockages, checks.
 void print_events(const world::TickView& tick, std::uint64_t step_ns, Progress& progress) {
     for (const world::Event* event : *tick.tick->events()) {
         std::string text = world::to_line(*event);
@@ -120,6 +120,9 @@ void print_events(const world::TickView& tick, std::uint64_t step_ns, Progress& 
                     event->actor(),
                     event->other() == 0 ? "something fixed" : std::to_string(event->other()),
                     event->value());
+                break;
+            case world::EventKind::blocked:
+                text = fmt::format("{} is blocked {}", event->actor(), text);
                 break;
             case world::EventKind::check_failed:
                 text = "check failed: " + text;

@@ -28,6 +28,8 @@ constexpr double speed_gain = 0.8;      // [1/s]
 constexpr double indicate_before = 30;  // [m]
 constexpr double low_sun = 0.1;         // [rad]
 constexpr double longest_wait = 12;     // [s] for room on the next lane
+constexpr double at_the_end = 3;        // [m] where it stops, 1 m before the end, and some
+constexpr double slowest_order = 0.1;   // [m/s] below it a speed means: stand
 
 world::CarModel model_with(std::uint16_t index) {
     REPRISE_CHECK(index < world::vehicle_models().size(), "model " + std::to_string(index));
@@ -77,6 +79,7 @@ struct Autopilot::State {
     std::uint32_t turns_into = 0;  ///< the lane behind the turn
     std::optional<double> speed_cap;
     std::uint32_t waiting_ticks = 0;  ///< beside cars on the lane that we want
+    bool arrived = false;             ///< follows from the last tick and the way: not digested
 };
 
 Autopilot::Autopilot(std::uint32_t actor,
@@ -105,6 +108,10 @@ void Autopilot::free_speed() {
     state_->speed_cap.reset();
 }
 
+bool Autopilot::is_under_way() const {
+    return !state_->arrived && state_->speed_cap.value_or(world::infinity) >= slowest_order;
+}
+
 const std::vector<std::uint32_t>& Autopilot::path() const {
     return state_->way().lanes();
 }
@@ -123,6 +130,7 @@ world::Control Autopilot::decide(const world::TickView& last) {
     if (!state.turn_around.done())
         return control;
 
+    state.arrived = false;
     // Where am I? Off every road there is nothing to follow: stop.
     const Navigator::Found found = state.navigator.follow(ego);
     if (found == Navigator::Found::nothing) {
@@ -131,6 +139,8 @@ world::Control Autopilot::decide(const world::TickView& last) {
     }
     if (found == Navigator::Found::another)
         state.gatekeeper.reset();
+
+    state.arrived = state.way().ended() && state.way().path().end() - ego.front_s() < at_the_end;
 
     // Who is in the way, and may I go on? The most careful answer counts.
     state.plan_wide_turns(ego);

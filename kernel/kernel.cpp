@@ -2,6 +2,7 @@
 
 #include "ground/mesh/build_ground.h"
 #include "ground/obstacles.h"
+#include "kernel/blockages.h"
 #include "kernel/digests.h"
 #include "kernel/measurements.h"
 #include "kernel/nudger.h"
@@ -108,8 +109,14 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     parts.physics.advance(last, next);
     close(Stage::physics, next);
 
-    // 6. measurements: lanes, gaps, footprints, impulses; in the last tick the checks' verdicts
-    measure(parts.town, parts.lanes, world::seconds(1, parts.episode.step_ns), last, next);
+    // 6. measurements: lanes, gaps, footprints, impulses, who is blocked; in the last tick the
+    // checks' verdicts
+    const std::uint64_t step_ns = parts.episode.step_ns;
+    measure(parts.town, parts.lanes, world::seconds(1, step_ns), last, next);
+    const auto is_under_way = [&](const auto& vehicle) {
+        return parts.roster.is_under_way(vehicle);
+    };
+    note_blockages(parts.town, step_ns, is_under_way, last, next);
     if (parts.finished)
         parts.scenario.conclude(last, next);
     close(Stage::measurements, next);

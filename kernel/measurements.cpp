@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
+#include "kernel/nearest_ahead.h"
 #include "world/frames.h"
 #include "world/models/catalogue.h"
 
 namespace reprise::kernel {
 
 namespace {
-
-constexpr double sensing_range = 100;  // [m]
 
 struct FootprintShares {
     double opposite_lane = 0;
@@ -77,50 +74,6 @@ FootprintShares footprint_shares(const world::TownT& town,
     return shares;
 }
 
-/// How far a box, seen from the vehicle, reaches back into the straight corridor of this half
-/// width: the least x of its corners. Nothing when it stands beside the corridor or behind.
-std::optional<double> near_end(const Eigen::Isometry3d& pose_vehicle_box,
-                               const world::VehicleModel& box,
-                               double half_width) {
-    double near = std::numeric_limits<double>::infinity();
-    double rightmost = near;
-    double leftmost = -near;
-    for (const double x : {-box.rear_overhang, box.length - box.rear_overhang})
-        for (const double y : {-box.width / 2, box.width / 2}) {
-            const Eigen::Vector3d corner = pose_vehicle_box * Eigen::Vector3d(x, y, 0);
-            near = std::min(near, corner.x());
-            rightmost = std::min(rightmost, corner.y());
-            leftmost = std::max(leftmost, corner.y());
-        }
-    const bool beside = rightmost > half_width || leftmost < -half_width;
-    return beside || pose_vehicle_box.translation().x() < 0 ? std::nullopt : std::optional(near);
-}
-
-/// Free distance ahead, bumper to bumper, in the straight corridor of the vehicle's width.
-double gap_ahead(const world::VehicleModel& model,
-                 const Eigen::Isometry3d& pose_world_vehicle,
-                 std::uint32_t self,
-                 const world::TickDraft& next) {
-    const double front = model.length - model.rear_overhang;
-    const Eigen::Isometry3d pose_vehicle_world = pose_world_vehicle.inverse();
-    double gap = sensing_range;
-    const auto look_at = [&](const Eigen::Isometry3d& pose_world_other, std::uint16_t other) {
-        const auto near = near_end(
-            pose_vehicle_world * pose_world_other, world::vehicle_models()[other], model.width / 2);
-        if (near)
-            gap = std::min(gap, std::max(0.0, *near - front));
-    };
-    for (const world::CarState& car : next.traffic.cars)
-        if ((world::to_eigen(car.position()) - pose_world_vehicle.translation()).norm() <
-            sensing_range + 20)
-            look_at(world::pose(car.position(), double{car.yaw()}, double{car.pitch()}),
-                    car.model());
-    for (const world::VehicleState& vehicle : next.tick.vehicles)
-        if (vehicle.id() != self)
-            look_at(world::pose(vehicle.position(), vehicle.orientation()), vehicle.model());
-    return gap;
-}
-
 struct Impulses {
     double vehicles = 0;
     double walkers = 0;
@@ -165,20 +118,19 @@ void measure(const world::TownT& town,
             lanes.best(pose_world_vehicle.translation(), std::atan2(ahead.y(), ahead.x()));
         const FootprintShares shares = footprint_shares(town, lanes, model, pose_world_vehicle);
         const Impulses impulses = impulses_of(vehicle.id(), before, next);
-        next.tick.measurements.emplace_back(
-            speed,
-            acceleration,
-            lane ? lane->at.s : 0.0,
-            lane ? lane->at.t : 0.0,
-            shares.opposite_lane,
-            shares.sidewalk,
-            impulses.vehicles,
-            impulses.walkers,
-            impulses.fixed,
-            gap_ahead(model, pose_world_vehicle, vehicle.id(), next),
-            vehicle.id(),
-            lane ? lane->lane : world::none,
-            std::uint64_t{0});
+        next.tick.measurements.emplace_back(speed,
+                                            acceleration,
+                                            lane ? lane->at.s : 0.0,
+                                            lane ? lane->at.t : 0.0,
+                                            shares.opposite_lane,
+                                            shares.sidewalk,
+                                            impulses.vehicles,
+                                            impulses.walkers,
+                                            impulses.fixed,
+                                            nearest_ahead(vehicle, next).gap,
+                                            vehicle.id(),
+                                            lane ? lane->lane : world::none,
+                                            std::uint64_t{0});  // halted: see note_blockages
     }
 }
 

@@ -198,6 +198,16 @@ void Roster::apply_controls(std::span<const world::Control> controls,
     }
 }
 
+bool Roster::is_under_way(const world::VehicleState& vehicle) const {
+    constexpr double driven = 1;  // [m] what settles on its springs has not driven
+    const Entry& entry = entries_.at(vehicle.id());
+    if (entry.autopilot)
+        return entry.autopilot->is_under_way();
+    if (entry.control.hand_brake())
+        return false;
+    return entry.control.throttle() > 0 || (!entry.scripted && vehicle.odometer() > driven);
+}
+
 void Roster::replace_control(const world::Control& control) {
     entries_.at(control.actor()).control = control;
 }

@@ -34,6 +34,11 @@ class Roster {
                         const world::TickView& last,
                         world::TickDraft& next);
 
+    /// Does the driver of this vehicle want to get on? The autopilot until it has arrived or is
+    /// told to stand. A scenario that drives by itself: while it gives throttle. Whoever else
+    /// drives: once the vehicle has moved or is given throttle. Never with the hand brake on.
+    bool is_under_way(const world::VehicleState& vehicle) const;
+
     /// A drill's: takes the place of the newest control of this actor.
     void replace_control(const world::Control& control);
 

@@ -54,6 +54,8 @@ class Teller {
     }
 
     std::string describe(const world::Event& event) const {
+        if (event.kind() == world::EventKind::blocked)
+            return fmt::format("{} {}", name_of(event.actor()), world::to_line(event));
         if (event.kind() != world::EventKind::collision)
             return world::to_line(event);
         return fmt::format("{} with {}, {:.0f} N s",

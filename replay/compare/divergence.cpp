@@ -40,6 +40,8 @@ const std::array<Stage, 6>& stages() {
 /// Which stage raises such an event; index in stages(). Cars of the demand come and go in traffic,
 /// what the scenario spawned belongs to the scenario.
 std::size_t stage_of(const world::Event& event) {
+    if (event.kind() == world::EventKind::blocked)
+        return 5;
     if (event.actor() >= world::first_background_id && event.kind() != world::EventKind::collision)
         return 2;
     return event.kind() == world::EventKind::collision ? 4 : 0;

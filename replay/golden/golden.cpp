@@ -156,7 +156,8 @@ class Maker {
         out.line = event.line();
         if (event.value() != 0)
             out.value = decimal(event.value());
-        if (event.position() != nullptr && event.kind() == world::EventKind::collision)
+        if (event.position() != nullptr && (event.kind() == world::EventKind::collision ||
+                                            event.kind() == world::EventKind::blocked))
             out.place = place_text(*event.position());
         return out;
     }

@@ -10,6 +10,7 @@
 #include "scripting/lua/text.h"
 #include "scripting/words/step_context.h"
 #include "scripting/words/tasks.h"
+#include "world/blockage.h"
 #include "world/check.h"
 #include "world/digest.h"
 
@@ -19,6 +20,8 @@ namespace {
 
 using Kind = Checks::Kind;
 using Status = world::CheckResult::Status;
+
+constexpr const char* blocked = "blocked";  // check.never knows by itself what that is
 
 constexpr const char* names[] = {
     "check.never", "check.always", "check.max", "check.min", "check.eventually", "check.at_end"};
@@ -48,12 +51,15 @@ void Checks::add(StepContext& context, lua_State* L, Kind kind) {
     Entry entry;
     entry.kind = kind;
     entry.name = name_at(L, 1, who, "the name");
-    want_function(L, 2, who, "the second argument");
+    const bool built_in =
+        kind == Kind::never && entry.name == blocked && lua_type(L, 2) != LUA_TFUNCTION;
+    if (!built_in)
+        want_function(L, 2, who, "the second argument");
     context.vm.charge(L, entries_.size() + 100);
     for (const Entry& other : entries_)
         if (other.name == entry.name)
             refuse(who, fmt::format("the name '{}' is taken in line {}", entry.name, other.line));
-    int options_index = 3;
+    int options_index = built_in ? 2 : 3;
     if (has_limit(kind))
         entry.limit = number_at(L, options_index++, who, "the limit");
     std::vector<std::string> keys{"stop", "optional"};
@@ -70,8 +76,10 @@ void Checks::add(StepContext& context, lua_State* L, Kind kind) {
         entry.deadline = context.now() + ticks_of(entry.within, context.episode.step_ns);
     }
     entry.line = context.vm.line(L);
-    lua_pushvalue(L, 2);
-    entry.reference = luaL_ref(L, LUA_REGISTRYINDEX);
+    if (!built_in) {
+        lua_pushvalue(L, 2);
+        entry.reference = luaL_ref(L, LUA_REGISTRYINDEX);
+    }
     entries_.push_back(std::move(entry));
 }
 
@@ -81,8 +89,25 @@ void Checks::evaluate(StepContext& context) {
             look(context, entry);
 }
 
+/// Is a vehicle with mass blocked in context.last? A state, not the event: also of those who were
+/// it before this check came, such as in a branch.
+void Checks::look_for_blocked(StepContext& context, Entry& entry) {
+    for (const world::Measurement& measured : context.last.measurements()) {
+        entry.evaluated = true;
+        if (!world::is_blocked(measured, context.episode.step_ns))
+            continue;
+        const double since =
+            world::seconds(context.now() - measured.halted_ticks(), context.episode.step_ns);
+        fail(
+            context, entry, since, fmt::format("actor {} since {:.2f} s", measured.actor(), since));
+        return;
+    }
+}
+
 /// Asks the predicate about context.last.
 void Checks::look(StepContext& context, Entry& entry) {
+    if (entry.reference == 0)
+        return look_for_blocked(context, entry);
     lua_State* L = context.vm.main();
     lua_rawgeti(L, LUA_REGISTRYINDEX, entry.reference);
     if (!context.vm.ask())

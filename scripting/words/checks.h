@@ -24,7 +24,8 @@ class Checks {
   public:
     enum class Kind : std::uint8_t { never, always, max, min, eventually, at_end };
 
-    /// Registers the check that Lua's check.<kind>(name, function, ...) describes.
+    /// Registers the check that Lua's check.<kind>(name, function, ...) describes; of never
+    /// 'blocked' needs no function.
     void add(StepContext& context, lua_State* L, Kind kind);
 
     /// Evaluates what is still open on context.last.
@@ -41,7 +42,7 @@ class Checks {
     struct Entry {
         Kind kind = Kind::never;
         std::string name;
-        int reference = 0;                      ///< of the predicate, in Lua's registry
+        int reference = 0;                      ///< of the predicate, in Lua's registry; 0: none
         double limit = 0;                       ///< max, min
         std::uint64_t since = 0;                ///< tick of its registration
         std::optional<std::uint64_t> deadline;  ///< eventually: last tick that counts
@@ -58,6 +59,7 @@ class Checks {
     };
 
     void look(StepContext& context, Entry& entry);
+    void look_for_blocked(StepContext& context, Entry& entry);
     void judge(StepContext& context, Entry& entry, bool holds);
     void judge(StepContext& context, Entry& entry, double value);
     void fail(StepContext& context, Entry& entry, double value, const std::string& detail);

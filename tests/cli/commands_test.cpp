@@ -297,6 +297,27 @@ TEST(Run, EveryShippedScenarioPassesItsChecks) {
     }
 }
 
+TEST(Run, SaysWhoIsBlockedAndDoesNotPass) {
+    const Folder folder;
+    write_file(folder / "mine.lua",
+               R"(return scenario 'mine' { town = 'town1', cars = 0, duration = 75,
+        run = function()
+            local road = pick_lane{ length = 80 }
+            spawn{ model = 'sedan', driver = 'parked', lane = road, s = 50 }
+            spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = road, s = 20 }
+            check.never('blocked')
+            wait(100)
+        end })");
+    const Result run = reprise({"run", folder / "mine.lua", "-o", folder / "t.mcap"});
+    EXPECT_EQ(run.code, 1) << run.out;
+    EXPECT_THAT(run.out, HasSubstr("2 is blocked since "));
+    EXPECT_THAT(run.out, HasSubstr(": vehicle 1 is "));
+    EXPECT_THAT(run.out, HasSubstr("check failed: blocked: actor 2 since "));
+    const Result info = reprise({"info", folder / "t.mcap"});
+    EXPECT_THAT(info.out, HasSubstr("blocked"));
+    EXPECT_THAT(info.out, HasSubstr("ego (2) since "));
+}
+
 TEST(Programs, TheThinOneLoadsNeitherSumoNorOpenCv) {
     const Result ldd = run_program("ldd", {REPRISE_PROGRAM});
     ASSERT_EQ(ldd.code, 0) << ldd.out;

@@ -43,6 +43,7 @@ const world::TickDraft& Stage::step() {
     for (Body& body : bodies_)
         body.s += body.speed * 0.05;
     place(next);
+    next.tick.measurements = measurements_;
     next.tick.events.insert(next.tick.events.end(), collisions_.begin(), collisions_.end());
     collisions_.clear();
     draft_ = next;
@@ -77,6 +78,13 @@ void Stage::collide(std::uint32_t actor, std::uint32_t other) {
 
 void Stage::remove(std::uint32_t actor) {
     std::erase_if(bodies_, [&](const Body& body) { return body.id == actor; });
+}
+
+void Stage::halt(std::uint32_t actor, std::uint64_t ticks) {
+    world::Measurement measured;
+    measured.mutate_actor(actor);
+    measured.mutate_halted_ticks(ticks);
+    measurements_ = {measured};
 }
 
 bool Stage::finished() const {

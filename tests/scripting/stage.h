@@ -30,6 +30,9 @@ class Stage {
     void collide(std::uint32_t actor, std::uint32_t other);
     void remove(std::uint32_t actor);
 
+    /// From the next tick on it is measured to have stood for so many ticks.
+    void halt(std::uint32_t actor, std::uint64_t ticks);
+
     bool finished() const;
     std::string reason() const;
     std::vector<world::CommandT> commands;  ///< all so far
@@ -56,6 +59,7 @@ class Stage {
 
     std::vector<Body> bodies_;
     std::vector<world::EventT> collisions_;
+    std::vector<world::Measurement> measurements_;
     world::TickDraft draft_;
     world::SealedTick last_;
 };

@@ -110,6 +110,42 @@ TEST(Checks, TheLastTickCounts) {
     EXPECT_EQ(stage.scenario.checks().at(0).tick, 6U);
 }
 
+TEST(Checks, NeverBlockedNeedsNoFunctionAndFailsWhenAVehicleStandsForAMinute) {
+    test::Stage stage(
+        test::running("spawn{ model = 'sedan' }\ncheck.never('blocked', { stop = true }) wait(9)"));
+    const std::uint64_t minute = 60 * 20;  // ticks
+    stage.halt(1, minute - 1);
+    stage.play(5);
+    EXPECT_EQ(stage.scenario.checks().at(0).status, Status::not_evaluated) << "not decided yet";
+    stage.halt(1, minute);
+    stage.play(2);
+    const Check check = stage.scenario.checks().at(0);
+    EXPECT_EQ(check.status, Status::fail);
+    EXPECT_EQ(check.line, 2U);
+    EXPECT_EQ(stage.reason(), "check failed: blocked");
+    EXPECT_THAT(check.detail, testing::StartsWith("actor 1 since "));
+}
+
+TEST(Checks, NeverBlockedPassesWhoMovesAndSaysWhenThereWasNobody) {
+    test::Stage stage(
+        test::running("spawn{ model = 'sedan' } check.never('blocked') wait_ticks(5) finish()"));
+    stage.halt(1, 0);
+    stage.play(40);
+    stage.conclude();
+    EXPECT_EQ(stage.scenario.checks().at(0).status, Status::pass);
+    EXPECT_EQ(status_of("check.never('blocked') wait(1)"), Status::not_evaluated);
+}
+
+TEST(Checks, NeverBlockedWithAFunctionAsksTheFunction) {
+    EXPECT_EQ(status_of("check.never('blocked', function() return tick() == 4 end) wait(1)"),
+              Status::fail);
+}
+
+TEST(Checks, NoOtherNameDoesWithoutAFunction) {
+    EXPECT_THAT(test::mistake("check.never('Blocked')"), testing::HasSubstr("a function"));
+    EXPECT_THAT(test::mistake("check.always('blocked')"), testing::HasSubstr("a function"));
+}
+
 TEST(Checks, AreRecordedAsEvents) {
     test::Stage stage(
         test::running("check.max('ego: speed', tick, 6)\ncheck.min('tick', tick, 0) "
