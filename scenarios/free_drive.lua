@@ -1,5 +1,5 @@
 -- A car without a destination wanders through a town full of traffic.
--- It keeps its distance, stops at red and touches nobody.
+-- It keeps its distance, stops at red, touches nobody and gets on.
 return scenario 'free_drive' {
     town = 'town1',
     duration = 60,
@@ -12,6 +12,7 @@ return scenario 'free_drive' {
         local ego = spawn{ name = 'ego', model = 'sedan', driver = 'autopilot' }
 
         check.never('collision', function() return ego:collided() end)
+        check.never('blocked')
 
         while true do
             wait(p.report_every)
