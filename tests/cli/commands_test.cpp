@@ -297,6 +297,22 @@ TEST(Run, EveryShippedScenarioPassesItsChecks) {
     }
 }
 
+TEST(Run, ExitsWithOneWhenACheckFailsOrHadNothingToLookAt) {
+    const Folder folder;
+    const auto code = [&](const std::string& check) {
+        write_file(folder / "mine.lua",
+                   "return scenario 'mine' { town = 'town2', cars = 0, duration = 0.5,\n"
+                   "run = function() " +
+                       check + " wait(1) end }");
+        const Result run = reprise({"run", folder / "mine.lua", "-o", folder / "t.mcap"});
+        EXPECT_THAT(run.out, HasSubstr(run.code == 0 ? "passed" : "failed"));
+        return run.code;
+    };
+    EXPECT_EQ(code("check.never('late', function() return tick() > 100 end)"), 0);
+    EXPECT_EQ(code("check.never('late', function() return tick() > 3 end)"), 1);
+    EXPECT_EQ(code("check.max('nothing', function() end, 1)"), 1);
+}
+
 TEST(Run, SaysWhoIsBlockedAndDoesNotPass) {
     const Folder folder;
     write_file(folder / "mine.lua",

@@ -120,6 +120,17 @@ TEST(Gatekeeper, KeepsTheJunctionFreeWhenThereIsNoRoomBehindIt) {
     EXPECT_EQ(approach.allowed(20, 10, tick_of({})), world::infinity);
 }
 
+TEST(Gatekeeper, StopsAtAStopSignThoughNobodyIsThereAndGoesOnOnceItStood) {
+    Approach approach(true, 0);
+    const world::SealedTick sign = tick_of({}, {world::SignalColor::stop});
+    EXPECT_EQ(approach.allowed(31, 10, sign), stop_acceleration(30, 10, 2, approach.style));
+    EXPECT_LT(approach.allowed(6, 4, sign), 0);
+    EXPECT_LT(approach.allowed(1.5, 1.5, sign), 0) << "rolling is not standing";
+    EXPECT_LT(approach.allowed(6, 0, sign), world::infinity) << "it stood too far before the line";
+    EXPECT_EQ(approach.allowed(1, 0, sign), world::infinity);
+    EXPECT_EQ(approach.allowed(0.5, 1, sign), world::infinity) << "once is enough";
+}
+
 TEST(Gatekeeper, CreepsOnAfterTwelveSecondsOfGivingWay) {
     Approach approach(true);
     const world::SealedTick busy = tick_of({crossing_car(3, 2)});

@@ -7,9 +7,11 @@
 #include <set>
 
 #include <gtest/gtest.h>
+#include <libsumo/libsumo.h>
 
 #include "tests/support/worlds.h"
 #include "tests/traffic/stage.h"
+#include "traffic/sumo.h"
 #include "world/check.h"
 #include "world/models/catalogue.h"
 
@@ -36,6 +38,27 @@ TEST(Background, EqualSeedsGiveEqualRunsInAWarmProcess) {
     EXPECT_EQ(first, again);
     EXPECT_NE(first.front(), other.front());
     EXPECT_NE(first.back(), other.back());
+}
+
+/// Before SUMO's own chance could show: which car stands on which lane.
+TEST(Background, WhoComesAndWhereIsDrawnFromTheSeed) {
+    const auto first_cars = [](std::uint64_t seed) {
+        Stage stage(own_town("town1"), 60, seed);
+        std::vector<std::pair<std::uint32_t, std::uint16_t>> lanes_and_models;
+        for (const world::CarState& car : stage.step().traffic.cars)
+            lanes_and_models.emplace_back(car.lane(), car.model());
+        return lanes_and_models;
+    };
+    EXPECT_EQ(first_cars(7), first_cars(7));
+    EXPECT_NE(first_cars(7), first_cars(8));
+}
+
+TEST(Background, SumosChanceIsThatOfTheSeed) {
+    for (const std::uint64_t seed : {7ULL, 8ULL, 123'456'789'012ULL}) {
+        const Stage stage(own_town("town1"), 0, seed);
+        EXPECT_EQ(libsumo::Simulation::getOption("seed"), std::to_string(sumo_seed(seed)));
+    }
+    EXPECT_NE(sumo_seed(7), sumo_seed(8));
 }
 
 TEST(Background, ASecondOneAtATimeIsRefused) {
