@@ -169,14 +169,49 @@ TEST(Trap38, WhatCppHandsToLuaIsSortedAndItsChanceIsOurs) {
     EXPECT_EQ(printed("random('a') random() print(random('b'))").at(0), two.at(1));
 }
 
+/// Once a tick, in advance(): neither when the file is read, nor between steps, nor in the last
+/// word that checks have, nor after its end. What it said once stays as it was.
 TEST(Trap39, AScenarioSpeaksInItsStepOnly) {
-    test::Stage stage(running("while true do print(tick()) wait_ticks(1) end"));
-    const auto& first = stage.step();
-    EXPECT_EQ(first.tick.events.size(), 1U);
-    const std::uint64_t digest = stage.scenario.digest();
-    EXPECT_EQ(stage.scenario.checks().size(), 0U);
-    EXPECT_EQ(stage.scenario.digest(), digest);
-    EXPECT_EQ(stage.step().tick.events.size(), 1U);
+    for (const char* word : {"print('x')",
+                             "spawn{ model = 'sedan' }",
+                             "finish()",
+                             "wait(1)",
+                             "check.never('x', function() end)",
+                             "set_weather 'clear_noon'"})
+        EXPECT_NE(test::mistake_in_file(std::string(word) +
+                                        "\nreturn scenario 'x' { run = function() end }"),
+                  "")
+            << word << ": said while the file is read";
+
+    test::Stage stage(running(R"(
+        check.at_end('end', function() return tick() > 0 end)
+        start(function() while true do print(tick()) wait_ticks(1) end end)
+        wait_ticks(3)
+        finish('done'))"));
+    const std::uint64_t unread = stage.scenario.digest();
+    EXPECT_EQ(stage.scenario.checks().size(), 0U) << "nothing runs before the first step";
+    EXPECT_EQ(stage.scenario.digest(), unread);
+    const auto printed_in = [&] {
+        std::vector<std::string> lines;
+        for (const world::EventT& event : stage.step().tick.events)
+            lines.push_back(event.text);
+        return lines;
+    };
+    for (const char* line : {"0", "1", "2"}) {
+        EXPECT_THAT(printed_in(), testing::ElementsAre(line));
+        const std::uint64_t between = stage.scenario.digest();
+        EXPECT_EQ(stage.scenario.checks().size(), 1U);
+        EXPECT_EQ(stage.scenario.digest(), between) << "asking runs nothing";
+    }
+    stage.step();
+    EXPECT_EQ(stage.reason(), "done");
+    const std::size_t said = stage.events.size();
+    stage.conclude();
+    ASSERT_EQ(stage.events.size(), said + 1) << "the check's verdict, and no task's line";
+    EXPECT_EQ(stage.events.back().kind, world::EventKind::check_passed);
+    const std::uint64_t after = stage.scenario.digest();
+    EXPECT_TRUE(stage.step().tick.events.empty()) << "nothing runs after the end";
+    EXPECT_EQ(stage.scenario.digest(), after);
 }
 
 TEST(Trap41, WhatIsSaidTakesEffectInTheNextTick) {

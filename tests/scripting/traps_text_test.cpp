@@ -1,13 +1,17 @@
 #include <clocale>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
+#include <filesystem>
+#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "scripting/lua/text.h"
 #include "tests/scripting/stage.h"
+#include "world/check.h"
 
 // Traps of Lua, by their numbers in docs/lua-traps.md: texts and numbers.
 namespace reprise::scripting {
@@ -16,6 +20,7 @@ using test::mistake;
 using test::printed;
 using testing::ElementsAre;
 using testing::HasSubstr;
+namespace fs = std::filesystem;
 
 TEST(Trap07, NothingPrintsAnAddress) {
     for (const char* value : {"{}",
@@ -49,8 +54,60 @@ TEST(Trap08, FormatHasNoAddresses) {
             << format;
 }
 
+namespace {
+
+/// A locale of its own making (localedef, of the package locales), taken while this lives.
+class Locale {
+  public:
+    Locale(const std::string& language, const std::string& letters)
+        : before_(std::setlocale(LC_ALL, nullptr)) {
+        std::string pattern = (fs::temp_directory_path() / "reprise_locale_XXXXXX").string();
+        if (mkdtemp(pattern.data()) == nullptr)
+            throw std::runtime_error("mkdtemp");
+        folder_ = pattern;
+        const std::string name = language + "." + letters;
+        // 1 is for warnings as well: what counts is that the locale can be taken.
+        const std::string command = "localedef -i " + language + " -f " + letters + " '" +
+                                    (folder_ / name).string() + "' >/dev/null 2>&1";
+        [[maybe_unused]] const int code = std::system(command.c_str());
+        setenv("LOCPATH", folder_.c_str(), 1);
+        taken_ = std::setlocale(LC_ALL, name.c_str()) != nullptr;
+    }
+
+    ~Locale() {
+        std::setlocale(LC_ALL, before_.c_str());
+        unsetenv("LOCPATH");
+        fs::remove_all(folder_);
+    }
+
+    Locale(const Locale&) = delete;
+    Locale& operator=(const Locale&) = delete;
+
+    bool taken() const { return taken_; }
+
+  private:
+    std::string before_;
+    fs::path folder_;
+    bool taken_ = false;
+};
+
+constexpr const char* no_locale = "no such locale: localedef of the package locales is missing";
+
+std::vector<std::string> order_and_numbers() {
+    return printed(R"(
+        local words = { 'b', 'B', 'a', '_', 'Z', 'z', '\xe4', 'a\0b', 'a\0a' }
+        table.sort(words)
+        print(table.concat(words, ' '))
+        print('a' < 'B', 'Z' < 'a', 1.5, tostring(1.5), string.format('%.2f', 1.5), 1.5 .. '', tonumber '1,5')
+        print(('\xe4'):find('%a'), ('\xe4'):upper() == '\xe4'))");
+}
+
+}  // namespace
+
+/// Lua asks the C library's strcoll for the order of texts; the one it finds is ours. Where a
+/// locale has another order but a point in its numbers, nothing changes; where it has a comma, or
+/// letters beyond ASCII, no script runs: none could see one.
 TEST(Trap21, TextsCompareByBytesAndNumbersHavePointsInEveryLocale) {
-    // Lua asks the C library's strcoll for the order of texts; the one it finds is ours.
     void* const found = dlsym(RTLD_DEFAULT, "strcoll");
     Dl_info info{};
     ASSERT_NE(dladdr(found, &info), 0);
@@ -58,23 +115,45 @@ TEST(Trap21, TextsCompareByBytesAndNumbersHavePointsInEveryLocale) {
     ASSERT_NE(dladdr(reinterpret_cast<void*>(&printable), &here), 0);
     EXPECT_STREQ(info.dli_fname, here.dli_fname);
 
-    const std::string before = std::setlocale(LC_ALL, nullptr);
-    for (const char* locale : {"C", "C.utf8", "de_DE.UTF-8", "en_US.UTF-8"}) {
-        if (std::setlocale(LC_ALL, locale) == nullptr ||
-            std::strcmp(std::localeconv()->decimal_point, ".") != 0)
-            continue;
-        EXPECT_THAT(
-            printed(R"(
-            local words = { 'b', 'B', 'a', '_', 'Z', 'z', '\xe4', 'a\0b', 'a\0a' }
-            table.sort(words)
-            print(table.concat(words, ' '))
-            print('a' < 'B', 'Z' < 'a', 1.5, tostring(1.5), string.format('%.2f', 1.5), 1.5 .. '', tonumber '1,5')
-            print(('\xe4'):find('%a'), ('\xe4'):upper() == '\xe4'))"),
-            ElementsAre(
-                "B Z _ a a\\x00a a\\x00b b z \\xe4", "false true 1.5 1.5 1.50 1.5 nil", "nil true"))
-            << locale;
+    const std::vector<std::string> plain = order_and_numbers();
+    EXPECT_THAT(
+        plain,
+        ElementsAre(
+            "B Z _ a a\\x00a a\\x00b b z \\xe4", "false true 1.5 1.5 1.50 1.5 nil", "nil true"));
+    {
+        const Locale english("en_US", "UTF-8");
+        ASSERT_TRUE(english.taken()) << no_locale;
+        ASSERT_STREQ(std::localeconv()->decimal_point, ".");
+        ASSERT_LT(std::strcmp("Z", "a"), 0) << "by bytes; by the locale's order it is behind";
+        EXPECT_EQ(order_and_numbers(), plain);
     }
-    std::setlocale(LC_ALL, before.c_str());
+    {
+        const Locale german("de_DE", "UTF-8");
+        ASSERT_TRUE(german.taken()) << no_locale;
+        ASSERT_STREQ(std::localeconv()->decimal_point, ",");
+        EXPECT_THROW(printed("print(1.5)"), world::CheckFailed);
+    }
+    {
+        const Locale swiss("de_CH", "ISO-8859-1");
+        ASSERT_TRUE(swiss.taken()) << no_locale;
+        ASSERT_STREQ(std::localeconv()->decimal_point, ".");
+        EXPECT_THROW(printed("print(('\xe4'):upper())"), world::CheckFailed);
+    }
+    EXPECT_EQ(order_and_numbers(), plain) << "and afterwards all is as before";
+}
+
+/// A library that sets a locale in the middle of a run: the next tick does not begin.
+TEST(Trap21, ALocaleWithADecimalCommaEndsARunThatIsOnItsWay) {
+    test::Stage stage(test::running("while true do print(1.5) wait_ticks(1) end"));
+    EXPECT_EQ(stage.step().tick.events.at(0).text, "1.5");
+    const Locale german("de_DE", "UTF-8");
+    ASSERT_TRUE(german.taken()) << no_locale;
+    try {
+        stage.step();
+        FAIL() << "it went on";
+    } catch (const world::CheckFailed& failure) {
+        EXPECT_THAT(failure.what(), HasSubstr("writes numbers with ','"));
+    }
 }
 
 // Closed for all of ours; documented for `..` of a float, which is an instruction of Lua's.

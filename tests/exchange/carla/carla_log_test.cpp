@@ -1,5 +1,9 @@
 #include "exchange/carla/carla_log.h"
 
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
 #include <gmock/gmock.h>
 
 #include "exchange/carla/carla_packet_kinds.h"
@@ -121,18 +125,92 @@ TEST(CarlaLog, SurvivesEveryCutOfItsFirstTwoKilobytes) {
     }
 }
 
-TEST(CarlaLog, SurvivesBitFlips) {
-    const std::string bytes = carla_log("--frames 20 --ue5 --additional");
-    std::size_t noticed = 0;
-    for (std::uint64_t i = 0; i < 500; ++i) {
-        std::string flipped = bytes;
-        const std::uint64_t bit =
-            world::draw_index(8 * bytes.size(), 1, 0, world::Purpose::scenario, i);
-        flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
-        noticed += complaint(flipped).empty() ? 0 : 1;
+/// What a reader learns from a log, frame by frame, and where each frame ends.
+struct Told {
+    std::vector<std::string> frames;
+    std::vector<std::uint64_t> ends;
+    std::optional<CarlaDamage> damage;
+};
+
+std::string told(const CarlaFrame& frame) {
+    std::ostringstream text;
+    text << std::hexfloat << frame.number << ' ' << frame.elapsed;
+    const auto add_vector = [&](const Eigen::Vector3d& v) {
+        text << ' ' << v.x() << ' ' << v.y() << ' ' << v.z();
+    };
+    for (const CarlaActor& actor : frame.added) {
+        text << " +" << actor.pose.actor << ' ' << actor.blueprint;
+        for (const auto& [key, value] : actor.attributes)
+            text << ' ' << key << '=' << value;
     }
-    EXPECT_GT(noticed, 5U) << "there is no checksum; but lengths are looked at";
-    EXPECT_LT(noticed, 500U);
+    for (const std::uint32_t actor : frame.removed)
+        text << " -" << actor;
+    for (const CarlaPose& pose : frame.poses) {
+        text << " @" << pose.actor;
+        add_vector(pose.location);
+        add_vector(pose.rotation);
+    }
+    for (const CarlaLight& light : frame.lights)
+        text << " light " << light.actor << ' ' << static_cast<int>(light.color);
+    for (const CarlaControl& control : frame.controls)
+        text << " control " << control.actor << ' ' << control.brake << ' ' << control.gear;
+    for (const CarlaMotion& motion : frame.motions) {
+        text << " motion " << motion.actor;
+        add_vector(motion.velocity);
+    }
+    text << ' ' << frame.collisions.size() << ' ' << frame.lamps.size() << ' ' << frame.boxes.size()
+         << ' ' << frame.triggers.size();
+    return text.str();
+}
+
+Told read_all(const std::string& bytes) {
+    Told all;
+    CarlaLog log(bytes_of(bytes));
+    while (const CarlaFrame* frame = log.next()) {
+        all.frames.push_back(told(*frame));
+        all.ends.push_back(log.offset());
+    }
+    all.damage = log.damage();
+    return all;
+}
+
+/// Whatever bit is flipped: a refusal, a complaint that names a place in the log from the flip's
+/// frame on, or frames to the end; and each frame before the flip is told as without it.
+TEST(CarlaLog, SurvivesBitFlips) {
+    for (const std::string variant : {"", " --ue5"}) {
+        const std::string bytes = carla_log("--frames 20 --additional" + variant);
+        const Told whole = read_all(bytes);
+        ASSERT_EQ(whole.frames.size(), 20U);
+        ASSERT_FALSE(whole.damage);
+        std::size_t complaints = 0;
+        for (std::uint64_t i = 0; i < 500; ++i) {
+            const std::uint64_t bit =
+                world::draw_index(8 * bytes.size(), 1, 0, world::Purpose::scenario, i);
+            std::string flipped = bytes;
+            flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
+            const auto before = static_cast<std::size_t>(
+                std::upper_bound(whole.ends.begin(), whole.ends.end(), bit / 8) -
+                whole.ends.begin());
+            Told found;
+            try {
+                found = read_all(flipped);
+            } catch (const world::Error& error) {
+                EXPECT_EQ(before, 0U) << error.what();  // of a header only
+                EXPECT_THAT(error.what(), HasSubstr("byte "));
+                continue;
+            }
+            ASSERT_GE(found.frames.size(), before) << "bit " << bit;
+            for (std::size_t k = 0; k < before; ++k)
+                ASSERT_EQ(found.frames[k], whole.frames[k]) << "bit " << bit << ", frame " << k;
+            if (!found.damage)
+                continue;
+            ++complaints;
+            EXPECT_FALSE(found.damage->what.empty());
+            EXPECT_LE(found.damage->offset, bytes.size());
+            EXPECT_GE(found.damage->offset, before == 0 ? 0 : whole.ends[before - 1]);
+        }
+        EXPECT_GT(complaints, 20U) << "lengths, kinds and clocks are looked at";
+    }
 }
 
 }  // namespace
