@@ -53,8 +53,8 @@ struct Kernel::Parts {
           background(episode, town, lanes, recording.network),
           pedestrians(episode, town, lanes),
           physics(episode, ground::build_ground(town), obstacles),
-          chain_seed(replay::chain_seed(recording)),
-          last(genesis(episode, chain_seed)),
+          continued(replay::chain_seed(recording)),
+          last(genesis(episode, continued)),
           nudger(roster, pedestrians, physics) {}
 
     const world::Recording& recording;
@@ -67,7 +67,7 @@ struct Kernel::Parts {
     traffic::Background background;
     Pedestrians pedestrians;
     Physics physics;
-    world::Digest128 chain_seed;
+    world::Digest128 continued;  ///< the chain that the next tick goes on with
     world::SealedTick last;
     Nudger nudger;
     bool finished = false;
@@ -122,7 +122,7 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     close(Stage::measurements, next);
 
     // 7. record: from here on the tick never changes
-    return record(last, next);
+    return record(next);
 }
 
 /// Ends a stage: a drill may move a number in what it wrote, then its digest is taken.
@@ -147,14 +147,14 @@ void Kernel::close(Stage stage, world::TickDraft& next) {
 }
 
 /// Seals the draft as the last tick.
-const world::SealedTick& Kernel::record(const world::TickView& last, world::TickDraft& next) {
+const world::SealedTick& Kernel::record(world::TickDraft& next) {
     Parts& parts = *parts_;
     REPRISE_CHECK(world::is_plain_arithmetic(),
                   "tick " + std::to_string(next.tick.index) +
                       ": a library left the floating-point " +
                       "unit in another mode: " + world::unusual_arithmetic());
-    parts.last =
-        world::seal(next, last.index() == 0 ? parts.chain_seed : last.tick->digests()->chain());
+    parts.last = world::seal(next, parts.continued);
+    parts.continued = parts.last.view().tick->digests()->chain();
     return parts.last;
 }
 
@@ -170,6 +170,7 @@ void Kernel::branch(const world::BranchT& branch) {
     REPRISE_CHECK(branch.tick == parts.last.view().index() && !parts.finished,
                   "a branch of tick " + std::to_string(branch.tick) + " at tick " +
                       std::to_string(parts.last.view().index()));
+    parts.continued = replay::chain_of_branch(parts.continued, branch);
     parts.episode.max_ticks = branch.max_ticks;
     if (branch.scenario.empty()) {
         parts.scenario.change(branch.parameters);

@@ -52,7 +52,7 @@ class Kernel {
     void take_branch(std::uint64_t tick);
     void note_outcome(world::TickDraft& next);
     void close(Stage stage, world::TickDraft& next);
-    const world::SealedTick& record(const world::TickView& last, world::TickDraft& next);
+    const world::SealedTick& record(world::TickDraft& next);
 
     struct Parts;
     std::unique_ptr<Parts> parts_;

@@ -2,7 +2,12 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "kernel/kernel.h"
+#include "replay/chain_seed.h"
+#include "replay/level.h"
+#include "replay/outcomes.h"
 #include "world/check.h"
 #include "world/digest.h"
 
@@ -38,6 +43,56 @@ std::optional<replay::Divergence> wrong_network(const world::Recording& recordin
     divergence.expected = world::to_hex(wanted);
     divergence.found = world::to_hex(found);
     divergence.note = "the network in the trace is not the one that was driven on";
+    return divergence;
+}
+
+/// Somebody changed what the run started from.
+std::optional<replay::Divergence> wrong_start(replay::TraceReader& recorded) {
+    const world::Digest128 wanted = replay::chain_seed(recorded.recording());
+    const world::Digest128 found = recorded.chain(0);
+    if (found == wanted)
+        return std::nullopt;
+    replay::Divergence divergence;
+    divergence.stage = "start";
+    divergence.field = "chain_seed";
+    divergence.expected = world::to_hex(found);
+    divergence.found = world::to_hex(wanted);
+    divergence.note =
+        "the episode, the town or the network in the trace is not what the run started from";
+    return divergence;
+}
+
+/// A branch behind the end of a run: it decides nothing, so no tick can tell whether it is true.
+std::optional<replay::Divergence> idle_branch(const replay::TraceReader& recorded,
+                                              const Kernel& kernel) {
+    const auto& branches = recorded.episode().branches;
+    if (!kernel.finished() || branches.empty() || branches.back().tick < recorded.last())
+        return std::nullopt;
+    replay::Divergence divergence;
+    divergence.stage = "start";
+    divergence.field = "branches";
+    divergence.expected = fmt::format("a branch at tick {}", branches.back().tick);
+    divergence.found = fmt::format("the run ends at tick {}", recorded.last());
+    return divergence;
+}
+
+/// Behind the last tick: whether the run ends there, and so. Of a part of a run, and of one that
+/// was cut off, only that it goes on.
+std::optional<replay::Divergence> compare_end(const replay::TraceReader& recorded,
+                                              const Kernel& kernel) {
+    const world::Outcome& expected = recorded.outcome();
+    const std::uint64_t ticks = recorded.ticks();
+    const bool goes_on =
+        expected == replay::outcome_of_part(ticks) || expected == replay::outcome_of_cut_off(ticks);
+    replay::Divergence divergence;
+    divergence.tick = ticks;
+    divergence.stage = "end";
+    divergence.field = "outcome";
+    divergence.expected = replay::to_text(expected);
+    divergence.found = kernel.finished() ? replay::to_text(kernel.outcome()) : "the run goes on";
+    if (kernel.finished() ? kernel.outcome() == expected : goes_on)
+        return idle_branch(recorded, kernel);
+    divergence.note = "all ticks are equal";
     return divergence;
 }
 
@@ -77,6 +132,7 @@ std::optional<replay::Divergence> follow(
     replay::TraceReader& recorded,
     std::uint64_t last,
     const std::function<void(const world::SealedTick&)>& on_tick) {
+    replay::Reduction reduction(recorded.level());
     for (std::uint64_t index = 1; index <= last; ++index) {
         const auto damage = recorded.damage(index);
         const auto expected = damage ? recorded.salvaged(index) : recorded.recorded(index);
@@ -85,7 +141,8 @@ std::optional<replay::Divergence> follow(
         if (kernel.finished())
             return ended_early(index, kernel);
         const world::SealedTick& found = kernel.step(expected->view.controls());
-        if (auto divergence = replay::compare(*expected, as_recorded(found))) {
+        // Reduced as when it was recorded: what the level leaves out may not be there either.
+        if (auto divergence = replay::compare(*expected, reduction.of(as_recorded(found)))) {
             if (divergence->unrecorded)
                 find_first_recorded(*divergence, recorded, kernel);
             if (damage)
@@ -103,13 +160,15 @@ std::optional<replay::Divergence> verify(
     replay::TraceReader& recorded, const std::function<void(const world::SealedTick&)>& on_tick) {
     if (auto divergence = wrong_network(recorded.recording()))
         return divergence;
+    if (auto divergence = wrong_start(recorded))
+        return divergence;
     Kernel kernel(recorded.recording());
     if (auto divergence = follow(kernel, recorded, recorded.ticks(), on_tick))
         return divergence;
-    // Every tick agrees, but the file may still be damaged where no tick lies.
+    // Every tick agrees, but there are bytes where no tick lies.
     if (const auto damage = recorded.damage())
         return unreadable(0, *damage);
-    return std::nullopt;
+    return compare_end(recorded, kernel);
 }
 
 }  // namespace reprise::kernel

@@ -13,8 +13,9 @@ namespace reprise::kernel {
 /// Runs a trace again from what it carries, with the recorded controls, and compares every tick's
 /// bytes, as far as the trace's level keeps them, and digests: the first difference, or nothing.
 /// `on_tick` is given each tick that agreed, whole.
-/// What differs only in a digest is followed until it shows in the record. The network in the trace
-/// must be the one that its episode names by digest.
+/// What differs only in a digest is followed until it shows in the record. Then every other byte of
+/// the file, and whether the run ends there and so. Of a part of a run and of one that was cut off
+/// there is nothing to tell how it went on: its length, its branches behind the last tick.
 /// A damaged chunk is compared as far as its bytes can be had, so that the first wrong tick is
 /// named, not the chunk.
 std::optional<replay::Divergence> verify(

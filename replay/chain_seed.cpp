@@ -4,10 +4,22 @@
 
 namespace reprise::replay {
 
+namespace {
+
+void add_parameters(world::Hasher& hasher, const std::vector<world::ParameterT>& parameters) {
+    hasher.add(static_cast<std::uint64_t>(parameters.size()));
+    for (const world::ParameterT& parameter : parameters) {
+        hasher.add_text(parameter.key);
+        hasher.add_text(parameter.value);
+    }
+}
+
+}  // namespace
+
 world::Digest128 chain_seed(const world::Recording& recording) {
     const world::EpisodeT& episode = recording.episode;
     world::Hasher hasher;
-    hasher.add_text("reprise chain 1");
+    hasher.add_text("reprise chain 2");
     hasher.add(episode.seed);
     hasher.add(episode.step_ns);
     hasher.add(episode.substeps);
@@ -15,19 +27,43 @@ world::Digest128 chain_seed(const world::Recording& recording) {
     hasher.add(episode.cars);
     hasher.add(episode.road_friction);
     hasher.add(episode.weather);
+    hasher.add_text(episode.weather_name);
+    // Names, too: a script's errors name its file, and a script can read them.
+    hasher.add_text(episode.name);
+    hasher.add_text(episode.scenario_path);
     hasher.add_text(episode.scenario);
-    hasher.add(static_cast<std::uint64_t>(episode.parameters.size()));
-    for (const world::ParameterT& parameter : episode.parameters) {
-        hasher.add_text(parameter.key);
-        hasher.add_text(parameter.value);
-    }
-    // Names and paths stay out: a copy of the same town under another path is the same world. The
-    // fingerprint too: that another build gives the same run is what the chain is there to show.
+    add_parameters(hasher, episode.parameters);
+    hasher.add_text(episode.imported_from);
+    hasher.add_text(episode.town);
+    hasher.add(episode.town_digest);
     hasher.add(world::digest128(recording.network));
     const mcap::Bytes town = format::pack(recording.town);
     hasher.add(static_cast<std::uint64_t>(town.size()));
     hasher.add_bytes(town.data(), town.size());
     return hasher.digest128();
+}
+
+world::Digest128 chain_of_branch(const world::Digest128& parent, const world::BranchT& branch) {
+    world::Hasher hasher;
+    hasher.add_text("reprise branch 1");
+    hasher.add(branch.tick);
+    hasher.add_text(branch.name);
+    hasher.add_text(branch.scenario_path);
+    hasher.add_text(branch.scenario);
+    add_parameters(hasher, branch.parameters);
+    hasher.add(branch.max_ticks);
+    hasher.add(branch.parent_chain);
+    return world::chain(parent, hasher.digest128());
+}
+
+world::Digest128 chain_before(const world::EpisodeT& episode,
+                              std::uint64_t index,
+                              const world::Digest128& last) {
+    world::Digest128 chain = last;
+    for (const world::BranchT& branch : episode.branches)
+        if (branch.tick + 1 == index)
+            chain = chain_of_branch(chain, branch);
+    return chain;
 }
 
 }  // namespace reprise::replay

@@ -1,6 +1,7 @@
 #include "replay/chunk_reader.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "replay/level.h"
 #include "replay/trace_format.h"
@@ -40,6 +41,21 @@ void ChunkReader::load(const InputFile& file,
     if (!damage_ && !header_agrees(header, chunk, crc))
         damage_ = "its header differs from the index";
     find_messages(mcap::View(records_).first(usable_), step_ns, level);
+    if (!damage_ && !message_indexes_agree(file, chunk))
+        damage_ = "its message indexes differ from its messages";
+}
+
+/// What was found by a scan names no message indexes, and needs none.
+bool ChunkReader::message_indexes_agree(const InputFile& file, const mcap::Chunk& chunk) {
+    if (chunk.message_indexes.empty())
+        return true;
+    mcap::Bytes expected;
+    mcap::encode_message_index(expected, format::tick_channel, tick_entries_);
+    if (!traffic_entries_.empty())
+        mcap::encode_message_index(expected, format::traffic_channel, traffic_entries_);
+    const std::uint64_t at = chunk.offset + chunk.length;
+    return chunk.message_index_length == expected.size() && expected.size() <= file.size() - at &&
+           file.read(at, expected.size()) == expected;
 }
 
 void ChunkReader::unpack(const mcap::Chunk& chunk, std::uint32_t crc) {
@@ -63,14 +79,20 @@ void ChunkReader::unpack(const mcap::Chunk& chunk, std::uint32_t crc) {
 
 void ChunkReader::find_messages(mcap::View records, std::uint64_t step_ns, Level level) {
     messages_.assign(ticks_.last - ticks_.first + 1, {});
+    tick_entries_.clear();
+    traffic_entries_.clear();
+    std::uint64_t due_tick = ticks_.first;
+    std::uint16_t due_channel = format::tick_channel;
+    bool in_order = true;
     const auto keep = [&](const mcap::Record& record) {
+        const bool was_in_order = std::exchange(in_order, false);
         if (record.op != mcap::Op::message)
             return;
         mcap::Decoder message(record.content);
         const auto channel = message.number<std::uint16_t>();
         const auto sequence = message.number<std::uint32_t>();
         const auto log_time = message.number<std::uint64_t>();
-        message.number<std::uint64_t>();  // publish time
+        const auto publish_time = message.number<std::uint64_t>();
         const std::uint64_t tick = log_time / step_ns;
         const bool ours = channel == format::tick_channel || channel == format::traffic_channel;
         if (!ours || log_time % step_ns != 0 || tick < ticks_.first || tick > ticks_.last ||
@@ -78,6 +100,14 @@ void ChunkReader::find_messages(mcap::View records, std::uint64_t step_ns, Level
             return;
         Messages& messages = messages_[tick - ticks_.first];
         (channel == format::tick_channel ? messages.tick : messages.traffic) = message.rest();
+        if (tick != due_tick || channel != due_channel || publish_time != log_time)
+            return;
+        in_order = was_in_order;
+        const bool traffic_is_due = channel == format::tick_channel && holds_traffic(level, tick);
+        due_channel = traffic_is_due ? format::traffic_channel : format::tick_channel;
+        due_tick += traffic_is_due ? 0 : 1;
+        (channel == format::tick_channel ? tick_entries_ : traffic_entries_)
+            .emplace_back(log_time, record.at);
     };
     try {
         mcap::walk(records, keep);
@@ -89,6 +119,8 @@ void ChunkReader::find_messages(mcap::View records, std::uint64_t step_ns, Level
     for (const Messages& messages : messages_)
         if (!messages.complete(level, tick++) && !damage_)
             damage_ = "it lacks a tick";
+    if (!in_order && !damage_)
+        damage_ = "it holds something else than the messages of its ticks";
 }
 
 }  // namespace reprise::replay

@@ -18,7 +18,8 @@ struct TickRange {
     std::uint64_t last = 0;
 };
 
-/// One chunk in memory, unpacked and checked, damaged or not.
+/// One chunk in memory, unpacked and checked, damaged or not. Sound is a chunk with the messages of
+/// its ticks in their order, their indexes behind it, and nothing else.
 class ChunkReader {
   public:
     /// The bytes of one tick's messages; empty where damage took them, or there are none.
@@ -45,6 +46,7 @@ class ChunkReader {
   private:
     void unpack(const mcap::Chunk& chunk, std::uint32_t crc);
     void find_messages(mcap::View records, std::uint64_t step_ns, Level level);
+    bool message_indexes_agree(const InputFile& file, const mcap::Chunk& chunk);
 
     Decompressor decompressor_;
     TickRange ticks_;
@@ -53,6 +55,8 @@ class ChunkReader {
     mcap::Bytes records_;  ///< unpacked
     std::size_t usable_ = 0;
     std::vector<Messages> messages_;  ///< in records_
+    mcap::MessageEntries tick_entries_;
+    mcap::MessageEntries traffic_entries_;
     std::optional<std::string> damage_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "replay/level.h"
 #include "replay/noun_check.h"
+#include "replay/outcomes.h"
 #include "replay/trace_format.h"
 #include "world/check.h"
 
@@ -77,6 +78,21 @@ void OpenedTrace::read_start() {
     if (const auto fault = fault_of_episode(episode))
         fail_attachment(format::episode_attachment, *fault);
     world::GetEpisode(episode.data())->UnPackTo(&recording.episode);
+    if (!std::ranges::equal(format::pack(recording.episode), bytes))
+        fail_attachment(format::episode_attachment, "not as a run writes it");
+    compare_facts(format::run_metadata,
+                  run_facts(recording.episode,
+                            first_chain,
+                            level,
+                            slice.run_ticks > 0 ? std::optional(slice) : std::nullopt),
+                  *facts);
+}
+
+void OpenedTrace::compare_facts(const char* name, const Facts& written, const Facts& found) const {
+    if (const auto other = first_other_fact(written, found))
+        input.fail(
+            find_metadata(index, name)->offset,
+            fmt::format("the metadata '{}' was changed after it was recorded: {}", name, *other));
 }
 
 void OpenedTrace::read_level(const std::string& word) {
@@ -128,6 +144,11 @@ std::optional<TickRange> OpenedTrace::range_of(const mcap::Chunk& chunk) const {
     const TickRange range{chunk.start_time / step_ns(), chunk.end_time / step_ns()};
     // One message a tick bounds the count: it sizes a table when the chunk is read.
     const std::uint64_t most = chunk.uncompressed_size / (mcap::prefix_size + mcap::message_header);
+    // Chunks begin and end at whole multiples, so that equal ticks lie in equal chunks.
+    constexpr std::uint64_t whole = format::ticks_per_chunk;
+    if (range.first == 0 || (!ranges.empty() && (range.first - 1) % whole != 0) ||
+        (range.first - 1) / whole != (range.last - 1) / whole)
+        return std::nullopt;
     if (chunk.start_time % step_ns() != 0 || chunk.end_time % step_ns() != 0 ||
         range.first != last() + 1 || range.last < range.first || range.last - range.first >= most)
         return std::nullopt;
@@ -164,7 +185,7 @@ void OpenedTrace::salvage_outcome() {
         index.whole = false;
         if (loss.empty())
             loss = fmt::format("byte {}: the file ends behind tick {}", index.data_end, last());
-        outcome = {"error", "the trace was cut off", ticks()};
+        outcome = outcome_of_cut_off(ticks());
     }
 }
 
@@ -189,11 +210,21 @@ void OpenedTrace::read_outcome() {
         return found == facts->end() ? std::string() : found->second;
     };
     outcome = {text("verdict"), text("reason"), to_number(text("ticks"))};
+    compare_facts(
+        format::outcome_metadata,
+        outcome_facts(outcome, format::from_hex(text("chain")), format::pack(recording.episode)),
+        *facts);
     if (outcome.ticks != ticks())
         input.fail(
             index.data_end,
             fmt::format(
                 "the index is damaged: it lists {} ticks, the run had {}", ticks(), outcome.ticks));
+    const bool is_part = slice.run_ticks > 0 && last() < slice.run_ticks;
+    if (is_part != (outcome.verdict == outcome_of_part(0).verdict))
+        input.fail(find_metadata(index, format::outcome_metadata)->offset,
+                   fmt::format("a slice without the run's end is a part, and nothing else is; this "
+                               "says '{}'",
+                               outcome.verdict));
 }
 
 std::size_t OpenedTrace::chunk_of(std::uint64_t tick) const {

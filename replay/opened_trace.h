@@ -11,6 +11,7 @@
 #include "replay/mcap/aligned_copy.h"
 #include "replay/mcap/files.h"
 #include "replay/recorded_tick.h"
+#include "replay/trace_facts.h"
 #include "replay/trace_index.h"
 
 namespace reprise::replay {
@@ -54,6 +55,9 @@ struct OpenedTrace {
     void read_slice(const std::map<std::string, std::string>& facts);
 
     void check_end_of_slice() const;
+
+    /// Throws when metadata of this name is not what follows from the rest.
+    void compare_facts(const char* name, const Facts& written, const Facts& found) const;
 
     [[noreturn]] void fail_attachment(const std::string& name, const std::string& fault);
 

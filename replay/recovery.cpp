@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "replay/chain_seed.h"
 #include "replay/mcap/files.h"
+#include "replay/outcomes.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "world/check.h"
@@ -29,7 +31,7 @@ Links follow_chain(TraceReader& trace) {
     for (std::uint64_t index = 1; index <= trace.ticks(); ++index) {
         try {
             const world::Digests& digests = *trace.recorded(index).view.tick->digests();
-            chain = world::chain(chain, digests.state());
+            chain = world::chain(chain_before(trace.episode(), index, chain), digests.state());
             if (!(chain == digests.chain())) {
                 links.loss = fmt::format("tick {} does not continue the digest chain", index);
                 break;
@@ -110,7 +112,10 @@ Recovery recover(const fs::path& damaged, const fs::path& out) {
         throw NothingToRecover(fmt::format("{}: {}", damaged.string(), links.loss));
     if (links.sound < trace.ticks()) {
         recovery.loss = links.loss + (recovery.loss.empty() ? "" : "; " + recovery.loss);
-        recovery.outcome = {"error", "the trace was cut off", links.sound};
+        recovery.outcome = outcome_of_cut_off(links.sound);
+    } else if (recovery.outcome == outcome_of_cut_off(links.sound)) {
+        // Only the end of the file is lost: the ticks tell how the run ended.
+        recovery.outcome = told_outcome(trace).value_or(recovery.outcome);
     }
     // Not OUT.partial: that may be what is recovered.
     const fs::path grown = out.string() + ".recovered";

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "replay/chain_seed.h"
 #include "replay/level.h"
 #include "replay/trace_writer.h"
 #include "world/check.h"
@@ -24,7 +25,7 @@ void copy(TraceReader& trace, std::uint64_t first, std::uint64_t last, TraceWrit
     for (std::uint64_t index = first; index <= last; ++index) {
         const RecordedTick tick = trace.recorded(index);
         const world::Digests& digests = *tick.view.tick->digests();
-        chain = world::chain(chain, digests.state());
+        chain = world::chain(chain_before(trace.episode(), index, chain), digests.state());
         if (!(chain == digests.chain()))
             throw world::Error(fmt::format(
                 "{}: tick {} does not continue the digest chain", trace.path().string(), index));
@@ -38,6 +39,7 @@ void write(const std::filesystem::path& out,
            TraceReader& of,
            const world::SliceStart& start,
            std::uint64_t last,
+           const world::Outcome& outcome,
            Fill fill) {
     const bool whole = start.first == 1 && last == start.run_ticks;
     TraceWriter writer(out,
@@ -46,7 +48,7 @@ void write(const std::filesystem::path& out,
                        Unfinished::remove,
                        whole ? std::nullopt : std::optional(start));
     fill(writer);
-    writer.close(of.outcome());
+    writer.close(outcome);
 }
 
 std::string joined(const TraceReader& trace) {
@@ -93,7 +95,7 @@ void slice(TraceReader& trace,
             trace.path().string(),
             first,
             lacks_text(trace.path().string(), trace.level())));
-    write(out, trace, start_at(trace, first), last, [&](TraceWriter& writer) {
+    write(out, trace, start_at(trace, first), last, trace.outcome(), [&](TraceWriter& writer) {
         copy(trace, first, last, writer);
     });
 }
@@ -104,8 +106,9 @@ void merge(std::vector<TraceReader>& parts, const std::filesystem::path& out) {
     for (std::size_t i = 1; i < parts.size(); ++i)
         require_seam(parts[i - 1], parts[i]);
     TraceReader& start = parts.front();
-    const std::uint64_t last = parts.back().last();
-    write(out, start, start_at(start, start.first()), last, [&](TraceWriter& writer) {
+    TraceReader& end = parts.back();  // the only one that may know how the run ended
+    const world::SliceStart from = start_at(start, start.first());
+    write(out, start, from, end.last(), end.outcome(), [&](TraceWriter& writer) {
         for (TraceReader& part : parts)
             copy(part, part.first(), part.last(), writer);
     });

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,53 +11,35 @@
 #include "replay/mcap/files.h"
 #include "replay/mcap/mcap.h"
 #include "replay/trace_reader.h"
+#include "replay/trace_records.h"
 
 namespace reprise::replay {
 
-/// The message records of some ticks, on their way into one chunk.
-struct PendingChunk {
-    struct Message {
-        std::uint16_t channel;
-        std::uint64_t log_time;
-        std::uint64_t offset;  ///< of the record in `records`
-    };
-
-    mcap::Bytes records;
-    std::vector<Message> messages;
-
-    void add(std::uint16_t channel, std::uint64_t tick, std::uint64_t log_time, mcap::View data);
-
-    void clear() {
-        records.clear();
-        messages.clear();
-    }
-};
-
-/// A trace as it grows: writes records behind one another, keeps the checksum and what the index at
-/// the end needs (about 150 bytes a chunk). Used by one thread at a time.
+/// A trace as it grows in a file. Used by one thread at a time.
 class TraceFile {
   public:
+    using Channel = ChannelText;
+
     /// Magic, header, and the schemas and channels that a trace of this level has.
     TraceFile(const std::filesystem::path& path, Level level);
 
-    /// A stream of another kind of file, and the schema that describes its messages.
-    struct Channel {
-        std::string topic;
-        std::string schema;
-        std::string schema_encoding;
-        std::string schema_text;
-        std::string message_encoding;
-    };
-
-    /// The same for another kind of file: its channels are numbered from 1.
+    /// The same for another kind of file.
     TraceFile(const std::filesystem::path& path, const std::vector<Channel>& channels);
 
-    void metadata(const std::string& name, const std::map<std::string, std::string>& texts);
-    void attachment(const std::string& name, const std::string& media_type, mcap::View data);
-    void packed_attachment(const std::string& name, mcap::View data);
+    void metadata(const std::string& name, const std::map<std::string, std::string>& texts) {
+        records_->metadata(name, texts);
+    }
+
+    void attachment(const std::string& name, const std::string& media_type, mcap::View data) {
+        records_->attachment(name, media_type, data);
+    }
+
+    void packed_attachment(const std::string& name, mcap::View data) {
+        records_->packed_attachment(name, data);
+    }
 
     /// Compresses and writes; the message indexes follow. Nothing for an empty chunk.
-    void chunk(const PendingChunk& chunk);
+    void chunk(const PendingChunk& chunk) { records_->chunk(chunk); }
 
     /// Data end, summary, footer, magic; then the file gets its name.
     void finish();
@@ -66,30 +49,28 @@ class TraceFile {
     void abandon() noexcept;
 
     /// Removes what was written.
-    void discard() noexcept { file_.remove(); }
+    void discard() noexcept { sink_.file.remove(); }
 
-    bool has_chunks() const { return !chunks_.empty(); }
+    bool has_chunks() const { return records_ && records_->has_chunks(); }
 
-    const std::filesystem::path& partial() const { return file_.partial(); }
+    const std::filesystem::path& partial() const { return sink_.file.partial(); }
 
   private:
-    void put(mcap::View bytes);
-    void start(const std::vector<Channel>& channels);
-    void describe(std::uint16_t id, const Channel& channel);
-    mcap::Statistics statistics() const;
-    mcap::Bytes summary() const;
+    struct Sink : RecordSink {
+        OutputFile file;
+        Compressor compressor;
 
-    OutputFile file_;
-    Compressor compressor_;
-    std::uint32_t crc_ = 0;
-    std::uint64_t whole_ = 0;  ///< where the last whole record ends
-    mcap::Bytes record_;       ///< scratch
-    mcap::Bytes schemas_;      ///< records, repeated in the summary
-    mcap::Bytes channels_;
-    std::vector<mcap::Chunk> chunks_;
-    std::vector<mcap::Attachment> attachments_;
-    std::vector<mcap::Metadata> metadata_;
-    std::map<std::uint16_t, std::uint64_t> messages_of_;  ///< of every channel
+        explicit Sink(const std::filesystem::path& path) : file(path) {}
+
+        void put(mcap::View bytes) override { file.append(bytes); }
+
+        std::uint64_t size() const override { return file.size(); }
+
+        mcap::View pack(mcap::View data) override { return compressor.compress(data); }
+    };
+
+    Sink sink_;
+    std::unique_ptr<TraceRecords> records_;
 };
 
 }  // namespace reprise::replay

@@ -8,11 +8,13 @@
 #include "world/recording.h"
 
 /// What is where in a trace. An MCAP file with, in this order:
-///   metadata    reprise.run        who, where, which seed: for people and tools
+///   metadata    reprise.run        who, where, which seed: for people and tools; follows from the
+///                                  episode, and is compared with it
 ///   attachments episode.bin, scenario/main.lua, town.bin.zst, town.net.xml.zst
 ///   chunks      of 64 ticks: /sim/tick and /sim/traffic in turn; log time = tick * step
-///   metadata    reprise.outcome    how it ended, and the last link of the chain
+///   metadata    reprise.outcome    how it ended, the last link of the chain, the episode's digest
 ///   the summary (index) that MCAP asks for
+/// Nothing else, and each record in one way only: what differs from it was not written by us.
 /// A slice of a run says so in reprise.run: slice.first_tick, slice.run_ticks, slice.chain_before.
 namespace reprise::replay::format {
 

@@ -40,6 +40,8 @@ void check(const mcap::Chunk& chunk, std::uint64_t end) {
     if (!lies_within(chunk.offset, chunk.length, end) || chunk.compressed_size > chunk.length ||
         chunk.length != mcap::chunk_header_size(chunk) + chunk.compressed_size)
         throw mcap::Malformed("a chunk lies outside of the file");
+    if (chunk.message_index_length > end - chunk.offset - chunk.length)
+        throw mcap::Malformed("message indexes lie outside of the file");
     if (chunk.compression != "zstd" && chunk.compression != "")
         throw mcap::Malformed("chunks packed as '" + chunk.compression + "', not zstd");
     if (chunk.uncompressed_size > largest_unpacked || chunk.end_time < chunk.start_time)
@@ -195,6 +197,13 @@ const mcap::Attachment* find_attachment(const TraceIndex& index, const std::stri
     return found == index.attachments.end() ? nullptr : &*found;
 }
 
+const mcap::Metadata* find_metadata(const TraceIndex& index, const std::string& name) {
+    const auto found = std::find_if(index.metadata.begin(),
+                                    index.metadata.end(),
+                                    [&](const auto& entry) { return entry.name == name; });
+    return found == index.metadata.end() ? nullptr : &*found;
+}
+
 mcap::Bytes read_attachment(const InputFile& file,
                             const TraceIndex& index,
                             const std::string& name) {
@@ -240,10 +249,8 @@ mcap::Bytes read_packed_attachment(const InputFile& file,
 std::optional<std::map<std::string, std::string>> read_metadata(const InputFile& file,
                                                                 const TraceIndex& index,
                                                                 const std::string& name) {
-    const auto entry = std::find_if(index.metadata.begin(),
-                                    index.metadata.end(),
-                                    [&](const auto& item) { return item.name == name; });
-    if (entry == index.metadata.end())
+    const mcap::Metadata* entry = find_metadata(index, name);
+    if (entry == nullptr)
         return std::nullopt;
     try {
         const mcap::Bytes bytes =

@@ -29,6 +29,8 @@ TraceIndex scan(const InputFile& file);
 
 const mcap::Attachment* find_attachment(const TraceIndex& index, const std::string& name);
 
+const mcap::Metadata* find_metadata(const TraceIndex& index, const std::string& name);
+
 /// The attachment's data, its checksum checked; the second one also unpacks it. Throws world::Error
 /// that names the attachment.
 mcap::Bytes read_attachment(const InputFile& file,

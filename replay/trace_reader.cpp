@@ -6,6 +6,7 @@
 
 #include "replay/level.h"
 #include "replay/opened_trace.h"
+#include "replay/written_again.h"
 #include "world/check.h"
 
 namespace reprise::replay {
@@ -134,29 +135,18 @@ std::optional<RecordedTick> TraceReader::salvaged(std::uint64_t index) {
     return tick;
 }
 
-std::optional<std::string> TraceReader::damage() const {
+std::optional<std::string> TraceReader::damage() {
     const TraceIndex& index = file_->index;
     if (!index.whole)
         return fmt::format("byte {}: {}", index.data_end, file_->cut_off());
-    std::uint32_t crc = 0;
-    mcap::Bytes block(std::min<std::uint64_t>(index.data_end, 1 << 20));
-    for (std::uint64_t at = 0; at < index.data_end; at += block.size()) {
-        const auto part =
-            std::span(block).first(std::min<std::uint64_t>(block.size(), index.data_end - at));
-        file_->input.read(at, part);
-        crc = mcap::crc32(part, crc);
-    }
-    const mcap::Bytes end = file_->input.read(index.data_end, mcap::data_end_size);
-    mcap::Decoder record(mcap::View(end).subspan(mcap::prefix_size));
-    if (record.number<std::uint32_t>() == crc)
-        return std::nullopt;
-    return "the file was changed after it was recorded (checksum of the data section)";
+    recording();
+    return difference_from_written(*file_, chain(last()));
 }
 
 PackedTicks TraceReader::packed(std::uint64_t index) {
     const std::size_t i = file_->chunk_of(index);
     const mcap::Chunk& chunk = file_->index.chunks[i];
-    file_->packed.resize(chunk.length);
+    file_->packed.resize(chunk.length + chunk.message_index_length);
     file_->input.read(chunk.offset, file_->packed);
     return {file_->ranges[i].first, file_->ranges[i].last, file_->packed};
 }

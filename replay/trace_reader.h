@@ -81,9 +81,11 @@ class TraceReader {
     std::optional<std::string> damage(std::uint64_t index);
     std::optional<RecordedTick> salvaged(std::uint64_t index);
 
-    /// Damage anywhere in what was recorded, by the checksum of the whole data section: also where
-    /// no tick and no attachment lies. Reads the file once, about 1 GB/s.
-    std::optional<std::string> damage() const;
+    /// Any byte of the file that is not what a run would have written there, outside of the
+    /// chunks: of those `damage(tick)` tells. The rest follows from the episode, the town, the
+    /// chunks' places and the outcome; whether these are true only simulating them again can tell.
+    /// Reads the file once, about 1 GB/s. Throws where the town is damaged.
+    std::optional<std::string> damage();
 
     /// The chunk that holds this tick, unread by anyone: nothing about it was checked.
     PackedTicks packed(std::uint64_t index);

@@ -5,61 +5,14 @@
 #include "replay/chain_seed.h"
 #include "replay/chunk_thread.h"
 #include "replay/level.h"
+#include "replay/outcomes.h"
+#include "replay/trace_facts.h"
 #include "replay/trace_file.h"
 #include "replay/trace_format.h"
 #include "world/check.h"
 #include "world/digest.h"
 
 namespace reprise::replay {
-
-namespace {
-
-mcap::View bytes_of(const std::string& text) {
-    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
-/// No clock, no host, no path: equal runs give equal files.
-std::map<std::string, std::string> facts(const world::EpisodeT& episode,
-                                         const world::Digest128& seed_of_chain,
-                                         Level level,
-                                         const std::optional<world::SliceStart>& slice) {
-    std::map<std::string, std::string> facts{
-        {"format", std::to_string(format::version)},
-        {"name", episode.name},
-        {"scenario", episode.scenario_path},
-        {"town", episode.town},
-        {"seed", std::to_string(episode.seed)},
-        {"step_ns", std::to_string(episode.step_ns)},
-        {"substeps", std::to_string(episode.substeps)},
-        {"max_ticks", std::to_string(episode.max_ticks)},
-        {"cars", std::to_string(episode.cars)},
-        {"road_friction", fmt::format("{}", episode.road_friction)},
-        {"weather", episode.weather_name},
-        {"chain_seed", world::to_hex(seed_of_chain)},
-    };
-    if (!episode.imported_from.empty())
-        facts["imported_from"] = episode.imported_from;
-    if (level != Level::full)
-        facts["level"] = to_word(level);
-    if (slice) {
-        facts["slice.first_tick"] = std::to_string(slice->first);
-        facts["slice.run_ticks"] = std::to_string(slice->run_ticks);
-        facts["slice.chain_before"] = world::to_hex(slice->chain_before);
-    }
-    if (!episode.branches.empty()) {
-        const world::BranchT& branch = episode.branches.back();
-        facts["branch.tick"] = std::to_string(branch.tick);
-        facts["branch.scenario"] = branch.scenario_path;
-        facts["branch.parent_chain"] = world::to_hex(branch.parent_chain);
-    }
-    for (const world::ParameterT& parameter : episode.parameters)
-        facts["set." + parameter.key] = parameter.value;
-    for (const world::ParameterT& line : episode.fingerprint)
-        facts["build." + line.key] = line.value;
-    return facts;
-}
-
-}  // namespace
 
 struct TraceWriter::File {
     Level level;
@@ -68,8 +21,10 @@ struct TraceWriter::File {
     Reduction reduction;
     std::uint64_t step_ns;
     std::uint64_t first = 1;
+    std::uint64_t run_ticks = 0;  ///< of a slice: that the whole run had
     std::uint64_t ticks = 0;
     world::Digest128 chain;  ///< of the last tick
+    mcap::Bytes packed_episode;
     bool closed = false;
     std::unique_ptr<PendingChunk> chunk = std::make_unique<PendingChunk>();
     std::unique_ptr<ChunkThread> thread;
@@ -85,6 +40,7 @@ struct TraceWriter::File {
           reduction(its_level),
           step_ns(recording.episode.step_ns),
           first(slice ? slice->first : 1),
+          run_ticks(slice ? slice->run_ticks : 0),
           chain(chain_seed(recording)) {
         try {
             write_start(recording, slice);
@@ -98,15 +54,14 @@ struct TraceWriter::File {
     void write_start(const world::Recording& recording,
                      const std::optional<world::SliceStart>& slice) {
         const world::EpisodeT& episode = recording.episode;
-        file.metadata(format::run_metadata, facts(episode, chain, level, slice));
+        packed_episode = format::pack(episode);
+        file.metadata(format::run_metadata, run_facts(episode, chain, level, slice));
         if (slice)
             chain = slice->chain_before;
-        file.attachment(
-            format::episode_attachment, "application/x-flatbuffers", format::pack(episode));
-        file.attachment(format::scenario_attachment, "text/x-lua", bytes_of(episode.scenario));
-        file.packed_attachment(format::town_attachment, format::pack(recording.town));
-        file.packed_attachment(format::network_attachment, bytes_of(recording.network));
+        write_attachments(file, recording, packed_episode);
     }
+
+    bool lacks_end() const { return run_ticks > 0 && first + ticks - 1 < run_ticks; }
 
     void give_up() noexcept {
         if (unfinished == Unfinished::keep)
@@ -190,11 +145,13 @@ void TraceWriter::close(const world::Outcome& outcome) {
         if (!file_->chunk->messages.empty())
             file_->thread->exchange(file_->chunk);
         file_->thread->finish();
-        file_->file.metadata(format::outcome_metadata,
-                             {{"verdict", outcome.verdict},
-                              {"reason", outcome.reason},
-                              {"ticks", std::to_string(file_->ticks)},
-                              {"chain", world::to_hex(file_->chain)}});
+        file_->file.metadata(
+            format::outcome_metadata,
+            outcome_facts(file_->lacks_end()
+                              ? outcome_of_part(file_->ticks)
+                              : world::Outcome{outcome.verdict, outcome.reason, file_->ticks},
+                          file_->chain,
+                          file_->packed_episode));
         file_->file.finish();
     });
     file_->closed = true;

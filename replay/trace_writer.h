@@ -38,7 +38,8 @@ class TraceWriter {
     void append(const world::SealedTick& tick);
     void append(const RecordedTick& tick);
 
-    /// Writes outcome, index and footer, and gives the file its name.
+    /// Writes outcome, index and footer, and gives the file its name. A slice without the run's
+    /// last tick cannot show how the run ended, and does not say it.
     void close(const world::Outcome& outcome);
 
   private:

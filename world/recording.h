@@ -18,10 +18,13 @@ struct Recording {
 
 /// How a run ended; written when the trace is closed.
 struct Outcome {
-    std::string verdict;  ///< "passed", "failed", "completed" (no checks); "error": cut off
+    std::string verdict;  ///< "passed", "failed", "completed" (no checks); "error": cut off;
+                          ///< "part": a slice that lacks the run's last tick
     std::string reason;   ///< as finish said it, "time limit", "scenario ended", "the trace was cut
                           ///< off", ...
     std::uint64_t ticks = 0;
+
+    bool operator==(const Outcome&) const = default;
 };
 
 /// Where a part of a run begins.

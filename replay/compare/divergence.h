@@ -99,6 +99,10 @@ std::optional<Divergence> compare(TraceReader& expected, TraceReader& found, Tol
 /// "the runs did not start from the same: seed 7 / 8", or "".
 std::string start_difference(const TraceReader& expected, const TraceReader& found);
 
+/// "their towns were read from 'a' / 'b'", or "": equal towns may lie anywhere, so this is none of
+/// the differences.
+std::string town_path_difference(const TraceReader& expected, const TraceReader& found);
+
 /// How one run branched off the other, or both off a third: "branched at tick 250 (12.50 s) by
 /// brake.lua". "" when they did not.
 std::string branch_text(const world::EpisodeT& expected, const world::EpisodeT& found);

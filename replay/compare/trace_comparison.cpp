@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "replay/chain_seed.h"
 #include "replay/compare/divergence.h"
 #include "replay/compare/field_difference.h"
 #include "replay/compare/tick_bytes.h"
@@ -20,11 +21,18 @@ void add_note(std::string& note, const std::string& part) {
         note += (note.empty() ? "" : "; ") + part;
 }
 
-/// What may differ without changing the run: where files lay, and who recorded it.
+/// What the chain leaves out: where the town's file lay, and who recorded it.
 bool is_information(std::string_view field) {
-    return field == "fingerprint" || field == "scenario_path" || field == "town_path" ||
-           field == "name" || field == "weather_name" ||
-           field == "branches";  // their effect is in the ticks: see branch_text
+    return field == "fingerprint" || field == "town_path" ||
+           field == "branches";  // linked in where they begin: see branch_text
+}
+
+bool same_branches(const world::EpisodeT& expected, const world::EpisodeT& found) {
+    return std::ranges::equal(expected.branches,
+                              found.branches,
+                              [](const world::BranchT& left, const world::BranchT& right) {
+                                  return chain_of_branch({}, left) == chain_of_branch({}, right);
+                              });
 }
 
 /// "seed 7 / 8, cars 100 / 50".
@@ -95,7 +103,7 @@ std::optional<Divergence> first_different_link(TraceReader& expected, TraceReade
 /// The first tick that differs, and nothing when the shorter run is the longer one's beginning.
 std::optional<Divergence> first_different_tick(TraceReader& expected,
                                                TraceReader& found,
-                                               bool same_start) {
+                                               bool same_chain) {
     const std::uint64_t common = std::min(expected.ticks(), found.ticks());
     std::uint64_t index = 1;
     while (index <= common) {
@@ -109,7 +117,7 @@ std::optional<Divergence> first_different_tick(TraceReader& expected,
         for (; index <= std::min(last, common); ++index) {
             const RecordedTick left_tick = expected.recorded(index);
             const RecordedTick right_tick = found.recorded(index);
-            const bool equal = same_start ? equal_ticks(left_tick, right_tick)
+            const bool equal = same_chain ? equal_ticks(left_tick, right_tick)
                                           : equal_ticks_but_for_chain(left_tick, right_tick);
             if (!equal)
                 return compare(left_tick, right_tick);
@@ -168,6 +176,14 @@ Divergence only_starts_differ(TraceReader& expected,
                               const StartDifference& start) {
     Divergence divergence;
     divergence.stage = "start";
+    if (expected.chain(0) == found.chain(0)) {
+        divergence.field = "branches";
+        divergence.expected = fmt::format("{} of them", expected.episode().branches.size());
+        divergence.found = fmt::format("{} of them", found.episode().branches.size());
+        divergence.note = branch_text(expected.episode(), found.episode());
+        add_note(divergence.note, "all ticks are equal nevertheless");
+        return divergence;
+    }
     if (!start.deciding.empty()) {
         divergence.field = start.deciding.front().field;
         divergence.expected = start.deciding.front().expected;
@@ -190,7 +206,7 @@ std::string settings_text(const world::BranchT& branch) {
     return text;
 }
 
-void check_undamaged(const TraceReader& trace) {
+void check_undamaged(TraceReader& trace) {
     if (const auto damage = trace.damage())
         throw world::Error(trace.path().string() + ": " + *damage);
 }
@@ -230,12 +246,13 @@ std::optional<Divergence> compare(TraceReader& expected, TraceReader& found) {
     require_start_of_run(expected);
     require_start_of_run(found);
     const bool same_start = expected.chain(0) == found.chain(0);
+    const bool same_chain = same_start && same_branches(expected.episode(), found.episode());
     const StartDifference start = compare_starts(expected.episode(), found.episode());
     std::optional<Divergence> divergence;
     if (same_start)
         divergence = first_different_link(expected, found);
     if (!divergence)
-        divergence = first_different_tick(expected, found, same_start);
+        divergence = first_different_tick(expected, found, same_chain);
     if (!divergence)
         divergence = compare_ends(expected, found);
     if (divergence) {
@@ -247,7 +264,7 @@ std::optional<Divergence> compare(TraceReader& expected, TraceReader& found) {
     }
     check_undamaged(expected);
     check_undamaged(found);
-    if (same_start)
+    if (same_chain)
         return std::nullopt;
     divergence = only_starts_differ(expected, found, start);
     add_note(divergence->note, start.note());
@@ -279,6 +296,12 @@ std::optional<Divergence> compare(TraceReader& expected, TraceReader& found, Tol
 
 std::string start_difference(const TraceReader& expected, const TraceReader& found) {
     return compare_starts(expected.episode(), found.episode()).note();
+}
+
+std::string town_path_difference(const TraceReader& expected, const TraceReader& found) {
+    const std::string& left = expected.episode().town_path;
+    const std::string& right = found.episode().town_path;
+    return left == right ? "" : fmt::format("their towns were read from '{}' / '{}'", left, right);
 }
 
 }  // namespace reprise::replay

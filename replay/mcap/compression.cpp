@@ -46,7 +46,8 @@ Decompressor::~Decompressor() {
 }
 
 bool Decompressor::decompress(mcap::View frame, std::span<std::uint8_t> out) {
-    return ZSTD_decompressDCtx(
+    return is_one_frame(frame) &&
+           ZSTD_decompressDCtx(
                context_->zstd, out.data(), out.size(), frame.data(), frame.size()) == out.size();
 }
 
@@ -63,6 +64,10 @@ std::size_t Decompressor::salvage(mcap::View frame, std::span<std::uint8_t> out)
     }
     ZSTD_DCtx_reset(context_->zstd, ZSTD_reset_session_only);
     return unpacked.pos;
+}
+
+bool is_one_frame(mcap::View bytes) {
+    return ZSTD_findFrameCompressedSize(bytes.data(), bytes.size()) == bytes.size();
 }
 
 std::optional<std::uint64_t> unpacked_size(mcap::View frame) {

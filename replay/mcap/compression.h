@@ -47,6 +47,9 @@ class Decompressor {
     std::unique_ptr<Context> context_;
 };
 
+/// Whether these bytes are one frame and nothing else: zstd skips frames of foreign bytes.
+bool is_one_frame(mcap::View bytes);
+
 /// What the frame says it unpacks to; nothing when it is no zstd frame, does not say, or says more
 /// than largest_unpacked.
 std::optional<std::uint64_t> unpacked_size(mcap::View frame);

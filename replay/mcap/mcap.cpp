@@ -99,6 +99,18 @@ void encode_chunk_header(Bytes& out, const Chunk& chunk, std::uint32_t uncompres
     record.number(chunk.compressed_size);
 }
 
+void encode_message_index(Bytes& out, std::uint16_t channel, const MessageEntries& entries) {
+    Encoder record(out);
+    record.begin(Op::message_index);
+    record.number(channel);
+    record.number(static_cast<std::uint32_t>(entries.size() * 16));
+    for (const auto& [log_time, offset] : entries) {
+        record.number(log_time);
+        record.number(offset);
+    }
+    record.end();
+}
+
 void encode_index(Bytes& out, const Chunk& chunk) {
     Encoder record(out);
     record.begin(Op::chunk_index);

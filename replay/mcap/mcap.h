@@ -22,6 +22,10 @@ static_assert(std::endian::native == std::endian::little, "MCAP is little-endian
 using Bytes = std::vector<std::uint8_t>;
 using View = std::span<const std::uint8_t>;
 
+inline View view(std::string_view text) {
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
 inline constexpr std::array<std::uint8_t, 8> magic{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 
 enum class Op : std::uint8_t {
@@ -176,6 +180,15 @@ std::uint64_t chunk_header_size(const Chunk& chunk);
 
 /// Offset of uncompressed_crc in a Chunk record with its prefix.
 inline constexpr std::uint64_t chunk_crc_at = prefix_size + 3 * 8;
+
+/// A MessageIndex record: log time of each message, and where it lies in the unpacked chunk.
+using MessageEntries = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
+void encode_message_index(Bytes& out, std::uint16_t channel, const MessageEntries& entries);
+
+/// Size of what encode_message_index writes, with its prefix.
+constexpr std::uint64_t message_index_size(std::uint64_t messages) {
+    return prefix_size + 2 + 4 + 16 * messages;
+}
 
 void encode_index(Bytes& out, const Chunk& chunk);
 void encode_index(Bytes& out, const Attachment& attachment);

@@ -6,6 +6,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "replay/chain_seed.h"
 #include "replay/compare/divergence.h"
 #include "replay/recovery.h"
 #include "replay/trace_reader.h"
@@ -86,7 +87,8 @@ void recover(const std::filesystem::path& input, const std::filesystem::path& ou
     TraceReader trace(out);
     world::Digest128 chain = trace.chain(0);
     for (std::uint64_t index = 1; index <= trace.ticks(); ++index) {
-        chain = world::chain(chain, trace.recorded(index).view.tick->digests()->state());
+        chain = world::chain(replay::chain_before(trace.episode(), index, chain),
+                             trace.recorded(index).view.tick->digests()->state());
         if (!(chain == trace.chain(index)))
             std::abort();
     }

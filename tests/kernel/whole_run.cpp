@@ -6,7 +6,6 @@
 
 #include "scripting/scenario.h"
 #include "towns/town_reader.h"
-#include "world/check.h"
 #include "world/digest.h"
 
 namespace reprise::test {
@@ -46,15 +45,6 @@ std::vector<KeptTick> run(const world::Recording& recording,
     while (!kernel.finished())
         ticks.emplace_back(kernel.step());
     return ticks;
-}
-
-std::string error_of(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const world::Error& error) {
-        return error.what();
-    }
-    return "";
 }
 
 }  // namespace reprise::test

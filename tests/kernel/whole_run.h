@@ -7,6 +7,7 @@
 
 #include "kernel/kernel.h"
 #include "replay/trace_reader.h"
+#include "tests/replay/synthetic_run.h"
 #include "world/recording.h"
 
 /// Whole runs in Town 1, from a scenario's text.
@@ -30,8 +31,5 @@ class KeptTick {
 /// Runs it to its end. `prepare` may ask the kernel for a drill.
 std::vector<KeptTick> run(const world::Recording& recording,
                           const std::function<void(kernel::Kernel&)>& prepare = {});
-
-/// What `action` throws as world::Error, or "" when it does not.
-std::string error_of(const std::function<void()>& action);
 
 }  // namespace reprise::test

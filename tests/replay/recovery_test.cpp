@@ -86,6 +86,29 @@ TEST_F(Recovery, KeepsEveryWholeChunkWhereverTheLastOneIsCut) {
     }
 }
 
+/// The end of the file said it, and the ticks say it, too.
+TEST_F(Recovery, TellsHowTheRunEndedWhenAllItsTicksAreThere) {
+    const auto raise = [](world::TickDraft& draft, world::EventKind kind, const char* text) {
+        draft.tick.events.emplace_back();
+        draft.tick.events.back().kind = kind;
+        draft.tick.events.back().text = text;
+    };
+    SyntheticRun run{.ticks = 70, .cars = 1};
+    run.change = [&](world::TickDraft& draft) {
+        if (draft.tick.index == 20)
+            raise(draft, world::EventKind::check_failed, "slow");
+        if (draft.tick.index == 70)
+            raise(draft, world::EventKind::finished, "arrived");
+    };
+    write_trace(whole_path_, run);
+    whole_ = read_file(whole_path_);
+    const std::string outcome = "reprise.outcome";
+    const auto end = std::search(whole_.begin(), whole_.end(), outcome.begin(), outcome.end());
+    EXPECT_EQ(recovered({whole_.begin(), end}), 70U);
+    EXPECT_EQ(recovery_.outcome, (world::Outcome{"failed", "arrived", 70}));
+    EXPECT_EQ(replay::TraceReader(out_path_).outcome(), recovery_.outcome);
+}
+
 TEST_F(Recovery, RefusesWhatHasNoWholeChunkAndLeavesNoFile) {
     for (const std::size_t size : {std::size_t{0}, std::size_t{8}, std::size_t{500}}) {
         EXPECT_EQ(recovered(cut(size)), 0U) << size;

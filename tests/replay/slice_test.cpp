@@ -1,5 +1,7 @@
 #include "replay/slice.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "replay/compare/divergence.h"
@@ -124,6 +126,57 @@ TEST_F(Slice, MergeRefusesAnotherHistory) {
     EXPECT_THAT(refusal(cut(1, 60), folder_ / "other_end.mcap"), HasSubstr("another history"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "merged.mcap"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "merged.mcap.partial"));
+}
+
+/// A trace with a tick in the middle that goes on with nothing: every checksum is right, and the
+/// seams fit.
+class BrokenChain : public Slice {
+  protected:
+    /// Ticks `first` to `last` of the run, tick 30 with another link.
+    std::filesystem::path write(std::uint64_t first, std::uint64_t last) {
+        const auto path = folder_ / ("broken" + std::to_string(first) + ".mcap");
+        TraceReader trace(whole_);
+        TraceWriter writer(path,
+                           trace.recording(),
+                           Level::full,
+                           Unfinished::remove,
+                           world::SliceStart{first, 150, trace.chain(first - 1)});
+        for (std::uint64_t index = first; index <= last; ++index) {
+            const RecordedTick tick = trace.recorded(index);
+            test::TickBytes bytes = test::bytes_of(tick);
+            if (index == 30) {
+                const world::Digest128 link = tick.view.tick->digests()->chain();
+                const auto* text = reinterpret_cast<const std::uint8_t*>(&link);
+                *std::search(bytes.tick.begin(), bytes.tick.end(), text, text + sizeof(link)) ^= 1;
+            }
+            writer.append({{world::GetTick(bytes.tick.data()), tick.view.traffic},
+                           bytes.tick,
+                           tick.traffic_bytes});
+        }
+        writer.close(trace.outcome());
+        return path;
+    }
+};
+
+TEST_F(BrokenChain, IsNotCut) {
+    TraceReader trace(write(1, 60));
+    EXPECT_THAT(test::error_of([&] { slice(trace, 20, 40, folder_ / "cut.mcap"); }),
+                HasSubstr("tick 30 does not continue the digest chain"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "cut.mcap"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "cut.mcap.partial"));
+}
+
+TEST_F(BrokenChain, IsNotJoined) {
+    EXPECT_THAT(refusal(write(1, 60), cut(61, 150)),
+                HasSubstr("tick 30 does not continue the digest chain"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "merged.mcap"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "merged.mcap.partial"));
+}
+
+TEST_F(Slice, WithoutTheRunsEndDoesNotSayHowItEnded) {
+    EXPECT_EQ(TraceReader(cut(1, 149)).outcome().verdict, "part");
+    EXPECT_EQ(TraceReader(cut(2, 150)).outcome().verdict, "passed");
+    EXPECT_EQ(TraceReader(cut(3, 9)).outcome().verdict, "part");
 }
 
 TEST_F(Slice, HoldsNoTickThatItsRunDidNotHave) {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "replay/trace_reader.h"
+#include "world/recording.h"
+
+namespace reprise::replay {
+
+/// Of a trace that is the beginning of a run: it was cut off, and its end is lost.
+world::Outcome outcome_of_cut_off(std::uint64_t ticks);
+
+/// Of a slice without the run's last tick: how the run ended cannot be seen in it.
+world::Outcome outcome_of_part(std::uint64_t ticks);
+
+/// Gathers from the events of a run's ticks how it ended.
+class ToldOutcome {
+  public:
+    void hear(const world::Event& event);
+
+    /// What all events of a trace say. Nothing when the run's end is not among them, or its start,
+    /// or what a script had seen that another took the place of.
+    std::optional<world::Outcome> of(const TraceReader& trace) const;
+
+    /// "its outcome says 'passed: arrived', its ticks 'failed: arrived'", or nothing. `all`: every
+    /// tick was heard, else only the first and the last ones.
+    std::optional<std::string> contradiction(const TraceReader& trace, bool all) const;
+
+  private:
+    std::optional<std::string> finished_;  ///< why
+    bool failed_ = false;
+    bool passed_ = false;
+};
+
+/// Hears every tick.
+std::optional<world::Outcome> told_outcome(TraceReader& trace);
+
+/// "passed: arrived"
+std::string to_text(const world::Outcome& outcome);
+
+}  // namespace reprise::replay
