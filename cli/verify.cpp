@@ -7,15 +7,45 @@
 #include "cli/process/progress.h"
 #include "cli/run_again.h"
 #include "kernel/verify.h"
+#include "replay/outcomes.h"
+#include "replay/trace_format.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
 
 namespace reprise::cli {
 
-int verify(const TraceOptions& options) {
+namespace {
+
+/// What a part of a run cannot show; "" of a whole one.
+std::string unseen(const replay::TraceReader& trace) {
+    std::string what;
+    if (trace.outcome() == replay::outcome_of_part(trace.ticks()))
+        what = fmt::format("how the run went on behind tick {} to tick {}, and how it ended",
+                           trace.last(),
+                           trace.run_ticks());
+    else if (trace.outcome() == replay::outcome_of_cut_off(trace.ticks()))
+        what =
+            fmt::format("how the run went on behind tick {}, where it was cut off", trace.last());
+    const auto& branches = trace.episode().branches;
+    if (!branches.empty() && branches.back().tick >= trace.last())
+        what += fmt::format(", its branch at tick {}", branches.back().tick);
+    return what;
+}
+
+}  // namespace
+
+int verify(const VerifyOptions& options) {
     self_test();
     replay::TraceReader trace(options.trace);
     require_repeatable(trace);
+    if (!options.expect.empty() &&
+        !(trace.chain(trace.last()) == replay::format::from_hex(options.expect))) {
+        fmt::print("{}: differs: its chain is {}, not {}: another run, or one that was changed\n",
+                   options.trace,
+                   world::to_hex(trace.chain(trace.last())),
+                   options.expect);
+        return exit_differs;
+    }
     print_recording_build(trace);
     Progress progress("verifying", "ticks", trace.ticks());
     const auto divergence = kernel::verify(
@@ -26,8 +56,10 @@ int verify(const TraceOptions& options) {
     fmt::print("{}: equal at every one of {} ticks, chain {} ({:.2f} s)\n",
                options.trace,
                trace.ticks(),
-               trace.ticks() == 0 ? "-" : world::to_hex(trace.chain(trace.ticks())),
+               trace.ticks() == 0 ? "-" : world::to_hex(trace.chain(trace.last())),
                progress.seconds());
+    if (const std::string what = unseen(trace); !what.empty())
+        fmt::print("  unseen    {}\n", what);
     return exit_good;
 }
 

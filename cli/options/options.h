@@ -28,7 +28,7 @@ class CommandLine {
 
     std::string command;  ///< run, verify, info, diff, ..., or one of ToolOptions
     RunOptions run;
-    TraceOptions verify;
+    VerifyOptions verify;
     InfoOptions info;
     DiffOptions diff;
     RecoverOptions recover;

@@ -1,5 +1,7 @@
 #include "cli/options/trace_options.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 
 #include <CLI/CLI.hpp>
@@ -8,12 +10,28 @@
 
 namespace reprise::cli {
 
-void add_verify(CLI::App& app, TraceOptions& verify) {
+void add_verify(CLI::App& app, VerifyOptions& verify) {
     CLI::App& command =
-        *app.add_subcommand("verify", "Simulate a trace again and compare every tick");
+        *app.add_subcommand("verify", "Simulate a trace again and compare every byte");
     command.add_option("trace", verify.trace, "The trace")->required()->type_name("T.mcap");
+    command
+        .add_option("--expect",
+                    verify.expect,
+                    "The chain that `info` or `verify` printed and you wrote down elsewhere: "
+                    "the trace must have this one")
+        ->type_name("CHAIN")
+        ->check(CLI::Validator(
+            [](std::string& text) -> std::string {
+                const auto is_digit = [](unsigned char c) { return std::isxdigit(c) != 0; };
+                if (text.size() != 32 || !std::all_of(text.begin(), text.end(), is_digit))
+                    return "expected a chain of 32 hexadecimal digits, got '" + text + "'";
+                return "";
+            },
+            ""));
     command.footer(
-        "Needs nothing but the trace. Exit status: 0 equal at every tick, 1 differs, 2 bad input.");
+        "Needs nothing but the trace. What else the file holds (outcome, scenario, town, index) "
+        "is\n"
+        "compared, too. Exit status: 0 equal, 1 differs, 2 bad input.");
 }
 
 void add_info(CLI::App& app, InfoOptions& info) {

@@ -11,8 +11,9 @@ class Option;
 
 namespace reprise::cli {
 
-struct TraceOptions {
+struct VerifyOptions {
     std::string trace;
+    std::string expect;  ///< the chain that the user wrote down, 32 hexadecimal digits; or empty
 };
 
 struct InfoOptions {
@@ -46,7 +47,7 @@ struct ExpandOptions {
 };
 
 /// Each adds the command of its name.
-void add_verify(CLI::App& app, TraceOptions& verify);
+void add_verify(CLI::App& app, VerifyOptions& verify);
 void add_info(CLI::App& app, InfoOptions& info);
 void add_diff(CLI::App& app, DiffOptions& diff);
 void add_recover(CLI::App& app, RecoverOptions& recover);

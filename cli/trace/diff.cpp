@@ -121,6 +121,8 @@ void print_text(const Comparison& result,
                    expected.ticks(),
                    world::to_hex(expected.chain(expected.ticks())));
     }
+    if (const std::string note = town_path_difference(expected, found); !note.empty())
+        fmt::print("  note      {}\n", note);
 }
 
 using Json = nlohmann::ordered_json;
@@ -168,6 +170,7 @@ void print_json(const DiffOptions& options,
              {"expected", side(options.expected, expected)},
              {"found", side(options.found, found)},
              {"start", start_difference(expected, found)},
+             {"town_path", town_path_difference(expected, found)},
              {"branch", replay::branch_text(expected.episode(), found.episode())},
              {"builds", Json::array()}};
     for (const replay::BuildDifference& line :

@@ -13,6 +13,7 @@
 #include "replay/imported.h"
 #include "replay/level.h"
 #include "replay/trace_reader.h"
+#include "world/check.h"
 #include "world/digest.h"
 #include "world/tick.h"
 
@@ -187,7 +188,7 @@ struct Screen {
         std::string text;
         for (std::size_t i = 0; i < std::min<std::size_t>(2, lines.size()); ++i)
             text += (text.empty() ? "" : ", ") + lines[i].key + " " + lines[i].value;
-        row("build", text + " (all lines: --long)");
+        row("build", text + " (as the file says; all lines: --long)");
     }
 
     void print(const std::string& path) const {
@@ -207,6 +208,7 @@ struct Screen {
         print_build();
         if (replay::is_imported(trace))
             return;
+        row("checked", "that it agrees with itself; `reprise verify` simulates it again");
         if (trace.first() > 1 && !episode.branches.empty())
             return;  // the run before the branch is in another trace
         row("again", run_again(trace));
@@ -283,6 +285,7 @@ void print_json(const std::string& path, replay::TraceReader& trace, const Trace
                     {{"/sim/tick", std::to_string(channels.tick)},
                      {"/sim/traffic", std::to_string(channels.traffic)}}},
                    {"build", json_of(episode.fingerprint)},
+                   {"checked", "that it agrees with itself; not simulated again"},
                    {"again", replay::is_imported(trace) ? "" : run_again(trace)}};
     fmt::print("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
 }
@@ -292,6 +295,13 @@ void print_json(const std::string& path, replay::TraceReader& trace, const Trace
 int info(const InfoOptions& options) {
     replay::TraceReader trace(options.trace);
     const TraceStory story = read_story(trace, options.long_form || trace.ticks() <= quickly_told);
+    const auto contradiction = story.told.contradiction(trace, story.whole);
+    if (contradiction && !replay::is_imported(trace))
+        throw world::Error(
+            fmt::format("{}: {}: it was changed after it was recorded; `reprise "
+                        "verify` names the first difference",
+                        options.trace,
+                        *contradiction));
     if (options.json)
         print_json(options.trace, trace, story);
     else

@@ -18,6 +18,7 @@ class Teller {
     TraceStory story;
 
     void hear(const world::Event& event, std::uint64_t tick) {
+        story.told.hear(event);
         switch (event.kind()) {
             case world::EventKind::spawned:
                 if (event.actor() < world::first_background_id)

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "replay/outcomes.h"
 #include "replay/trace_reader.h"
 
 namespace reprise::cli {
@@ -37,6 +38,7 @@ struct TraceStory {
     std::vector<Actor> actors;  ///< of the scenario
     std::uint64_t cars = 0;     ///< of the demand, in the last tick
     std::uint64_t walkers = 0;
+    replay::ToldOutcome told;  ///< of the ticks that were read
 };
 
 /// Reads all ticks, about 15 us each; or, when not `all`, the first and the last 64 only.
