@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "world/printable.h"
+
 struct lua_State;
 
 namespace reprise::scripting {
@@ -14,8 +16,7 @@ std::string number_text(double number);
 /// Lua's tostring without addresses: a table is "table", a function "function". Uses __tostring.
 std::string text_of(lua_State* L, int index);
 
-/// With what a terminal would obey or could not show written out: "\x1b", "\xff". For texts of
-/// scenarios that people will read: printed lines, names, messages.
-std::string printable(std::string_view text);
+/// For texts of scenarios that people will read: printed lines, names, messages.
+using world::printable;
 
 }  // namespace reprise::scripting
