@@ -48,10 +48,12 @@ class Alive {
   public:
     Alive() = default;
 
-    /// Whatever happens, none is left.
+    /// Whatever happens, none is left. They are asked first, so that they can tidy up.
     ~Alive() {
-        for (const auto& [pid, child] : children_)
-            kill(in_group_of_parent ? pid : -pid, SIGKILL);
+        signal_all(SIGTERM);
+        for (int tenths = 0; tenths < patience && any_runs(); ++tenths)
+            usleep(100'000);
+        signal_all(SIGKILL);
         for (const auto& [pid, child] : children_)
             waitpid(pid, nullptr, 0);
     }
@@ -98,6 +100,19 @@ class Alive {
     }
 
   private:
+    static constexpr int patience = 20;  ///< [0.1 s]
+
+    void signal_all(int signal) const {
+        for (const auto& [pid, child] : children_)
+            kill(in_group_of_parent ? pid : -pid, signal);
+    }
+
+    bool any_runs() const {
+        return std::any_of(children_.begin(), children_.end(), [](const auto& child) {
+            return still_runs(child.first);
+        });
+    }
+
     struct Child {
         std::size_t index = 0;
         Clock::time_point begin;

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <limits>
@@ -72,6 +73,9 @@ CopyResult result_of(const Copy& copy, const NamelessFile& note, const Ended& en
         return {
             How::fault,
             fmt::format("{}: the work on it ended with exit code {}", copy.subject, ended.code)};
+    if (ended.signal == SIGINT || ended.signal == SIGTERM || ended.signal == SIGHUP)
+        return {How::mistake,
+                fmt::format("{}: stopped ({})", copy.subject, strsignal(ended.signal))};
     const bool limited = (ended.signal == SIGXCPU && copy.limits.seconds) ||
                          (ended.signal == SIGXFSZ && copy.limits.file);
     return {limited ? How::mistake : How::fault,

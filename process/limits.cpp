@@ -32,6 +32,12 @@ std::string reason(int signal, const Limits& limits) {
     if (signal == SIGXCPU && limits.seconds)
         return fmt::format("was stopped: it needed more than {} s of processor time",
                            *limits.seconds);
+    rlimit ours{};
+    const bool has_ours =
+        getrlimit(RLIMIT_FSIZE, &ours) == 0 && ours.rlim_cur < limits.file.value_or(RLIM_INFINITY);
+    if (signal == SIGXFSZ && has_ours)
+        return fmt::format("was stopped: no file may be larger than {:.1f} kB here (ulimit -f)",
+                           static_cast<double>(ours.rlim_cur) / 1e3);
     if (signal == SIGXFSZ && limits.file)
         return fmt::format("was stopped: it wrote more than {} MB", *limits.file >> 20);
     return fmt::format("crashed (signal {}, {})", signal, strsignal(signal));
