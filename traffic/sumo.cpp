@@ -32,8 +32,10 @@ class MemoryFile {
             if (count < 0 && errno == EINTR)
                 continue;
             if (count < 0)
-                throw world::Error(
-                    fmt::format("cannot keep the network in memory: {}", std::strerror(errno)));
+                throw world::Error(fmt::format(
+                    "cannot keep the network in memory: {}{}",
+                    std::strerror(errno),
+                    errno == EFBIG ? "; the limit on files (ulimit -f) holds there as well" : ""));
             written += static_cast<std::size_t>(count);
         }
         if (file_ < 0)

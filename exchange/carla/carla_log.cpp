@@ -80,6 +80,7 @@ struct CarlaLog::State {
     void read_header();
     void find_variant();
     void start_frame(View content);
+    bool read_packet(const Prefix& next);
     bool read_frame();
 };
 
@@ -136,6 +137,15 @@ void CarlaLog::State::start_frame(View content) {
             fmt::format("the clock goes from {:.3f} s to {:.3f} s", last, frame.elapsed));
 }
 
+/// False when it holds something that is not read.
+bool CarlaLog::State::read_packet(const Prefix& next) {
+    try {
+        return read_carla_packet(next.kind, view(at + prefix_size, next.size), variant, frame);
+    } catch (const Malformed& error) {
+        throw Malformed(carla_packet_name(next.kind) + ": " + error.what());
+    }
+}
+
 /// False at the end. Throws Malformed; `at` is then the packet that is to blame.
 bool CarlaLog::State::read_frame() {
     bool inside = false;
@@ -152,9 +162,7 @@ bool CarlaLog::State::read_frame() {
             ++skipped[next.kind];
         else if (next.kind == frame_start)
             start_frame(view(at + prefix_size, next.size));
-        else if (next.kind != frame_end &&
-                 !read_carla_packet(next.kind, view(at + prefix_size, next.size), variant, frame) &&
-                 next.size > no_records)
+        else if (next.kind != frame_end && !read_packet(next) && next.size > no_records)
             ++skipped[next.kind];
         inside = inside || next.kind == frame_start;
         at += prefix_size + next.size;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -17,6 +19,7 @@ using replay::mcap::Malformed;
 using replay::mcap::View;
 
 constexpr double farthest = 1e8;           // [cm] from the origin: ten times CARLA's largest maps
+constexpr double most_turned = 1e6;        // [degrees]; some turn on and on
 constexpr std::size_t longest_text = 200;  // bytes of a name or value that are kept
 
 double read_float(Decoder& in) {
@@ -49,10 +52,18 @@ class PacketReader {
         pose.actor = actor;
         pose.location = vector();
         pose.rotation = vector();
-        if (!(pose.location.cwiseAbs().maxCoeff() <= farthest) ||
-            !(pose.rotation.cwiseAbs().maxCoeff() <= 1e6))
-            throw Malformed(fmt::format("actor {} is nowhere", actor));
+        require(pose.location, farthest, "place", actor);
+        require(pose.rotation, most_turned, "rotation", actor);
         return pose;
+    }
+
+    CarlaMotion motion() {
+        CarlaMotion motion;
+        motion.actor = in_.number<std::uint32_t>();
+        motion.velocity = vector();
+        require(motion.velocity, std::numeric_limits<double>::max(), "velocity", motion.actor);
+        vector();  // angular
+        return motion;
     }
 
     CarlaActor actor() {
@@ -84,6 +95,20 @@ class PacketReader {
     Decoder& in() { return in_; }
 
   private:
+    /// No number, or none that can be: what is made of it would be neither.
+    static void require(const Eigen::Vector3d& value,
+                        double largest,
+                        const char* what,
+                        std::uint32_t actor) {
+        if (!(value.cwiseAbs().maxCoeff() <= largest))
+            throw Malformed(fmt::format("the {} of actor {} is ({:g}, {:g}, {:g})",
+                                        what,
+                                        actor,
+                                        value.x(),
+                                        value.y(),
+                                        value.z()));
+    }
+
     Decoder in_;
     CarlaVariant variant_;
 };
@@ -94,6 +119,8 @@ CarlaControl read_control(Decoder& in) {
     read_float(in);  // steering
     read_float(in);  // throttle
     control.brake = read_float(in);
+    if (!std::isfinite(control.brake))
+        throw Malformed(fmt::format("the brake of actor {} is {:g}", control.actor, control.brake));
     in.number<std::uint8_t>();  // hand brake
     control.gear = in.number<std::int32_t>();
     return control;
@@ -153,11 +180,8 @@ bool read_records(std::uint8_t kind, PacketReader packet, std::uint64_t size, Ca
                 frame.lamps.push_back({actor, id()});
             });
         case kinematics:
-            return each(packet.record_size(4, 2), [&] {
-                const std::uint32_t actor = id();
-                frame.motions.push_back({actor, packet.vector()});
-                packet.vector();  // angular
-            });
+            return each(packet.record_size(4, 2),
+                        [&] { frame.motions.push_back(packet.motion()); });
         case bounding_box:
             return each(packet.record_size(4, 2), [&] { frame.boxes.push_back(packet.box()); });
         case trigger_volume:

@@ -16,7 +16,9 @@ using Eigen::Vector3d;
 // capsules of one height for all grown ups.
 constexpr double half_a_walker = 0.9;
 constexpr double half_a_child = 0.6;
-constexpr double height_steps = 32;  // of heights that count as one
+constexpr double largest_box = 5000;      // [cm]
+constexpr double farthest_trigger = 1e8;  // [cm]
+constexpr double height_steps = 32;       // of heights that count as one
 
 class Surveyor {
   public:
@@ -37,7 +39,8 @@ class Surveyor {
             boxes_[box.actor] = box;
         for (const CarlaBox& trigger : frame.triggers) {
             const auto light = found.lights.find(trigger.actor);
-            if (light == found.lights.end() || !trigger.middle.allFinite())
+            if (light == found.lights.end() ||
+                !(trigger.middle.cwiseAbs().maxCoeff() < farthest_trigger))
                 continue;
             light->second = from_carla(trigger.middle);
             found.lights_have_triggers = true;
@@ -93,9 +96,11 @@ class Surveyor {
     void cast(std::uint32_t id, CarlaRole& role) {
         std::optional<CarlaBox> box;
         const auto recorded = boxes_.find(id);
-        if (recorded != boxes_.end() && recorded->second.middle.allFinite() &&
-            recorded->second.extent.allFinite() && recorded->second.extent.minCoeff() > 0 &&
-            recorded->second.extent.maxCoeff() < 5000)
+        // What is no number is not less than anything.
+        if (recorded != boxes_.end() &&
+            recorded->second.middle.cwiseAbs().maxCoeff() < largest_box &&
+            recorded->second.extent.minCoeff() > 0 &&
+            recorded->second.extent.maxCoeff() < largest_box)
             box = recorded->second;
         if (role.actor.kind == CarlaKind::walker) {
             const CarlaModel model = walker_model_for(role.actor);

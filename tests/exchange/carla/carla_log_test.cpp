@@ -1,6 +1,8 @@
 #include "exchange/carla/carla_log.h"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -123,6 +125,48 @@ TEST(CarlaLog, SurvivesEveryCutOfItsFirstTwoKilobytes) {
         EXPECT_GE(sound, 1U) << "a header alone is sound";
         EXPECT_LE(sound, 7U) << "and so is what ends with a frame";
     }
+}
+
+/// Where a packet of this kind begins, and its size.
+std::pair<std::size_t, std::size_t> packet_in(const std::string& log, std::uint8_t kind) {
+    const auto number = [&](std::size_t at, std::size_t bytes) {
+        std::size_t value = 0;
+        for (std::size_t i = bytes; i > 0; --i)
+            value = value << 8 | static_cast<unsigned char>(log[at + i - 1]);
+        return value;
+    };
+    std::size_t at = 2 + 2 + number(2, 2) + 8;
+    at += 2 + number(at, 2);
+    while (at < log.size() && static_cast<std::uint8_t>(log[at]) != kind)
+        at += 5 + number(at + 1, 4);
+    return {at, number(at + 1, 4)};
+}
+
+/// Numbers of which nothing can be made are told with their packet, where they stand in the way.
+TEST(CarlaLog, NamesThePacketAndTheByteOfWhatIsNoNumber) {
+    struct Place {
+        std::uint8_t kind;
+        std::size_t offset;  ///< of the float in the packet's first record
+        const char* name;
+    };
+
+    const std::string bytes = carla_log("--frames 3 --additional");
+    for (const Place& place : {Place{2, 2 + 4 + 1, "EventAdd: the place of actor"},
+                               Place{6, 2 + 4, "Position: the place of actor"},
+                               Place{6, 2 + 4 + 12, "Position: the rotation of actor"},
+                               Place{8, 2 + 4 + 8, "the brake of actor"},
+                               Place{12, 2 + 4, "the velocity of actor"}})
+        for (const float value :
+             {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+            std::string bad = bytes;
+            const std::size_t packet = packet_in(bytes, place.kind).first;
+            std::memcpy(bad.data() + packet + 5 + place.offset, &value, sizeof(value));
+            CarlaLog log(bytes_of(bad));
+            EXPECT_EQ(log.next(), nullptr) << place.name;
+            ASSERT_TRUE(log.damage()) << place.name;
+            EXPECT_EQ(log.damage()->offset, packet);
+            EXPECT_THAT(log.damage()->what, HasSubstr(place.name));
+        }
 }
 
 /// What a reader learns from a log, frame by frame, and where each frame ends.
