@@ -14,9 +14,12 @@
 #include "cli/fingerprint/this_build.h"
 #include "cli/options/tick_option.h"
 #include "cli/process/guard.h"
+#include "cli/process/new_folder.h"
 #include "cli/process/output.h"
 #include "cli/process/progress.h"
+#include "cli/process/say.h"
 #include "cli/run_again.h"
+#include "files/output_place.h"
 #include "kernel/verify.h"
 #include "process/copy.h"
 #include "replay/trace_reader.h"
@@ -53,19 +56,14 @@ std::uint64_t branch_tick(const BranchOptions& options, const replay::TraceReade
     return tick;
 }
 
-/// One trace for one what-if; or a folder, which is made.
+/// Whether each what-if gets its own trace in a folder; else the only one is written to -o.
+bool wants_folder(const BranchOptions& options) {
+    return options.scripts.size() > 1 || fs::path(options.output).extension() != ".mcap";
+}
+
 fs::path output_of(const BranchOptions& options, const std::string& script) {
     const fs::path output = options.output;
-    if (options.scripts.size() <= 1 && output.extension() == ".mcap")
-        return output;
-    std::error_code error;
-    fs::create_directories(output, error);
-    if (error || !fs::is_directory(output))
-        throw world::Error(fmt::format("-o {}: expected a folder for {} traces{}",
-                                       options.output,
-                                       std::max<std::size_t>(options.scripts.size(), 1),
-                                       error ? ": " + error.message() : ""));
-    return output / (fs::path(script).stem().string() + ".mcap");
+    return wants_folder(options) ? output / (fs::path(script).stem().string() + ".mcap") : output;
 }
 
 std::vector<WhatIf> plan(const BranchOptions& options,
@@ -126,19 +124,19 @@ std::vector<process::CopyResult> go_on_in_copies(kernel::Kernel& kernel,
 int report(const WhatIf& what_if, const process::CopyResult& result) {
     if (result.how != How::returned) {
         if (result.how == How::mistake)
-            fmt::print(stderr, "reprise: {}\n", result.text);
-        fmt::print("{}: nothing was written\n", what_if.output.string());
+            say(stderr, "reprise: {}\n", result.text);
+        say("{}: nothing was written\n", what_if.output.string());
         return exit_bad_input;
     }
     const replay::TraceReader trace(what_if.output);
     const world::Outcome& outcome = trace.outcome();
-    fmt::print("{}: {} ticks, {} from tick {} on; {}: {}\n",
-               what_if.output.string(),
-               trace.ticks(),
-               what_if.branch.name,
-               what_if.branch.tick + 1,
-               outcome.verdict,
-               outcome.reason);
+    say("{}: {} ticks, {} from tick {} on; {}: {}\n",
+        what_if.output.string(),
+        trace.ticks(),
+        what_if.branch.name,
+        what_if.branch.tick + 1,
+        outcome.verdict,
+        outcome.reason);
     return outcome.verdict == "failed" ? exit_differs : exit_good;
 }
 
@@ -155,6 +153,11 @@ int branch(const BranchOptions& options) {
     const std::uint64_t tick = branch_tick(options, trace);
     trace.tick(tick);  // says at once when the trace is not full
     const std::vector<WhatIf> what_ifs = plan(options, tick, trace);
+    std::optional<NewFolder> folder;
+    if (wants_folder(options))
+        folder.emplace(options.output);
+    for (const WhatIf& what_if : what_ifs)
+        files::output_target(what_if.output, "the trace");  // rather now than after a long way
     print_recording_build(trace);
     kernel::Kernel kernel(trace.recording());
     Progress progress("going there", "ticks", tick);
@@ -172,6 +175,8 @@ int branch(const BranchOptions& options) {
     int code = exit_good;
     for (std::size_t i = 0; i < what_ifs.size(); ++i)
         code = std::max(code, report(what_ifs[i], results[i]));
+    if (folder)
+        folder->keep();
     for (const process::CopyResult& result : results)
         if (result.how == How::fault)
             throw std::runtime_error(result.text);

@@ -6,6 +6,7 @@
 #include "cli/process/guard.h"
 #include "cli/process/output.h"
 #include "cli/process/progress.h"
+#include "cli/process/say.h"
 #include "cli/run_again.h"
 #include "kernel/verify.h"
 #include "replay/trace_reader.h"
@@ -33,11 +34,11 @@ int expand(const ExpandOptions& options) {
     if (divergence)
         return report_difference(options.trace, trace, *divergence, "; nothing was written");
     full.close(trace.outcome());
-    fmt::print("{}: {} ticks, equal to those of {} ({:.2f} s)\n",
-               options.output,
-               trace.ticks(),
-               options.trace,
-               progress.seconds());
+    say("{}: {} ticks, equal to those of {} ({:.2f} s)\n",
+        options.output,
+        trace.ticks(),
+        options.trace,
+        progress.seconds());
     return exit_good;
 }
 

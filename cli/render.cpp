@@ -1,13 +1,16 @@
 #include "cli/render.h"
 
 #include <filesystem>
+#include <list>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "cli/options/tick_option.h"
 #include "cli/process/guard.h"
+#include "cli/process/new_folder.h"
 #include "cli/process/progress.h"
+#include "cli/process/say.h"
 #include "render/picture.h"
 #include "render/sensors.h"
 #include "replay/trace_reader.h"
@@ -97,16 +100,15 @@ void save(const world::SensorFrame& frame, const fs::path& folder) {
         render::write_png(render::viewable(frame), folder / "view" / name);
 }
 
-void make_folders(const RenderOptions& options) {
+/// Those that stay empty go again.
+std::list<NewFolder> make_folders(const RenderOptions& options) {
+    std::list<NewFolder> folders;
     for (const std::string& camera : options.cameras) {
         const fs::path folder = options.cameras.size() == 1 ? fs::path(options.directory)
                                                             : fs::path(options.directory) / camera;
-        std::error_code error;
-        fs::create_directories(camera == "rgb" ? folder : folder / "view", error);
-        if (error)
-            throw world::Error("cannot make the folder " + folder.string() + ": " +
-                               error.message());
+        folders.emplace_front(camera == "rgb" ? folder : folder / "view");
     }
+    return folders;
 }
 
 }  // namespace
@@ -115,7 +117,7 @@ int render(const RenderOptions& options) {
     replay::TraceReader trace(options.trace);
     const Span span = ticks_to_render(options, trace);
     world::SensorRig rig = make_rig(options);
-    make_folders(options);
+    const std::list<NewFolder> folders = make_folders(options);
     render::Sensors sensors(trace.recording().town,
                             {.threads = options.threads, .portable = options.portable});
     const world::WeatherPreset* other = world::find_weather(options.weather);
@@ -136,11 +138,11 @@ int render(const RenderOptions& options) {
         progress.update(++done);
     }
     progress.clear();
-    fmt::print("{}: {} pictures of {} in {:.2f} s\n",
-               options.directory,
-               done * rig.size(),
-               other != nullptr ? other->name : trace.episode().weather_name,
-               progress.seconds());
+    say("{}: {} pictures of {} in {:.2f} s\n",
+        options.directory,
+        done * rig.size(),
+        other != nullptr ? other->name : trace.episode().weather_name,
+        progress.seconds());
     if (done == 0)
         throw world::Error("no vehicle to mount the camera on in these ticks of " + options.trace);
     return exit_good;

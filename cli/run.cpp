@@ -1,6 +1,7 @@
 #include "cli/run.h"
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -10,7 +11,10 @@
 #include "cli/process/guard.h"
 #include "cli/process/progress.h"
 #include "cli/process/reproduce.h"
+#include "cli/process/say.h"
 #include "cli/town/towns.h"
+#include "files/ending.h"
+#include "files/output_place.h"
 #include "kernel/kernel.h"
 #include "replay/imported.h"
 #include "replay/level.h"
@@ -61,7 +65,7 @@ world::Recording prepare(const RunOptions& options) {
     world::EpisodeT& episode = recording.episode;
     towns::Network network = load_town(episode.town, options.scenario);
     if (!network.notes.empty())
-        fmt::print(stderr, "{}", network.notes);
+        say_lines(network.notes, stderr);
     recording.town = towns::read_town(network);
     episode.town_path =
         episode.town;  // as it was named: equal runs write equal bytes in any folder
@@ -77,15 +81,6 @@ fs::path output_path(const RunOptions& options) {
         return options.output;
     const fs::path scenario = options.scenario;
     return scenario.stem().string() + (is_trace(scenario) ? "_again.mcap" : ".mcap");
-}
-
-/// Where a link leads: it stays, and what it names is written.
-fs::path behind_links(fs::path path) {
-    constexpr int deepest = 40;  // as Linux has it
-    std::error_code ignored;
-    for (int i = 0; i < deepest && fs::is_symlink(path, ignored); ++i)
-        path = path.parent_path() / fs::read_symlink(path);  // an absolute target stands alone
-    return path;
 }
 
 std::optional<kernel::Nudge> planned_nudge(const RunOptions& options,
@@ -131,7 +126,7 @@ void print_events(const world::TickView& tick, std::uint64_t step_ns, Progress& 
                 continue;
         }
         progress.clear();
-        fmt::print("{:8.2f} s  {}\n", world::seconds(tick.index(), step_ns), text);
+        say("{:8.2f} s  {}\n", world::seconds(tick.index(), step_ns), text);
     }
 }
 
@@ -154,20 +149,30 @@ void print_summary(const world::Recording& recording,
     const world::Outcome outcome = kernel.outcome();
     const double simulated = world::seconds(outcome.ticks, recording.episode.step_ns);
     for (const Check& check : kernel.checks())
-        fmt::print("  {:<14}{}{}\n",
-                   word(check.status),
-                   check.name,
-                   check.detail.empty() ? "" : ": " + check.detail);
-    fmt::print("{}: {} ({:.2f} s simulated in {:.2f} s, {:.0f} times real time)\n",
-               outcome.verdict,
-               outcome.reason,
-               simulated,
-               wall_seconds,
-               simulated / std::max(wall_seconds, 1e-9));
-    fmt::print("{}: {} ticks, {:.2f} MB\n",
-               path.string(),
-               outcome.ticks,
-               static_cast<double>(fs::file_size(path)) / 1e6);
+        say("  {:<14}{}{}\n",
+            word(check.status),
+            check.name,
+            check.detail.empty() ? "" : ": " + check.detail);
+    say("{}: {} ({:.2f} s simulated in {:.2f} s, {:.0f} times real time)\n",
+        outcome.verdict,
+        outcome.reason,
+        simulated,
+        wall_seconds,
+        simulated / std::max(wall_seconds, 1e-9));
+    say("{}: {} ticks, {:.2f} MB\n",
+        path.string(),
+        outcome.ticks,
+        static_cast<double>(fs::file_size(path)) / 1e6);
+}
+
+/// `rest`: where what was recorded until then is to be found. Returns the exit code.
+int tell_stopped(int signal, std::uint64_t ticks, const std::string& rest) {
+    say(stderr,
+        "reprise: stopped ({}) {}\n",
+        strsignal(signal),
+        ticks == 0 ? "before the first tick; nothing was recorded"
+                   : fmt::format("behind tick {}{}", ticks, rest));
+    return exit_stopped + signal;
 }
 
 }  // namespace
@@ -182,24 +187,37 @@ int run(const RunOptions& options) {
     const world::Recording recording = before ? prepare_again(options, *before) : prepare(options);
     const std::optional<kernel::Nudge> nudge = planned_nudge(options, recording.episode);
     const fs::path path = output_path(options);
-    const fs::path target = behind_links(path);
-    replay::TraceWriter trace(target, recording, *replay::level_named(options.level));
-    say_when_crashing("; what was recorded until then is in " + target.string() +
-                      ".partial: " + recover_command(target.string() + ".partial"));
+    const fs::path target = files::output_target(path, "the trace");
+    const std::string rest = "; what was recorded until then is in " + target.string() +
+                             ".partial: " + recover_command(target.string() + ".partial");
+    // Before there is a file: from here on, a signal ends the run behind a tick.
+    const files::StopRequest stop;
+    std::optional<replay::TraceWriter> trace;
+    trace.emplace(target, recording, *replay::level_named(options.level));
+    say_when_crashing(rest);
     kernel::Kernel kernel(recording);
     if (nudge)
         kernel.nudge(*nudge);
     Progress progress("running", "ticks", world::tick_limit(recording.episode));
     std::uint64_t index = 0;
-    while (!kernel.finished()) {
-        const world::SealedTick& tick = kernel.step(inputs(before, ++index));
-        trace.append(tick);
-        print_events(tick.view(), recording.episode.step_ns, progress);
-        progress.update(index);
+    try {
+        while (!kernel.finished() && stop.signal() == 0) {
+            const world::SealedTick& tick = kernel.step(inputs(before, ++index));
+            trace->append(tick);
+            print_events(tick.view(), recording.episode.step_ns, progress);
+            progress.update(index);
+        }
+    } catch (const world::Error&) {
+        if (stop.signal() == 0)
+            throw;  // else it is the signal that counts: nobody reads what we print
     }
     progress.clear();
-    trace.close(kernel.outcome());
     say_when_crashing("");
+    if (!kernel.finished() && stop.signal() != 0) {
+        trace.reset();
+        return tell_stopped(stop.signal(), index, rest);
+    }
+    trace->close(kernel.outcome());
     print_summary(recording, kernel, path, progress.seconds());
     if (nudge && nudge->tick > kernel.outcome().ticks)
         throw world::Error(fmt::format("--nudge {}: the run ended at tick {}; nothing was nudged",

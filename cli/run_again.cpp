@@ -6,6 +6,7 @@
 #include "cli/fingerprint/this_build.h"
 #include "cli/process/guard.h"
 #include "cli/process/reproduce.h"
+#include "cli/process/say.h"
 #include "replay/imported.h"
 #include "replay/slice.h"
 
@@ -29,7 +30,8 @@ int report_difference(const std::string& path,
                       replay::Divergence divergence,
                       const std::string& where) {
     divergence.again = "reprise verify " + shell_path(path);
-    fmt::print("{}: differs{}\n{}", path, where, to_text(divergence, trace.episode().step_ns));
+    say("{}: differs{}\n", path, where);
+    say_lines(to_text(divergence, trace.episode().step_ns));
     return exit_differs;
 }
 

@@ -5,6 +5,7 @@
 #include "cli/fingerprint/self_test.h"
 #include "cli/process/guard.h"
 #include "cli/process/progress.h"
+#include "cli/process/say.h"
 #include "cli/run_again.h"
 #include "kernel/verify.h"
 #include "replay/outcomes.h"
@@ -53,13 +54,13 @@ int verify(const VerifyOptions& options) {
     progress.clear();
     if (divergence)
         return report_difference(options.trace, trace, *divergence, "");
-    fmt::print("{}: equal at every one of {} ticks, chain {} ({:.2f} s)\n",
-               options.trace,
-               trace.ticks(),
-               trace.ticks() == 0 ? "-" : world::to_hex(trace.chain(trace.last())),
-               progress.seconds());
+    say("{}: equal at every one of {} ticks, chain {} ({:.2f} s)\n",
+        options.trace,
+        trace.ticks(),
+        trace.ticks() == 0 ? "-" : world::to_hex(trace.chain(trace.last())),
+        progress.seconds());
     if (const std::string what = unseen(trace); !what.empty())
-        fmt::print("  unseen    {}\n", what);
+        say("  unseen    {}\n", what);
     return exit_good;
 }
 

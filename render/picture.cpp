@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <string>
-#include <system_error>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "files/output_file.h"
 #include "render/palette.h"
 #include "world/check.h"
 
@@ -87,17 +86,7 @@ void write_png(const world::SensorFrame& frame, const std::filesystem::path& pat
     const bool packed =
         cv::imencode(".png", matrix_of(frame), png, {cv::IMWRITE_PNG_COMPRESSION, 3});
     REPRISE_CHECK(packed, "OpenCV: " + path.string());
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-    file.close();
-    if (file.fail()) {
-        std::error_code ignored;
-        if (std::filesystem::is_regular_file(path, ignored))
-            std::filesystem::remove(path, ignored);  // leave nothing half written
-        throw world::Error(
-            path.string() +
-            ": cannot write the picture (is there such a folder, and room on the disk?)");
-    }
+    files::write_file(path, "the picture", png);
 }
 
 world::SensorFrame viewable(const world::SensorFrame& frame) {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "files/ending.h"
+#include "files/output_place.h"
 #include "replay/chain_seed.h"
 #include "replay/mcap/files.h"
 #include "replay/outcomes.h"
@@ -46,14 +48,15 @@ Links follow_chain(TraceReader& trace) {
 }
 
 /// OUT must be another plain file, and its folder must be there: told before anything is read.
-void check_paths(const fs::path& damaged, const fs::path& out) {
+/// Returns it, behind its links.
+fs::path check_paths(const fs::path& damaged, const fs::path& out) {
     const InputFile readable(damaged);
     std::error_code ignored;
     if (fs::equivalent(damaged, out, ignored))
         throw world::Error(fmt::format(
             "{}: this is the damaged trace itself; name another file for what is recovered",
             out.string()));
-    check_output(out);
+    return files::output_target(out, "the trace");
 }
 
 TraceReader open(const fs::path& damaged) {
@@ -74,32 +77,18 @@ TraceReader open(const fs::path& damaged) {
         fmt::format("{}: no whole chunk of ticks is left in it", damaged.string()));
 }
 
-/// Writes the trace; removes what is there of it when that fails.
+/// Writes the trace, or nothing.
 void write_recovered(const fs::path& path, TraceReader& trace, const world::Outcome& outcome) {
-    try {
-        TraceWriter writer(path, trace.recording(), trace.level(), Unfinished::keep, trace.slice());
-        try {
-            for (std::uint64_t index = 1; index <= outcome.ticks; ++index)
-                writer.append(trace.recorded(index));
-            writer.close(outcome);
-        } catch (const world::Error&) {
-            // Its text promises a rest that is worth keeping; this one is not.
-            throw world::Error(
-                fmt::format("{}: cannot write_recovered all of it; is there room for {:.1f} MB?",
-                            path.string(),
-                            static_cast<double>(trace.file_size()) / 1e6));
-        }
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove(path.string() + ".partial", ignored);
-        throw;
-    }
+    TraceWriter writer(path, trace.recording(), trace.level(), Unfinished::remove, trace.slice());
+    for (std::uint64_t index = 1; index <= outcome.ticks; ++index)
+        writer.append(trace.recorded(index));
+    writer.close(outcome);
 }
 
 }  // namespace
 
 Recovery recover(const fs::path& damaged, const fs::path& out) {
-    check_paths(damaged, out);
+    const fs::path target = check_paths(damaged, out);
     TraceReader trace = open(damaged);
     if (trace.first() > 1)
         throw world::Error(fmt::format(
@@ -118,15 +107,16 @@ Recovery recover(const fs::path& damaged, const fs::path& out) {
         recovery.outcome = told_outcome(trace).value_or(recovery.outcome);
     }
     // Not OUT.partial: that may be what is recovered.
-    const fs::path grown = out.string() + ".recovered";
+    const fs::path grown = target.string() + ".recovered";
+    const files::RemovedWhenEnded note(grown);
     write_recovered(grown, trace, recovery.outcome);
     std::error_code error;
-    fs::rename(grown, out, error);
+    fs::rename(grown, target, error);
     if (error) {
         std::error_code ignored;
         fs::remove(grown, ignored);
         throw world::Error(
-            fmt::format("{}: cannot write_recovered the trace: {}", out.string(), error.message()));
+            fmt::format("{}: cannot write the trace: {}", out.string(), error.message()));
     }
     return recovery;
 }

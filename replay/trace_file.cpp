@@ -2,11 +2,13 @@
 
 namespace reprise::replay {
 
-TraceFile::TraceFile(const std::filesystem::path& path, Level level)
-    : TraceFile(path, trace_channels(level)) {}
+TraceFile::TraceFile(const std::filesystem::path& path, Level level, files::Unfinished unfinished)
+    : TraceFile(path, trace_channels(level), unfinished) {}
 
-TraceFile::TraceFile(const std::filesystem::path& path, const std::vector<Channel>& channels)
-    : sink_(path) {
+TraceFile::TraceFile(const std::filesystem::path& path,
+                     const std::vector<Channel>& channels,
+                     files::Unfinished unfinished)
+    : sink_(path, unfinished) {
     try {
         records_ = std::make_unique<TraceRecords>(sink_, channels);
     } catch (...) {

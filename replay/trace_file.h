@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "files/output_file.h"
 #include "replay/mcap/compression.h"
-#include "replay/mcap/files.h"
 #include "replay/mcap/mcap.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_records.h"
@@ -21,10 +21,12 @@ class TraceFile {
     using Channel = ChannelText;
 
     /// Magic, header, and the schemas and channels that a trace of this level has.
-    TraceFile(const std::filesystem::path& path, Level level);
+    TraceFile(const std::filesystem::path& path, Level level, files::Unfinished unfinished);
 
     /// The same for another kind of file.
-    TraceFile(const std::filesystem::path& path, const std::vector<Channel>& channels);
+    TraceFile(const std::filesystem::path& path,
+              const std::vector<Channel>& channels,
+              files::Unfinished unfinished = files::Unfinished::remove);
 
     void metadata(const std::string& name, const std::map<std::string, std::string>& texts) {
         records_->metadata(name, texts);
@@ -57,10 +59,11 @@ class TraceFile {
 
   private:
     struct Sink : RecordSink {
-        OutputFile file;
+        files::OutputFile file;
         Compressor compressor;
 
-        explicit Sink(const std::filesystem::path& path) : file(path) {}
+        Sink(const std::filesystem::path& path, files::Unfinished unfinished)
+            : file(path, "the trace", unfinished) {}
 
         void put(mcap::View bytes) override { file.append(bytes); }
 

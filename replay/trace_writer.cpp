@@ -36,7 +36,7 @@ struct TraceWriter::File {
          const std::optional<world::SliceStart>& slice)
         : level(its_level),
           unfinished(what_to_do),
-          file(path, its_level),
+          file(path, its_level, what_to_do),
           reduction(its_level),
           step_ns(recording.episode.step_ns),
           first(slice ? slice->first : 1),

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "files/output_file.h"
 #include "replay/trace_reader.h"
 #include "world/recording.h"
 #include "world/tick.h"
@@ -12,7 +13,7 @@ namespace reprise::replay {
 
 /// What becomes of a file whose run or whose writing stopped early. A run's ticks are worth
 /// keeping.
-enum class Unfinished : std::uint8_t { keep, remove };
+using files::Unfinished;
 
 /// Writes a trace: an MCAP file with the channels /sim/tick and /sim/traffic, one chunk for 64
 /// ticks, zstd level 1 on a thread of its own. Equal recordings and ticks give equal files.

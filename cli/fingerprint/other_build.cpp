@@ -1,6 +1,6 @@
 #include "cli/fingerprint/other_build.h"
 
-#include <fmt/format.h>
+#include "cli/process/say.h"
 
 namespace reprise::cli {
 
@@ -12,14 +12,14 @@ void print_other_build(const std::string& headline,
     const auto lines = replay::build_differences(expected, found);
     if (lines.empty())
         return;
-    fmt::print("{}; equal bytes are not promised\n", headline);
+    say("{}; equal bytes are not promised\n", headline);
     for (const replay::BuildDifference& line : lines)
-        fmt::print("  {:<13}{} {}, {} {}\n",
-                   line.key,
-                   expected_name,
-                   line.expected,
-                   found_name,
-                   line.found);
+        say("  {:<13}{} {}, {} {}\n",
+            line.key,
+            expected_name,
+            line.expected,
+            found_name,
+            line.found);
 }
 
 }  // namespace reprise::cli

@@ -14,6 +14,9 @@
 #include "cli/process/guard.h"
 #include "cli/process/progress.h"
 #include "cli/process/reproduce.h"
+#include "cli/process/say.h"
+#include "cli/process/temporary_folder.h"
+#include "files/output_file.h"
 #include "replay/golden/golden_difference.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
@@ -93,7 +96,7 @@ class Acceptance {
         for (std::size_t i = 0; i < candidates_.size(); ++i)
             code = std::max(code, judge(i));
         if (code != exit_good) {
-            fmt::print("nothing was written\n");
+            say("nothing was written\n");
             return code;
         }
         for (Candidate& candidate : candidates_)
@@ -122,7 +125,7 @@ class Acceptance {
     }
 
     static void refuse(const Candidate& candidate, const std::string& why) {
-        fmt::print("REFUSED   {}  {}\n", candidate.tested.label(), why);
+        say("REFUSED   {}  {}\n", candidate.tested.label(), why);
     }
 
     /// What stands against it, printed; exit_good when nothing does.
@@ -132,7 +135,7 @@ class Acceptance {
             const process::ProgramResult& result = results_[2 * i + static_cast<std::size_t>(run)];
             if (const auto failure = failure_of(result, log(i, run))) {
                 refuse(candidate, failure->headline);
-                fmt::print("{}", failure->text);
+                say_lines(failure->text);
                 return exit_bad_input;
             }
         }
@@ -140,8 +143,7 @@ class Acceptance {
         replay::TraceReader second(trace(i, 1));
         if (const auto divergence = replay::compare(first, second)) {
             refuse(candidate, "nondeterministic: two runs of it differ");
-            fmt::print("{}",
-                       report_row("first", replay::to_text(*divergence, first.episode().step_ns)));
+            say_lines(report_row("first", replay::to_text(*divergence, first.episode().step_ns)));
             return exit_nondeterministic;
         }
         candidate.golden = replay::make_golden(first);
@@ -161,26 +163,27 @@ class Acceptance {
             refuse(candidate, "equal to its golden: there is nothing to accept");
             return exit_differs;
         }
-        if (difference)
-            fmt::print("CHANGED   {}  {}\n{}",
-                       candidate.tested.label(),
-                       replay::to_word(difference->severity),
-                       difference_text(*candidate.before, now, *difference));
+        if (difference) {
+            say("CHANGED   {}  {}\n",
+                candidate.tested.label(),
+                replay::to_word(difference->severity));
+            say_lines(difference_text(*candidate.before, now, *difference));
+        }
         return exit_good;
     }
 
     void write(const Candidate& candidate) {
-        write_whole(candidate.tested.golden, candidate.text);
+        files::write_file(candidate.tested.golden, "the golden", candidate.text);
         if (!options_.keep.empty())
             keep_trace(candidate.trace, candidate.golden->chain, options_.keep);
-        fmt::print("{}  {}: verdict {}, {} checks, {} events, {} s, {:.1f} kB\n",
-                   candidate.before ? "accepted" : "new     ",
-                   candidate.tested.golden.string(),
-                   candidate.golden->verdict,
-                   candidate.golden->checks.size(),
-                   candidate.golden->events.size(),
-                   replay::golden_seconds(candidate.golden->ticks, candidate.golden->step_ns),
-                   static_cast<double>(candidate.text.size()) / 1e3);
+        say("{}  {}: verdict {}, {} checks, {} events, {} s, {:.1f} kB\n",
+            candidate.before ? "accepted" : "new     ",
+            candidate.tested.golden.string(),
+            candidate.golden->verdict,
+            candidate.golden->checks.size(),
+            candidate.golden->events.size(),
+            replay::golden_seconds(candidate.golden->ticks, candidate.golden->step_ns),
+            static_cast<double>(candidate.text.size()) / 1e3);
     }
 
     const AcceptOptions& options_;
@@ -203,7 +206,7 @@ int accept(const AcceptOptions& options) {
     try {
         return Acceptance(options, std::move(candidates)).run();
     } catch (const process::Stopped& stopped) {
-        fmt::print(stderr, "reprise: interrupted; nothing was written\n");
+        say(stderr, "reprise: interrupted; nothing was written\n");
         return exit_stopped + stopped.signal;
     }
 }

@@ -1,80 +1,35 @@
 #include "cli/golden/golden_files.h"
 
 #include <cerrno>
-#include <cstdlib>
+#include <cstring>
 #include <deque>
 #include <fstream>
+#include <string_view>
+#include <vector>
 
+#include "files/output_file.h"
 #include "world/check.h"
 
 namespace reprise::cli {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-[[noreturn]] void fail(const fs::path& path, const std::error_code& error) {
-    throw world::Error(path.string() + ": cannot be written: " + error.message());
-}
-
-fs::path partial_of(const fs::path& path) {
-    return path.string() + ".partial";
-}
-
-}  // namespace
-
-TemporaryFolder::TemporaryFolder() {
-    std::error_code error;
-    std::string pattern = (fs::temp_directory_path(error) / "reprise_XXXXXX").string();
-    if (!error && mkdtemp(pattern.data()) == nullptr)
-        error.assign(errno, std::generic_category());
-    if (error)
-        throw world::Error("cannot make a temporary folder (TMPDIR): " + error.message());
-    path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
-
-void write_whole(const fs::path& path, const std::string& text) {
-    const fs::path partial = partial_of(path);
-    std::ofstream out(partial, std::ios::binary);
-    out << text;
-    out.close();
-    std::error_code error(errno, std::generic_category());
-    if (out)
-        fs::rename(partial, path, error);
-    if (!error && out)
-        return;
-    std::error_code ignored;
-    fs::remove(partial, ignored);
-    fail(path, error);
-}
-
 void check_writable(const fs::path& path) {
-    std::error_code error;
-    if (fs::is_directory(path, error))
-        fail(path, std::make_error_code(std::errc::is_a_directory));
-    const fs::path partial = partial_of(path);
-    if (!std::ofstream(partial, std::ios::binary))
-        fail(path, std::error_code(errno, std::generic_category()));
-    fs::remove(partial, error);
+    const files::OutputFile goes_again(path, "the file");
 }
 
 void copy_file_whole(const fs::path& from, const fs::path& to) {
-    const fs::path partial = partial_of(to);
-    try {
-        if (to.has_parent_path())
-            fs::create_directories(to.parent_path());
-        fs::copy_file(from, partial, fs::copy_options::overwrite_existing);
-        fs::rename(partial, to);
-    } catch (const fs::filesystem_error& error) {
-        std::error_code ignored;
-        fs::remove(partial, ignored);
-        fail(to, error.code());
-    }
+    std::error_code error;
+    if (to.has_parent_path())
+        fs::create_directories(to.parent_path(), error);
+    std::ifstream in(from, std::ios::binary);
+    if (!in)
+        throw world::Error(from.string() + ": cannot be read: " + std::strerror(errno));
+    files::OutputFile out(to, "the file");
+    std::vector<char> bytes(1 << 20);
+    while (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())), in.gcount() > 0)
+        out.append(std::string_view(bytes.data(), static_cast<std::size_t>(in.gcount())));
+    out.finish(false);
 }
 
 void move_file(const fs::path& from, const fs::path& to) {

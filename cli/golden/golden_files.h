@@ -7,25 +7,7 @@
 
 namespace reprise::cli {
 
-/// A folder that is gone, with all that is in it, when this is.
-class TemporaryFolder {
-  public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-  private:
-    std::filesystem::path path_;
-};
-
-/// Writes a file; it appears under its name when it is whole. Throws world::Error, and leaves
-/// nothing half-written.
-void write_whole(const std::filesystem::path& path, const std::string& text);
-
-/// Throws world::Error when write_whole would, as far as that can be told beforehand.
+/// Throws world::Error when no file can be written there, as far as that can be told beforehand.
 void check_writable(const std::filesystem::path& path);
 
 /// Moves a file, also from one file system to another; makes the folders on the way.

@@ -6,6 +6,7 @@
 
 #include "cli/golden/golden_case.h"
 #include "cli/process/guard.h"
+#include "cli/process/say.h"
 #include "replay/table/value.h"
 #include "world/check.h"
 
@@ -18,7 +19,7 @@ int list_orphans(const FoundCases& found) {
     for (const GoldenCase& one : found.cases) {
         if (one.state != GoldenCase::State::orphan)
             continue;
-        fmt::print("{}: there is no {}\n", one.golden.string(), one.scenario.string());
+        say("{}: there is no {}\n", one.golden.string(), one.scenario.string());
         code = exit_differs;
     }
     return code;
@@ -33,7 +34,7 @@ int golden_list(const GoldenListOptions& options) {
     int code = exit_good;
     for (const GoldenCase& one : found.cases) {
         if (one.state == GoldenCase::State::no_golden) {
-            fmt::print("{}  no golden yet\n", one.scenario.string());
+            say("{}  no golden yet\n", one.scenario.string());
             continue;
         }
         const bool orphan = one.state == GoldenCase::State::orphan;
@@ -41,14 +42,14 @@ int golden_list(const GoldenListOptions& options) {
             const replay::Golden golden = replay::load_golden(one.golden);
             std::string because;
             replay::append_json(std::string_view(golden.because), because);
-            fmt::print("{}  {}, {}; because {}\n",
-                       one.golden.string(),
-                       orphan ? "ORPHAN: no " + one.scenario.string()
-                              : command_line(run_words(one, golden.given)),
-                       golden.verdict,
-                       because);
+            say("{}  {}, {}; because {}\n",
+                one.golden.string(),
+                orphan ? "ORPHAN: no " + one.scenario.string()
+                       : command_line(run_words(one, golden.given)),
+                golden.verdict,
+                because);
         } catch (const world::Error& error) {
-            fmt::print("{}  unreadable: {}\n", one.golden.string(), error.what());
+            say("{}  unreadable: {}\n", one.golden.string(), error.what());
             code = exit_bad_input;
         }
     }

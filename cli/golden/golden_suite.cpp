@@ -14,6 +14,7 @@
 #include "cli/golden/golden_runs.h"
 #include "cli/process/progress.h"
 #include "cli/process/reproduce.h"
+#include "cli/process/temporary_folder.h"
 #include "replay/compare/divergence.h"
 #include "replay/golden/golden_difference.h"
 #include "replay/trace_reader.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
-#include "cli/golden/golden_files.h"
+#include "files/output_file.h"
 
 namespace reprise::cli {
 
@@ -133,7 +133,7 @@ void write_junit(const std::filesystem::path& path,
         add_case(suite, report);
     Text out;
     document.save(out, "  ");
-    write_whole(path, out.text);
+    files::write_file(path, "the report", out.text);
 }
 
 }  // namespace reprise::cli

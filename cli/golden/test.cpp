@@ -11,6 +11,7 @@
 #include "cli/golden/golden_suite.h"
 #include "cli/golden/junit.h"
 #include "cli/process/guard.h"
+#include "cli/process/say.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -50,11 +51,11 @@ void print_groups(const std::vector<CaseReport>& reports) {
         std::string list;
         for (std::size_t i = 0; i < std::min<std::size_t>(labels.size(), 5); ++i)
             list += (i == 0 ? "" : ", ") + labels[i];
-        fmt::print("{} alike ({}): {}{}\n",
-                   labels.size(),
-                   signature,
-                   list,
-                   labels.size() > 5 ? ", ..." : "");
+        say("{} alike ({}): {}{}\n",
+            labels.size(),
+            signature,
+            list,
+            labels.size() > 5 ? ", ..." : "");
     }
 }
 
@@ -70,16 +71,16 @@ void print_summary(Counts counts, double seconds) {
     add(CaseResult::no_golden, "without a golden");
     add(CaseResult::orphan, "orphaned");
     add(CaseResult::error, "with errors");
-    fmt::print("{} ({:.1f} s)\n", text, seconds);
+    say("{} ({:.1f} s)\n", text, seconds);
 }
 
 int list_cases(const FoundCases& found) {
     for (const GoldenCase& one : found.cases)
-        fmt::print("{}{}\n",
-                   one.label(),
-                   one.state == State::ready       ? ""
-                   : one.state == State::no_golden ? "  (no golden yet)"
-                                                   : "  (orphan)");
+        say("{}{}\n",
+            one.label(),
+            one.state == State::ready       ? ""
+            : one.state == State::no_golden ? "  (no golden yet)"
+                                            : "  (orphan)");
     return exit_good;
 }
 
@@ -88,7 +89,7 @@ int list_cases(const FoundCases& found) {
 int test(const TestOptions& options) {
     const FoundCases found = find_cases(options.paths);
     for (const std::string& note : found.notes)
-        fmt::print(stderr, "{}\n", note);
+        say(stderr, "{}\n", note);
     if (found.cases.empty())
         throw world::Error("there are no scenarios and no goldens" +
                            (options.paths.empty() ? "" : " in " + options.paths.front()));
@@ -99,7 +100,7 @@ int test(const TestOptions& options) {
     try {
         const SuiteResult result = run_suite(options, found.cases);
         for (const CaseReport& report : result.reports)
-            fmt::print("{}", to_text(report));
+            say_lines(to_text(report));
         print_groups(result.reports);
         const Counts counts = count(result.reports);
         print_summary(counts, result.seconds);
@@ -107,7 +108,7 @@ int test(const TestOptions& options) {
             write_junit(options.junit, result.reports, result.seconds);
         return exit_code(counts);
     } catch (const process::Stopped& stopped) {
-        fmt::print(stderr, "reprise: interrupted; no run is left behind\n");
+        say(stderr, "reprise: interrupted; no run is left behind\n");
         return exit_stopped + stopped.signal;
     }
 }

@@ -10,6 +10,7 @@
 #include "cli/options/option_checks.h"
 #include "world/check.h"
 #include "world/fingerprint.h"
+#include "world/printable.h"
 
 namespace reprise::cli {
 
@@ -88,7 +89,9 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0)
             return app.exit(error);
-        std::fprintf(stderr, "reprise: %s (reprise --help says more)\n", error.what());
+        std::fprintf(stderr,
+                     "reprise: %s (reprise --help says more)\n",
+                     world::printable_lines(error.what()).c_str());
         return 2;
     }
     command = app.get_subcommands().front()->get_name();

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstddef>
 #include <cstdio>
@@ -11,8 +12,11 @@
 #include <unistd.h>
 
 #include "cli/process/reproduce.h"
+#include "files/ending.h"
+#include "files/output_place.h"
 #include "process/held_signals.h"
 #include "world/check.h"
+#include "world/printable.h"
 
 namespace reprise::cli {
 
@@ -40,14 +44,24 @@ const char* meaning(int signal) {
 }
 
 /// Only calls that POSIX allows in a signal handler.
-extern "C" void on_crash(int signal) {
-    const char* what = meaning(signal);
+void write_last_words(const char* what) {
     const std::array<iovec, 3> parts{{{const_cast<char*>(what), strlen(what)},
                                       {last_words.data(), last_words_size},
                                       {const_cast<char*>("\n"), 1}}};
     [[maybe_unused]] const auto written =
         writev(STDERR_FILENO, parts.data(), static_cast<int>(parts.size()));
+}
+
+extern "C" void on_crash(int signal) {
+    files::remove_unfinished();
+    write_last_words(meaning(signal));
     _exit(exit_our_fault);
+}
+
+/// A signal that somebody sent ends us at once; nothing is to be said unless something is left.
+void on_ending(int /*signal*/) {
+    if (last_words_size != 0)
+        write_last_words("reprise: stopped");
 }
 
 void catch_crashes() {
@@ -72,14 +86,17 @@ int guarded(const std::string& command_line, const std::function<int()>& work) {
     // A file-size limit shall be an error that we can tell, not a signal that ends us.
     std::signal(SIGXFSZ, SIG_IGN);
     catch_crashes();
+    files::tidy_up_when_ended(on_ending);
     try {
         const int code = work();
         if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)
             return code;
-        std::fprintf(stderr, "reprise: cannot write to the standard output\n");
+        std::fprintf(stderr,
+                     "reprise: cannot write to the standard output: %s\n",
+                     files::write_error(errno).c_str());
         return exit_bad_input;
     } catch (const world::Error& error) {
-        std::fprintf(stderr, "reprise: %s\n", error.what());
+        std::fprintf(stderr, "reprise: %s\n", world::printable_lines(error.what()).c_str());
         return exit_bad_input;
     } catch (const process::Stopped& stopped) {
         std::fprintf(stderr, "reprise: %s\n", stopped.what());
@@ -90,8 +107,8 @@ int guarded(const std::string& command_line, const std::function<int()>& work) {
     } catch (const std::exception& error) {
         std::fprintf(stderr,
                      "reprise: this is our fault, please report it: %s\n  to come back here: %s\n",
-                     error.what(),
-                     command_line.c_str());
+                     world::printable_lines(error.what()).c_str(),
+                     world::printable_lines(command_line).c_str());
         return exit_our_fault;
     }
 }

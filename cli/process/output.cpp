@@ -1,8 +1,14 @@
 #include "cli/process/output.h"
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <fmt/format.h>
+
+#include "files/output_place.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -11,16 +17,34 @@ namespace {
 
 constexpr std::size_t large = 1 << 18;
 
-}  // namespace
+/// /dev/stdout and its kin: what is written there goes where we print, and not over it.
+bool is_standard_output(const std::string& path) {
+    struct stat ours {};
 
-Output::Output(const std::string& path) {
-    if (!path.empty() && path != "-")
-        file_ = std::make_unique<replay::OutputFile>(path);
+    struct stat its {};
+
+    return fstat(STDOUT_FILENO, &ours) == 0 && stat(path.c_str(), &its) == 0 &&
+           ours.st_dev == its.st_dev && ours.st_ino == its.st_ino;
 }
 
-Output::~Output() {
-    if (file_ && !finished_)
-        file_->remove();
+}  // namespace
+
+Output::Output(const std::string& path) : path_(path) {
+    if (path.empty() || path == "-")
+        return;
+    if (files::output_place(path).kind != files::PlaceKind::stream) {
+        file_ = std::make_unique<files::OutputFile>(path, "the output");
+    } else if (!is_standard_output(path)) {
+        stream_.reset(std::fopen(path.c_str(), "ae"));
+        if (!stream_)
+            fail(errno);
+    }
+}
+
+void Output::fail(int error) const {
+    throw world::Error(fmt::format("cannot write to {}: {}",
+                                   stream_ || file_ ? path_ : "the standard output",
+                                   files::write_error(error)));
 }
 
 void Output::flush_if_large() {
@@ -29,10 +53,11 @@ void Output::flush_if_large() {
 }
 
 void Output::flush() {
+    std::FILE* const stream = stream_ ? stream_.get() : stdout;
     if (file_)
-        file_->append({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    else if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
-        throw world::Error("cannot write to the standard output");
+        file_->append(text);
+    else if (std::fwrite(text.data(), 1, text.size(), stream) != text.size())
+        fail(errno);
     text.clear();
 }
 
@@ -40,7 +65,8 @@ void Output::finish() {
     flush();
     if (file_)
         file_->finish();
-    finished_ = true;
+    else if (stream_ && std::fflush(stream_.get()) != 0)
+        fail(errno);
 }
 
 void end_quietly_when_nobody_reads() {

@@ -1,20 +1,21 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 
-#include "replay/mcap/files.h"
+#include "files/output_file.h"
 
 namespace reprise::cli {
 
-/// Text on its way to the standard output (path "-" or empty) or to a file, which gets its name
-/// when it is finished. Throws world::Error when it cannot be written.
+/// Text on its way to the standard output (path "-" or empty), to a device or a pipe, or to a file,
+/// which gets its name when it is finished. Throws world::Error when it cannot be written.
 class Output {
   public:
     explicit Output(const std::string& path);
-    ~Output();
+    ~Output() = default;
     Output(const Output&) = delete;
     Output& operator=(const Output&) = delete;
 
@@ -25,9 +26,11 @@ class Output {
 
   private:
     void flush();
+    [[noreturn]] void fail(int error) const;
 
-    std::unique_ptr<replay::OutputFile> file_;
-    bool finished_ = false;
+    std::string path_;
+    std::unique_ptr<files::OutputFile> file_;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream_{nullptr, &std::fclose};
 };
 
 /// A reader that closed its end of the pipe (`| head`) has all it wanted: the program ends without

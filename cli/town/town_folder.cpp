@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "process/copy.h"
+#include "process/held_signals.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -73,6 +74,7 @@ std::string make_town_folder(const towns::TownImport& wish, const fs::path& fold
     const fs::path target = folder.has_filename() ? folder : folder.parent_path();
     try {
         require_free(target, replace);
+        const process::HeldSignals held;  // until what was begun is whole, or gone again
         const Partial partial(target.string() + ".partial");
         // In a process of its own: whatever ends that, what it began is removed here.
         const std::string report =

@@ -4,6 +4,7 @@
 
 #include "cli/process/guard.h"
 #include "cli/process/reproduce.h"
+#include "cli/process/say.h"
 #include "cli/town/town_folder.h"
 #include "towns/maps/map_source.h"
 #include "world/check.h"
@@ -16,10 +17,10 @@ int town_import(const TownImportOptions& options) {
                            ": letters, digits, '_', '-' and '.' were expected");
     const towns::TownImport wish{
         options.source, options.name, options.left_hand, options.sidewalks == "guess"};
-    fmt::print("{}", make_town_folder(wish, options.directory, options.force));
-    fmt::print("{}: written; `reprise town check {}` tells whether all of it can be driven\n",
-               options.directory,
-               shell_word(options.directory));
+    say_lines(make_town_folder(wish, options.directory, options.force));
+    say("{}: written; `reprise town check {}` tells whether all of it can be driven\n",
+        options.directory,
+        shell_word(options.directory));
     return exit_good;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/process/guard.h"
+#include "cli/process/say.h"
 #include "cli/town/towns.h"
 #include "ground/mesh/build_ground.h"
 #include "ground/paint/markings.h"
@@ -66,7 +67,7 @@ int town_show(const TownShowOptions& options) {
     const world::SensorFrame map = render::town_map(
         town, ground::build_ground(town), ground::build_markings(town), {region, options.size});
     render::write_png(map, options.output);
-    fmt::print("{}: {} x {} pixels\n", options.output, map.width, map.height);
+    say("{}: {} x {} pixels\n", options.output, map.width, map.height);
     return exit_good;
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/process/say.h"
 #include "cli/town/town_folder.h"
 #include "world/check.h"
 
@@ -80,7 +81,7 @@ towns::Network import_map(const std::string& map) {
         }
     } const remove{folder};
 
-    fmt::print(stderr, "{}: importing it; `reprise town import` would keep the town\n", map);
+    say(stderr, "{}: importing it; `reprise town import` would keep the town\n", map);
     make_town_folder({map, "", false, false}, folder, false);
     return towns::load_network(network_in(folder));
 }

@@ -12,6 +12,7 @@
 #include "replay/table/table.h"
 #include "replay/table/trace_parts.h"
 #include "world/check.h"
+#include "world/printable.h"
 
 namespace reprise::cli {
 
@@ -85,6 +86,8 @@ int get(const GetOptions& options) {
         throw world::Error(options.part + " is binary: give -o FILE, or send it to a pipe");
     Output output(options.output);
     output.text.assign(bytes.begin(), bytes.end());
+    if (options.output.empty() && isatty(STDOUT_FILENO) != 0)
+        output.text = world::printable_lines(output.text);
     output.finish();
     return exit_good;
 }

@@ -9,6 +9,7 @@
 #include "cli/fingerprint/other_build.h"
 #include "cli/process/guard.h"
 #include "cli/process/reproduce.h"
+#include "cli/process/say.h"
 #include "replay/compare/divergence.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
@@ -85,14 +86,14 @@ std::string largest(const replay::Tolerance& tolerance) {
 
 /// "  physics       vehicles[id 1].velocity.x  8.1 / 8.2  (1 unit in the last place apart)".
 void print_all(const Comparison& result) {
-    fmt::print("all {} differences of tick {}:\n", result.all.size(), result.divergence->tick);
+    say("all {} differences of tick {}:\n", result.all.size(), result.divergence->tick);
     for (const auto& [stage, field] : result.all)
-        fmt::print("  {:<14}{}  {} / {}{}\n",
-                   stage,
-                   field.field,
-                   field.expected,
-                   field.found,
-                   field.distance.empty() ? "" : "  (" + field.distance + ")");
+        say("  {:<14}{}  {} / {}{}\n",
+            stage,
+            field.field,
+            field.expected,
+            field.found,
+            field.distance.empty() ? "" : "  (" + field.distance + ")");
 }
 
 void print_text(const Comparison& result,
@@ -101,25 +102,25 @@ void print_text(const Comparison& result,
     if (result.divergence) {
         const std::string branched = replay::branch_text(expected.episode(), found.episode());
         if (!branched.empty() && result.divergence->tick > 0)
-            fmt::print("equal for {} ticks; {}; first difference:\n",
-                       result.divergence->tick - 1,
-                       branched);
+            say("equal for {} ticks; {}; first difference:\n",
+                result.divergence->tick - 1,
+                branched);
         else
-            fmt::print("different\n");
-        fmt::print("{}", to_text(*result.divergence, expected.episode().step_ns));
+            say("different\n");
+        say_lines(to_text(*result.divergence, expected.episode().step_ns));
         if (!result.all.empty())
             print_all(result);
     } else if (result.tolerance) {
-        fmt::print("equal within tolerance {:g}: {} ticks, {}\n",
-                   result.tolerance->bound,
-                   expected.ticks(),
-                   largest(*result.tolerance));
+        say("equal within tolerance {:g}: {} ticks, {}\n",
+            result.tolerance->bound,
+            expected.ticks(),
+            largest(*result.tolerance));
         if (const std::string note = start_difference(expected, found); !note.empty())
-            fmt::print("  note      {}\n", note);
+            say("  note      {}\n", note);
     } else {
-        fmt::print("equal: {} ticks, chain {}\n",
-                   expected.ticks(),
-                   world::to_hex(expected.chain(expected.ticks())));
+        say("equal: {} ticks, chain {}\n",
+            expected.ticks(),
+            world::to_hex(expected.chain(expected.ticks())));
     }
     if (const std::string note = town_path_difference(expected, found); !note.empty())
         fmt::print("  note      {}\n", note);
@@ -188,7 +189,7 @@ void print_json(const DiffOptions& options,
     if (options.all)
         out["all"] = json_of(result.all);
     // Names may be no UTF-8: JSON must be.
-    fmt::print("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
+    say_lines(out.dump(2, ' ', true, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace

@@ -8,8 +8,10 @@
 #include "cli/options/tick_option.h"
 #include "cli/options/tick_range.h"
 #include "cli/process/guard.h"
+#include "cli/process/new_folder.h"
 #include "cli/process/output.h"
 #include "cli/process/progress.h"
+#include "cli/process/say.h"
 #include "cli/trace/level_note.h"
 #include "exchange/foxglove.h"
 #include "replay/table/json_lines.h"
@@ -29,19 +31,12 @@ struct TableFile {
     std::unique_ptr<Output> output;
 };
 
-void make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error || !fs::is_directory(folder))
-        throw world::Error(folder.string() + ": cannot be made a folder");
-}
-
 /// Files of those tables of which the trace has anything.
 void export_csv(replay::TraceReader& trace,
                 const TickRange& range,
                 std::uint64_t every,
                 const fs::path& folder) {
-    make_folder(folder);
+    NewFolder made(folder);
     std::vector<TableFile> files;
     for (const std::string& name : replay::Table::names()) {
         if (kept(trace.level(), name) == replay::Kept::nothing)
@@ -63,6 +58,7 @@ void export_csv(replay::TraceReader& trace,
     progress.clear();
     for (const TableFile& file : files)
         file.output->finish();
+    made.keep();
 }
 
 void export_jsonl(replay::TraceReader& trace,
@@ -86,12 +82,12 @@ void export_foxglove(replay::TraceReader& trace,
                      const ExportOptions& options) {
     const exchange::FoxgloveOptions wanted{range.first, range.last, every, options.images};
     const auto done = exchange::export_foxglove(trace, wanted, options.output);
-    fmt::print(stderr,
-               "{}: {} messages, {} of them pictures{}\n",
-               options.output,
-               done.messages,
-               done.images,
-               done.located ? "" : "; no /location: the road network lies nowhere on the globe");
+    say(stderr,
+        "{}: {} messages, {} of them pictures{}\n",
+        options.output,
+        done.messages,
+        done.images,
+        done.located ? "" : "; no /location: the road network lies nowhere on the globe");
 }
 
 /// Every so many ticks; unless said, all of them, and scenes ten times a second.
@@ -122,7 +118,7 @@ int export_trace(const ExportOptions& options) {
         export_csv(trace, range, every, options.output);
     else
         export_jsonl(trace, range, every, options.output);
-    fmt::print(stderr, "{}: {} ticks\n", options.output, (range.last - range.first) / every + 1);
+    say(stderr, "{}: {} ticks\n", options.output, (range.last - range.first) / every + 1);
     return exit_good;
 }
 

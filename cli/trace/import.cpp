@@ -9,9 +9,11 @@
 #include "cli/process/guard.h"
 #include "cli/process/output.h"
 #include "cli/process/progress.h"
+#include "cli/process/say.h"
 #include "cli/town/towns.h"
 #include "exchange/carla/carla_import.h"
 #include "exchange/carla/carla_packet_kinds.h"
+#include "files/output_place.h"
 #include "kernel/pedestrians.h"
 #include "replay/mcap/files.h"
 #include "towns/town_reader.h"
@@ -25,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void row(const std::string& key, const std::string& value) {
-    fmt::print("  {:<10}{}\n", key, value);
+    say("  {:<10}{}\n", key, value);
 }
 
 std::uint64_t step_ns(const ImportOptions& options) {
@@ -42,7 +44,7 @@ std::optional<exchange::CarlaTown> read_town(const ImportOptions& options) {
         return std::nullopt;
     towns::Network network = load_town(options.town, options.log);
     if (!network.notes.empty())
-        fmt::print(stderr, "{}", network.notes);
+        say_lines(network.notes, stderr);
     exchange::CarlaTown town;
     town.town = towns::read_town(network);
     town.path = options.town;
@@ -74,12 +76,12 @@ void print_skipped(const exchange::CarlaReport& report) {
 
 void print_report(const ImportOptions& options, const exchange::CarlaReport& report) {
     constexpr double hilly = 1;  // [m]
-    fmt::print("{}: {} ticks of {} ms ({:.2f} s, {:.2f} MB)\n",
-               options.output,
-               report.ticks,
-               options.step_ms,
-               world::seconds(report.ticks, step_ns(options)),
-               static_cast<double>(fs::file_size(options.output)) / 1e6);
+    say("{}: {} ticks of {} ms ({:.2f} s, {:.2f} MB)\n",
+        options.output,
+        report.ticks,
+        options.step_ms,
+        world::seconds(report.ticks, step_ns(options)),
+        static_cast<double>(fs::file_size(options.output)) / 1e6);
     row("from", report.source);
     row("holds",
         fmt::format("poses only, interpolated between {} frames: {} vehicles, {} walkers",
@@ -112,7 +114,7 @@ void print_report(const ImportOptions& options, const exchange::CarlaReport& rep
 
 int import_log(const ImportOptions& options) {
     const std::uint64_t step = step_ns(options);
-    replay::check_output(options.output);
+    files::output_target(options.output, "the trace");
     refuse_overwriting(options.log, options.output);
     const replay::InputFile file(options.log, "CARLA recorder log");
     Progress progress("importing", "bytes", 2 * file.size());

@@ -9,12 +9,14 @@
 
 #include "cli/process/guard.h"
 #include "cli/process/reproduce.h"
+#include "cli/process/say.h"
 #include "cli/trace/trace_story.h"
 #include "replay/imported.h"
 #include "replay/level.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
 #include "world/digest.h"
+#include "world/printable.h"
 #include "world/tick.h"
 
 namespace reprise::cli {
@@ -28,8 +30,10 @@ constexpr std::uint64_t quickly_told = 20'000;
 struct Paint {
     bool on = isatty(STDOUT_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
 
+    /// To be printed as it is: what a terminal would obey in the text is written out.
     std::string operator()(const char* code, const std::string& text) const {
-        return on ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
+        const std::string clean = world::printable(text);
+        return on ? fmt::format("\033[{}m{}\033[0m", code, clean) : clean;
     }
 };
 
@@ -51,7 +55,13 @@ struct Screen {
     Paint paint{};
 
     void row(const std::string& key, const std::string& value) const {
-        fmt::print("  {}{}\n", paint(dim, fmt::format("{:<10}", key)), value);
+        painted_row(key, world::printable(value));
+    }
+
+    /// The value holds our own colours, and what else is in it was made printable.
+    void painted_row(const std::string& key, const std::string& value) const {
+        say_formatted(stdout,
+                      fmt::format("  {}{}\n", paint(dim, fmt::format("{:<10}", key)), value));
     }
 
     std::string time(std::uint64_t tick) const {
@@ -114,15 +124,15 @@ struct Screen {
     void print_outcome() const {
         const world::Outcome& outcome = trace.outcome();
         const bool bad = outcome.verdict == "failed" || outcome.verdict == "error";
-        row("outcome",
-            paint(bad ? red : green, outcome.verdict) +
-                (outcome.reason.empty() ? "" : ": " + outcome.reason));
+        painted_row("outcome",
+                    paint(bad ? red : green, outcome.verdict) +
+                        (outcome.reason.empty() ? "" : ": " + world::printable(outcome.reason)));
         for (const TraceStory::Check& check : story.checks)
-            row("",
-                fmt::format("{}  {}{}",
-                            paint(check.status == "passed" ? green : red, check.status),
-                            check.text,
-                            check.status == "failed" ? ", at " + time(check.tick) : ""));
+            painted_row("",
+                        fmt::format("{}  {}{}",
+                                    paint(check.status == "passed" ? green : red, check.status),
+                                    world::printable(check.text),
+                                    check.status == "failed" ? ", at " + time(check.tick) : ""));
     }
 
     void print_events() const {
@@ -193,7 +203,7 @@ struct Screen {
 
     void print(const std::string& path) const {
         const world::EpisodeT& episode = trace.episode();
-        fmt::print("{}\n", paint(bold, path));
+        say_formatted(stdout, paint(bold, path) + "\n");
         if (replay::is_imported(trace))
             print_import();
         else
@@ -287,7 +297,7 @@ void print_json(const std::string& path, replay::TraceReader& trace, const Trace
                    {"build", json_of(episode.fingerprint)},
                    {"checked", "that it agrees with itself; not simulated again"},
                    {"again", replay::is_imported(trace) ? "" : run_again(trace)}};
-    fmt::print("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
+    say_lines(out.dump(2, ' ', true, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "cli/process/guard.h"
 #include "cli/process/reproduce.h"
+#include "cli/process/say.h"
 #include "replay/recovery.h"
 #include "world/tick.h"
 
@@ -14,7 +15,7 @@ namespace reprise::cli {
 namespace {
 
 void row(const std::string& key, const std::string& value) {
-    fmt::print("  {:<10}{}\n", key, value);
+    say("  {:<10}{}\n", key, value);
 }
 
 /// How many of the ticks that the run was given at most are missing: it may have ended before.
@@ -31,12 +32,12 @@ std::string missing(const replay::Recovery& recovery) {
 
 void print_report(const RecoverOptions& options, const replay::Recovery& recovery) {
     const world::EpisodeT& episode = recovery.episode;
-    fmt::print("{}: {} ticks ({:.2f} s, {:.2f} MB) recovered from {}\n",
-               options.output,
-               recovery.outcome.ticks,
-               world::seconds(recovery.outcome.ticks, episode.step_ns),
-               static_cast<double>(std::filesystem::file_size(options.output)) / 1e6,
-               options.damaged);
+    say("{}: {} ticks ({:.2f} s, {:.2f} MB) recovered from {}\n",
+        options.output,
+        recovery.outcome.ticks,
+        world::seconds(recovery.outcome.ticks, episode.step_ns),
+        static_cast<double>(std::filesystem::file_size(options.output)) / 1e6,
+        options.damaged);
     row("run",
         fmt::format("{} ({}) in {}, seed {}",
                     episode.name,
@@ -62,7 +63,7 @@ int recover(const RecoverOptions& options) {
         print_report(options, recovery);
         return recovery.loss.empty() ? exit_good : exit_with_loss;
     } catch (const replay::NothingToRecover& error) {
-        fmt::print(stderr, "reprise: nothing can be recovered: {}\n", error.what());
+        say(stderr, "reprise: nothing can be recovered: {}\n", error.what());
         return exit_differs;
     }
 }

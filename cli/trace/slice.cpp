@@ -5,6 +5,7 @@
 #include "cli/options/tick_range.h"
 #include "cli/process/guard.h"
 #include "cli/process/output.h"
+#include "cli/process/say.h"
 #include "replay/slice.h"
 #include "world/check.h"
 
@@ -15,12 +16,12 @@ int slice(const SliceOptions& options) {
     replay::TraceReader trace(options.trace);
     const TickRange range = parse_ticks("--ticks", options.ticks, trace);
     replay::slice(trace, range.first, range.last, options.output);
-    fmt::print("{}: ticks {} to {} of {}{}\n",
-               options.output,
-               range.first,
-               range.last,
-               trace.run_ticks(),
-               range.first > 1 ? "; it cannot be verified from its middle" : "");
+    say("{}: ticks {} to {} of {}{}\n",
+        options.output,
+        range.first,
+        range.last,
+        trace.run_ticks(),
+        range.first > 1 ? "; it cannot be verified from its middle" : "");
     return exit_good;
 }
 
@@ -36,12 +37,12 @@ int merge(const MergeOptions& options) {
     const std::uint64_t first = parts.front().first();
     const std::uint64_t last = parts.back().last();
     const std::uint64_t run_ticks = parts.front().run_ticks();
-    fmt::print("{}: ticks {} to {} of {}{}\n",
-               options.output,
-               first,
-               last,
-               run_ticks,
-               first == 1 && last == run_ticks ? ", the whole run as it was recorded" : "");
+    say("{}: ticks {} to {} of {}{}\n",
+        options.output,
+        first,
+        last,
+        run_ticks,
+        first == 1 && last == run_ticks ? ", the whole run as it was recorded" : "");
     return exit_good;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cli/process/guard.h"
 #include "cli/process/output.h"
+#include "cli/process/say.h"
 #include "cli/trace/level_note.h"
 #include "replay/table/statistics.h"
 #include "replay/table/value.h"
@@ -31,18 +32,18 @@ std::string range_text(const replay::CountRange& range) {
 
 void print_vehicle(const VehicleStatistics& one, std::uint64_t step_ns) {
     const auto row = [](const char* key, const std::string& value) {
-        fmt::print("  {:<18}{}\n", key, value);
+        say("  {:<18}{}\n", key, value);
     };
     const auto share = [&](std::uint64_t ticks) {
         return fmt::format("{:.2f} s, {:.0f} %",
                            seconds(ticks, step_ns),
                            100.0 * static_cast<double>(ticks) / static_cast<double>(one.ticks));
     };
-    fmt::print("\n{} ({}), {}, {:.2f} s\n",
-               one.name.empty() ? "actor" : one.name,
-               one.id,
-               one.model,
-               seconds(one.ticks, step_ns));
+    say("\n{} ({}), {}, {:.2f} s\n",
+        one.name.empty() ? "actor" : one.name,
+        one.id,
+        one.model,
+        seconds(one.ticks, step_ns));
     row("distance", fmt::format("{:.1f} m", one.distance));
     row("speed",
         fmt::format("{:.2f} m/s on average ({:.1f} km/h), {:.2f} at most ({:.1f} km/h)",
@@ -70,7 +71,7 @@ void print_screen(const StatsOptions& options,
                   const TraceStatistics& all) {
     const std::uint64_t step_ns = trace.episode().step_ns;
     const auto row = [](const char* key, const std::string& value) {
-        fmt::print("  {:<18}{}\n", key, value);
+        say("  {:<18}{}\n", key, value);
     };
     const auto ticks = static_cast<double>(std::max<std::uint64_t>(all.ticks, 1));
     const auto size = [&](std::uint64_t bytes) {
@@ -78,7 +79,7 @@ void print_screen(const StatsOptions& options,
                            static_cast<double>(bytes) / 1e6,
                            static_cast<double>(bytes) / ticks / 1e3);
     };
-    fmt::print("{}: {} in {}\n", options.trace, trace.episode().name, trace.episode().town);
+    say("{}: {} in {}\n", options.trace, trace.episode().name, trace.episode().town);
     row("length", fmt::format("{} ticks, {:.2f} s", all.ticks, seconds(all.ticks, step_ns)));
     if (all.traffic_ticks > 0) {
         row("cars", range_text(all.cars));
@@ -181,7 +182,7 @@ int stats(const StatsOptions& options) {
     const TraceStatistics all = replay::statistics(trace);
     print_level_note(trace);
     if (options.json)
-        fmt::print("{}", to_json(trace, all));
+        say_lines(to_json(trace, all));
     else
         print_screen(options, trace, all);
     return exit_good;

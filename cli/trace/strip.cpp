@@ -5,6 +5,7 @@
 #include "cli/process/guard.h"
 #include "cli/process/output.h"
 #include "cli/process/progress.h"
+#include "cli/process/say.h"
 #include "replay/imported.h"
 #include "replay/level.h"
 #include "replay/slice.h"
@@ -40,12 +41,12 @@ int strip(const StripOptions& options) {
     }
     progress.clear();
     stripped.close(trace.outcome());
-    fmt::print("{}: {} ticks at level {}, {:.2f} MB of {:.2f} MB\n",
-               options.output,
-               trace.ticks(),
-               options.level,
-               megabytes(options.output),
-               megabytes(options.trace));
+    say("{}: {} ticks at level {}, {:.2f} MB of {:.2f} MB\n",
+        options.output,
+        trace.ticks(),
+        options.level,
+        megabytes(options.output),
+        megabytes(options.trace));
     return exit_good;
 }
 

@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -20,21 +19,6 @@ std::string reason(int error) {
 }
 
 }  // namespace
-
-void check_output(const std::filesystem::path& path) {
-    std::error_code ignored;
-    const auto status = std::filesystem::status(path, ignored);
-    if (std::filesystem::is_directory(status))
-        throw world::Error(fmt::format(
-            "{}: cannot write the trace: this is a folder; name a file in it", path.string()));
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        throw world::Error(
-            fmt::format("{}: cannot write the trace: this is not a plain file", path.string()));
-    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-    if (!std::filesystem::is_directory(folder, ignored))
-        throw world::Error(fmt::format(
-            "{}: cannot write the trace: there is no folder {}", path.string(), folder.string()));
-}
 
 InputFile::InputFile(std::filesystem::path path, std::string kind)
     : path_(std::move(path)),
@@ -88,79 +72,6 @@ mcap::Bytes InputFile::read(std::uint64_t offset, std::uint64_t size) const {
 
 void InputFile::fail(std::uint64_t offset, const std::string& what) const {
     throw world::Error(fmt::format("{}: byte {}: {}", path_.string(), offset, what));
-}
-
-OutputFile::OutputFile(const std::filesystem::path& path)
-    : path_(path),
-      partial_(path.string() + ".partial") {
-    check_output(path_);
-    check_output(partial_);
-    open();
-}
-
-OutputFile::~OutputFile() {
-    if (descriptor_ >= 0)
-        ::close(descriptor_);
-}
-
-void OutputFile::open() {
-    descriptor_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
-    if (descriptor_ < 0)
-        fail(errno);
-
-    // Not truncated before it is locked; and it may have been another run's that has just given it
-    // its final name.
-    struct stat opened {};
-
-    struct stat named {};
-
-    const bool locked = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
-    const bool same = ::fstat(descriptor_, &opened) == 0 && ::stat(partial_.c_str(), &named) == 0 &&
-                      opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
-    if (!locked || !same)
-        throw world::Error(
-            fmt::format("{}: cannot write the trace: another run is writing {}; name another file",
-                        path_.string(),
-                        partial_.string()));
-    if (::ftruncate(descriptor_, 0) != 0)
-        fail(errno);
-}
-
-void OutputFile::append(mcap::View bytes) {
-    while (!bytes.empty()) {
-        const ssize_t put = ::write(descriptor_, bytes.data(), bytes.size());
-        if (put < 0 && errno == EINTR)
-            continue;
-        if (put < 0)
-            fail(errno);
-        size_ += static_cast<std::uint64_t>(put);
-        bytes = bytes.subspan(static_cast<std::size_t>(put));
-    }
-}
-
-void OutputFile::finish() {
-    if (::fdatasync(descriptor_) != 0 && errno != EINVAL)
-        fail(errno);
-    if (::rename(partial_.c_str(), path_.c_str()) != 0)
-        fail(errno);
-    // The bytes are on disk and named; nothing that close could say would change that.
-    ::close(descriptor_);
-    descriptor_ = -1;
-}
-
-void OutputFile::keep(std::uint64_t size) noexcept {
-    // Best effort: a longer file only ends in a record that readers recognise as cut off.
-    if (::ftruncate(descriptor_, static_cast<off_t>(size)) == 0)
-        size_ = size;
-}
-
-void OutputFile::remove() noexcept {
-    ::unlink(partial_.c_str());
-}
-
-void OutputFile::fail(int error) const {
-    throw world::Error(
-        fmt::format("{}: cannot write the trace: {}", path_.string(), reason(error)));
 }
 
 }  // namespace reprise::replay

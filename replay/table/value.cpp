@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "world/printable.h"
+
 namespace reprise::replay {
 
 namespace {
@@ -35,7 +37,8 @@ void append_real_json(Real value, std::string& out) {
         append_number(value, out);
 }
 
-void append_csv_text(const std::string& text, std::string& out) {
+void append_csv_text(const std::string& said, std::string& out) {
+    const std::string text = world::printable_lines(said);
     if (text.find_first_of(",\"\r\n") == std::string::npos) {
         out += text;
         return;
@@ -63,7 +66,8 @@ void append_json(std::string_view text, std::string& out) {
     if (plain)
         out.append("\"").append(text).append("\"");
     else
-        out += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+        out += nlohmann::json(text).dump(
+            -1, ' ', world::printable(text) != text, nlohmann::json::error_handler_t::replace);
 }
 
 std::string valid_utf8(std::string_view text) {

@@ -15,17 +15,18 @@ import sys
 # Who may include whom.
 ROOMS = {
     "world": "",
+    "files": "world",
     "process": "world",
     "ground": "world",
-    "towns": "world process ground",
+    "towns": "world files process ground",
     "scripting": "world",
     "traffic": "world",
     "drivers": "world",
-    "replay": "world",
-    "exchange": "world replay",
-    "render": "world ground",
+    "replay": "world files",
+    "exchange": "world files replay",
+    "render": "world files ground",
     "kernel": "world ground scripting traffic drivers replay",
-    "cli": "world process ground towns scripting traffic drivers replay exchange render kernel",
+    "cli": "world files process ground towns scripting traffic drivers replay exchange render kernel",
 }
 # Inner rooms from the lowest to the highest: each may include those before it. "." is the room's own folder.
 INNER = {
