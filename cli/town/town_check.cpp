@@ -8,14 +8,18 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/process/guard.h"
+#include "cli/process/say.h"
+#include "cli/process/temporary_folder.h"
 #include "cli/town/towns.h"
 #include "ground/mesh/build_ground.h"
 #include "ground/paint/markings.h"
+#include "process/held_signals.h"
 #include "towns/check/furniture_check.h"
 #include "towns/check/ground_check.h"
 #include "towns/check/standing_check.h"
 #include "towns/check/walk_check.h"
 #include "towns/check/walk_map.h"
+#include "towns/import/import_check.h"
 #include "world/town.h"
 
 namespace reprise::cli {
@@ -45,9 +49,18 @@ class Stopwatch {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-Built build(const std::string& name) {
+/// SUMO itself has the last word on a network: a run would end over what it minds.
+towns::Network load_for_sumo(const std::string& name) {
+    towns::Network network = load_town(name);
+    const process::HeldSignals held;
+    const TemporaryFolder scratch;
+    towns::require_sumo_takes(network.xml, scratch.path(), name);
+    return network;
+}
+
+Built build(const towns::Network& network) {
     Stopwatch watch;
-    world::TownT town = towns::read_town(load_town(name));
+    world::TownT town = towns::read_town(network);
     const double reading = watch.lap();
     ground::GroundMesh ground = ground::build_ground(town);
     const double meshing = watch.lap();
@@ -116,39 +129,39 @@ std::string with_unit(double figure, const std::string& unit) {
 }
 
 void print_criterion(const Criterion& criterion) {
-    fmt::print("  {:<5}{:<28}{:>10}   {} {:<10} {}\n",
-               criterion.passed() ? "ok" : "FAIL",
-               criterion.name,
-               with_unit(criterion.figure, criterion.unit),
-               criterion.at_least ? ">=" : "<=",
-               with_unit(criterion.limit, criterion.unit),
-               criterion.looked_at);
+    say("  {:<5}{:<28}{:>10}   {} {:<10} {}\n",
+        criterion.passed() ? "ok" : "FAIL",
+        criterion.name,
+        with_unit(criterion.figure, criterion.unit),
+        criterion.at_least ? ">=" : "<=",
+        with_unit(criterion.limit, criterion.unit),
+        criterion.looked_at);
     for (const Criterion::Place& place : criterion.worst)
-        fmt::print("         {} at ({:.2f}, {:.2f}){}\n",
-                   place.name,
-                   place.position.x(),
-                   place.position.y(),
-                   criterion.unit.empty() ? "" : ": " + with_unit(place.value, criterion.unit));
+        say("         {} at ({:.2f}, {:.2f}){}\n",
+            place.name,
+            place.position.x(),
+            place.position.y(),
+            criterion.unit.empty() ? "" : ": " + with_unit(place.value, criterion.unit));
 }
 
 void print_table(const Built& built, const std::vector<Criterion>& criteria) {
-    fmt::print("{}: {} lanes, {:.2f} km of driving lanes, {} junctions, {} signals\n",
-               built.town.name,
-               built.town.lanes.size(),
-               drivable_km(built.town),
-               built.town.junctions.size(),
-               built.town.signals.size());
+    say("{}: {} lanes, {:.2f} km of driving lanes, {} junctions, {} signals\n",
+        built.town.name,
+        built.town.lanes.size(),
+        drivable_km(built.town),
+        built.town.junctions.size(),
+        built.town.signals.size());
     for (const Criterion& criterion : criteria)
         print_criterion(criterion);
-    fmt::print("  {} triangles of ground, {} of markings; walk map: {} polygons, {} kB\n",
-               built.ground.triangles.size(),
-               built.markings.triangles.size(),
-               built.walk_map.polygons(),
-               built.walk_map.bytes() / 1024);
+    say("  {} triangles of ground, {} of markings; walk map: {} polygons, {} kB\n",
+        built.ground.triangles.size(),
+        built.markings.triangles.size(),
+        built.walk_map.polygons(),
+        built.walk_map.bytes() / 1024);
     std::string times;
     for (const auto& [part, seconds] : built.seconds)
         times += fmt::format("{}{} {:.2f} s", times.empty() ? "" : ", ", part, seconds);
-    fmt::print("  {}; {} MB at most\n", times, peak_memory_mb());
+    say("  {}; {} MB at most\n", times, peak_memory_mb());
 }
 
 nlohmann::json to_json(const Criterion& criterion) {
@@ -185,14 +198,14 @@ void print_json(const Built& built, const std::vector<Criterion>& criteria, bool
         report["criteria"].push_back(to_json(criterion));
     for (const auto& [part, seconds] : built.seconds)
         report["seconds"][part] = seconds;
-    fmt::print("{}\n", report.dump(2));
+    say_lines(report.dump(2, ' ', true, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace
 
 int town_check(const TownCheckOptions& options) {
-    const Built first = build(options.town);
-    const std::vector<Criterion> criteria = check(first, build(options.town));
+    const Built first = build(load_for_sumo(options.town));
+    const std::vector<Criterion> criteria = check(first, build(load_town(options.town)));
     const auto failed =
         std::count_if(criteria.begin(), criteria.end(), [](const Criterion& criterion) {
             return !criterion.passed();
@@ -201,10 +214,9 @@ int town_check(const TownCheckOptions& options) {
         print_json(first, criteria, failed == 0);
     } else {
         print_table(first, criteria);
-        fmt::print("{}\n",
-                   failed == 0
-                       ? fmt::format("all {} criteria hold", criteria.size())
-                       : fmt::format("{} of {} criteria do not hold", failed, criteria.size()));
+        say("{}\n",
+            failed == 0 ? fmt::format("all {} criteria hold", criteria.size())
+                        : fmt::format("{} of {} criteria do not hold", failed, criteria.size()));
     }
     return failed == 0 ? exit_good : exit_differs;
 }

@@ -18,6 +18,7 @@
 #include "ground/mesh/ribbon.h"
 #include "towns/check/island_check.h"
 #include "world/frames.h"
+#include "world/lane_starts.h"
 #include "world/town.h"
 #include "world/units.h"
 
@@ -113,12 +114,13 @@ void measure_lane(const world::TownT& town,
                   const ground::GroundProbe& probe,
                   LaneLevels& levels) {
     ++levels.lanes;
+    const world::LaneStarts starts(lane);
     const int count = 1 + static_cast<int>(lane.length / step);
     for (int i = 0; i <= count; ++i) {
         // The very ends belong to the next lane as much as to this one.
         const double s =
             std::clamp(i * lane.length / count, 0.01, std::max(0.01, lane.length - 0.01));
-        const world::LanePoint at = world::point_at(lane, s);
+        const world::LanePoint at = starts.at(lane, s);
         const Eigen::Vector3d left(-std::sin(at.yaw), std::cos(at.yaw), 0);
         const double middle = off_level(probe, at.position);
         const bool at_end = s < track || s > lane.length - track;

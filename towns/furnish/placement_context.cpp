@@ -7,6 +7,7 @@
 #include "ground/mesh/ground.h"
 #include "ground/mesh/terrain.h"
 #include "world/digest.h"
+#include "world/lane_starts.h"
 
 namespace reprise::towns {
 
@@ -80,8 +81,9 @@ void PlacementContext::add_lanes() {
 }
 
 void PlacementContext::add_level(const LaneT& lane) {
+    const world::LaneStarts starts(lane);
     for (double s = 0; s < lane.length + level_cell / 2; s += level_cell / 2) {
-        const Eigen::Vector3d p = world::point_at(lane, s).position;
+        const Eigen::Vector3d p = starts.at(lane, s).position;
         const Levels here{p.z(), p.z()};
         Levels& cell = levels_.emplace(level_cell_of(p.head<2>()), here).first->second;
         cell = {std::min(cell.low, p.z()), std::max(cell.high, p.z())};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "towns/network/lanes.h"
+#include "world/geometry2d.h"
 
 namespace reprise::towns {
 
@@ -72,7 +73,7 @@ std::vector<Roadside> roadsides(const TownT& town) {
 }
 
 RoadsidePose roadside_pose(const Roadside& roadside, double s, double away) {
-    const world::LanePoint at = world::point_at(roadside.border, s);
+    const world::LanePoint at = roadside.starts.at(roadside.border, s);
     const Eigen::Vector2d left = world::left_of(at.yaw);
     const Eigen::Vector2d out = left * roadside.side;
     return {at.position.head<2>() + out * away, at.position.z(), at.yaw, out};

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "world/lane_starts.h"
 #include "world/town.h"
 
 namespace reprise::towns {
@@ -18,6 +19,7 @@ struct Roadside {
     double side = -1;     ///< +1: the land is on the left of the driving direction, -1: right
     double walk = 0;      ///< [m] width of the sidewalk; 0: none
     world::LaneT border;  ///< only its centre line and length are filled
+    world::LaneStarts starts = world::LaneStarts(border);
 };
 
 /// A pose beside a road. Metres and radians.

@@ -13,4 +13,10 @@ std::string check_import(const std::filesystem::path& network,
                          const std::filesystem::path& work,
                          const std::string& map);
 
+/// Lets SUMO load a network, in a process of its own. Throws world::Error "MAP: sumo refuses it:
+/// ..." with SUMO's reason, or with how it crashed.
+void require_sumo_takes(const std::string& network,
+                        const std::filesystem::path& work,
+                        const std::string& map);
+
 }  // namespace reprise::towns

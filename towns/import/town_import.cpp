@@ -7,12 +7,14 @@
 #include "towns/import/town_import.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "files/output_place.h"
 #include "towns/bridges/raise_roads.h"
 #include "towns/import/footprints.h"
 #include "towns/import/guessed_crossings.h"
@@ -23,6 +25,7 @@
 #include "towns/maps/map_source.h"
 #include "towns/maps/netconvert.h"
 #include "towns/maps/opendrive.h"
+#include "towns/maps/openstreetmap_check.h"
 #include "towns/town_reader.h"
 #include "world/check.h"
 
@@ -51,7 +54,7 @@ void write_text(const fs::path& path, const std::string& text) {
     file << text;
     file.close();
     if (!file)
-        throw world::Error(path.string() + ": cannot be written");
+        throw world::Error(path.string() + ": cannot be written: " + files::write_error(errno));
 }
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
@@ -240,6 +243,7 @@ class Import {
 
     void from_openstreetmap(const TownImport& wish) {
         fs::create_symlink(fs::absolute(source_.file), work_ / "map.osm");
+        check_openstreetmap(source_.file, map_);
         say("OpenStreetMap, traffic drives on the {}", wish.left_hand ? "left" : "right");
         std::vector<std::string> words = openstreetmap_words("map.osm", wish.left_hand);
         if (wish.guess_sidewalks)

@@ -14,14 +14,15 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <osmium/io/xml_input.hpp>
 #include <osmium/osm/relation.hpp>
 #include <osmium/osm/way.hpp>
 #include <pugixml.hpp>
 
 #include "towns/maps/joined_ways.h"
 #include "towns/maps/map_area.h"
+#include "towns/maps/osm_objects.h"
 #include "world/check.h"
+#include "world/printable.h"
 
 namespace reprise::towns {
 
@@ -31,20 +32,6 @@ using Id = osmium::object_id_type;
 using Ways = std::map<Id, NodeIds>;
 
 constexpr Id first_ring = 1'000'000'000'000'000;  ///< larger than any id of OpenStreetMap
-
-/// Calls `take` with each object of one kind, in the order of the file.
-template <typename Object, typename Take>
-void for_each(const std::filesystem::path& map, osmium::osm_entity_bits::type kind, Take&& take) {
-    // XML is parsed without a pool. Without one of our own, the reader would start one that lives
-    // as long as the process; its other threads end with it.
-    osmium::thread::Pool pool(1);
-    osmium::io::Reader reader(
-        osmium::io::File(map.string(), "xml"), kind, osmium::io::read_meta::no, pool);
-    while (const osmium::memory::Buffer buffer = reader.read())
-        for (const Object& object : buffer.select<Object>())
-            take(object);
-    reader.close();
-}
 
 struct Multipolygon {
     Id id = 0;
@@ -69,7 +56,7 @@ std::vector<Multipolygon> read_multipolygons(const std::filesystem::path& map) {
                     .push_back(member.ref());
         found.push_back(std::move(area));
     };
-    for_each<osmium::Relation>(map, osmium::osm_entity_bits::relation, take);
+    for_each_object<osmium::Relation>(map, osmium::osm_entity_bits::relation, take);
     std::stable_sort(found.begin(), found.end(), [](const auto& left, const auto& right) {
         return left.id < right.id;
     });
@@ -90,7 +77,7 @@ Ways read_members(const std::filesystem::path& map, const std::vector<Multipolyg
                 ways.try_emplace(member);
     if (ways.empty())
         return ways;
-    for_each<osmium::Way>(map, osmium::osm_entity_bits::way, [&](const osmium::Way& way) {
+    for_each_object<osmium::Way>(map, osmium::osm_entity_bits::way, [&](const osmium::Way& way) {
         const auto wanted = ways.find(way.id());
         if (wanted == ways.end() || !wanted->second.empty())
             return;
@@ -150,14 +137,6 @@ MapRings write_rings(const std::vector<Multipolygon>& areas, const Ways& ways) {
     return found;
 }
 
-/// One line, whatever of the map libosmium quotes.
-std::string reason(const std::exception& error) {
-    std::string text = error.what();
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-    return text;
-}
-
 }  // namespace
 
 MapRings read_rings(const std::filesystem::path& map, const std::string& called) {
@@ -165,8 +144,8 @@ MapRings read_rings(const std::filesystem::path& map, const std::string& called)
         const std::vector<Multipolygon> areas = read_multipolygons(map);
         return write_rings(areas, read_members(map, areas));
     } catch (const std::exception& error) {
-        throw world::Error(
-            fmt::format("{}: is not as OpenStreetMap writes it: {}", called, reason(error)));
+        throw world::Error(fmt::format(
+            "{}: is not as OpenStreetMap writes it: {}", called, world::printable(error.what())));
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "process/program.h"
 #include "world/check.h"
+#include "world/printable.h"
 
 namespace reprise::towns {
 
@@ -26,13 +27,6 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 constexpr process::Limits limits{
     .memory = std::uint64_t{4} << 30, .seconds = 600, .file = std::uint64_t{2} << 30};
-
-/// Without what could spoil a terminal.
-std::string printable(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-    return text;
-}
 
 }  // namespace
 
@@ -63,13 +57,13 @@ std::string reason_in(const std::string& said) {
             errors.push_back(error);
     }
     if (errors.empty())
-        return lines.empty() ? "it did not say why" : printable(lines.back());
+        return lines.empty() ? "it did not say why" : world::printable(lines.back());
     std::string reason;
     for (std::size_t i = 0; i < std::min(errors.size(), most); ++i)
         reason += (i == 0 ? "" : "; ") + errors[i];
     if (errors.size() > most)
         reason += fmt::format("; and {} more", errors.size() - most);
-    return printable(reason);
+    return world::printable(reason);
 }
 
 int run_sumo_tool(const std::string& program,

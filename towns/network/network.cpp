@@ -13,9 +13,12 @@
 #include <pugixml.hpp>
 #include <zlib.h>
 
+#include "towns/network/network_check.h"
 #include "towns/network/network_xml.h"
+#include "towns/network/out_of_place.h"
 #include "towns/network/place.h"
 #include "world/check.h"
+#include "world/geometry2d.h"
 #include "world/models/vehicle_classes.h"
 #include "world/words.h"
 
@@ -216,10 +219,29 @@ std::string fault_of(pugi::xml_node lane) {
 }
 
 void check_lanes(const fs::path& path, std::string_view xml, pugi::xml_node net) {
+    const auto fail_lane = [&](pugi::xml_node lane, const std::string& fault) {
+        fail_at(path, line_of(xml, static_cast<std::size_t>(lane.offset_debug())), fault);
+    };
+    std::vector<Eigen::Vector2d> corners;  // two of each lane
+    std::vector<pugi::xml_node> lanes;
     for (const pugi::xml_node edge : net.children("edge"))
-        for (const pugi::xml_node lane : edge.children("lane"))
+        for (const pugi::xml_node lane : edge.children("lane")) {
             if (const std::string fault = fault_of(lane); !fault.empty())
-                fail_at(path, line_of(xml, static_cast<std::size_t>(lane.offset_debug())), fault);
+                fail_lane(lane, fault);
+            world::Box box;
+            for (const world::Vec3& point : parse_shape(lane.attribute("shape").value()))
+                box.take({point.x(), point.y()});
+            corners.insert(corners.end(), {box.low, box.high});
+            lanes.push_back(lane);
+        }
+    if (const auto corner = out_of_place(corners)) {
+        const pugi::xml_node lane = lanes[*corner / 2];
+        fail_lane(lane,
+                  fmt::format("<lane id=\"{}\">: lies so far away that the town would be wider "
+                              "than {:.0f} km",
+                              lane.attribute("id").value(),
+                              widest_town / 1000));
+    }
 }
 
 std::string name_of(const fs::path& path) {
@@ -280,6 +302,7 @@ Network load_network(const std::filesystem::path& path) {
     if (!has_car_lane(root))
         fail_at(path, root_line, "has no edge that a passenger car may use");
     check_lanes(path, network.xml, root);
+    check_network(path, network.xml, root);
 
     // Words of newer SUMO versions.
     std::map<std::string, int> unknown;

@@ -787,7 +787,7 @@ TEST_F(Imports, WhatIsNoMapIsRefusedInOneLine) {
          "path.osm: what came out of it is no town: has no edge that a passenger car may use"},
         {"far.xodr",
          "<OpenDRIVE>\n<road id='1' length='1e7'/></OpenDRIVE>",
-         "far.xodr:2: <road>: length=\"1e7\" is not a number up to 200000"},
+         "far.xodr:2: <road>: length=\"1e7\" is not a number up to 100000"},
         {"nan.xodr",
          "<OpenDRIVE><road id='1' length='9'><planView><geometry s='nan'/></planView></road>"
          "</OpenDRIVE>",
