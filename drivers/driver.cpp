@@ -28,7 +28,7 @@ constexpr double speed_gain = 0.8;      // [1/s]
 constexpr double indicate_before = 30;  // [m]
 constexpr double low_sun = 0.1;         // [rad]
 constexpr double longest_wait = 12;     // [s] for room on the next lane
-constexpr double at_the_end = 3;        // [m] where it stops, 1 m before the end, and some
+constexpr double end_reach = 3;         // [m] it stops 1 m before the end of the road
 constexpr double slowest_order = 0.1;   // [m/s] below it a speed means: stand
 
 world::CarModel model_with(std::uint16_t index) {
@@ -79,7 +79,7 @@ struct Autopilot::State {
     std::uint32_t turns_into = 0;  ///< the lane behind the turn
     std::optional<double> speed_cap;
     std::uint32_t waiting_ticks = 0;  ///< beside cars on the lane that we want
-    bool arrived = false;             ///< follows from the last tick and the way: not digested
+    bool at_end = false;              ///< follows from the last tick and the way: not digested
 };
 
 Autopilot::Autopilot(std::uint32_t actor,
@@ -109,7 +109,7 @@ void Autopilot::free_speed() {
 }
 
 bool Autopilot::is_under_way() const {
-    return !state_->arrived && state_->speed_cap.value_or(world::infinity) >= slowest_order;
+    return !state_->at_end && state_->speed_cap.value_or(world::infinity) >= slowest_order;
 }
 
 const std::vector<std::uint32_t>& Autopilot::path() const {
@@ -130,7 +130,7 @@ world::Control Autopilot::decide(const world::TickView& last) {
     if (!state.turn_around.done())
         return control;
 
-    state.arrived = false;
+    state.at_end = false;
     // Where am I? Off every road there is nothing to follow: stop.
     const Navigator::Found found = state.navigator.follow(ego);
     if (found == Navigator::Found::nothing) {
@@ -140,7 +140,7 @@ world::Control Autopilot::decide(const world::TickView& last) {
     if (found == Navigator::Found::another)
         state.gatekeeper.reset();
 
-    state.arrived = state.way().ended() && state.way().path().end() - ego.front_s() < at_the_end;
+    state.at_end = state.way().ended() && state.way().path().end() - ego.front_s() < end_reach;
 
     // Who is in the way, and may I go on? The most careful answer counts.
     state.plan_wide_turns(ego);

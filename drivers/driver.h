@@ -43,8 +43,8 @@ class Autopilot {
     /// The control for the next tick. The actor must be in `last`.
     world::Control decide(const world::TickView& last);
 
-    /// As it last decided: does it want to get on? Not when it has arrived (at the end of its
-    /// route, or of the road), and not when it was told to stand.
+    /// As it last decided: does it want to get on? Not where the road leads nowhere, and not
+    /// when it was told to stand. (Behind its route it wanders on.)
     bool is_under_way() const;
 
     /// Lane indices of the way ahead, from the one under the car. For tests.

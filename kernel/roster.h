@@ -34,8 +34,8 @@ class Roster {
                         const world::TickView& last,
                         world::TickDraft& next);
 
-    /// Does the driver of this vehicle want to get on? The autopilot until it has arrived or is
-    /// told to stand. A scenario that drives by itself: while it gives throttle. Whoever else
+    /// Does the driver of this vehicle want to get on? The autopilot until its road ends or it
+    /// is told to stand. A scenario that drives by itself: while it gives throttle. Whoever else
     /// drives: once the vehicle has moved or is given throttle. Never with the hand brake on.
     bool is_under_way(const world::VehicleState& vehicle) const;
 

@@ -174,6 +174,9 @@ TEST(Autopilot, ObeysTheCapUntilItIsLifted) {
     while (drive.seconds() < 15)
         drive.step();
     EXPECT_NEAR(drive.car.speed, 6, 0.3);
+    EXPECT_TRUE(drive.autopilot->is_under_way());
+    drive.autopilot->set_speed(0);
+    EXPECT_FALSE(drive.autopilot->is_under_way());
     drive.autopilot->free_speed();
     while (drive.seconds() < 35)
         drive.step();
@@ -183,8 +186,11 @@ TEST(Autopilot, ObeysTheCapUntilItIsLifted) {
 TEST(Autopilot, StopsWhereTheRoadEndsAndStays) {
     Drive drive(straight_road(200));
     drive.place(1, 5, 10);
+    drive.step();
+    EXPECT_TRUE(drive.autopilot->is_under_way());
     while (drive.seconds() < 40)
         drive.step();
+    EXPECT_FALSE(drive.autopilot->is_under_way());
     const double left = 200 - drive.car.x - drive.car.front();
     EXPECT_EQ(drive.car.speed, 0);
     EXPECT_GT(left, 0.5);

@@ -50,16 +50,6 @@ TEST(Blocked, WhoWasToldToStandIsNot) {
     EXPECT_THAT(blockages(behind_it + "ego:set_speed(0) wait(100)"), testing::IsEmpty());
 }
 
-TEST(Blocked, WhoHasArrivedIsNot) {
-    EXPECT_THAT(blockages(R"(
-        local road = pick_lane{ length = 80 }
-        local ego = spawn{ model = 'sedan', driver = 'autopilot', lane = road, s = 20 }
-        ego:route_to{ lane = road, s = 60 }
-        wait(100))",
-                          90),
-                testing::IsEmpty());
-}
-
 TEST(Blocked, AManualVehicleIsWhileItPushesNotWhileItStandsOnPurpose) {
     const std::string manual = obstacle + R"(
         local hand = spawn{ model = 'sedan', driver = 'manual', lane = road, s = 30 })";
