@@ -1,10 +1,11 @@
 # glibc chooses its sin, exp and kin by the CPU it finds; they differ in the last bit, and traffic is
 # chaotic. So programs that simulate carry musl's, as one object in the executable: the dynamic
-# linker then binds Bullet, SUMO and Lua to it as well. docs/determinism.md says more.
+# linker then binds Bullet, SUMO and Lua to it as well. docs/determinism.md says more. Not fmod: it
+# is exact, so equal everywhere, and scripting/lua/charged.cpp has one that scripts pay for.
 find_file(MUSL_LIBC libc.a PATHS /usr/lib/x86_64-linux-musl NO_DEFAULT_PATH REQUIRED)
 set(portable_functions
     sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2
-    log10 log1p pow sincos cbrt hypot erf erfc tgamma lgamma fmod remainder
+    log10 log1p pow sincos cbrt hypot erf erfc tgamma lgamma remainder
     sinf cosf tanf asinf acosf atanf atan2f sinhf coshf tanhf asinhf acoshf atanhf expf exp2f exp10f
     expm1f logf log2f log10f log1pf powf sincosf cbrtf hypotf erff erfcf tgammaf lgammaf fmodf
     remainderf)

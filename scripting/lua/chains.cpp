@@ -12,6 +12,9 @@ namespace {
 /// Where in an entry Lua 5.4 keeps how many entries on the next one of its chain is; 0: none.
 constexpr std::size_t next_offset = 12;
 
+/// Where in a short text Lua 5.4 keeps the next one of its chain.
+constexpr std::size_t next_text_offset = 16;
+
 std::size_t successor(const void* block, std::size_t entry) {
     std::int32_t step = 0;
     std::memcpy(
@@ -43,6 +46,17 @@ std::size_t longest_chain(const void* block, std::size_t entries) {
             entry = next;
             ++length;
         }
+        longest = std::max(longest, length);
+    }
+    return longest;
+}
+
+std::size_t longest_chain(const TextTable& texts) {
+    std::size_t longest = 0;
+    for (int chain = 0; chain < texts.size; ++chain) {
+        std::size_t length = 0;
+        for (const void* text = texts.chains[chain]; text != nullptr; ++length)
+            std::memcpy(&text, static_cast<const std::byte*>(text) + next_text_offset, sizeof text);
         longest = std::max(longest, length);
     }
     return longest;

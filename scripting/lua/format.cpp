@@ -42,8 +42,9 @@ int format_text(lua_State* L) {
             throw world::Error(
                 "string.format: %p would show an address, which differs in every run");
         cost += conversion_cost;
+        // %q writes each byte by itself.
         if (lua_type(L, argument) == LUA_TSTRING)
-            cost += lua_rawlen(L, argument) / 4;
+            cost += lua_rawlen(L, argument) / (format[i] == 'q' ? 1 : 4);
         const bool is_text = format[i] == 's';
         if (is_text && argument <= lua_gettop(L) && lua_type(L, argument) != LUA_TSTRING) {
             const std::string text = text_of(L, argument);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int call_cost = 5;           // [instructions] of any stock function
 constexpr std::size_t few_bytes = 32;  // texts that cost nothing
+constexpr int few_arguments = 16;      // that cost nothing
 
 /// Upvalue 1: the stock function. Called in this very frame, so that its messages know its name.
 int call_stock(lua_State* L) {
@@ -38,6 +39,8 @@ int metered(lua_State* L) {
     for (int index = first; index <= arguments; ++index)
         if (lua_type(L, index) == LUA_TSTRING && lua_rawlen(L, index) > few_bytes)
             cost += lua_rawlen(L, index) / 4;
+    if (arguments > few_arguments)
+        cost += static_cast<std::uint64_t>(arguments) / 2;
     Vm::of(L).charge(L, cost);
     const int results = call_stock(L);
     for (int index = lua_gettop(L) - results + 1; index <= lua_gettop(L); ++index)

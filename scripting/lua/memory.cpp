@@ -13,26 +13,37 @@ namespace reprise::scripting {
 
 namespace {
 
-constexpr std::size_t slot = 16;          // [bytes] of a value on a stack or in a list
-constexpr std::size_t short_text = 64;    // [bytes] shorter ones Lua may already hold: no charge
-constexpr std::size_t large_block = 512;  // [bytes] from here on a block costs by its size
+constexpr std::size_t slot = 16;        // [bytes] of a value on a stack or in a list
+constexpr std::size_t short_text = 64;  // [bytes] shorter ones Lua may already hold: no charge
+constexpr std::size_t longest_interned = 65;  // [bytes] of a text that Lua holds once
+constexpr std::size_t large_block = 512;      // [bytes] from here on a block costs by its size
 
-// From here on instructions on it cost more: measured, an instruction then takes about 0.3 us.
-constexpr std::size_t cheap_text = 512;   // [bytes] `for i = 1, text` reads all of it as a number
+// From here on instructions on it cost more: measured, an instruction then takes about 0.1 us.
+constexpr std::size_t cheap_text = 256;   // [bytes] `for i = 1, text` reads all of it as a number
 constexpr std::size_t cheap_stack = 512;  // slots; `f(...)` copies all of them
 constexpr std::size_t cheap_chain = 16;   // `t[key]` passes all keys with the same hash
-constexpr std::size_t large_keys = 256;   // entries; smaller tables have short chains at any rate
+constexpr std::size_t large_keys =
+    256;  // entries; smaller tables cost nothing to rebuild and look at
+constexpr std::size_t watched_keys = 64;  // entries; smaller ones have short chains at any rate
 
-bool is_key_part(std::size_t size) {
-    return size >= large_keys * key_slot && size % key_slot == 0 &&
+bool is_key_part(std::size_t size, std::size_t least_keys) {
+    return size >= least_keys * key_slot && size % key_slot == 0 &&
            std::has_single_bit(size / key_slot);
 }
 
 /// Until keys in such a part are looked at again, in calls of inspect(): a chain of all of them
-/// then costs some tenths of a second at most.
+/// then costs a tenth of a second at most.
 std::uint64_t interval(std::size_t size) {
-    constexpr std::size_t entries_times_calls = 262'144;
+    constexpr std::size_t entries_times_calls = 32'768;
     return std::max<std::uint64_t>(4, entries_times_calls / (size / key_slot));
+}
+
+/// [instructions] of a new function: each variable that it holds is looked for among those that
+/// others hold.
+std::uint64_t cost_of_closure(std::size_t size) {
+    constexpr std::size_t few = 16;
+    const std::size_t held = size / sizeof(void*);
+    return held <= few ? 0 : held * held / 32;
 }
 
 void add(std::map<std::size_t, std::uint32_t>& sizes, std::size_t size) {
@@ -68,7 +79,7 @@ Memory::Refusal Memory::objection(bool is_new,
                                   std::size_t new_size) const {
     if (is_new && type == LUA_TSTRING && new_size > longest_text + 64)
         return Refusal::text;
-    if (is_new && new_size > most_keys * key_slot && is_key_part(new_size))
+    if (is_new && new_size > most_keys * key_slot && is_key_part(new_size, large_keys))
         return Refusal::table;
     return bytes_ - held + new_size > 2 * memory_cap ? Refusal::cap : Refusal::none;
 }
@@ -129,12 +140,17 @@ void Memory::charge(int type, std::size_t old_size, std::size_t new_size) {
     if (type == LUA_TSTRING) {
         if (new_size > short_text)
             account_.take(new_size / 8);
+        if (new_size <= longest_interned)
+            ++new_texts_;
         return;
     }
+    if (type == LUA_TFUNCTION)
+        account_.take(cost_of_closure(new_size));
     const std::size_t size = std::max(old_size, new_size);
     if (size >= large_block)
-        account_.take(is_key_part(size) ? size / 3 * std::max<std::size_t>(1, largest(chains_) / 64)
-                                        : size / 32);
+        account_.take(is_key_part(size, large_keys)
+                          ? size / 3 * std::max<std::size_t>(1, largest(chains_) / 64)
+                          : size / 32);
 }
 
 void Memory::remember(void* block, int type, std::size_t size) {
@@ -149,7 +165,7 @@ void Memory::remember(void* block, int type, std::size_t size) {
         texts_.emplace(block, size);
         add(text_sizes_, size);
     }
-    if (is_key_part(size))
+    if (is_key_part(size, watched_keys))
         remember_keys(block, size);
     set_rate();
 }
@@ -162,7 +178,7 @@ void Memory::forget(void* block, std::size_t size) {
         remove_size(text_sizes_, size);
     if (stacks_.erase(block) != 0)
         remove_size(stack_sizes_, size);
-    if (is_key_part(size))
+    if (is_key_part(size, watched_keys))
         forget_keys(block);
     set_rate();
 }
@@ -179,9 +195,30 @@ void Memory::inspect() {
         add(chains_, part.chain);
         part.due = inspections_ + interval(part.size);
         due_.emplace(part.due, block);
-        account_.take(entries / 4);
+        if (entries >= large_keys)
+            account_.take(entries / 4);
         set_rate();
     }
+    inspect_texts();
+}
+
+/// Of short texts Lua looks for every new one among those of the same hash.
+void Memory::inspect_texts() {
+    constexpr std::uint64_t few = 64;       // new ones make no long chain
+    constexpr std::uint64_t many = 1024;    // enough for a long one
+    constexpr std::uint64_t patience = 64;  // [calls of inspect()]
+    if (text_table_ == nullptr)
+        return;
+    const bool soon =
+        new_texts_ >= std::max(many, static_cast<std::uint64_t>(text_table_->count) / 4);
+    const bool now = inspections_ >= texts_looked_at_ + patience &&
+                     (new_texts_ >= few || text_chain_ >= cheap_chain);
+    if (!soon && !now)
+        return;
+    new_texts_ = 0;
+    texts_looked_at_ = inspections_;
+    text_chain_ = longest_chain(*text_table_);
+    set_rate();
 }
 
 void Memory::remember_keys(const void* block, std::size_t size) {
@@ -202,7 +239,8 @@ void Memory::set_rate() {
     rate_ = std::max({std::size_t{1},
                       (largest(text_sizes_) + cheap_text - 1) / cheap_text,
                       largest(stack_sizes_) / (cheap_stack * slot),
-                      largest(chains_) / cheap_chain});
+                      largest(chains_) / cheap_chain,
+                      text_chain_ / cheap_chain});
 }
 
 }  // namespace reprise::scripting

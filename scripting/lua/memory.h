@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scripting/lua/arena.h"
+#include "scripting/lua/chains.h"
 
 namespace reprise::scripting {
 
@@ -55,8 +56,11 @@ class Memory {
     /// Why the run must end; since it was asked last.
     Refusal refusal();
 
-    /// Called every so many instructions: looks now and then whether keys were chosen so that their
-    /// hashes agree, the larger the table the more often. Charged.
+    /// Where the machine keeps its short texts; must outlive this.
+    void watch(const TextTable& texts) { text_table_ = &texts; }
+
+    /// Called every so many instructions: looks now and then whether keys or short texts were
+    /// chosen so that their hashes agree, the more of them the more often. Charged.
     void inspect();
 
     /// What an instruction may cost with what is alive now, in plain instructions; at least 1.
@@ -78,6 +82,7 @@ class Memory {
     void charge(int type, std::size_t old_size, std::size_t new_size);
     void remember_keys(const void* block, std::size_t size);
     void forget_keys(const void* block);
+    void inspect_texts();
     void set_rate();
 
     Account& account_;
@@ -106,6 +111,10 @@ class Memory {
         due_;                                      ///< of them, what one finds touches no other
     std::map<std::size_t, std::uint32_t> chains_;  ///< their longest ones -> how many
     std::uint64_t inspections_ = 0;
+    const TextTable* text_table_ = nullptr;
+    std::uint64_t new_texts_ = 0;             ///< short ones, since they were last looked at
+    std::uint64_t texts_looked_at_ = 0;       ///< then, in calls of inspect()
+    std::size_t text_chain_ = 1;              ///< the longest one then
     std::array<std::uint32_t, 64> blocks_{};  ///< large ones, by the bits of their size
 };
 

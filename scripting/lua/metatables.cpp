@@ -62,9 +62,11 @@ void limit_chain(lua_State* L, const char* field) {
     lua_Integer height = lua_tointeger(L, -1) + 1;
     lua_settop(L, heights);
     lua_pushvalue(L, target);
-    if (height + depth_below(L, field) > longest_chain)
+    const lua_Integer depth = height + depth_below(L, field);
+    if (depth > longest_chain)
         refuse("setmetatable",
                fmt::format("a chain of more than {} tables by {}", longest_chain, field));
+    Vm::of(L).note_chain(static_cast<std::size_t>(depth));
     luaL_checkstack(L, longest_chain + 4, "a chain of metatables");
     do {
         lua_pushvalue(L, -1);

@@ -9,6 +9,7 @@ namespace reprise::scripting {
 namespace {
 
 constexpr std::uint64_t steps_at_a_time = 1000;
+constexpr std::size_t bytes_a_step = 16;  // of a set, which is read once for every character
 
 [[noreturn]] void malformed(const char* what) {
     throw world::Error(std::string("malformed pattern: ") + what);
@@ -91,6 +92,11 @@ void Pattern::step() {
         settle();
 }
 
+/// A set may be as long as the pattern, and is looked for its end and for the character.
+void Pattern::pay_for_class(std::size_t p, std::size_t after) {
+    steps_ += (after - p) / bytes_a_step;
+}
+
 /// 0 behind the end.
 unsigned char Pattern::at(std::size_t p) const {
     return p < pattern_.size() ? static_cast<unsigned char>(pattern_[p]) : 0;
@@ -138,9 +144,10 @@ bool Pattern::in_set(unsigned char c, std::size_t p, std::size_t last) const {
     return !found;
 }
 
-bool Pattern::matches_one(std::size_t s, std::size_t p, std::size_t after) const {
+bool Pattern::matches_one(std::size_t s, std::size_t p, std::size_t after) {
     if (s >= text_.size())
         return false;
+    pay_for_class(p, after);
     const auto c = static_cast<unsigned char>(text_[s]);
     switch (at(p)) {
         case '.':
@@ -210,6 +217,7 @@ Pattern::Place Pattern::match_escape(std::size_t& s, std::size_t& p, bool& again
 
 Pattern::Place Pattern::match_default(std::size_t& s, std::size_t& p, bool& again) {
     const std::size_t after = end_of_class(p);
+    pay_for_class(p, after);
     const unsigned char suffix = at(after);
     const bool repeats = suffix == '*' || suffix == '?' || suffix == '-';
     if (!matches_one(s, p, after)) {
@@ -303,7 +311,8 @@ Pattern::Place Pattern::balance(std::size_t s, std::size_t p) {
     return std::nullopt;
 }
 
-bool Pattern::frontier(std::size_t s, std::size_t p, std::size_t after) const {
+bool Pattern::frontier(std::size_t s, std::size_t p, std::size_t after) {
+    pay_for_class(p, after + 2 * (after - p));  // its end, and two characters
     const auto before = static_cast<unsigned char>(s == 0 ? '\0' : text_[s - 1]);
     const auto here = static_cast<unsigned char>(s < text_.size() ? text_[s] : '\0');
     return !in_set(before, p, after - 1) && in_set(here, p, after - 1);

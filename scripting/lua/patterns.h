@@ -54,6 +54,7 @@ class Pattern {
     using Place = std::optional<std::size_t>;
 
     void step();
+    void pay_for_class(std::size_t p, std::size_t after);
     Place match(std::size_t s, std::size_t p);
     Place match_default(std::size_t& s, std::size_t& p, bool& again);
     Place match_escape(std::size_t& s, std::size_t& p, bool& again);
@@ -63,8 +64,8 @@ class Pattern {
     Place close_capture(std::size_t s, std::size_t p);
     Place balance(std::size_t s, std::size_t p);
     Place repeat_capture(std::size_t s, unsigned char digit);
-    bool frontier(std::size_t s, std::size_t p, std::size_t after) const;
-    bool matches_one(std::size_t s, std::size_t p, std::size_t after) const;
+    bool frontier(std::size_t s, std::size_t p, std::size_t after);
+    bool matches_one(std::size_t s, std::size_t p, std::size_t after);
     bool in_set(unsigned char c, std::size_t p, std::size_t last) const;
     std::size_t end_of_class(std::size_t p) const;
     unsigned char at(std::size_t p) const;

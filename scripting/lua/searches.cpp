@@ -106,6 +106,7 @@ int find_or_match(lua_State* L, const char* who, bool find) {
         lua_pushnil(L);
         return 1;
     }
+    Vm::of(L).charge(L, wanted.size() / 16);
     if (find && (lua_toboolean(L, 4) != 0 || is_plain(wanted)))
         return find_plain(L, text, wanted, start);
     Pattern pattern = pattern_on(L, text, wanted);
@@ -143,6 +144,11 @@ int next_match(lua_State* L) {
     return 0;
 }
 
+void want_room(const std::string& result) {
+    if (result.size() > longest_text)
+        refuse("string.gsub", "the result would be longer than 64 kB");
+}
+
 /// "%1" and its kin in the replacement at 3.
 void add_replacement(lua_State* L,
                      const Pattern& pattern,
@@ -153,6 +159,7 @@ void add_replacement(lua_State* L,
     const std::string_view replacement = view_at(L, 3, "", "");
     Vm::of(L).charge(L, replacement.size());
     for (std::size_t i = 0; i < replacement.size(); ++i) {
+        want_room(result);
         if (replacement[i] != '%') {
             result += replacement[i];
             continue;
@@ -254,8 +261,7 @@ int replace_text(lua_State* L) {
         } else {
             break;
         }
-        if (result.size() > longest_text)
-            refuse(who, "the result would be longer than 64 kB");
+        want_room(result);
         if (pattern.is_anchored())
             break;
     }

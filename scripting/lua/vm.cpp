@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "scripting/lua/charged.h"
+#include "scripting/lua/hash.h"
 #include "scripting/lua/text.h"
 #include "world/arithmetic.h"
 #include "world/check.h"
@@ -22,7 +24,6 @@ namespace {
 
 constexpr int hook_interval = 1000;  // [VM instructions]
 constexpr int deepest_calls = 5000;
-constexpr std::uint32_t hash_seed = 0x5EEDU;
 constexpr std::size_t longest_message = 500;  // [bytes]
 
 thread_local Vm* running_vm = nullptr;
@@ -34,8 +35,7 @@ struct GlobalState {
     void* self;
     std::ptrdiff_t bytes, debt;
     std::size_t estimate, last_atomic;
-    void* texts;
-    int text_count, text_size;
+    TextTable texts;
     void* registry[2];
     void* nil_value[2];
     std::uint32_t seed;
@@ -43,8 +43,8 @@ struct GlobalState {
 
 /// Between the seed's making and its first use: lua_newstate's second request for memory. The place
 /// is found by the allocator that it was just told; `seed_is_ours` tells whether it was the right
-/// one.
-void set_seed(void* block, std::size_t size, lua_Alloc allocator, void* self) {
+/// one. Returns the table of short texts, which lies in it.
+const TextTable* set_seed(void* block, std::size_t size, lua_Alloc allocator, void* self) {
     auto* const bytes = static_cast<std::byte*>(block);
     for (std::size_t at = 0; at + sizeof(GlobalState) <= size; at += alignof(GlobalState)) {
         GlobalState state{};
@@ -52,8 +52,9 @@ void set_seed(void* block, std::size_t size, lua_Alloc allocator, void* self) {
         if (state.allocator != allocator || state.self != self)
             continue;
         std::memcpy(bytes + at + offsetof(GlobalState, seed), &hash_seed, sizeof hash_seed);
-        return;
+        return reinterpret_cast<const TextTable*>(bytes + at + offsetof(GlobalState, texts));
     }
+    return nullptr;
 }
 
 /// Twelve words, in the order that Lua's own walk gives them with our seed.
@@ -88,6 +89,7 @@ class Vm::Running {
     Running(Vm& vm, lua_State* L) : vm_(vm), outer_vm_(running_vm), outer_(vm.current_) {
         running_vm = &vm;
         vm.current_ = L;
+        vm.pay_ahead(L);
     }
 
     ~Running() {
@@ -121,7 +123,11 @@ Vm::Vm(std::string script) : script_(std::move(script)) {
         throw std::bad_alloc();
     *static_cast<Vm**>(lua_getextraspace(main_)) = this;  // coroutines get a copy
     lua_atpanic(main_, panic);
+    link_charged_functions();
     REPRISE_CHECK(seed_is_ours(main_), "the seed of Lua's hash is not where Lua 5.4 has it");
+    REPRISE_CHECK(texts_ != nullptr && texts_->count > 0 && texts_->count < texts_->size * 4,
+                  "the texts are not where Lua 5.4 has them");
+    memory_.watch(*texts_);
     check_locale();
     lua_sethook(main_, hook, LUA_MASKCOUNT, hook_interval);
 }
@@ -139,7 +145,8 @@ void* Vm::allocate(void* self, void* block, std::size_t old_size, std::size_t ne
     // For a new block Lua passes its type in the place of the old size.
     const int type = block == nullptr ? static_cast<int>(old_size) : LUA_TNIL;
     if (vm.first_block_ != nullptr)
-        set_seed(std::exchange(vm.first_block_, nullptr), vm.memory_.bytes(), allocate, self);
+        vm.texts_ =
+            set_seed(std::exchange(vm.first_block_, nullptr), vm.memory_.bytes(), allocate, self);
     void* const moved = vm.memory_.resize(block, old_size, type, new_size);
     if (vm.main_ == nullptr && vm.memory_.requests() == 1)
         vm.first_block_ = moved;
@@ -184,12 +191,34 @@ void Vm::hook(lua_State* L, lua_Debug*) {
     Vm& vm = of(L);
     vm.make_room(L);
     vm.memory_.inspect();
-    vm.charge(L, hook_interval * vm.memory_.rate());
+    vm.charge(L, static_cast<std::uint64_t>(lua_gethookcount(L)) * vm.rate());
+    if (lua_gethookcount(L) != vm.interval())
+        lua_sethook(L, hook, LUA_MASKCOUNT, vm.interval());
     lua_Debug frame;
     if (lua_getstack(L, deepest_calls, &frame) != 0) {
         vm.latch(vm.position(L) + "calls are nested too deeply: an endless recursion?");
         vm.raise(L, "");
     }
+}
+
+/// What an instruction may cost with what is alive now, in plain ones.
+std::uint64_t Vm::rate() const {
+    constexpr std::size_t cheap_chain = 8;  // tables
+    return std::max<std::uint64_t>(memory_.rate(), chain_ > cheap_chain ? 3 : 1);
+}
+
+/// Between two hooks at this rate: always about as much work.
+int Vm::interval() const {
+    return std::max(1, static_cast<int>(hook_interval / rate()));
+}
+
+/// Before a stack goes on. Its hook comes by what instructions cost now; as that begins to count
+/// anew, what may run until then is paid now: thousands of tasks could each stay below it.
+void Vm::pay_ahead(lua_State* L) {
+    if (rate() == 1 && lua_gethookcount(L) == hook_interval)
+        return;
+    lua_sethook(L, hook, LUA_MASKCOUNT, interval());
+    account_.take(hook_interval);
 }
 
 void Vm::charge(lua_State* L, std::uint64_t instructions) {
@@ -331,13 +360,3 @@ void Vm::fail(lua_State* L, int status) {
 }
 
 }  // namespace reprise::scripting
-
-/// Lua's a < b of two texts asks the C library for the order of the user's language, once for every
-/// zero byte in them. In programs that run scenarios this answers instead: by bytes, whatever the
-/// environment says, and charged, because one instruction can call it thousands of times. In this
-/// file so that it is always linked.
-extern "C" int strcoll(const char* left, const char* right) noexcept {
-    if (reprise::scripting::Vm* const vm = reprise::scripting::Vm::running())
-        vm->charge_later(1 + std::strlen(left) / 64);
-    return std::strcmp(left, right);
-}

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -31,7 +32,8 @@ inline constexpr std::uint64_t budget_per_tick = 10'000'000;
 /// What does it assume? Lua's errors are C++ exceptions (the package lua5.4-c++): destructors run.
 ///                    Lua catches every exception that reaches it, so ours stop at the binding.
 /// How?               A hook every 1000 instructions takes from one account that all coroutines
-///                    share, as do the allocator and every function of ours; once it is empty,
+///                    share, as do the allocator and every function of ours (the dearer an
+///                    instruction may be, the more often it comes); once it is empty,
 ///                    `latch` holds the reason and every pcall throws on. Addresses and the seed of
 ///                    Lua's hash are the same in every process, so that memory is collected, and
 ///                    runs out, at the same instruction.
@@ -81,6 +83,9 @@ class Vm {
     /// say: as many as the largest table has.
     void charge_walk(lua_State* L, std::size_t entries);
 
+    /// A script made a chain of so many tables that ask each other: one instruction may pass all.
+    void note_chain(std::size_t tables) { chain_ = std::max(chain_, tables); }
+
     /// Since the start: a witness of what the script did, equal in equal runs.
     std::uint64_t instructions() const { return account_.all; }
 
@@ -123,6 +128,9 @@ class Vm {
     /// Notes which stack runs; Lua's allocator and strcoll are not told.
     class Running;
 
+    std::uint64_t rate() const;
+    int interval() const;
+    void pay_ahead(lua_State* L);
     static void* allocate(void* self, void* block, std::size_t old_size, std::size_t new_size);
     void latch_refusal(Memory::Refusal refusal);
     void make_room(lua_State* L);
@@ -139,7 +147,9 @@ class Vm {
     Account account_;
     Memory memory_{account_};
     int collections_ = 0;          ///< of memory, in this tick
+    std::size_t chain_ = 0;        ///< the longest that the script made, in tables
     void* first_block_ = nullptr;  ///< of lua_newstate, until the seed is set
+    const TextTable* texts_ = nullptr;
     std::optional<std::string> latched_;
     std::exception_ptr ours_;
 };

@@ -5,6 +5,7 @@
 #include <lua.hpp>
 
 #include "scripting/lua/sandbox.h"
+#include "scripting/lua/source.h"
 #include "scripting/lua/vm.h"
 #include "scripting/words/vocabulary.h"
 #include "world/check.h"
@@ -26,6 +27,7 @@ Header read_header(Vm& vm, const std::string& source) {
     std::string_view text = source;
     if (text.substr(0, byte_order_mark.size()) == byte_order_mark)
         text.remove_prefix(byte_order_mark.size());
+    check_source(text, vm.script());
     vm.execute(text, "@" + vm.script(), -1);
     const bool returned = lua_type(L, -1) == LUA_TTABLE && header.run != 0;
     lua_settop(L, 0);
