@@ -121,12 +121,12 @@ void Scenario::advance(const world::TickView& last, world::TickDraft& next) {
         return;
     Vm::check_locale();
     run.last = last;
-    run.next = &next;
+    run.speak_into(&next);
     run.vm.refill();
     run.actors.observe(last, run.step);
     run.tasks.advance(run, last.index());
     run.checks.evaluate(run);
-    run.next = nullptr;
+    run.speak_into(nullptr);
 }
 
 void Scenario::conclude(const world::TickView&, world::TickDraft& next) {
@@ -135,12 +135,12 @@ void Scenario::conclude(const world::TickView&, world::TickDraft& next) {
     const world::SealedTick final_tick = world::seal(copy, {});
     Run& run = machine_->run;
     run.last = final_tick.view();
-    run.next = &next;
+    run.speak_into(&next);
     run.vm.refill();
     run.actors.observe(run.last, run.step);
     run.finished = true;
     run.checks.conclude(run);
-    run.next = nullptr;
+    run.speak_into(nullptr);
 }
 
 std::uint64_t Scenario::digest() const {

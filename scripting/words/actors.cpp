@@ -82,6 +82,8 @@ std::optional<Body> body_of(const world::TickView& tick, const Actor& actor) {
 
 Actor& Actors::add(Actor actor) {
     names_.insert(actor.name);
+    ++present_.present;
+    present_.driven += actor.is_driven() ? 1 : 0;
     actors_.push_back(std::move(actor));
     return actors_.back();
 }
@@ -106,10 +108,8 @@ void Actors::observe(const world::TickView& tick, double step) {
             continue;
         const auto body = body_of(tick, actor);
         if (!body) {
-            if (actor.presence == Actor::Presence::here) {
-                actor.presence = Actor::Presence::gone;
-                actor.gone_at = tick.index();
-            }
+            if (actor.presence == Actor::Presence::here)
+                leave(actor, tick.index());
             continue;
         }
         if (actor.presence == Actor::Presence::here)
@@ -120,6 +120,13 @@ void Actors::observe(const world::TickView& tick, double step) {
         actor.position = body->position;
     }
     observe_contacts(tick);
+}
+
+void Actors::leave(Actor& actor, std::uint64_t tick) {
+    actor.presence = Actor::Presence::gone;
+    actor.gone_at = tick;
+    --present_.present;
+    present_.driven -= actor.is_driven() ? 1 : 0;
 }
 
 void Actors::observe_contacts(const world::TickView& tick) {

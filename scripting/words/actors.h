@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -42,6 +43,11 @@ struct Actor {
     Contacts contacts;
 
     bool is_walker() const { return driver == world::Driver::walker; }
+
+    /// Has a body of its own in physics.
+    bool is_driven() const {
+        return driver == world::Driver::autopilot || driver == world::Driver::manual;
+    }
 };
 
 /// An actor's body at a tick: the recorded nouns, brought to one form.
@@ -73,6 +79,14 @@ class Actors {
 
     std::uint32_t next_id() const { return static_cast<std::uint32_t>(actors_.size()) + 1; }
 
+    /// How many are there, or about to be.
+    struct Count {
+        std::size_t present = 0;
+        std::size_t driven = 0;  ///< of them
+    };
+
+    Count present() const { return present_; }
+
     /// Null when nobody has that name.
     const Actor* find(const std::string& name) const;
 
@@ -91,8 +105,10 @@ class Actors {
   private:
     void observe_contacts(const world::TickView& tick);
     void touch(const world::TickView& tick, std::uint32_t actor, std::uint32_t other);
+    void leave(Actor& actor, std::uint64_t tick);
 
     std::vector<Actor> actors_;
+    Count present_;
     std::set<std::string> names_;
     std::map<std::string, int> next_number_;  ///< where the search for a free name goes on
 };

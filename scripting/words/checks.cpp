@@ -8,6 +8,7 @@
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/text.h"
+#include "scripting/words/caps.h"
 #include "scripting/words/step_context.h"
 #include "scripting/words/tasks.h"
 #include "world/blockage.h"
@@ -56,6 +57,8 @@ void Checks::add(StepContext& context, lua_State* L, Kind kind) {
     if (!built_in)
         want_function(L, 2, who, "the second argument");
     context.vm.charge(L, entries_.size() + 100);
+    if (entries_.size() >= most_checks)
+        refuse(who, fmt::format("more than {} checks", most_checks));
     for (const Entry& other : entries_)
         if (other.name == entry.name)
             refuse(who, fmt::format("the name '{}' is taken in line {}", entry.name, other.line));

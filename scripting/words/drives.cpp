@@ -3,6 +3,7 @@
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/text.h"
+#include "scripting/words/caps.h"
 #include "scripting/words/handles.h"
 #include "scripting/words/places.h"
 #include "scripting/words/vocabulary.h"
@@ -16,6 +17,8 @@ namespace {
 
 using world::CommandKind;
 using world::Driver;
+
+constexpr lua_Integer few_stops = 10;  ///< of a route that anybody would write
 
 Actor& driven(Run& run, lua_State* L, const char* who) {
     Actor& actor = actor_at(run, L, 1, who);
@@ -102,10 +105,15 @@ int set_route(Run& run, lua_State* L) {
         refuse("set_route", "needs a list of lanes or edges: ego:set_route{ 'a1_b1', 'b1_b2' }");
     std::vector<std::uint32_t> lanes;
     const auto count = static_cast<lua_Integer>(lua_rawlen(L, 2));
+    if (count > static_cast<lua_Integer>(longest_route))
+        refuse("set_route", fmt::format("a route of more than {} lanes and edges", longest_route));
     for (lua_Integer i = 1; i <= count; ++i) {
         lua_rawgeti(L, 2, i);
         // An edge is looked for among all lanes.
         run.vm.charge(L, 50 + run.town.lanes.size());
+        // The kernel plans a way from each to the next.
+        if (i > few_stops)
+            run.vm.charge(L, run.town.lanes.size() * 20);
         lanes.push_back(
             lane_or_edge_named(run.town, text_at(L, -1, "set_route", fmt::format("entry {}", i))));
         lua_pop(L, 1);

@@ -7,6 +7,7 @@
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/text.h"
+#include "scripting/words/caps.h"
 #include "scripting/words/handles.h"
 #include "scripting/words/places.h"
 #include "scripting/words/vocabulary.h"
@@ -59,6 +60,18 @@ void read_name(Run& run, const Fields& fields, Actor& actor) {
     actor.name = name ? *name : run.actors.free_name(*fields.text("model"));
 }
 
+void want_room(const Run& run, const Actor& actor) {
+    const auto [present, driven] = run.actors.present();
+    if (run.actors.next_id() > most_actors)
+        refuse("spawn", fmt::format("more than {} actors in one run", most_actors));
+    if (present >= most_present_actors)
+        refuse("spawn", fmt::format("more than {} actors at a time", most_present_actors));
+    if (actor.is_driven() && driven >= most_driven_actors)
+        refuse("spawn",
+               fmt::format("more than {} actors with the driver 'autopilot' or 'manual' at a time",
+                           most_driven_actors));
+}
+
 /// Lane, s and offset into the command.
 void read_place(
     Run& run, lua_State* L, const Fields& fields, const Actor& actor, world::CommandT& command) {
@@ -107,6 +120,7 @@ int spawn(Run& run, lua_State* L) {
     actor.line = run.vm.line(L);
     actor.asked_at = run.now();
     read_model(fields, actor);
+    want_room(run, actor);
     read_name(run, fields, actor);
     world::CommandT command;
     read_place(run, L, fields, actor, command);

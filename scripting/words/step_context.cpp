@@ -1,5 +1,8 @@
 #include "scripting/words/step_context.h"
 
+#include <fmt/format.h>
+
+#include "scripting/words/caps.h"
 #include "world/check.h"
 
 namespace reprise::scripting {
@@ -12,6 +15,8 @@ constexpr std::uint64_t command_cost = 1000;  // [instructions]: at most 10,000 
 
 world::CommandT& StepContext::say(lua_State* L, world::CommandKind kind, std::uint32_t actor) {
     REPRISE_CHECK(next != nullptr, "a command outside of a step");
+    if (next->tick.commands.size() >= most_commands)
+        throw world::Error(fmt::format("more than {} commands in one tick", most_commands));
     vm.charge(L, command_cost);
     world::CommandT& command = next->tick.commands.emplace_back();
     command.kind = kind;

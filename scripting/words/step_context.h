@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -26,6 +27,14 @@ struct StepContext {
     world::TickView last;              ///< what the scenario sees
     world::TickDraft* next = nullptr;  ///< where it speaks; null outside of a step
     bool finished = false;             ///< the run ends with the next tick
+    std::size_t printed_in_tick = 0;   ///< [bytes]
+    std::size_t printed = 0;           ///< [bytes] since the script began
+
+    /// What the script says from now on goes there; null: nowhere.
+    void speak_into(world::TickDraft* draft) {
+        next = draft;
+        printed_in_tick = 0;
+    }
 
     std::uint64_t now() const { return last.index(); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -21,6 +22,10 @@ class Streams {
 
     /// In [low, high]; low <= high.
     std::int64_t draw_integer(const std::string& stream, std::int64_t low, std::int64_t high);
+
+    std::size_t size() const { return counts_.size(); }
+
+    bool has(const std::string& stream) const { return counts_.count(stream) != 0; }
 
     void digest(world::Hasher& hasher) const;
 

@@ -1,10 +1,12 @@
 #include <cstdint>
 
+#include <fmt/format.h>
 #include <lua.hpp>
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/binding.h"
 #include "scripting/lua/text.h"
+#include "scripting/words/caps.h"
 #include "scripting/words/run.h"
 #include "scripting/words/vocabulary.h"
 
@@ -55,6 +57,8 @@ int start(Run& run, lua_State* L) {
     want_function(L, 1, "start", "the argument");
     lua_settop(L, 1);
     Vm::of(L).charge(L, start_cost);
+    if (run.tasks.living() >= most_tasks)
+        refuse("start", fmt::format("more than {} tasks at a time", most_tasks));
     run.tasks.start(L, 0);
     return 0;
 }

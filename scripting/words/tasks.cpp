@@ -35,6 +35,7 @@ void Tasks::advance(StepContext& context, std::uint64_t now) {
         task.arguments = 0;
         const bool lives = context.vm.resume(task.thread, arguments);  // `task` may have moved
         tasks_[current_].done = !lives;
+        ended_ += lives ? 0 : 1;
         if (!lives && tasks_[current_].id == 0)
             context.finish("scenario ended", 0);
     }
@@ -42,6 +43,7 @@ void Tasks::advance(StepContext& context, std::uint64_t now) {
         if (task.done)
             luaL_unref(context.vm.main(), LUA_REGISTRYINDEX, task.reference);
     std::erase_if(tasks_, [](const Task& task) { return task.done; });
+    ended_ = 0;
 }
 
 void Tasks::digest(world::Hasher& hasher) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,9 @@ class Tasks {
     /// When the running task goes on after its next yield. Without a word: in the next tick.
     void sleep_until(std::uint64_t tick) { tasks_[current_].wake = tick; }
 
+    /// Tasks that have not ended.
+    std::size_t living() const { return tasks_.size() - ended_; }
+
     void digest(world::Hasher& hasher) const;
 
   private:
@@ -42,6 +46,7 @@ class Tasks {
     std::vector<Task> tasks_;  ///< by id
     std::uint64_t next_id_ = 0;
     std::size_t current_ = 0;
+    std::size_t ended_ = 0;  ///< in this tick
 };
 
 /// Seconds as ticks, rounded up; a millionth of a tick is forgiven, so that 0.15 s are 3 ticks.

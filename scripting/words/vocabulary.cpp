@@ -9,6 +9,7 @@
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/binding.h"
 #include "scripting/lua/text.h"
+#include "scripting/words/caps.h"
 #include "scripting/words/run.h"
 #include "world/weather.h"
 
@@ -16,7 +17,7 @@ namespace reprise::scripting {
 
 namespace {
 
-// What is printed is recorded, outside of Lua's memory: at most 1 MB a tick.
+// What is printed is recorded, outside of Lua's memory.
 constexpr std::uint64_t line_cost = 200;  // [instructions]
 constexpr std::uint64_t byte_cost = 10;   // [instructions]
 
@@ -29,10 +30,18 @@ int print(Run& run, lua_State* L) {
             refuse("print", "more than 64 kB in one call");
     }
     run.vm.charge(L, line_cost + byte_cost * text.size());
+    run.printed_in_tick += text.size();
+    run.printed += text.size();
+    if (run.printed_in_tick > most_printed)
+        refuse("print", "more than 256 kB in one tick");
+    if (run.printed > most_printed_in_run)
+        refuse("print", "more than 256 MB in one run");
     // One event a line; what it says is shown, and does nothing to the terminal that shows it.
     for (std::size_t start = 0; start <= text.size();) {
         const std::size_t end = std::min(text.find('\n', start), text.size());
         run.vm.charge(L, line_cost);
+        if (run.next->tick.events.size() >= most_events)
+            refuse("print", fmt::format("more than {} lines in one tick", most_events));
         world::EventT event;
         event.kind = world::EventKind::printed;
         event.text = printable(std::string_view(text).substr(start, end - start));
@@ -43,12 +52,15 @@ int print(Run& run, lua_State* L) {
     return 0;
 }
 
-std::string stream_at(lua_State* L, int index, const char* who) {
-    return lua_isnoneornil(L, index) ? "" : name_at(L, index, who, "the stream's name");
+std::string stream_at(const Run& run, lua_State* L, int index, const char* who) {
+    std::string name = lua_isnoneornil(L, index) ? "" : name_at(L, index, who, "the stream's name");
+    if (run.streams.size() >= most_streams && !run.streams.has(name))
+        refuse(who, fmt::format("more than {} streams", most_streams));
+    return name;
 }
 
 int random(Run& run, lua_State* L) {
-    lua_pushnumber(L, run.streams.draw(stream_at(L, 1, "random")));
+    lua_pushnumber(L, run.streams.draw(stream_at(run, L, 1, "random")));
     return 1;
 }
 
@@ -58,7 +70,7 @@ int random_int(Run& run, lua_State* L) {
     constexpr std::int64_t widest = std::int64_t{1} << 53U;  // exact in the drawn double
     if (high < low || static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low) >= widest)
         refuse("random_int", fmt::format("no numbers to choose from in [{}, {}]", low, high));
-    lua_pushinteger(L, run.streams.draw_integer(stream_at(L, 3, "random_int"), low, high));
+    lua_pushinteger(L, run.streams.draw_integer(stream_at(run, L, 3, "random_int"), low, high));
     return 1;
 }
 
