@@ -93,13 +93,13 @@ TEST(Trap32, ALoopWithoutEndEndsTheRunAtItsLine) {
 }
 
 TEST(Trap33, ManyShortTasksShareOneAccount) {
-    EXPECT_THAT(mistake("while true do start(function() for i = 1, 900 do end end) end"),
-                HasSubstr(spent));
+    EXPECT_THAT(mistake("while true do for i = 1, 900 do end start(tick) wait(0) end"),
+                HasSubstr("more than 2000 tasks at a time"));
     EXPECT_THAT(
         mistake("local function again() for i = 1, 500 do end start(again) end again() wait(9)"),
         HasSubstr(spent));
     // Tasks that each stay below the hook's interval are seen over the ticks.
-    EXPECT_THAT(mistake("for i = 1, 2000 do start(function() while true do for j = 1, 6000 do end "
+    EXPECT_THAT(mistake("for i = 1, 1999 do start(function() while true do for j = 1, 6000 do end "
                         "wait_ticks(1) end end) end wait(9)"),
                 HasSubstr(spent));
 }
@@ -171,17 +171,12 @@ const std::vector<std::string>& long_work() {
         "local t = {} for i = 1, 20000 do t[i] = i * 7919 % 20011 end while true do table.sort(t) "
         "end",
         "local function f(...) local function g() end while true do g(...) end end "
-        "local t = {} for i = 1, 20000 do t[i] = i end f(table.unpack(t))",
+        "local t = {} for i = 1, 9000 do t[i] = i end f(table.unpack(t))",
         "while true do pcall(error) end",
         "while true do pcall(function() return spwan end) end",
         "while true do pcall(lane_length, 'esat_1') end",
         "local ego = spawn{ model = 'sedan', lane = 'east_1', s = 20 } while true do gap(ego, ego) "
         "ego:lane() end",
-        "while true do spawn{ model = 'sedan' } end",
-        "local s = ('x'):rep(60000) while true do print(s) end",
-        "local i = 0 while true do i = i + 1 random('s' .. i) end",
-        "local i = 0 while true do i = i + 1 check.never('c' .. i, tick) end",
-        "while true do start(tick) end",
         "while true do pick_lane{} end"};
     return all;
 }

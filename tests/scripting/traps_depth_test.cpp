@@ -44,7 +44,8 @@ TEST(Trap36, DepthEndsInOneLine) {
         EXPECT_EQ(mistake(body), message) << body;
     }
     std::string nested(5000, '(');
-    EXPECT_EQ(test::mistake_in_file("return " + nested), "test.lua: C stack overflow");
+    EXPECT_EQ(test::mistake_in_file("\nreturn " + nested),
+              "test.lua:2: blocks and brackets are nested more than 190 deep");
 }
 
 TEST(Trap36, ChainsOfMetatablesAreShort) {
