@@ -1,6 +1,7 @@
 #include "scripting/lua/charged.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdarg>
 #include <cstdint>
@@ -10,15 +11,15 @@
 #include <locale.h>
 #include <stdlib.h>
 
-#include "scripting/lua/vm.h"
-
 namespace reprise::scripting {
 
 namespace {
 
+std::atomic<void (*)(std::uint64_t)> payer{nullptr};
+
 void charge_running(std::uint64_t instructions) {
-    if (Vm* const vm = Vm::running())
-        vm->charge_later(instructions);
+    if (auto* const pay = payer.load(std::memory_order_relaxed))
+        pay(instructions);
 }
 
 /// A positive number as mantissa * 2^exponent, the mantissa below 2^53.
@@ -44,7 +45,9 @@ std::uint64_t shifted_remainder(std::uint64_t value, int bits, std::uint64_t div
 
 }  // namespace
 
-void link_charged_functions() {}
+void charge_library_calls(void (*pay)(std::uint64_t instructions)) {
+    payer.store(pay, std::memory_order_relaxed);
+}
 
 }  // namespace reprise::scripting
 

@@ -76,6 +76,11 @@ bool seed_is_ours(lua_State* L) {
     return order == "abcdijklefgh";
 }
 
+void charge_running_vm(std::uint64_t instructions) {
+    if (running_vm != nullptr)
+        running_vm->charge_later(instructions);
+}
+
 int panic(lua_State* L) {
     const char* text = lua_tostring(L, -1);
     throw world::CheckFailed(
@@ -123,7 +128,7 @@ Vm::Vm(std::string script) : script_(std::move(script)) {
         throw std::bad_alloc();
     *static_cast<Vm**>(lua_getextraspace(main_)) = this;  // coroutines get a copy
     lua_atpanic(main_, panic);
-    link_charged_functions();
+    charge_library_calls(charge_running_vm);
     REPRISE_CHECK(seed_is_ours(main_), "the seed of Lua's hash is not where Lua 5.4 has it");
     REPRISE_CHECK(texts_ != nullptr && texts_->count > 0 && texts_->count < texts_->size * 4,
                   "the texts are not where Lua 5.4 has them");
