@@ -13,6 +13,7 @@
 #include "replay/recorded_tick.h"
 #include "replay/trace_facts.h"
 #include "replay/trace_index.h"
+#include "world/recording.h"
 
 namespace reprise::replay {
 

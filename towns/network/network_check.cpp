@@ -31,7 +31,6 @@ using pugi::xml_node;
 using std::string_view;
 
 constexpr std::array functions{"normal", "internal", "connector", "crossing", "walkingarea"};
-constexpr std::array signal_types{"static", "actuated", "delay_based", "NEMA", "off", "railSignal"};
 constexpr string_view signal_states = "rRyYgGuoOsS";
 constexpr double longest_phase = 1e6;  // [s]
 
@@ -63,6 +62,7 @@ class NetworkCheck {
         check_paths();
         for (const xml_node junction : net_.children("junction"))
             check_junction(junction);
+        check_inner_lanes();
     }
 
   private:
@@ -156,10 +156,6 @@ class NetworkCheck {
                 fail(light, "has no {}", id.empty() ? "id" : "programID");
             if (!programs.emplace(id, text(light, "programID")).second)
                 fail(light, "there is another program '{}' of it", text(light, "programID"));
-            const auto known =
-                std::find(signal_types.begin(), signal_types.end(), text(light, "type"));
-            if (known == signal_types.end())
-                fail(light, "SUMO knows no type '{}'", text(light, "type"));
             const std::size_t states = states_of(light);
             const auto place = states_.try_emplace(id, states).first;
             place->second = std::min(place->second, states);
@@ -226,6 +222,7 @@ class NetworkCheck {
         links_[source].push_back({connection, from, to});
         if (!text(connection, "via").empty() && lanes_.count(text(connection, "via")) == 0)
             fail(connection, "via=\"{}\": there is no such lane", text(connection, "via"));
+        vias_.insert(text(connection, "via"));
         if (text(connection, "tl").empty())
             return;
         const auto light = states_.find(text(connection, "tl"));
@@ -264,10 +261,17 @@ class NetworkCheck {
                 if (!leads)
                     fail(link.xml, "via=\"{}\": no connection leads on from there", via);
             }
+    }
+
+    void check_inner_lanes() const {
         for (const xml_node edge : net_.children("edge"))
             for (const xml_node lane : edge.children("lane"))
-                if (text(edge, "function") == "internal" && links_.count(text(lane, "id")) == 0)
-                    fail(lane, "no connection leads on from it");
+                if (text(edge, "function") == "internal") {
+                    if (links_.count(text(lane, "id")) == 0)
+                        fail(lane, "no connection leads on from it");
+                    if (vias_.count(text(lane, "id")) == 0)
+                        fail(lane, "no connection has it as its via");
+                }
     }
 
     void check_junction(xml_node junction) const {
@@ -335,6 +339,7 @@ class NetworkCheck {
     std::map<string_view, string_view> junctions_;  ///< their types
     std::map<string_view, Edge> edges_;
     std::set<string_view> lanes_;
+    std::set<string_view> vias_;                 ///< lanes that connections lead through
     std::map<string_view, std::size_t> states_;  ///< by light: of its program with the fewest
     std::set<std::pair<std::string, std::string>> ends_;
     std::map<std::string, std::vector<Link>, std::less<>> links_;  ///< by the lane they begin at

@@ -777,7 +777,7 @@ TEST_F(Imports, WhatIsNoMapIsRefusedInOneLine) {
          "<OpenDRIVE><road id='1' length='9' junction='-1'/></OpenDRIVE>",
          "bare.xodr: netconvert refuses it: "},
         {"cut.xodr", "<OpenDRIVE>\n<road id='1'", "cut.xodr:2: is not an OpenDRIVE map"},
-        {"cut.osm", cut, "cut.osm: netconvert refuses it: unexpected end of input"},
+        {"cut.osm", cut, "cut.osm: is not as OpenStreetMap writes it: XML parsing error at line"},
         {"noroads.osm",
          "<osm version='0.6'><node id='1' lat='1' lon='1'/></osm>",
          "noroads.osm: netconvert refuses it: No nodes loaded: it has no roads"},

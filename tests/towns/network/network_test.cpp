@@ -164,14 +164,14 @@ TEST_F(NetworkFiles, ALaneForUnknownClassesOnlyIsALaneForNobody) {
 }
 
 TEST_F(NetworkFiles, WhatSumoRefusesIsSaidInItsWords) {
-    const std::string bad = replaced(town2(), "from=\"a1\"", "from=\"nowhere\"");
+    const std::string bad = replaced(town2(), "dir=\"s\"", "dir=\"q\"");
     const test::Loaded loaded = test::load(write("bad.net.xml", bad));
     try {
         test::Stage refused(loaded, 0);
         FAIL() << "SUMO took it";
     } catch (const world::Error& error) {
         EXPECT_THAT(error.what(),
-                    HasSubstr("bad.net.xml: SUMO refuses it: Unknown from-node 'nowhere'"));
+                    HasSubstr("bad.net.xml: SUMO refuses it: Unrecognised link direction 'q'"));
         EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
     }
     // And the process is free for the next one.
