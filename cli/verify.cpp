@@ -8,7 +8,6 @@
 #include "cli/process/say.h"
 #include "cli/run_again.h"
 #include "kernel/verify.h"
-#include "replay/outcomes.h"
 #include "replay/trace_format.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
@@ -20,11 +19,11 @@ namespace {
 /// What a part of a run cannot show; "" of a whole one.
 std::string unseen(const replay::TraceReader& trace) {
     std::string what;
-    if (trace.outcome() == replay::outcome_of_part(trace.ticks()))
+    if (trace.outcome() == world::outcome_of_part(trace.ticks()))
         what = fmt::format("how the run went on behind tick {} to tick {}, and how it ended",
                            trace.last(),
                            trace.run_ticks());
-    else if (trace.outcome() == replay::outcome_of_cut_off(trace.ticks()))
+    else if (trace.outcome() == world::outcome_of_cut_off(trace.ticks()))
         what =
             fmt::format("how the run went on behind tick {}, where it was cut off", trace.last());
     const auto& branches = trace.episode().branches;

@@ -83,7 +83,7 @@ std::optional<replay::Divergence> compare_end(const replay::TraceReader& recorde
     const world::Outcome& expected = recorded.outcome();
     const std::uint64_t ticks = recorded.ticks();
     const bool goes_on =
-        expected == replay::outcome_of_part(ticks) || expected == replay::outcome_of_cut_off(ticks);
+        expected == world::outcome_of_part(ticks) || expected == world::outcome_of_cut_off(ticks);
     replay::Divergence divergence;
     divergence.tick = ticks;
     divergence.stage = "end";

@@ -7,7 +7,6 @@
 
 #include "replay/level.h"
 #include "replay/noun_check.h"
-#include "replay/outcomes.h"
 #include "replay/trace_format.h"
 #include "world/check.h"
 
@@ -185,7 +184,7 @@ void OpenedTrace::salvage_outcome() {
         index.whole = false;
         if (loss.empty())
             loss = fmt::format("byte {}: the file ends behind tick {}", index.data_end, last());
-        outcome = outcome_of_cut_off(ticks());
+        outcome = world::outcome_of_cut_off(ticks());
     }
 }
 
@@ -220,7 +219,7 @@ void OpenedTrace::read_outcome() {
             fmt::format(
                 "the index is damaged: it lists {} ticks, the run had {}", ticks(), outcome.ticks));
     const bool is_part = slice.run_ticks > 0 && last() < slice.run_ticks;
-    if (is_part != (outcome.verdict == outcome_of_part(0).verdict))
+    if (is_part != (outcome.verdict == world::outcome_of_part(0).verdict))
         input.fail(find_metadata(index, format::outcome_metadata)->offset,
                    fmt::format("a slice without the run's end is a part, and nothing else is; this "
                                "says '{}'",

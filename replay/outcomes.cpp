@@ -4,14 +4,6 @@
 
 namespace reprise::replay {
 
-world::Outcome outcome_of_cut_off(std::uint64_t ticks) {
-    return {"error", "the trace was cut off", ticks};
-}
-
-world::Outcome outcome_of_part(std::uint64_t ticks) {
-    return {"part", "a slice without the run's end", ticks};
-}
-
 void ToldOutcome::hear(const world::Event& event) {
     const world::EventKind kind = event.kind();
     failed_ = failed_ || kind == world::EventKind::check_failed ||
@@ -35,8 +27,8 @@ std::optional<world::Outcome> ToldOutcome::of(const TraceReader& trace) const {
 
 std::optional<std::string> ToldOutcome::contradiction(const TraceReader& trace, bool all) const {
     const world::Outcome& says = trace.outcome();
-    const bool goes_on =
-        says == outcome_of_part(trace.ticks()) || says == outcome_of_cut_off(trace.ticks());
+    const bool goes_on = says == world::outcome_of_part(trace.ticks()) ||
+                         says == world::outcome_of_cut_off(trace.ticks());
     const auto differs = [&](const std::string& told) {
         return fmt::format("its outcome says '{}', its ticks '{}'", to_text(says), told);
     };

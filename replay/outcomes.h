@@ -9,12 +9,6 @@
 
 namespace reprise::replay {
 
-/// Of a trace that is the beginning of a run: it was cut off, and its end is lost.
-world::Outcome outcome_of_cut_off(std::uint64_t ticks);
-
-/// Of a slice without the run's last tick: how the run ended cannot be seen in it.
-world::Outcome outcome_of_part(std::uint64_t ticks);
-
 /// Gathers from the events of a run's ticks how it ended.
 class ToldOutcome {
   public:

@@ -101,8 +101,8 @@ Recovery recover(const fs::path& damaged, const fs::path& out) {
         throw NothingToRecover(fmt::format("{}: {}", damaged.string(), links.loss));
     if (links.sound < trace.ticks()) {
         recovery.loss = links.loss + (recovery.loss.empty() ? "" : "; " + recovery.loss);
-        recovery.outcome = outcome_of_cut_off(links.sound);
-    } else if (recovery.outcome == outcome_of_cut_off(links.sound)) {
+        recovery.outcome = world::outcome_of_cut_off(links.sound);
+    } else if (recovery.outcome == world::outcome_of_cut_off(links.sound)) {
         // Only the end of the file is lost: the ticks tell how the run ended.
         recovery.outcome = told_outcome(trace).value_or(recovery.outcome);
     }

@@ -5,7 +5,6 @@
 #include "replay/chain_seed.h"
 #include "replay/chunk_thread.h"
 #include "replay/level.h"
-#include "replay/outcomes.h"
 #include "replay/trace_facts.h"
 #include "replay/trace_file.h"
 #include "replay/trace_format.h"
@@ -148,7 +147,7 @@ void TraceWriter::close(const world::Outcome& outcome) {
         file_->file.metadata(
             format::outcome_metadata,
             outcome_facts(file_->lacks_end()
-                              ? outcome_of_part(file_->ticks)
+                              ? world::outcome_of_part(file_->ticks)
                               : world::Outcome{outcome.verdict, outcome.reason, file_->ticks},
                           file_->chain,
                           file_->packed_episode));

@@ -2,6 +2,14 @@
 
 namespace reprise::world {
 
+Outcome outcome_of_cut_off(std::uint64_t ticks) {
+    return {"error", "the trace was cut off", ticks};
+}
+
+Outcome outcome_of_part(std::uint64_t ticks) {
+    return {"part", "a slice without the run's end", ticks};
+}
+
 std::uint64_t tick_limit(const EpisodeT& episode) {
     return episode.branches.empty() ? episode.max_ticks : episode.branches.back().max_ticks;
 }

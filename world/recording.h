@@ -27,6 +27,12 @@ struct Outcome {
     bool operator==(const Outcome&) const = default;
 };
 
+/// Of a trace that is the beginning of a run: it was cut off, and its end is lost.
+Outcome outcome_of_cut_off(std::uint64_t ticks);
+
+/// Of a slice without the run's last tick: how the run ended cannot be seen in it.
+Outcome outcome_of_part(std::uint64_t ticks);
+
 /// Where a part of a run begins.
 struct SliceStart {
     std::uint64_t first = 1;      ///< its first tick

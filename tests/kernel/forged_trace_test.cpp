@@ -308,14 +308,14 @@ TEST_F(ForgedTrace, IsToldWhenItEndsOtherwise) {
     EXPECT_THAT(compared(whole_, forged_), HasSubstr("outcome.verdict"));
     write(recording_, ticks, {"failed", "arrived", 6});
     EXPECT_THAT(verified(forged_), HasSubstr("failed: arrived"));
-    write(recording_, ticks, replay::outcome_of_cut_off(6));
+    write(recording_, ticks, world::outcome_of_cut_off(6));
     EXPECT_THAT(verified(forged_), HasSubstr("error: the trace was cut off"));
     ticks.pop_back();
     write(recording_, ticks, {"failed", "time limit", 5});
     EXPECT_THAT(verified(forged_), HasSubstr("the run goes on"));
-    write(recording_, ticks, replay::outcome_of_cut_off(5));
+    write(recording_, ticks, world::outcome_of_cut_off(5));
     EXPECT_EQ(verified(forged_), "");  // and it says that it was cut off
-    write(recording_, ticks, replay::outcome_of_part(5));
+    write(recording_, ticks, world::outcome_of_part(5));
     EXPECT_THAT(verified(forged_), HasSubstr("is a part, and nothing else is"));
 }
 
