@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/look/wall_point.h"
+#include "render/look/wall_surface_point.h"
 #include "render/shapes/noise.h"
 
 namespace reprise::render {

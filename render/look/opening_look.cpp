@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "render/look/wall_point.h"
+#include "render/look/wall_surface_point.h"
 #include "render/shapes/noise.h"
 
 namespace reprise::render {
@@ -15,7 +15,7 @@ using world::FacadeKind;
 void glaze(Look& look,
            const ShadingInput& input,
            const Surface& at,
-           const WallPoint& spot,
+           const WallSurfacePoint& spot,
            const Opening& opening,
            float u,
            float z) {
@@ -75,7 +75,7 @@ void glaze(Look& look,
 
 void door_leaf(Look& look,
                const Surface& at,
-               const WallPoint& spot,
+               const WallSurfacePoint& spot,
                const Opening& opening,
                float u,
                float z) {
@@ -107,7 +107,7 @@ void door_leaf(Look& look,
 void gate_leaf(Look& look,
                const ShadingInput& input,
                const Surface& at,
-               const WallPoint& spot,
+               const WallSurfacePoint& spot,
                const Opening& opening,
                float u,
                float z) {
@@ -158,7 +158,7 @@ bool on_bar(const BuildingPaint& paint, const Opening& opening, float u, float z
 
 /// Darkens what the reveal keeps the sun from. `depth`: of the pane behind the wall. [m]
 float sun_in_reveal(const ShadingInput& input,
-                    const WallPoint& spot,
+                    const WallSurfacePoint& spot,
                     const Opening& opening,
                     float u,
                     float z,
@@ -174,7 +174,7 @@ float sun_in_reveal(const ShadingInput& input,
 
 }  // namespace
 
-WallPoint::WallPoint(const Wall& of, const BuildingPaint& painted, const Surface& at)
+WallSurfacePoint::WallSurfacePoint(const Wall& of, const BuildingPaint& painted, const Surface& at)
     : wall(of),
       paint(painted),
       inwards(-at.flat) {
@@ -188,7 +188,7 @@ WallPoint::WallPoint(const Wall& of, const BuildingPaint& painted, const Surface
 
 Look opening_look(const ShadingInput& input,
                   const Surface& at,
-                  const WallPoint& spot,
+                  const WallSurfacePoint& spot,
                   const Opening& opening) {
     const BuildingPaint& paint = spot.paint;
     Look look;

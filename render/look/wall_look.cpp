@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "render/look/lettering.h"
-#include "render/look/wall_point.h"
+#include "render/look/wall_surface_point.h"
 #include "render/shapes/noise.h"
 
 namespace reprise::render {
@@ -13,7 +13,10 @@ namespace {
 using world::FacadeKind;
 
 /// Frames of stone around openings, sills, and shutters. Says whether the place is on one.
-bool around_opening(Look& look, const Surface& at, const WallPoint& spot, const Opening& opening) {
+bool around_opening(Look& look,
+                    const Surface& at,
+                    const WallSurfacePoint& spot,
+                    const Opening& opening) {
     const BuildingPaint& paint = spot.paint;
     const FacadeKind facade = paint.model->facade;
     if (opening.kind != OpeningKind::window && opening.kind != OpeningKind::door)
@@ -61,7 +64,7 @@ bool around_opening(Look& look, const Surface& at, const WallPoint& spot, const 
 }
 
 /// Beams of a half-timbered wall: at the floors, beside the windows, and leaning ones.
-bool on_beam(const WallPoint& spot) {
+bool on_beam(const WallSurfacePoint& spot) {
     const Wall& wall = spot.wall;
     const float width = wall.length / static_cast<float>(wall.columns);
     const float u = fraction(spot.u / width) * width;
@@ -80,7 +83,7 @@ bool on_beam(const WallPoint& spot) {
     return z < 0.82F && std::abs(z / 0.82F - share) < 0.12F;
 }
 
-Look sign_look(const ShadingInput& input, const Surface& at, const WallPoint& spot) {
+Look sign_look(const ShadingInput& input, const Surface& at, const WallSurfacePoint& spot) {
     const std::uint32_t seed = spot.wall.seed;
     const BuildingPaint own(*spot.paint.model, seed);
     const bool pale = hash(seed, 66) % 3 == 0;
@@ -98,7 +101,7 @@ Look sign_look(const ShadingInput& input, const Surface& at, const WallPoint& sp
     return look;
 }
 
-Look clock_look(const ShadingInput& input, const Surface& at, const WallPoint& spot) {
+Look clock_look(const ShadingInput& input, const Surface& at, const WallSurfacePoint& spot) {
     const float radius = 0.5F * std::min(spot.wall.length, spot.wall.height);
     const float x = (spot.u - 0.5F * spot.wall.length) / radius;
     const float y = (spot.z - 0.5F * spot.wall.height) / radius;
@@ -127,7 +130,7 @@ Look clock_look(const ShadingInput& input, const Surface& at, const WallPoint& s
     return look;
 }
 
-Look wall_look(const ShadingInput& input, const Surface& at, const WallPoint& spot) {
+Look wall_look(const ShadingInput& input, const Surface& at, const WallSurfacePoint& spot) {
     if (spot.wall.use == WallUse::sign)
         return sign_look(input, at, spot);
     if (spot.wall.use == WallUse::clock)
@@ -163,7 +166,7 @@ Look model_building_look(const ShadingInput& input, const Surface& at) {
     Look look;
     if (at.material == Material::wall) {
         const Wall& wall = facades.walls[at.tag];
-        look = wall_look(input, at, WallPoint(wall, facades.buildings[wall.building], at));
+        look = wall_look(input, at, WallSurfacePoint(wall, facades.buildings[wall.building], at));
     } else {
         look = building_part_look(at,
                                   facades.buildings[at.tag / building_finishes],

@@ -37,6 +37,9 @@ struct Key {
     Member member;
 };
 
+template <typename Member>
+Key(const char*, Member) -> Key<Member>;  // clang 14 finds none by itself
+
 auto keys_of(const world::ParameterT*) {
     return std::tuple(Key{"key", &world::ParameterT::key}, Key{"value", &world::ParameterT::value});
 }

@@ -23,7 +23,7 @@ struct Opening {
 };
 
 /// The opening of the column and floor that a place belongs to, `u` and `z` as those of a
-/// WallPoint.
+/// WallSurfacePoint.
 Opening opening_at(const Wall& wall, const BuildingPaint& paint, float u, float z);
 
 }  // namespace reprise::render

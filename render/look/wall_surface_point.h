@@ -7,8 +7,8 @@
 namespace reprise::render {
 
 /// A place on a wall, and how the view goes on behind it.
-struct WallPoint {
-    WallPoint(const Wall& of, const BuildingPaint& painted, const Surface& at);
+struct WallSurfacePoint {
+    WallSurfacePoint(const Wall& of, const BuildingPaint& painted, const Surface& at);
 
     const Wall& wall;
     const BuildingPaint& paint;
@@ -28,7 +28,7 @@ Look building_part_look(const Surface& at, const BuildingPaint& paint, BuildingF
 /// What is seen in an opening: panes with a room behind them, frames, leaves of doors.
 Look opening_look(const ShadingInput& input,
                   const Surface& at,
-                  const WallPoint& spot,
+                  const WallSurfacePoint& spot,
                   const Opening& opening);
 
 }  // namespace reprise::render
