@@ -334,7 +334,7 @@ class ForeignRecord : public ForgedTrace {
     template <typename Extra>
     void write_with(Extra extra) {
         TraceReader trace(whole_);
-        replay::TraceFile file(forged_, replay::Level::full);
+        replay::TraceFile file(forged_, replay::Level::full, files::Unfinished::remove);
         replay::PendingChunk chunk;
         file.metadata(
             replay::format::run_metadata,
