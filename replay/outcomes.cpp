@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "world/printable.h"
+
 namespace reprise::replay {
 
 void ToldOutcome::hear(const world::Event& event) {
@@ -40,7 +42,7 @@ std::optional<std::string> ToldOutcome::contradiction(const TraceReader& trace, 
     if (all && told && !(*told == says))
         return differs(to_text(*told));
     if (says.reason != *finished_ || (failed_ && says.verdict != "failed"))
-        return differs(failed_ ? "failed: " + *finished_ : *finished_);
+        return differs(world::printable(failed_ ? "failed: " + *finished_ : *finished_));
     return std::nullopt;
 }
 
@@ -55,7 +57,8 @@ std::optional<world::Outcome> told_outcome(TraceReader& trace) {
 }
 
 std::string to_text(const world::Outcome& outcome) {
-    return outcome.reason.empty() ? outcome.verdict : outcome.verdict + ": " + outcome.reason;
+    return world::printable(outcome.reason.empty() ? outcome.verdict
+                                                   : outcome.verdict + ": " + outcome.reason);
 }
 
 }  // namespace reprise::replay

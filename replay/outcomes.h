@@ -31,7 +31,7 @@ class ToldOutcome {
 /// Hears every tick.
 std::optional<world::Outcome> told_outcome(TraceReader& trace);
 
-/// "passed: arrived"
+/// "passed: arrived", for people: what a terminal would obey is written out.
 std::string to_text(const world::Outcome& outcome);
 
 }  // namespace reprise::replay

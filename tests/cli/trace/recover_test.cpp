@@ -235,7 +235,7 @@ TEST_F(Damaged, TraceOnAFullDiskLeavesNothingHalfWritten) {
                                     "; reprise recover cut.mcap -o out.mcap",
                                 folder_);
     EXPECT_EQ(report.code, 2) << report.out;
-    EXPECT_THAT(report.out, HasSubstr("is there room for"));
+    EXPECT_THAT(report.out, HasSubstr("ulimit -f"));
     EXPECT_EQ(folder_.files(), before);
 }
 

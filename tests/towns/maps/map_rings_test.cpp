@@ -195,7 +195,7 @@ TEST_F(Rings, WhatLibosmiumRefusesIsSaidInOneLine) {
         {"<osm version='0.6'><way></osm>", "mismatched tag"},
         {"<html/>", "Unknown top-level element: html"},
         {"<osm>" + relation + "</osm>", "missing version"},
-        {"<osm version='7&#10;8'/>", "version 7?8"},
+        {"<osm version='7&#10;8'/>", R"(version 7\x0a8)"},
         {bomb + "]><osm version='0.6'>&z;</osm>", "entities are not supported"},
         {"<osm version='0.6'><relation id='many'/></osm>", "illegal id: 'many'"},
         {"<osm version='0.6'><relation id='1'><member type='way'/></relation></osm>",

@@ -90,7 +90,7 @@ TEST(Reason, IsTheErrorsInOneLine) {
     EXPECT_EQ(reason_in("Error: a\nError: a\nError: b\nError: c\nError: d\n"),
               "a; b; c; and 1 more");
     EXPECT_EQ(reason_in("Error: No nodes loaded.\n"), "No nodes loaded: it has no roads");
-    EXPECT_EQ(reason_in("terminate called\nwhat(): \x1b[2J\n"), "what(): ?[2J");
+    EXPECT_EQ(reason_in("terminate called\nwhat(): \x1b[2J\n"), R"(what(): \x1b[2J)");
     EXPECT_EQ(reason_in("\n"), "it did not say why");
 }
 
