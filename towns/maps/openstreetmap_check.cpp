@@ -60,7 +60,8 @@ struct Place {
 double distance(const Place& from, const Place& to) {
     constexpr double degree = std::numbers::pi / 180;
     const double latitude = degree * (double{from.latitude} + double{to.latitude}) / 2;
-    const double east = degree * (double{to.longitude} - double{from.longitude}) * std::cos(latitude);
+    const double east =
+        degree * (double{to.longitude} - double{from.longitude}) * std::cos(latitude);
     const double north = degree * (double{to.latitude} - double{from.latitude});
     return earth_radius * std::hypot(east, north);
 }
