@@ -135,8 +135,7 @@ void Scenario::conclude(const world::TickView&, world::TickDraft& next) {
     const world::SealedTick final_tick = world::seal(copy, {});
     Run& run = machine_->run;
     run.last = final_tick.view();
-    run.speak_into(&next);
-    run.vm.refill();
+    run.speak_into(&next);  // from what is left of the tick's account: it is the same tick
     run.actors.observe(run.last, run.step);
     run.finished = true;
     run.checks.conclude(run);

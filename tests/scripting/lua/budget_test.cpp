@@ -3,6 +3,7 @@
 
 #include "scripting/lua/vm.h"
 #include "tests/scripting/stage.h"
+#include "world/check.h"
 
 namespace reprise::scripting {
 
@@ -38,6 +39,19 @@ TEST(Budget, CannotBeEvadedByManyShortTasks) {
         "local function burst()\nfor i = 1, 100 do local x = i end start(burst) end burst() "
         "wait(1)");
     EXPECT_EQ(message, std::string("test.lua:2") + spent);
+}
+
+/// In the last tick checks look twice, before and behind physics.
+TEST(Budget, IsOneForTheLastTickToo) {
+    test::Stage stage(test::running(
+        "check.never('slow', function()\nfor i = 1, 6000000 do end return false end) wait(100)"));
+    stage.play(3);
+    try {
+        stage.conclude();
+        FAIL() << "the last tick took two budgets";
+    } catch (const world::Error& error) {
+        EXPECT_EQ(error.what(), std::string("test.lua:2") + spent);
+    }
 }
 
 TEST(Budget, HoldsInTheHeaderToo) {
