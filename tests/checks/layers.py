@@ -57,7 +57,7 @@ LIBRARIES = {
     r"boost/": "ground scripting traffic towns",
     r"CGAL/": "ground",
     r"recastnavigation/": "towns",
-    r"osmium/": "towns/maps",
+    r"(osmium/|expat\.h)": "towns/maps",
     r"CLI/": "cli",
     r"nlohmann/": "replay exchange cli towns/make",
     r"sqlite3\.h": "exchange",

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -18,6 +19,7 @@
 #include <osmium/osm/way.hpp>
 
 #include "towns/maps/osm_objects.h"
+#include "towns/maps/plain_coordinates.h"
 #include "towns/network/network_xml.h"
 #include "world/check.h"
 #include "world/printable.h"
@@ -173,9 +175,13 @@ class MapCheck {
         if (value.size() > longest)
             fail(way, fmt::format("its tag {} is longer than {} bytes", bound.key, longest));
         for (std::size_t at = value.find_first_of(digits); at != string_view::npos;) {
-            const std::size_t end = std::min(value.find_first_not_of(digits, at), value.size());
-            const double number_there = number(value.substr(at, end - at), 0);
-            if (number_there > bound.largest)
+            double there = 0;
+            // With an exponent, where there is one: netconvert understands 1e9.
+            const auto [behind, error] =
+                std::from_chars(value.data() + at, value.data() + value.size(), there);
+            const std::size_t end =
+                std::max(static_cast<std::size_t>(behind - value.data()), at + 1);
+            if (there > bound.largest || error == std::errc::result_out_of_range)
                 fail(way,
                      fmt::format("{}={}: {:.0f} at most are possible",
                                  bound.key,
@@ -208,6 +214,7 @@ class MapCheck {
 
 void check_openstreetmap(const std::filesystem::path& map, const std::string& called) {
     try {
+        check_coordinates(map, called);
         MapCheck(map, called).run();
     } catch (const world::Error&) {
         throw;

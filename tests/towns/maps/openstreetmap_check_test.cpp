@@ -12,6 +12,7 @@ namespace reprise::towns {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 
 class OpenStreetMapCheck : public testing::Test {
@@ -65,13 +66,26 @@ TEST_F(OpenStreetMapCheck, NamesTheNodeThatIsNotOnTheGlobe) {
                     HasSubstr("village.osm: "));
 }
 
+TEST_F(OpenStreetMapCheck, NamesCoordinatesThatTwoReadersWouldNotReadAlike) {
+    for (const char* longitude : {"1e30", "-1E90000", "1&#101;40", "0x2", "1,5", "nan"})
+        EXPECT_THAT(
+            refusal(R"(<node id="103" lat="51.4536187" lon="-2.5900000"/>)",
+                    fmt::format(R"(<node id="103" lat="51.4536187" lon="{}"/>)", longitude)),
+            ContainsRegex("village.osm:[0-9]+: node 103: lon=\"[^\"]+\": digits with"))
+            << longitude;
+    EXPECT_THAT(refusal("<osm version=\"0.6\"", "<osm version=\"0.6\" minlat=\"1e30\""),
+                HasSubstr("osm: minlat="));
+}
+
 TEST_F(OpenStreetMapCheck, NamesTheWayWithImpossibleTags) {
     const std::string way = R"(<tag k="lanes" v="2"/>)";
     EXPECT_THAT(refusal(way, R"(<tag k="lanes" v="100000"/>)"),
                 HasSubstr("village.osm: way 2: lanes=100000: 64 at most are possible"));
     EXPECT_THAT(refusal(way, R"(<tag k="lanes:forward" v="2;9999"/>)"), HasSubstr("way 2"));
     EXPECT_THAT(refusal(way, R"(<tag k="layer" v="-99999"/>)"), HasSubstr("way 2"));
-    EXPECT_THAT(refusal(way, R"(<tag k="width" v="1e9"/>)"), HasSubstr("")) << "no such number";
+    EXPECT_THAT(refusal(way, R"(<tag k="width" v="1e9"/>)"), HasSubstr("way 2: width=1e9"));
+    EXPECT_THAT(refusal(way, R"(<tag k="width" v="3 m;.1e+7;2"/>)"), HasSubstr("way 2"));
+    EXPECT_THAT(refusal(way, R"(<tag k="width" v="1e999"/>)"), HasSubstr("way 2"));
     EXPECT_THAT(refusal(way, R"(<tag k="width" v="100000 m"/>)"), HasSubstr("way 2"));
     EXPECT_EQ(refusal(way, R"(<tag k="lanes" v="3"/><tag k="layer" v="-1"/>)"), "");
 }
