@@ -12,6 +12,7 @@
 #include "cli/process/progress.h"
 #include "cli/process/reproduce.h"
 #include "cli/process/say.h"
+#include "cli/seats.h"
 #include "cli/town/towns.h"
 #include "files/ending.h"
 #include "files/output_place.h"
@@ -45,6 +46,10 @@ world::Recording prepare_again(const RunOptions& options, replay::TraceReader& t
         throw world::Error(options.scenario +
                            ": a recorded run is run again as it was: --town, --seed and --set are "
                            "for scenarios; to change them run its scenario");
+    if (!options.drivers.empty())
+        throw world::Error(options.scenario +
+                           ": --driver: what the drivers of a recorded run did is in its trace; "
+                           "`reprise branch` lets another one take over");
     world::Recording recording = trace.recording();
     world::EpisodeT& episode = recording.episode;
     if (options.seconds)
@@ -94,12 +99,11 @@ std::optional<kernel::Nudge> planned_nudge(const RunOptions& options,
     return nudge;
 }
 
-/// What the drivers of a recorded run did in a tick; nothing for a new run.
-std::span<const world::Control> inputs(std::optional<replay::TraceReader>& before,
-                                       std::uint64_t tick) {
-    if (!before || tick > before->ticks())
+/// What the drivers of a recorded run did in a tick; nothing behind its end.
+std::span<const world::Control> inputs(replay::TraceReader& before, std::uint64_t tick) {
+    if (tick > before.ticks())
         return {};
-    return before->recorded(tick).view.controls();
+    return before.recorded(tick).view.controls();
 }
 
 /// What happened, as it happens: printed lines, collisions, blockages, checks.
@@ -144,9 +148,9 @@ const char* word(Check::Status status) {
 
 void print_summary(const world::Recording& recording,
                    const kernel::Kernel& kernel,
+                   const world::Outcome& outcome,
                    const fs::path& path,
                    double wall_seconds) {
-    const world::Outcome outcome = kernel.outcome();
     const double simulated = world::seconds(outcome.ticks, recording.episode.step_ns);
     for (const Check& check : kernel.checks())
         say("  {:<14}{}{}\n",
@@ -175,6 +179,19 @@ int tell_stopped(int signal, std::uint64_t ticks, const std::string& rest) {
     return exit_stopped + signal;
 }
 
+/// How the run ended: with its scenario, or with a driver in another program; what became of that
+/// is said here only, because equal runs write equal traces.
+world::Outcome end_of(const kernel::Kernel& kernel, Seats& seats, std::uint64_t ticks) {
+    for (const std::string& name : seats.leave("the run ended"))
+        say(stderr,
+            "reprise: --driver {}: nobody was spawned with that name and driver = 'external'\n",
+            name);
+    if (!seats.loss())
+        return kernel.outcome();
+    say(stderr, "reprise: {}\n", seats.loss()->reason);
+    return world::outcome_of_lost_driver(seats.loss()->actor, ticks);
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -198,14 +215,20 @@ int run(const RunOptions& options) {
     kernel::Kernel kernel(recording);
     if (nudge)
         kernel.nudge(*nudge);
+    Seats seats(
+        options.drivers, {options.driver_timeout, [&] { return stop.signal() != 0; }}, recording);
     Progress progress("running", "ticks", world::tick_limit(recording.episode));
     std::uint64_t index = 0;
     try {
-        while (!kernel.finished() && stop.signal() == 0) {
-            const world::SealedTick& tick = kernel.step(inputs(before, ++index));
+        while (!kernel.finished() && stop.signal() == 0 && !seats.loss()) {
+            const world::SealedTick& tick =
+                kernel.step(before ? inputs(*before, index + 1) : seats.controls());
+            ++index;
             trace->append(tick);
             print_events(tick.view(), recording.episode.step_ns, progress);
             progress.update(index);
+            if (!before && !kernel.finished() && stop.signal() == 0)
+                seats.go_on(tick);
         }
     } catch (const world::Error&) {
         if (stop.signal() == 0)
@@ -217,13 +240,14 @@ int run(const RunOptions& options) {
         trace.reset();
         return tell_stopped(stop.signal(), index, rest);
     }
-    trace->close(kernel.outcome());
-    print_summary(recording, kernel, path, progress.seconds());
-    if (nudge && nudge->tick > kernel.outcome().ticks)
+    const world::Outcome outcome = end_of(kernel, seats, index);
+    trace->close(outcome);
+    print_summary(recording, kernel, outcome, path, progress.seconds());
+    if (nudge && nudge->tick > outcome.ticks)
         throw world::Error(fmt::format("--nudge {}: the run ended at tick {}; nothing was nudged",
                                        nudge->text,
-                                       kernel.outcome().ticks));
-    return kernel.outcome().verdict == "failed" ? exit_differs : exit_good;
+                                       outcome.ticks));
+    return outcome.verdict == "failed" || seats.loss() ? exit_differs : exit_good;
 }
 
 }  // namespace reprise::cli

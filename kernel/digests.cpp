@@ -25,6 +25,8 @@ std::uint64_t digest_of(const scripting::Scenario& scenario, const world::TickDr
         hasher.add(command.weather);
         hasher.add(command.road_friction);
         hasher.add_text(command.text);
+        if (command.latency != 0)
+            hasher.add(command.latency);
     }
     return hasher.digest64();
 }

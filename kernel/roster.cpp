@@ -13,7 +13,7 @@ namespace reprise::kernel {
 namespace {
 
 bool has_mass(world::Driver driver) {
-    return driver == world::Driver::autopilot || driver == world::Driver::manual;
+    return driver == world::Driver::autopilot || world::takes_controls(driver);
 }
 
 /// Stands still until its driver says something: nobody at the wheel, foot on the brake.

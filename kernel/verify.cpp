@@ -10,6 +10,7 @@
 #include "replay/outcomes.h"
 #include "world/check.h"
 #include "world/digest.h"
+#include "world/external_drivers.h"
 
 namespace reprise::kernel {
 
@@ -76,14 +77,16 @@ std::optional<replay::Divergence> idle_branch(const replay::TraceReader& recorde
     return divergence;
 }
 
-/// Behind the last tick: whether the run ends there, and so. Of a part of a run, and of one that
-/// was cut off, only that it goes on.
+/// Behind the last tick: whether the run ends there, and so. Of a part of a run, of one that was
+/// cut off, and of one whose driver was lost, only that it goes on.
 std::optional<replay::Divergence> compare_end(const replay::TraceReader& recorded,
-                                              const Kernel& kernel) {
+                                              const Kernel& kernel,
+                                              const world::ExternalDrivers& drivers) {
     const world::Outcome& expected = recorded.outcome();
     const std::uint64_t ticks = recorded.ticks();
-    const bool goes_on =
-        expected == world::outcome_of_part(ticks) || expected == world::outcome_of_cut_off(ticks);
+    const bool goes_on = expected == world::outcome_of_part(ticks) ||
+                         expected == world::outcome_of_cut_off(ticks) ||
+                         (expected.ticks == ticks && drivers.explain(expected));
     replay::Divergence divergence;
     divergence.tick = ticks;
     divergence.stage = "end";
@@ -163,12 +166,18 @@ std::optional<replay::Divergence> verify(
     if (auto divergence = wrong_start(recorded))
         return divergence;
     Kernel kernel(recorded.recording());
-    if (auto divergence = follow(kernel, recorded, recorded.ticks(), on_tick))
+    world::ExternalDrivers drivers;
+    const auto see = [&](const world::SealedTick& tick) {
+        drivers.hear(*tick.view().tick);
+        if (on_tick)
+            on_tick(tick);
+    };
+    if (auto divergence = follow(kernel, recorded, recorded.ticks(), see))
         return divergence;
     // Every tick agrees, but there are bytes where no tick lies.
     if (const auto damage = recorded.damage())
         return unreadable(0, *damage);
-    return compare_end(recorded, kernel);
+    return compare_end(recorded, kernel, drivers);
 }
 
 }  // namespace reprise::kernel

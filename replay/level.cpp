@@ -66,7 +66,7 @@ flatbuffers::DetachedBuffer inputs_of(const world::Tick& tick,
 void Reduction::note_drivers(const world::Tick& tick) {
     for (const world::Command* command : *tick.commands()) {
         if (command->kind() == world::CommandKind::spawn &&
-            command->driver() == world::Driver::manual)
+            world::takes_controls(command->driver()))
             by_hand_.insert(command->actor());
         if (command->kind() == world::CommandKind::despawn)
             by_hand_.erase(command->actor());

@@ -6,13 +6,16 @@
 
 namespace reprise::replay {
 
-void ToldOutcome::hear(const world::Event& event) {
-    const world::EventKind kind = event.kind();
-    failed_ = failed_ || kind == world::EventKind::check_failed ||
-              kind == world::EventKind::not_evaluated;
-    passed_ = passed_ || kind == world::EventKind::check_passed;
-    if (kind == world::EventKind::finished)
-        finished_ = event.text()->str();
+void ToldOutcome::hear(const world::Tick& tick) {
+    external_.hear(tick);
+    for (const world::Event* event : *tick.events()) {
+        const world::EventKind kind = event->kind();
+        failed_ = failed_ || kind == world::EventKind::check_failed ||
+                  kind == world::EventKind::not_evaluated;
+        passed_ = passed_ || kind == world::EventKind::check_passed;
+        if (kind == world::EventKind::finished)
+            finished_ = event->text()->str();
+    }
 }
 
 std::optional<world::Outcome> ToldOutcome::of(const TraceReader& trace) const {
@@ -29,8 +32,10 @@ std::optional<world::Outcome> ToldOutcome::of(const TraceReader& trace) const {
 
 std::optional<std::string> ToldOutcome::contradiction(const TraceReader& trace, bool all) const {
     const world::Outcome& says = trace.outcome();
-    const bool goes_on = says == world::outcome_of_part(trace.ticks()) ||
-                         says == world::outcome_of_cut_off(trace.ticks());
+    const bool goes_on =
+        says == world::outcome_of_part(trace.ticks()) ||
+        says == world::outcome_of_cut_off(trace.ticks()) ||
+        (all && trace.first() == 1 ? external_.explain(says) : says.verdict == "driver_lost");
     const auto differs = [&](const std::string& told) {
         return fmt::format("its outcome says '{}', its ticks '{}'", to_text(says), told);
     };
@@ -51,8 +56,7 @@ std::optional<world::Outcome> told_outcome(TraceReader& trace) {
     if (trace.level() == Level::inputs)
         return std::nullopt;
     for (std::uint64_t index = trace.first(); index <= trace.last(); ++index)
-        for (const world::Event* event : *trace.recorded(index).view.tick->events())
-            told.hear(*event);
+        told.hear(*trace.recorded(index).view.tick);
     return told.of(trace);
 }
 

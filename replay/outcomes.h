@@ -5,14 +5,15 @@
 #include <string>
 
 #include "replay/trace_reader.h"
+#include "world/external_drivers.h"
 #include "world/recording.h"
 
 namespace reprise::replay {
 
-/// Gathers from the events of a run's ticks how it ended.
+/// Gathers from a run's ticks how it ended.
 class ToldOutcome {
   public:
-    void hear(const world::Event& event);
+    void hear(const world::Tick& tick);
 
     /// What all events of a trace say. Nothing when the run's end is not among them, or its start,
     /// or what a script had seen that another took the place of.
@@ -26,6 +27,7 @@ class ToldOutcome {
     std::optional<std::string> finished_;  ///< why
     bool failed_ = false;
     bool passed_ = false;
+    world::ExternalDrivers external_;
 };
 
 /// Hears every tick.

@@ -6,6 +6,10 @@ Outcome outcome_of_cut_off(std::uint64_t ticks) {
     return {"error", "the trace was cut off", ticks};
 }
 
+Outcome outcome_of_lost_driver(const std::string& actor, std::uint64_t ticks) {
+    return {"driver_lost", "the driver of '" + actor + "' was lost", ticks};
+}
+
 Outcome outcome_of_part(std::uint64_t ticks) {
     return {"part", "a slice without the run's end", ticks};
 }

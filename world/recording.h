@@ -19,7 +19,7 @@ struct Recording {
 /// How a run ended; written when the trace is closed.
 struct Outcome {
     std::string verdict;  ///< "passed", "failed", "completed" (no checks); "error": cut off;
-                          ///< "part": a slice that lacks the run's last tick
+                          ///< "part": a slice that lacks the run's last tick; "driver_lost"
     std::string reason;   ///< as finish said it, "time limit", "scenario ended", "the trace was cut
                           ///< off", ...
     std::uint64_t ticks = 0;
@@ -29,6 +29,9 @@ struct Outcome {
 
 /// Of a trace that is the beginning of a run: it was cut off, and its end is lost.
 Outcome outcome_of_cut_off(std::uint64_t ticks);
+
+/// Of a run that ended because a driver in another program did; the scenario would go on.
+Outcome outcome_of_lost_driver(const std::string& actor, std::uint64_t ticks);
 
 /// Of a slice without the run's last tick: how the run ended cannot be seen in it.
 Outcome outcome_of_part(std::uint64_t ticks);

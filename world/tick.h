@@ -87,6 +87,12 @@ const Look* find(std::span<const Look> looks, std::uint32_t actor);
 /// for "not recorded".
 Look drawn_look(std::uint64_t seed, std::uint32_t actor);
 
+/// Does the vehicle do what a scenario or another program says, rather than decide by itself? Then
+/// its controls are inputs of the run.
+inline bool takes_controls(Driver driver) {
+    return driver == Driver::manual || driver == Driver::external;
+}
+
 /// To the record's grid of `per_unit` steps a unit (see traffic.fbs), ties to the even step.
 inline double rounded(double value, double per_unit) {
     return std::nearbyint(value * per_unit) / per_unit;

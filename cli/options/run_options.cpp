@@ -98,6 +98,23 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
             },
             ""));
     add_start(command, run, assignments);
+    command
+        .add_option(
+            "--driver",
+            run.drivers,
+            "Who drives the actor of this name, spawned with driver = 'external': a program "
+            "that is started, or one that runs already and comes to a socket; may be given "
+            "again. See docs/drivers.md")
+        ->type_name("NAME=COMMAND|NAME=socket:PATH")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);
+    command
+        .add_option("--driver-timeout",
+                    run.driver_timeout,
+                    "End the run when a driver needs longer than this for an answer, in seconds of "
+                    "real time (default: wait)")
+        ->type_name("SECONDS")
+        ->check(CLI::PositiveNumber);
     add_level(command, run.level, {"full", "keyed", "core", "inputs"});
     command
         .add_option("--nudge",

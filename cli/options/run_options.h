@@ -19,8 +19,10 @@ struct RunOptions {
     std::optional<std::uint64_t> seed;
     std::optional<double> seconds;
     std::vector<std::pair<std::string, std::string>> parameters;
-    std::string level = "full";  ///< how much of each tick is kept
-    std::string nudge;           ///< TICK[:ACTOR.FIELD[:UNITS]]; empty: none
+    std::string level = "full";            ///< how much of each tick is kept
+    std::string nudge;                     ///< TICK[:ACTOR.FIELD[:UNITS]]; empty: none
+    std::vector<std::string> drivers;      ///< NAME=COMMAND or NAME=socket:PATH
+    std::optional<double> driver_timeout;  ///< [s] of real time for an answer
 };
 
 struct BranchOptions {

@@ -18,7 +18,6 @@ class Teller {
     TraceStory story;
 
     void hear(const world::Event& event, std::uint64_t tick) {
-        story.told.hear(event);
         switch (event.kind()) {
             case world::EventKind::spawned:
                 if (event.actor() < world::first_background_id)
@@ -83,10 +82,11 @@ TraceStory read_story(replay::TraceReader& trace, bool all) {
     for (std::uint64_t index = first; index <= trace.last(); ++index) {
         if (!teller.story.whole && index == first + chunk)
             index = trace.last() - chunk + 1;
-        const auto* events = trace.recorded(index).view.tick->events();
-        if (events == nullptr)  // the trace's level leaves them out
+        const world::Tick& tick = *trace.recorded(index).view.tick;
+        if (tick.events() == nullptr)  // the trace's level leaves them out
             break;
-        for (const world::Event* event : *events)
+        teller.story.told.hear(tick);
+        for (const world::Event* event : *tick.events())
             teller.hear(*event, index);
     }
     const bool has_traffic = ticks > 0 && trace.level() == replay::Level::full;

@@ -138,6 +138,16 @@ bool Fields::has(const char* key) const {
     return there;
 }
 
+bool Fields::mentions(std::string_view key) const {
+    bool found = false;
+    if (index_ != 0)
+        for (lua_pushnil(L_); lua_next(L_, index_) != 0;) {
+            lua_pop(L_, 1);
+            found = found || (lua_type(L_, -1) == LUA_TSTRING && text_of(L_, -1) == key);
+        }
+    return found;
+}
+
 std::optional<double> Fields::number(const char* key) const {
     push(key);
     std::optional<double> value;

@@ -33,6 +33,11 @@ class Fields {
            bool optional = false);
 
     bool has(const char* key) const;
+
+    /// As has(), for words that are seldom said: Lua does not learn the key, so runs that do not
+    /// say it stay equal to those of before there was the word.
+    bool mentions(std::string_view key) const;
+
     std::optional<double> number(const char* key) const;  ///< finite
     std::optional<std::int64_t> integer(const char* key) const;
     std::optional<std::string> text(const char* key) const;

@@ -22,11 +22,15 @@ constexpr lua_Integer few_stops = 10;  ///< of a route that anybody would write
 
 Actor& driven(Run& run, lua_State* L, const char* who) {
     Actor& actor = actor_at(run, L, 1, who);
-    if (actor.driver == Driver::parked || actor.driver == Driver::manual)
-        refuse(who,
-               fmt::format("'{}' is {}: only 'autopilot', 'traffic' and walkers obey",
-                           actor.name,
-                           actor.driver == Driver::parked ? "parked" : "driven by hand"));
+    const char* why_not = actor.driver == Driver::parked     ? "parked"
+                          : actor.driver == Driver::manual   ? "driven by hand"
+                          : actor.driver == Driver::external ? "driven by another program"
+                                                             : nullptr;
+    if (why_not != nullptr)
+        refuse(
+            who,
+            fmt::format(
+                "'{}' is {}: only 'autopilot', 'traffic' and walkers obey", actor.name, why_not));
     return actor;
 }
 

@@ -18,10 +18,12 @@ namespace reprise::scripting {
 
 namespace {
 
-constexpr double farthest_beside = 50;  // [m] from a lane's centre line
-constexpr double fastest = 150;         // [m/s]
+constexpr double farthest_beside = 50;         // [m] from a lane's centre line
+constexpr double fastest = 150;                // [m/s]
+constexpr std::int64_t longest_latency = 100;  // [ticks]
 
-const std::vector<std::string> drivers{"autopilot", "manual", "traffic", "parked", "walker"};
+const std::vector<std::string> drivers{
+    "autopilot", "manual", "traffic", "parked", "walker", "external"};
 
 void read_model(const Fields& fields, Actor& actor) {
     const auto model = fields.text("model");
@@ -112,9 +114,27 @@ void read_place(
                            number_text(command.offset)));
 }
 
+/// [ticks]
+std::uint8_t read_latency(const Fields& fields, const Actor& actor) {
+    if (!fields.mentions("latency"))
+        return 0;
+    if (actor.driver != world::Driver::external)
+        refuse("spawn",
+               fmt::format("'latency' is for driver = 'external', '{}' is driven by Reprise",
+                           actor.name));
+    const auto ticks = fields.integer("latency").value_or(0);
+    if (ticks < 0 || ticks > longest_latency)
+        refuse("spawn",
+               fmt::format("'latency' must be in [0, {}] ticks, got {}", longest_latency, ticks));
+    return static_cast<std::uint8_t>(ticks);
+}
+
 int spawn(Run& run, lua_State* L) {
     const Fields fields(
-        L, 1, "spawn", {"name", "model", "driver", "lane", "s", "offset", "speed", "speed_kmh"});
+        L,
+        1,
+        "spawn",
+        {"name", "model", "driver", "latency", "lane", "s", "offset", "speed", "speed_kmh"});
     Actor actor;
     actor.id = run.actors.next_id();
     actor.line = run.vm.line(L);
@@ -140,6 +160,7 @@ int spawn(Run& run, lua_State* L) {
     said.offset = command.offset;
     said.speed = speed;
     said.text = actor.name;
+    said.latency = read_latency(fields, actor);
     push_handle(L, run.actors.add(std::move(actor)).id);
     return 1;
 }

@@ -22,11 +22,12 @@ ROOMS = {
     "scripting": "world",
     "traffic": "world",
     "drivers": "world",
+    "remote": "world process",
     "replay": "world files",
     "exchange": "world files replay",
     "render": "world files ground",
     "kernel": "world ground scripting traffic drivers replay",
-    "cli": "world files process ground towns scripting traffic drivers replay exchange render kernel",
+    "cli": "world files process ground towns scripting traffic drivers remote replay exchange render kernel",
 }
 # Inner rooms from the lowest to the highest: each may include those before it. "." is the room's own folder.
 INNER = {

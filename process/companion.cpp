@@ -1,0 +1,102 @@
+#include "process/companion.h"
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include "world/check.h"
+
+namespace reprise::process {
+
+namespace {
+
+constexpr double moment = 2;          // [s] for a driver that has been told goodbye
+constexpr int no_such_program = 127;  // as shells have it
+constexpr auto glance = std::chrono::milliseconds(2);
+
+std::string filled_in(std::string variable, int descriptor) {
+    const auto place = variable.find("%d");
+    REPRISE_CHECK(place != std::string::npos, "no %d in " + variable);
+    return variable.replace(place, 2, std::to_string(descriptor));
+}
+
+/// In the child: only calls that are safe between fork and exec.
+[[noreturn]] void be_program(pid_t parent,
+                             int descriptor,
+                             const std::array<char*, 4>& words,
+                             const std::vector<char*>& environment) noexcept {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent)
+        _exit(no_such_program);
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+    const int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    dup2(in, STDIN_FILENO);
+    fcntl(descriptor, F_SETFD, 0);
+    execve(words[0], words.data(), environment.data());
+    _exit(no_such_program);
+}
+
+/// A shell says of a program that a signal ended: 128 + signal.
+Ended how(int status) {
+    constexpr int by_signal = 128;
+    if (WIFSIGNALED(status))
+        return {0, WTERMSIG(status), 0};
+    const int code = WEXITSTATUS(status);
+    return code > by_signal && code < by_signal + NSIG ? Ended{0, code - by_signal, 0}
+                                                       : Ended{code, 0, 0};
+}
+
+}  // namespace
+
+Companion::Companion(const std::string& command, int descriptor, const std::string& variable) {
+    std::string shell = "/bin/sh";
+    std::string option = "-c";
+    std::string line = command;
+    std::string told = filled_in(variable, descriptor);
+    const std::array<char*, 4> words{shell.data(), option.data(), line.data(), nullptr};
+    std::vector<char*> environment{told.data()};
+    for (char** ours = environ; *ours != nullptr; ++ours)
+        environment.push_back(*ours);
+    environment.push_back(nullptr);
+    const pid_t parent = getpid();
+    pid_ = fork();
+    if (pid_ == 0)
+        be_program(parent, descriptor, words, environment);
+    if (pid_ < 0)
+        throw world::Error(command + ": cannot be started: " + std::strerror(errno));
+    setpgid(pid_, pid_);  // here as well: whoever comes first
+}
+
+Companion::~Companion() {
+    wait(moment);
+    kill(-pid_, SIGKILL);  // what it left, or itself
+    wait(moment);
+}
+
+std::optional<Ended> Companion::wait(double seconds) {
+    using Clock = std::chrono::steady_clock;
+    const auto until = Clock::now() + std::chrono::duration<double>(seconds);
+    while (!ended_) {
+        int status = 0;
+        if (waitpid(pid_, &status, WNOHANG) == pid_)
+            ended_ = how(status);
+        else if (Clock::now() >= until)
+            break;
+        else
+            std::this_thread::sleep_for(glance);
+    }
+    return ended_;
+}
+
+}  // namespace reprise::process

@@ -1,0 +1,156 @@
+"""What a driver sees and says, and the loop that takes it through a run."""
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from typing import Any, Callable
+
+import numpy as np
+
+from .nouns import Noun
+from .wire import VERSION, Wire, WireError
+
+
+@dataclasses.dataclass(frozen=True)
+class Control:
+    """What a driver does from the next tick on. Raises ValueError for what no car can do."""
+
+    throttle: float = 0.0  #: [0, 1]
+    brake: float = 0.0  #: [0, 1]
+    steer: float = 0.0  #: [-1, 1], left positive, share of the largest steering angle
+    hand_brake: bool = False
+    reverse: bool = False
+    lamps: int = 0  #: bits of world/models/catalogue.h
+
+    def __post_init__(self) -> None:
+        for name, low in (("throttle", 0), ("brake", 0), ("steer", -1)):
+            value = getattr(self, name)
+            if not low <= value <= 1:
+                raise ValueError(f"Control({name}={value}): expected a number in [{low}, 1]")
+
+
+class Run:
+    """What stays the same in a run.
+
+    Attributes: `actor` id of the driven vehicle, `name` the scenario's word for it, `step` [s] between ticks, `town`
+    and `episode` nouns (world/town.fbs, world/episode.fbs); `town.lanes[i].centre` is a centre line.
+    """
+
+    def __init__(self, hello: Noun) -> None:
+        self.actor: int = hello.actor
+        self.name: str = hello.name
+        self.step: float = hello.step_ns * 1e-9
+        self.town = Noun(hello.town.data, "world.Town")
+        self.episode = Noun(hello.episode.data, "world.Episode")
+
+
+class Ego:
+    """The driven vehicle: the fields of its VehicleState and of its Measurement (world/tick.fbs).
+
+    `position` [m] and `velocity` [m/s] are arrays (3,) in the world's frame, x east, y north, z up; `yaw` [rad]
+    counter-clockwise from east; `speed` [m/s] along its own x axis.
+    """
+
+    def __init__(self, state: np.void, measured: np.void) -> None:
+        self._state, self._measured = state, measured
+        self.position = np.array(state["position"].item())
+        self.velocity = np.array(state["velocity"].item())
+        w, x, y, z = state["orientation"].item()
+        self.yaw: float = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+    def __getattr__(self, field: str) -> Any:
+        for record in (self._state, self._measured):
+            if field in record.dtype.names:
+                return record[field]
+        raise AttributeError(f"no '{field}': {', '.join(self._state.dtype.names + self._measured.dtype.names)}")
+
+
+class Observation:
+    """A tick. `tick` and `traffic` are nouns with all that is recorded; the rest are short words for what is asked most.
+
+    The arrays look into the message: they may not be written, and cost nothing until they are looked at.
+    """
+
+    def __init__(self, run: Run, message: Noun) -> None:
+        self.run = run
+        self.tick = Noun(message.tick.data, "world.Tick")
+        self.traffic = Noun(message.traffic.data, "world.Traffic")
+
+    @property
+    def index(self) -> int:
+        """Of the tick; 1 is the first of the run."""
+        return self.tick.index
+
+    @property
+    def time(self) -> float:
+        """[s] of simulated time since the start."""
+        return self.index * self.run.step
+
+    @functools.cached_property
+    def ego(self) -> Ego:
+        """The driven vehicle."""
+        vehicles, measured = self.tick.vehicles, self.tick.measurements
+        at = int(np.searchsorted(vehicles["id"], self.run.actor))
+        return Ego(vehicles[at], measured[int(np.searchsorted(measured["actor"], self.run.actor))])
+
+    @property
+    def vehicles(self) -> np.ndarray:
+        """All vehicles with mass, the own one included: VehicleState (world/tick.fbs), sorted by id."""
+        return self.tick.vehicles
+
+    @property
+    def cars(self) -> np.ndarray:
+        """Background and parked cars: CarState (world/traffic.fbs), sorted by id."""
+        return self.traffic.cars
+
+    @property
+    def walkers(self) -> np.ndarray:
+        """WalkerState (world/traffic.fbs), sorted by id."""
+        return self.traffic.walkers
+
+    @property
+    def signals(self) -> np.ndarray:
+        """SignalColor of each of `run.town.signals`."""
+        return self.tick.signals
+
+
+Driver = Callable[[Observation], Control]
+
+
+def drive(driver: Driver, address: str | None = None) -> int:
+    """Drives until the run is over. Returns how many ticks were driven.
+
+    `driver` is asked once a tick. What it raises ends the run with the verdict driver_lost, and is raised here.
+    `address` is a socket's path; without it the program must have been started by `reprise run --driver`.
+    """
+    wire = Wire(address)
+    ticks = 0
+    try:
+        kind, hello = wire.receive()
+        if kind != "hello":
+            raise WireError("the run did not begin with hello")
+        wire.ready()
+        if hello.version != VERSION:
+            raise WireError(f"the run speaks version {hello.version} of the wire, this package {VERSION}")
+        run = Run(hello)
+        while True:
+            kind, message = wire.receive()
+            if kind != "observation":
+                return ticks
+            seen = Observation(run, message)
+            wire.control(seen.index, *_values(driver(seen)))
+            ticks += 1
+    except WireError:
+        raise
+    except BaseException as error:
+        wire.goodbye(f"{type(error).__name__}: {error}")
+        raise
+    finally:
+        wire.close()
+
+
+def _values(control: Control) -> tuple[float, float, float, bool, bool, int]:
+    if not isinstance(control, Control):
+        raise TypeError(f"a driver returns a reprise.Control, got {control!r}")
+    return (control.throttle, control.brake, control.steer, control.hand_brake, control.reverse, control.lamps)

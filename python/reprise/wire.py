@@ -1,0 +1,98 @@
+"""The driver's end of the wire: frames over a Unix domain socket. remote/wire.fbs and docs/drivers.md say what they hold."""
+from __future__ import annotations
+
+import os
+import socket
+import struct
+
+import flatbuffers
+
+from . import schema
+from .nouns import Noun
+
+VERSION = 1
+_KINDS = schema.ENUMS["remote.Kind"][1]
+_NAMES = {number: name for name, number in _KINDS.items()}
+
+
+class WireError(RuntimeError):
+    """The run is gone without a word, or speaks another version of the wire."""
+
+
+def _connect(address: str) -> socket.socket:
+    if address.startswith("fd:"):
+        return socket.socket(fileno=int(address[3:]))
+    channel = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    channel.connect(address)
+    return channel
+
+
+class Wire:
+    """One connection with a run."""
+
+    def __init__(self, address: str | None = None) -> None:
+        address = address or os.environ.get("REPRISE_DRIVER", "")
+        if not address:
+            raise WireError(
+                "no run to drive in: start this program by reprise run SCENARIO.lua --driver NAME='...', or name a socket"
+            )
+        self._channel = _connect(address)
+
+    def close(self) -> None:
+        self._channel.close()
+
+    def _read(self, size: int) -> memoryview:
+        data = bytearray(size)
+        view, got = memoryview(data), 0
+        while got < size:
+            count = self._channel.recv_into(view[got:])
+            if count == 0:
+                raise WireError("the run has hung up")
+            got += count
+        return view
+
+    def receive(self) -> tuple[str, Noun]:
+        """The next message: its kind, such as 'observation', and the noun it holds."""
+        size, number = struct.unpack("<II", self._read(8))
+        kind = _NAMES.get(number)
+        if kind is None:
+            raise WireError(f"the run said a message of the unknown kind {number}")
+        return kind, Noun(self._read(size), f"remote.{kind.capitalize()}")
+
+    def _send(self, kind: str, builder: flatbuffers.Builder) -> None:
+        body = builder.Output()
+        self._channel.sendall(struct.pack("<II", len(body), _KINDS[kind]) + body)
+
+    def ready(self) -> None:
+        """Answers hello."""
+        builder = flatbuffers.Builder(128)
+        digest = builder.CreateString(schema.DIGEST)
+        builder.StartObject(2)
+        builder.PrependUint32Slot(0, VERSION, 0)
+        builder.PrependUOffsetTRelativeSlot(1, digest, 0)
+        builder.Finish(builder.EndObject())
+        self._send("ready", builder)
+
+    def control(self, tick: int, throttle: float, brake: float, steer: float, hand_brake: bool, reverse: bool,
+                lamps: int) -> None:  # fmt: skip
+        """Answers the observation of this tick."""
+        builder = flatbuffers.Builder(128)
+        builder.StartObject(7)
+        builder.PrependFloat64Slot(1, throttle, 0)
+        builder.PrependFloat64Slot(2, brake, 0)
+        builder.PrependFloat64Slot(3, steer, 0)
+        builder.PrependUint64Slot(0, tick, 0)
+        builder.PrependUint16Slot(6, lamps, 0)
+        builder.PrependBoolSlot(4, hand_brake, False)
+        builder.PrependBoolSlot(5, reverse, False)
+        builder.Finish(builder.EndObject())
+        self._send("control", builder)
+
+    def goodbye(self, reason: str) -> None:
+        """The driver's last word."""
+        builder = flatbuffers.Builder(128)
+        text = builder.CreateString(reason)
+        builder.StartObject(1)
+        builder.PrependUOffsetTRelativeSlot(0, text, 0)
+        builder.Finish(builder.EndObject())
+        self._send("goodbye", builder)

@@ -1,0 +1,176 @@
+#include "remote/client.h"
+
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "remote/frame_channel.h"
+#include "remote/schema.h"
+#include "world/check.h"
+
+namespace reprise::remote {
+
+namespace {
+
+constexpr std::size_t largest_message = 256 << 20;  // [bytes] a town of a large city
+constexpr std::string_view descriptor_word = "fd:";
+
+int connect_to(const std::string& path) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    if (path.size() >= sizeof(address.sun_path))
+        throw world::Error(path + ": longer than a socket's path may be");
+    std::memcpy(address.sun_path, path.data(), path.size());
+    const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    if (connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+        const int reason = errno;
+        close(descriptor);
+        throw world::Error(path + ": no run to drive in: " + std::strerror(reason));
+    }
+    return descriptor;
+}
+
+int open_channel(const std::string& asked) {
+    const char* told = std::getenv("REPRISE_DRIVER");
+    const std::string address = !asked.empty() ? asked : told == nullptr ? "" : told;
+    if (address.empty())
+        throw world::Error(
+            "no run to drive in: start this by reprise run SCENARIO.lua --driver NAME='...', or "
+            "name "
+            "a socket");
+    if (!address.starts_with(descriptor_word))
+        return connect_to(address);
+    const std::string_view number = std::string_view(address).substr(descriptor_word.size());
+    int descriptor = -1;
+    const auto end = number.data() + number.size();
+    if (std::from_chars(number.data(), end, descriptor).ptr != end || descriptor < 0)
+        throw world::Error("REPRISE_DRIVER=" + address + ": expected fd:NUMBER or a socket's path");
+    return descriptor;
+}
+
+template <class Table, class Object>
+void unpack(const flatbuffers::Vector<std::uint8_t>* bytes, Object& object, const char* what) {
+    flatbuffers::Verifier verifier(bytes == nullptr ? nullptr : bytes->data(),
+                                   bytes == nullptr ? 0 : bytes->size());
+    if (bytes == nullptr || !verifier.VerifyBuffer<Table>(nullptr))
+        throw world::Error(fmt::format("the run said hello without a {}", what));
+    flatbuffers::GetRoot<Table>(bytes->data())->UnPackTo(&object);
+}
+
+}  // namespace
+
+struct Client::Parts {
+    explicit Parts(int descriptor) : channel(descriptor, largest_message) {}
+
+    /// Hello and ready.
+    void begin() {
+        const Frame frame = channel.receive();
+        if (frame.kind != Kind::hello)
+            throw world::Error("the run did not begin with hello");
+        const Hello& hello = frame.as<Hello>();
+        flatbuffers::FlatBufferBuilder builder;
+        builder.Finish(CreateReady(builder, wire_version, builder.CreateString(schema_digest())));
+        channel.send(Kind::ready, {builder.GetBufferPointer(), builder.GetSize()});
+        if (hello.version() != wire_version)
+            throw world::Error(fmt::format("the run speaks version {} of the wire, this driver {}",
+                                           hello.version(),
+                                           wire_version));
+        actor = hello.actor();
+        name = hello.name() == nullptr ? "" : hello.name()->str();
+        step = world::seconds(1, hello.step_ns());
+        unpack<world::Town>(hello.town(), town, "town");
+        unpack<world::Episode>(hello.episode(), episode, "episode");
+    }
+
+    FrameChannel channel;
+    Frame last;  ///< the ticks look into it
+    std::uint32_t actor = 0;
+    std::uint64_t tick = 0;
+    std::string name;
+    double step = 0;
+    world::TownT town;
+    world::EpisodeT episode;
+};
+
+Client::Client(const std::string& address)
+    : parts_(std::make_unique<Parts>(open_channel(address))) {
+    try {
+        parts_->begin();
+    } catch (const ChannelFault& fault) {
+        throw world::Error(std::string("the run ") + fault.what());
+    }
+}
+
+Client::~Client() = default;
+
+std::uint32_t Client::actor() const {
+    return parts_->actor;
+}
+
+const std::string& Client::name() const {
+    return parts_->name;
+}
+
+double Client::step() const {
+    return parts_->step;
+}
+
+const world::TownT& Client::town() const {
+    return parts_->town;
+}
+
+const world::EpisodeT& Client::episode() const {
+    return parts_->episode;
+}
+
+std::optional<world::TickView> Client::next() {
+    Parts& parts = *parts_;
+    try {
+        parts.last = parts.channel.receive();
+    } catch (const ChannelFault& fault) {
+        throw world::Error(std::string("the run ") + fault.what());
+    }
+    if (parts.last.kind != Kind::observation)
+        return std::nullopt;
+    const Observation& seen = parts.last.as<Observation>();
+    const auto holds = [](const auto* bytes, const auto& verify) {
+        if (bytes == nullptr)
+            return false;
+        flatbuffers::Verifier verifier(bytes->data(), bytes->size());
+        return verify(verifier);
+    };
+    if (!holds(seen.tick(),
+               [](auto& v) { return v.template VerifyBuffer<world::Tick>(nullptr); }) ||
+        !holds(seen.traffic(),
+               [](auto& v) { return v.template VerifyBuffer<world::Traffic>(nullptr); }))
+        throw world::Error("the run showed what is no tick");
+    const world::TickView view{world::GetTick(seen.tick()->data()),
+                               world::GetTraffic(seen.traffic()->data())};
+    parts.tick = view.index();
+    return view;
+}
+
+void Client::say(const Wheel& wheel) {
+    flatbuffers::FlatBufferBuilder builder;
+    builder.Finish(CreateControl(builder,
+                                 parts_->tick,
+                                 wheel.throttle,
+                                 wheel.brake,
+                                 wheel.steer,
+                                 wheel.hand_brake,
+                                 wheel.reverse,
+                                 wheel.lamps));
+    try {
+        parts_->channel.send(Kind::control, {builder.GetBufferPointer(), builder.GetSize()});
+    } catch (const ChannelFault&) {
+        // Then the run's last word is waiting: next() says it.
+    }
+}
+
+}  // namespace reprise::remote

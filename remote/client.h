@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "world/episode_generated.h"
+#include "world/tick.h"
+#include "world/town_generated.h"
+
+namespace reprise::remote {
+
+/// The driver's end of the wire, for drivers in C++: examples/follow_lane.cpp is one.
+///
+///     remote::Client run;                       // finds the run that started this program
+///     while (const auto tick = run.next())
+///         run.say({.throttle = 0.4});
+class Client {
+  public:
+    /// What a driver says; see world.Control for units and ranges.
+    struct Wheel {
+        double throttle = 0;
+        double brake = 0;
+        double steer = 0;
+        bool hand_brake = false;
+        bool reverse = false;
+        std::uint16_t lamps = 0;
+    };
+
+    /// Connects, and waits for the run's hello. `address` is a socket's path, or what the variable
+    /// REPRISE_DRIVER says where it is empty. Throws world::Error.
+    explicit Client(const std::string& address = {});
+    ~Client();
+    Client(const Client&) = delete;
+    Client& operator=(const Client&) = delete;
+
+    std::uint32_t actor() const;      ///< whom it drives: id in the ticks
+    const std::string& name() const;  ///< the same, as the scenario calls it
+    double step() const;              ///< [s] of simulated time between ticks
+    const world::TownT& town() const;
+    const world::EpisodeT& episode() const;  ///< without the script's text
+
+    /// The next tick; nothing when the run is over. It lives until the next call. Throws
+    /// world::Error when the run is gone without a word.
+    std::optional<world::TickView> next();
+
+    /// The answer to the last tick: from the next one on.
+    void say(const Wheel& wheel);
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace reprise::remote

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "remote/wire_generated.h"
+
+namespace reprise::remote {
+
+/// How long to wait for the other end.
+struct Patience {
+    std::optional<double> seconds{};      ///< of real time; without one for ever
+    std::function<bool()> given_up = {};  ///< asked about ten times a second: wait no longer
+};
+
+/// The other end is gone, silent for too long, or says what is no message of ours.
+class ChannelFault : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A message as it came. Its body has been verified to be a table of its kind.
+struct Frame {
+    Kind kind = Kind::goodbye;
+    std::vector<std::uint64_t> words;  ///< the body, aligned as its doubles want it
+    std::size_t size = 0;              ///< [bytes] of the body
+
+    template <class Table>
+    const Table& as() const {
+        return *flatbuffers::GetRoot<Table>(words.data());
+    }
+};
+
+/// Waits until there is something to read, or somebody to accept. Throws ChannelFault.
+void wait_for_input(int descriptor, const Patience& patience);
+
+/// One connected stream socket that carries frames (wire.fbs). Owns the descriptor.
+class FrameChannel {
+  public:
+    /// `largest`: [bytes] a longer body from the other end is a fault, before it is read.
+    FrameChannel(int descriptor, std::size_t largest);
+    ~FrameChannel();
+    FrameChannel(FrameChannel&& other) noexcept;
+    FrameChannel(const FrameChannel&) = delete;
+    FrameChannel& operator=(const FrameChannel&) = delete;
+    FrameChannel& operator=(FrameChannel&&) = delete;
+
+    /// Waits until all is handed over. Throws ChannelFault.
+    void send(Kind kind, std::span<const std::uint8_t> body, const Patience& patience = {});
+
+    /// Waits for the next message as send() does. Throws ChannelFault, also for a body that is no
+    /// table of its kind.
+    Frame receive(const Patience& patience = {});
+
+    int descriptor() const { return descriptor_; }
+
+  private:
+    friend void wait_for_input(int descriptor, const Patience& patience);
+    struct Wait;
+    void read(void* target, std::size_t size, const Wait& wait);
+
+    int descriptor_;
+    std::size_t largest_;
+};
+
+}  // namespace reprise::remote

@@ -1,0 +1,278 @@
+// The simulator's end of the wire.
+//   must      never wait for a driver that is gone; say of each fault what it was; leave nothing
+//   behind assumes   one driver a seat; it is asked once a tick goes      start or await it, hello,
+//   ready; then tick by tick observation, control; goodbye keeps     which tick it was shown last
+#include "remote/seat.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "process/companion.h"
+#include "remote/frame_channel.h"
+#include "remote/schema.h"
+#include "world/check.h"
+
+namespace reprise::remote {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t largest_answer = 64 << 10;  // [bytes]
+constexpr std::string_view socket_word = "socket:";
+
+std::span<const std::uint8_t> bytes_of(const flatbuffers::FlatBufferBuilder& builder) {
+    return {builder.GetBufferPointer(), builder.GetSize()};
+}
+
+/// Where a driver finds us; gone from the folder with us.
+class Listener {
+  public:
+    explicit Listener(fs::path path) : path_(std::move(path)) {
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        if (path_.native().size() >= sizeof(address.sun_path))
+            throw world::Error(
+                fmt::format("--driver socket:{}: a socket's path has at most {} bytes",
+                            path_.string(),
+                            sizeof(address.sun_path) - 1));
+        std::memcpy(address.sun_path, path_.c_str(), path_.native().size());
+        descriptor_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        const mode_t before = umask(0177);  // the owner's only
+        const int bound =
+            bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof(address));
+        const int reason = errno;
+        umask(before);
+        if (bound != 0 || listen(descriptor_, 1) != 0) {
+            close(descriptor_);
+            throw world::Error(fmt::format("--driver socket:{}: cannot listen there: {}",
+                                           path_.string(),
+                                           std::strerror(bound != 0 ? reason : errno)));
+        }
+    }
+
+    ~Listener() {
+        close(descriptor_);
+        std::error_code ignored;
+        fs::remove(path_, ignored);
+    }
+
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+
+    /// The first driver that comes. Throws ChannelFault when none did in time.
+    int accept_one(const Patience& patience) const {
+        wait_for_input(descriptor_, patience);
+        return accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC);
+    }
+
+  private:
+    fs::path path_;
+    int descriptor_ = -1;
+};
+
+/// What is wrong with a value that a driver said, or "".
+std::string fault_of(const char* name, double value, double low, double high) {
+    if (value >= low && value <= high)
+        return "";
+    return fmt::format("said {} = {} where [{:g}, {:g}] is possible", name, value, low, high);
+}
+
+std::string fault_of(const Control& control, std::uint64_t shown) {
+    if (control.tick() != shown)
+        return fmt::format(
+            "answered tick {} when tick {} was to be answered", control.tick(), shown);
+    for (const std::string& fault : {fault_of("throttle", control.throttle(), 0, 1),
+                                     fault_of("brake", control.brake(), 0, 1),
+                                     fault_of("steer", control.steer(), -1, 1)})
+        if (!fault.empty())
+            return fault;
+    return "";
+}
+
+std::string pack(const world::Recording& recording, std::vector<std::uint8_t>& town) {
+    flatbuffers::FlatBufferBuilder builder;
+    builder.Finish(world::Town::Pack(builder, &recording.town), world::TownIdentifier());
+    town.assign(builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize());
+    world::EpisodeT episode = recording.episode;
+    episode.scenario.clear();  // a driver shall see the road, not the script
+    flatbuffers::FlatBufferBuilder small;
+    small.Finish(world::Episode::Pack(small, &episode), world::EpisodeIdentifier());
+    return {reinterpret_cast<const char*>(small.GetBufferPointer()), small.GetSize()};
+}
+
+}  // namespace
+
+SeatPlan parse_seat(const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+        throw world::Error("--driver " + text + ": expected NAME=COMMAND or NAME=socket:PATH");
+    SeatPlan plan{text.substr(0, equals)};
+    const std::string who = text.substr(equals + 1);
+    if (who.starts_with(socket_word))
+        plan.socket = who.substr(socket_word.size());
+    else
+        plan.command = who;
+    if (plan.command.empty() && plan.socket.empty())
+        throw world::Error("--driver " + text + ": 'socket:' needs a path");
+    return plan;
+}
+
+struct Seat::Parts {
+    SeatPlan plan;
+    Patience patience;
+    std::optional<Listener> listener;
+    std::optional<FrameChannel> channel;  // closed before the program is waited for
+    std::optional<process::Companion> program;
+    std::optional<std::uint32_t> id;
+    std::deque<std::uint64_t> shown;  ///< ticks without an answer yet
+
+    /// What became of it: how its program ended says more than a socket that is closed.
+    Lost lost(const std::string& fault) {
+        std::string reason = fault;
+        if (fault == "has hung up" && program)
+            if (const auto ended = program->wait(1))
+                reason = ended->signal != 0 ? fmt::format("was ended by signal {}", ended->signal)
+                                            : fmt::format("ended with exit code {}", ended->code);
+        channel.reset();
+        return {fmt::format("the driver of '{}' {}", plan.actor, reason)};
+    }
+};
+
+Seat::Seat(const SeatPlan& plan, Patience patience) : parts_(std::make_unique<Parts>()) {
+    Parts& parts = *parts_;
+    parts.plan = plan;
+    parts.patience = std::move(patience);
+    if (!plan.socket.empty()) {
+        parts.listener.emplace(plan.socket);
+        return;
+    }
+    std::array<int, 2> ends{};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+        throw world::Error(std::string("--driver: no socket: ") + std::strerror(errno));
+    parts.channel.emplace(ends[0], largest_answer);
+    const FrameChannel theirs(ends[1], largest_answer);  // closed here once the program has it
+    parts.program.emplace(plan.command, theirs.descriptor(), "REPRISE_DRIVER=fd:%d");
+}
+
+Seat::~Seat() {
+    leave("the run ended");
+}
+
+const std::string& Seat::actor() const {
+    return parts_->plan.actor;
+}
+
+std::optional<std::uint32_t> Seat::id() const {
+    return parts_->id;
+}
+
+std::optional<Lost> Seat::take(std::uint32_t id, const world::Recording& recording) {
+    Parts& parts = *parts_;
+    parts.id = id;
+    if (parts.listener) {
+        int descriptor = -1;
+        try {
+            descriptor = parts.listener->accept_one(parts.patience);
+        } catch (const ChannelFault&) {
+            return parts.lost("did not come in time");
+        }
+        parts.listener.reset();  // one driver a seat: a second finds nobody
+        parts.channel.emplace(descriptor, largest_answer);
+    }
+    std::vector<std::uint8_t> town;
+    const std::string episode = pack(recording, town);
+    flatbuffers::FlatBufferBuilder builder;
+    const auto schema = builder.CreateString(schema_digest());
+    const auto name = builder.CreateString(parts.plan.actor);
+    builder.ForceVectorAlignment(episode.size(), 1, 16);
+    const auto of_episode =
+        builder.CreateVector(reinterpret_cast<const std::uint8_t*>(episode.data()), episode.size());
+    builder.ForceVectorAlignment(town.size(), 1, 16);
+    const auto of_town = builder.CreateVector(town);
+    builder.Finish(CreateHello(
+        builder, wire_version, schema, id, name, recording.episode.step_ns, of_episode, of_town));
+    try {
+        parts.channel->send(Kind::hello, bytes_of(builder), parts.patience);
+        const Frame frame = parts.channel->receive(parts.patience);
+        if (frame.kind != Kind::ready)
+            return parts.lost("did not say that it is ready");
+        if (const auto version = frame.as<Ready>().version(); version != wire_version)
+            return parts.lost(
+                fmt::format("speaks version {} of the wire, this is {}", version, wire_version));
+    } catch (const ChannelFault& fault) {
+        return parts.lost(fault.what());
+    }
+    return std::nullopt;
+}
+
+std::optional<Lost> Seat::show(const world::SealedTick& tick) {
+    Parts& parts = *parts_;
+    flatbuffers::FlatBufferBuilder builder(tick.tick_bytes().size() + tick.traffic_bytes().size() +
+                                           256);
+    const auto aligned = [&](std::span<const std::uint8_t> bytes) {
+        builder.ForceVectorAlignment(bytes.size(), 1, 16);
+        return builder.CreateVector(bytes.data(), bytes.size());
+    };
+    const auto traffic = aligned(tick.traffic_bytes());
+    const auto of_tick = aligned(tick.tick_bytes());
+    builder.Finish(CreateObservation(builder, of_tick, traffic));
+    parts.shown.push_back(tick.view().index());
+    try {
+        parts.channel->send(Kind::observation, bytes_of(builder), parts.patience);
+    } catch (const ChannelFault& fault) {
+        return parts.lost(fault.what());
+    }
+    return std::nullopt;
+}
+
+std::variant<world::Control, Lost> Seat::answer() {
+    Parts& parts = *parts_;
+    try {
+        const Frame frame = parts.channel->receive(parts.patience);
+        if (frame.kind == Kind::goodbye) {
+            const auto* reason = frame.as<Goodbye>().reason();
+            return parts.lost("left" + (reason == nullptr ? "" : ": " + reason->str()));
+        }
+        if (frame.kind != Kind::control)
+            return parts.lost("said something else than a control");
+        const Control& said = frame.as<Control>();
+        if (const std::string fault = fault_of(said, parts.shown.front()); !fault.empty())
+            return parts.lost(fault);
+        parts.shown.pop_front();
+        return world::Control(said.throttle(),
+                              said.brake(),
+                              said.steer(),
+                              *parts.id,
+                              said.lamps(),
+                              said.hand_brake(),
+                              said.reverse());
+    } catch (const ChannelFault& fault) {
+        return parts.lost(fault.what());
+    }
+}
+
+void Seat::leave(const std::string& reason) {
+    if (!parts_->channel)
+        return;
+    flatbuffers::FlatBufferBuilder builder;
+    builder.Finish(CreateGoodbye(builder, builder.CreateString(reason)));
+    try {
+        parts_->channel->send(Kind::goodbye, bytes_of(builder), {1.0});
+    } catch (const ChannelFault&) {
+        // Whoever left before us needs no goodbye.
+    }
+    parts_->channel.reset();
+}
+
+}  // namespace reprise::remote

@@ -1,0 +1,88 @@
+// A driver for tests: odd_driver HABIT. `steady` drives well; every other one breaks the wire's
+// rules in its way, in the third tick if it gets that far.
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <sys/socket.h>
+#include <thread>
+#include <unistd.h>
+
+#include "remote/client.h"
+#include "remote/frame_channel.h"
+#include "remote/schema.h"
+#include "world/check.h"
+
+namespace {
+
+using reprise::remote::Client;
+
+int descriptor() {
+    return std::atoi(std::getenv("REPRISE_DRIVER") + std::strlen("fd:"));
+}
+
+void say_raw(const void* bytes, std::size_t size) {
+    if (send(descriptor(), bytes, size, MSG_NOSIGNAL) < 0)
+        std::exit(4);
+}
+
+/// What a habit does in its tick; false: nothing, it drives on.
+void misbehave(const std::string& habit, Client& run) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    if (habit == "dies")
+        std::exit(3);
+    if (habit == "crashes")
+        std::abort();
+    if (habit == "nan")
+        run.say({.throttle = nan});
+    if (habit == "too_much")
+        run.say({.steer = -1.5});
+    if (habit == "silent")
+        std::this_thread::sleep_for(std::chrono::hours(1));
+    if (habit == "garbage") {
+        const char garbage[] = "GET / HTTP/1.1\r\nHost: here\r\n\r\n";
+        say_raw(garbage, sizeof(garbage));
+    }
+    if (habit == "huge") {
+        const std::uint32_t header[] = {0xffff'ffffU, 4};
+        say_raw(header, sizeof(header));
+    }
+    if (habit == "cut") {
+        const std::uint32_t header[] = {64, 4};
+        say_raw(header, sizeof(header));
+        std::exit(0);
+    }
+}
+
+int be_of_another_version() {
+    reprise::remote::FrameChannel channel(descriptor(), 256 << 20);
+    channel.receive();
+    flatbuffers::FlatBufferBuilder builder;
+    builder.Finish(reprise::remote::CreateReady(builder, reprise::remote::wire_version + 1));
+    channel.send(reprise::remote::Kind::ready, {builder.GetBufferPointer(), builder.GetSize()});
+    channel.receive();
+    return 0;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    const std::string habit = count > 1 ? words[1] : "steady";
+    if (habit == "never_ready")
+        return 5;
+    if (habit == "other_version")
+        return be_of_another_version();
+    try {
+        Client run(count > 2 ? words[2] : "");
+        int ticks = 0;
+        while (const auto tick = run.next()) {
+            if (++ticks == 3)
+                misbehave(habit, run);
+            run.say({.throttle = 0.25, .steer = 0.125, .lamps = 8});
+        }
+    } catch (const reprise::world::Error&) {
+        return 6;
+    }
+    return 0;
+}

@@ -1,0 +1,166 @@
+#include "remote/seat.h"
+
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "remote/client.h"
+#include "tests/support/places.h"
+#include "world/check.h"
+
+namespace reprise::remote {
+namespace {
+
+using testing::HasSubstr;
+
+world::Recording recording() {
+    world::Recording recording;
+    recording.town = test::t_junction(0);
+    recording.episode.name = "test";
+    recording.episode.scenario = "a secret plan";
+    recording.episode.step_ns = 50'000'000;
+    return recording;
+}
+
+world::SealedTick tick(std::uint64_t index) {
+    world::TickDraft draft;
+    draft.tick.index = index;
+    return world::seal(draft, {});
+}
+
+struct Drive {
+    std::vector<world::Control> controls;
+    std::string lost;
+};
+
+/// Five ticks with a driver of this habit.
+Drive drive(const std::string& command, std::optional<double> patience = {}) {
+    Seat seat({"ego", command}, {patience});
+    Drive result;
+    if (const auto lost = seat.take(7, recording())) {
+        result.lost = lost->reason;
+        return result;
+    }
+    for (std::uint64_t index = 1; index <= 5; ++index) {
+        if (const auto lost = seat.show(tick(index))) {
+            result.lost = lost->reason;
+            break;
+        }
+        const auto answer = seat.answer();
+        if (const auto* lost = std::get_if<Lost>(&answer)) {
+            result.lost = lost->reason;
+            break;
+        }
+        result.controls.push_back(std::get<world::Control>(answer));
+    }
+    return result;
+}
+
+Drive drive_oddly(const std::string& habit, std::optional<double> patience = {}) {
+    return drive(ODD_DRIVER " " + habit, patience);
+}
+
+TEST(Seat, TheDriversControlsArriveAsItSaidThem) {
+    const Drive done = drive_oddly("steady");
+    EXPECT_EQ(done.lost, "");
+    ASSERT_EQ(done.controls.size(), 5U);
+    EXPECT_EQ(done.controls.back().throttle(), 0.25);
+    EXPECT_EQ(done.controls.back().steer(), 0.125);
+    EXPECT_EQ(done.controls.back().lamps(), 8);
+    EXPECT_EQ(done.controls.back().actor(), 7U);
+}
+
+struct Fault {
+    const char* habit;
+    const char* told;
+    std::size_t ticks_before;
+};
+
+class FaultyDriver : public testing::TestWithParam<Fault> {};
+
+TEST_P(FaultyDriver, IsLostWithItsReason) {
+    const Drive done = drive_oddly(GetParam().habit);
+    EXPECT_THAT(done.lost, HasSubstr(GetParam().told));
+    EXPECT_EQ(done.controls.size(), GetParam().ticks_before);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    EachHabit,
+    FaultyDriver,
+    testing::Values(Fault{"dies", "the driver of 'ego' ended with exit code 3", 2},
+                    Fault{"crashes", "was ended by signal 6", 2},
+                    Fault{"nan", "said throttle = nan where [0, 1] is possible", 2},
+                    Fault{"too_much", "said steer = -1.5 where [-1, 1] is possible", 2},
+                    Fault{"garbage", "bytes, where 65536 is the most", 2},
+                    Fault{"huge", "4294967295 bytes, where 65536 is the most", 2},
+                    Fault{"cut", "ended with exit code 0", 2},
+                    Fault{"never_ready", "ended with exit code 5", 0},
+                    Fault{"other_version", "speaks version 2 of the wire, this is 1", 0}),
+    [](const auto& info) { return std::string(info.param.habit); });
+
+TEST(Seat, ASilentDriverIsWaitedForAsLongAsToldAndThenLost) {
+    const Drive done = drive_oddly("silent", 0.2);
+    EXPECT_THAT(done.lost, HasSubstr("said nothing in time"));
+    EXPECT_EQ(done.controls.size(), 2U);
+}
+
+TEST(Seat, ACommandThatIsNoneIsLostAtOnce) {
+    EXPECT_THAT(drive("/no/such/program").lost, HasSubstr("ended with exit code 127"));
+}
+
+TEST(Seat, ADriverThatAlreadyRunsComesToTheSocket) {
+    const std::string path = testing::TempDir() + "seat_test_" + std::to_string(getpid());
+    Seat seat({"ego", "", path}, {10.0});
+    std::string name;
+    std::uint64_t last = 0;
+    std::string script;
+    std::thread driver([&] {
+        Client run(path);
+        name = run.name();
+        script = run.episode().scenario;
+        while (const auto seen = run.next()) {
+            last = seen->index();
+            run.say({.brake = 1});
+        }
+    });
+    const auto taken = seat.take(3, recording());
+    EXPECT_FALSE(taken) << taken->reason;
+    EXPECT_FALSE(seat.show(tick(11)));
+    const auto answer = seat.answer();
+    seat.leave("done");
+    driver.join();
+    ASSERT_TRUE(std::holds_alternative<world::Control>(answer));
+    EXPECT_EQ(std::get<world::Control>(answer).brake(), 1);
+    EXPECT_EQ(name, "ego");
+    EXPECT_EQ(last, 11U);
+    EXPECT_EQ(script, "") << "a driver sees the road, not the script";
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Seat, SocketsAreTheirOwnersOnly) {
+    const std::string path = testing::TempDir() + "seat_mode_" + std::to_string(getpid());
+    const Seat seat({"ego", "", path}, {0.1});
+    EXPECT_EQ(std::filesystem::status(path).permissions() & std::filesystem::perms::mask,
+              std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+}
+
+TEST(Seat, APathWhereSomethingLiesIsRefusedAndLeftAlone) {
+    const std::filesystem::path path =
+        testing::TempDir() + "seat_taken_" + std::to_string(getpid());
+    std::filesystem::create_directory(path);
+    EXPECT_THROW(Seat({"ego", "", path}, {0.1}), world::Error);
+    EXPECT_TRUE(std::filesystem::is_directory(path));
+    std::filesystem::remove(path);
+}
+
+TEST(SeatPlan, IsReadFromWhatTheUserSays) {
+    EXPECT_EQ(parse_seat("ego=python3 a.py --fast=1").command, "python3 a.py --fast=1");
+    EXPECT_EQ(parse_seat("ego=python3 a.py").actor, "ego");
+    EXPECT_EQ(parse_seat("ego=socket:/tmp/a").socket, "/tmp/a");
+    for (const char* wrong : {"ego", "=x", "ego=", "ego=socket:"})
+        EXPECT_THROW(parse_seat(wrong), world::Error) << wrong;
+}
+
+}  // namespace
+}  // namespace reprise::remote
