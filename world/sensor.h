@@ -7,9 +7,9 @@
 
 #include <Eigen/Geometry>
 
-namespace reprise::world {
+#include "world/tick_generated.h"
 
-enum class SensorKind : std::uint8_t { rgb, depth, semantic };
+namespace reprise::world {
 
 /// What to see, from where. Camera frame: optical, x right, y down, z ahead.
 struct SensorSpec {
