@@ -22,16 +22,7 @@ pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
 pkg_check_modules(cli11 REQUIRED IMPORTED_TARGET CLI11)
 
 # libsumo, Recast, libosmium and the three OpenCV modules ship no CMake package in the small -dev packages we install.
-function(reprise_plain_library name header)
-  cmake_parse_arguments(PLAIN "" "" "PATHS;NAMES" ${ARGN})
-  find_path(${name}_INCLUDE_DIR ${header} PATH_SUFFIXES ${PLAIN_PATHS} REQUIRED)
-  add_library(${name} INTERFACE IMPORTED GLOBAL)
-  target_include_directories(${name} SYSTEM INTERFACE ${${name}_INCLUDE_DIR})
-  foreach(library IN LISTS PLAIN_NAMES)
-    find_library(${name}_${library}_LIBRARY ${library} REQUIRED)
-    target_link_libraries(${name} INTERFACE ${${name}_${library}_LIBRARY})
-  endforeach()
-endfunction()
+include(PlainLibrary)
 
 # Headers only; those that read XML need expat and threads.
 reprise_plain_library(osmium osmium/io/xml_input.hpp)

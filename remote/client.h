@@ -12,7 +12,7 @@
 
 namespace reprise::remote {
 
-/// The driver's end of the wire, for drivers in C++: examples/follow_lane.cpp is one.
+/// The driver's end of the wire, for drivers in C++: examples/pid_driver.cpp is one.
 ///
 ///     remote::Client run;                       // finds the run that started this program
 ///     while (const auto tick = run.next())

@@ -1,0 +1,11 @@
+# A library without a CMake package of its own: reprise_plain_library(NAME HEADER [PATHS ...] [NAMES ...]).
+function(reprise_plain_library name header)
+  cmake_parse_arguments(PLAIN "" "" "PATHS;NAMES" ${ARGN})
+  find_path(${name}_INCLUDE_DIR ${header} PATH_SUFFIXES ${PLAIN_PATHS} REQUIRED)
+  add_library(${name} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${name} SYSTEM INTERFACE ${${name}_INCLUDE_DIR})
+  foreach(library IN LISTS PLAIN_NAMES)
+    find_library(${name}_${library}_LIBRARY ${library} REQUIRED)
+    target_link_libraries(${name} INTERFACE ${${name}_${library}_LIBRARY})
+  endforeach()
+endfunction()
