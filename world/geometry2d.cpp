@@ -139,9 +139,13 @@ void BoxGrid::for_each_cell(const Box& box, Visit&& visit) const {
 
 std::vector<std::uint32_t> BoxGrid::near(const Box& box) const {
     std::vector<std::uint32_t> found;
+    int cells = 0;
     for_each_cell(box, [&](std::size_t cell) {
+        ++cells;
         found.insert(found.end(), items_.begin() + begin_[cell], items_.begin() + begin_[cell + 1]);
     });
+    if (cells == 1)
+        return found;
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;

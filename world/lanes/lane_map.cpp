@@ -32,6 +32,40 @@ void add_boxes(const LaneT& lane, std::uint32_t index, std::vector<BoxGrid::Entr
         entries.push_back({box_around(in_plan(lane.outline)), index});
 }
 
+bool touch(const Box& one, const Box& other) {
+    return (one.low.array() <= other.high.array()).all() &&
+           (other.low.array() <= one.high.array()).all();
+}
+
+/// Does the centre line come within `reach` of p, in plan? What is farther need not be projected,
+/// which costs ten times as much.
+bool is_within_reach(const LaneT& lane, const Eigen::Vector2d& p, double reach) {
+    const double squared_reach = reach * reach;
+    for (std::size_t i = 0; i + 1 < lane.centre.size(); ++i) {
+        const Eigen::Vector2d start = in_plan(lane.centre[i]);
+        const Eigen::Vector2d along = in_plan(lane.centre[i + 1]) - start;
+        const Eigen::Vector2d offset = p - start;
+        const double squared_length = along.squaredNorm();
+        const double passed = offset.dot(along);
+        const double aside = cross(along, offset);
+        const bool near = passed <= 0 ? offset.squaredNorm() <= squared_reach
+                          : passed >= squared_length
+                              ? (offset - along).squaredNorm() <= squared_reach
+                              : aside * aside <= squared_reach * squared_length;
+        if (near)
+            return true;
+    }
+    return false;
+}
+
+constexpr double rounding = 0.01;  ///< [m] more than is lost to it
+
+/// No point of the ribbon, which gives way by `margin` at its sides and its ends, is farther from
+/// the centre line.
+double ribbon_reach(const LaneT& lane, double margin) {
+    return lane.width / 2 + margin + std::max(margin, seam) + rounding;
+}
+
 bool is_near_in_height(const std::vector<Vec3>& outline, double z) {
     return std::any_of(outline.begin(), outline.end(), [&](const Vec3& p) {
         return std::abs(p.z() - z) <= level_clearance;
@@ -55,13 +89,17 @@ bool is_on_ribbon(const LaneT& lane,
 
 struct LaneMap::Grid {
     BoxGrid lanes;
+    std::vector<Box> around;  ///< [lane] all of its surface
 
+    /// Lanes whose box comes within `margin` of p, ascending: few of those in the grid's cells.
     std::vector<std::uint32_t> near(const Eigen::Vector3d& p, double margin) const {
         if (!p.allFinite())
             return {};
         Box box;
         box.take(p.head<2>(), margin);
-        return lanes.near(box);
+        std::vector<std::uint32_t> found = lanes.near(box);
+        std::erase_if(found, [&](std::uint32_t lane) { return !touch(around[lane], box); });
+        return found;
     }
 };
 
@@ -71,6 +109,9 @@ LaneMap::LaneMap(const TownT& town) : town_(&town), grid_(std::make_unique<Grid>
         if (is_for_cars(town.lanes[i]) || is_walkable(town.lanes[i]))
             add_boxes(town.lanes[i], i, entries);
     grid_->lanes = BoxGrid(entries);
+    grid_->around.resize(town.lanes.size());
+    for (const BoxGrid::Entry& entry : entries)
+        grid_->around[entry.item].take(entry.box);
 }
 
 LaneMap::~LaneMap() = default;
@@ -79,9 +120,10 @@ LaneMap& LaneMap::operator=(LaneMap&&) noexcept = default;
 
 std::vector<LaneMap::Found> LaneMap::at(const Eigen::Vector3d& p_world, double margin) const {
     std::vector<Found> found;
-    for (const std::uint32_t index : grid_->near(p_world, std::max(margin, seam))) {
+    for (const std::uint32_t index : grid_->near(p_world, 2 * std::max(margin, seam) + rounding)) {
         const LaneT& lane = town_->lanes[index];
-        if (!is_for_cars(lane))
+        if (!is_for_cars(lane) ||
+            !is_within_reach(lane, p_world.head<2>(), ribbon_reach(lane, margin)))
             continue;
         const LaneProjection projection = project(lane, p_world);
         if (is_on_ribbon(lane, projection, p_world, margin))
@@ -92,16 +134,18 @@ std::vector<LaneMap::Found> LaneMap::at(const Eigen::Vector3d& p_world, double m
 
 std::vector<LaneMap::Found> LaneMap::walkable_at(const Eigen::Vector3d& p_world) const {
     std::vector<Found> found;
-    for (const std::uint32_t index : grid_->near(p_world, seam)) {
+    for (const std::uint32_t index : grid_->near(p_world, 2 * seam + rounding)) {
         const LaneT& lane = town_->lanes[index];
         if (!is_walkable(lane))
             continue;
+        const bool may_hold = lane.outline.empty()
+                                  ? is_within_reach(lane, p_world.head<2>(), ribbon_reach(lane, 0))
+                                  : is_near_in_height(lane.outline, p_world.z()) &&
+                                        contains(in_plan(lane.outline), p_world.head<2>());
+        if (!may_hold)
+            continue;
         const LaneProjection projection = project(lane, p_world);
-        const bool holds = lane.outline.empty()
-                               ? is_on_ribbon(lane, projection, p_world, 0)
-                               : contains(in_plan(lane.outline), p_world.head<2>()) &&
-                                     is_near_in_height(lane.outline, p_world.z());
-        if (holds)
+        if (!lane.outline.empty() || is_on_ribbon(lane, projection, p_world, 0))
             found.push_back({index, projection});
     }
     return found;
@@ -114,7 +158,7 @@ std::optional<LaneMap::Found> LaneMap::best(const Eigen::Vector3d& p_world,
     double least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t index : grid_->near(p_world, reach)) {
         const LaneT& lane = town_->lanes[index];
-        if (!is_for_cars(lane))
+        if (!is_for_cars(lane) || !is_within_reach(lane, p_world.head<2>(), reach + rounding))
             continue;
         const LaneProjection projection = project(lane, p_world);
         const double turn = std::abs(wrap_angle(point_at(lane, projection.s).yaw - yaw));
