@@ -54,6 +54,13 @@ Ground::Ground(const ground::GroundMesh& mesh, btDynamicsWorld& world)
     indexed.m_vertexType = PHY_DOUBLE;
     arrays_.addIndexedMesh(indexed, PHY_INTEGER);
     shape_ = std::make_unique<btBvhTriangleMeshShape>(&arrays_, true);
+    std::vector<RayGrid::Corners> corners;
+    corners.reserve(mesh.triangles.size());
+    for (const auto& t : mesh.triangles)
+        corners.push_back({to_bullet(mesh.vertices[t[0]]),
+                           to_bullet(mesh.vertices[t[1]]),
+                           to_bullet(mesh.vertices[t[2]])});
+    rays_ = std::make_unique<RayGrid>(*shape_->getOptimizedBvh(), std::move(corners));
 
     btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape_.get());
     info.m_friction = 0.6;
@@ -69,7 +76,7 @@ Ground::~Ground() {
 
 bool Ground::cast(const btVector3& from, const btVector3& to, Hit& hit) const {
     FirstTriangle first(from, to);
-    shape_->performRaycast(&first, from, to);
+    rays_->cast(first, from, to);
     if (first.index < 0)
         return false;
     hit.fraction = first.best;
