@@ -53,7 +53,7 @@ Ground::Ground(const ground::GroundMesh& mesh, btDynamicsWorld& world)
     indexed.m_vertexStride = sizeof(vertices_[0]);
     indexed.m_vertexType = PHY_DOUBLE;
     arrays_.addIndexedMesh(indexed, PHY_INTEGER);
-    shape_ = std::make_unique<btBvhTriangleMeshShape>(&arrays_, true);
+    shape_ = std::make_unique<GroundShape>(&arrays_, true);
     std::vector<RayGrid::Corners> corners;
     corners.reserve(mesh.triangles.size());
     for (const auto& t : mesh.triangles)

@@ -7,6 +7,7 @@
 
 #include "ground/mesh/ground.h"
 #include "kernel/physics/bullet.h"
+#include "kernel/physics/ground_shape.h"
 #include "kernel/physics/ray_grid.h"
 
 namespace reprise::kernel {
@@ -35,7 +36,7 @@ class Ground {
     std::vector<std::array<int, 3>> triangles_;
     std::vector<ground::Surface> surfaces_;
     btTriangleIndexVertexArray arrays_;
-    std::unique_ptr<btBvhTriangleMeshShape> shape_;
+    std::unique_ptr<GroundShape> shape_;
     std::unique_ptr<RayGrid> rays_;
     std::unique_ptr<btRigidBody> body_;
     btDynamicsWorld* world_;

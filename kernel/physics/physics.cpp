@@ -8,6 +8,7 @@
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/collisions.h"
 #include "kernel/physics/ground.h"
+#include "kernel/physics/ground_shape.h"
 #include "kernel/physics/near_cars.h"
 #include "kernel/physics/near_obstacles.h"
 #include "kernel/physics/vehicle.h"
@@ -28,6 +29,10 @@ struct Bullet {
         gDisableDeactivation = false;
         world.setGravity(btVector3(0, 0, 0));  // vehicles bring their weight: see RaycastCar
         world.setForceUpdateAllAabbs(false);   // same results, and static bodies cost nothing
+        dispatcher.registerCollisionCreateFunc(
+            BOX_SHAPE_PROXYTYPE, TRIANGLE_MESH_SHAPE_PROXYTYPE, &box_on_ground);
+        dispatcher.registerCollisionCreateFunc(
+            TRIANGLE_MESH_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &ground_under_box);
         btDispatcherInfo& dispatch = world.getDispatchInfo();
         dispatch.m_deterministicOverlappingPairs = true;
         dispatch.m_useContinuous = false;
@@ -40,6 +45,8 @@ struct Bullet {
     }
 
     btDefaultCollisionConfiguration configuration;
+    BoxOnGround::Maker box_on_ground{false};
+    BoxOnGround::Maker ground_under_box{true};
     btCollisionDispatcher dispatcher;
     btDbvtBroadphase pairs;
     btSequentialImpulseConstraintSolver solver;
