@@ -2,6 +2,7 @@
 
 // Private to the room: Bullet, and what turns its vectors into ours. Nothing that another room
 // includes may include this.
+#include <BulletCollision/CollisionDispatch/btConvexConcaveCollisionAlgorithm.h>
 #include <BulletDynamics/Vehicle/btRaycastVehicle.h>
 #include <Eigen/Geometry>
 #include <btBulletDynamicsCommon.h>

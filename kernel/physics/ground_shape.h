@@ -1,7 +1,5 @@
 #pragma once
 
-#include <BulletCollision/CollisionDispatch/btConvexConcaveCollisionAlgorithm.h>
-
 #include "kernel/physics/bullet.h"
 
 namespace reprise::kernel {
