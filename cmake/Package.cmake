@@ -26,5 +26,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/generated/RepriseConfigVe
 install(FILES ${PROJECT_BINARY_DIR}/generated/RepriseConfig.cmake
               ${PROJECT_BINARY_DIR}/generated/RepriseConfigVersion.cmake
               ${PROJECT_SOURCE_DIR}/cmake/PlainLibrary.cmake ${PROJECT_SOURCE_DIR}/cmake/PortableFunctions.cmake
-              ${portable_math_object}
         DESTINATION ${package_folder})
+install(FILES ${portable_math_linked} DESTINATION ${package_folder} RENAME portable_math.o)

@@ -13,6 +13,13 @@ add_custom_command(
   COMMAND ${CMAKE_LINKER} -r -o ${portable_math_object}.all ${wanted} ${MUSL_LIBC}
   COMMAND ${CMAKE_OBJCOPY} ${kept} ${portable_math_object}.all ${portable_math_object}
   DEPENDS ${MUSL_LIBC} VERBATIM)
-add_custom_target(portable_math_object DEPENDS ${portable_math_object})
+# The same code, whose pow gives way to one that scripts pay for, and has a second name for it.
+set(portable_math_linked ${PROJECT_BINARY_DIR}/generated/portable_math_linked.o)
+add_custom_command(
+  OUTPUT ${portable_math_linked}
+  COMMAND ${CMAKE_LINKER} -r -o ${portable_math_linked}.all --defsym=portable_pow=pow ${portable_math_object}
+  COMMAND ${CMAKE_OBJCOPY} --weaken-symbol=pow ${portable_math_linked}.all ${portable_math_linked}
+  DEPENDS ${portable_math_object} VERBATIM)
+add_custom_target(portable_math_object DEPENDS ${portable_math_object} ${portable_math_linked})
 add_library(portable_math OBJECT IMPORTED GLOBAL)
-set_target_properties(portable_math PROPERTIES IMPORTED_OBJECTS ${portable_math_object})
+set_target_properties(portable_math PROPERTIES IMPORTED_OBJECTS ${portable_math_linked})

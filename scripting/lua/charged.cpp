@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <dlfcn.h>
 
 #include <locale.h>
 #include <stdlib.h>
@@ -84,6 +85,23 @@ extern "C" double fmod(double x, double y) noexcept {
     reprise::scripting::charge_running(static_cast<std::uint64_t>(bits) / 64);
     const std::uint64_t rest = reprise::scripting::shifted_remainder(top % divisor, bits, divisor);
     return std::copysign(std::ldexp(static_cast<double>(rest), exponent), x);
+}
+
+/// Musl's, under the name that cmake/PortableMath.cmake gives it; null in a program without it.
+extern "C" double portable_pow(double base, double exponent) noexcept __attribute__((weak));
+
+/// Lua's x ^ y. Where a number is too small to be normal the processor takes a hundred times as
+/// long as for an instruction of Lua's.
+extern "C" double pow(double base, double exponent) noexcept {
+    constexpr std::uint64_t subnormal_cost = 15;  // [instructions]
+    using Function = double (*)(double, double) noexcept;
+    static const Function power = portable_pow != nullptr
+                                      ? portable_pow
+                                      : reinterpret_cast<Function>(dlsym(RTLD_NEXT, "pow"));
+    const double result = power(base, exponent);
+    if (std::fpclassify(result) == FP_SUBNORMAL || std::fpclassify(base) == FP_SUBNORMAL)
+        reprise::scripting::charge_running(subnormal_cost);
+    return result;
 }
 
 /// Lua's `..` writes a float with it, which takes as long as 100 instructions. The name is the one

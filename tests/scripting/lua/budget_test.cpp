@@ -58,6 +58,13 @@ TEST(Budget, HoldsInTheHeaderToo) {
     EXPECT_EQ(test::mistake_in_file("while true do end"), std::string("test.lua:1") + spent);
 }
 
+TEST(Budget, IsSpentByPowersThatAreNearlyNothing) {
+    // A tenth of the budget in instructions, 1.6 times the budget with what they really take.
+    const std::string loop = "local a, b, x = 1.0000001, -7.3e9 for i = 1, 5e5 do x = ";
+    EXPECT_EQ(mistake(loop + "b ^ 3 x = a ^ 3 end"), "");
+    EXPECT_EQ(mistake(loop + "a ^ b x = a ^ b end"), std::string("test.lua:1") + spent);
+}
+
 TEST(Budget, HoldsInChecksAndConditions) {
     EXPECT_EQ(mistake("check.never('x', function()\nwhile true do end end) wait(1)"),
               std::string("test.lua:2") + spent);
