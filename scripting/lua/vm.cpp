@@ -81,6 +81,24 @@ void charge_running_vm(std::uint64_t instructions) {
         running_vm->charge_later(instructions);
 }
 
+/// Gives the compiler a text line by line, and so knows in which one it is.
+struct SourceLines {
+    std::string_view rest;
+    std::uint32_t& line;
+};
+
+const char* next_line(lua_State*, void* data, std::size_t* size) {
+    auto& lines = *static_cast<SourceLines*>(data);
+    const std::size_t end = lines.rest.find('\n');
+    *size = end == std::string_view::npos ? lines.rest.size() : end + 1;
+    if (*size == 0)
+        return nullptr;
+    ++lines.line;
+    const char* const start = lines.rest.data();
+    lines.rest.remove_prefix(*size);
+    return start;
+}
+
 int panic(lua_State* L) {
     const char* text = lua_tostring(L, -1);
     throw world::CheckFailed(
@@ -265,7 +283,7 @@ std::uint32_t Vm::line(lua_State* L) const {
         if (frame.currentline > 0 && chunk == frame.source)
             return static_cast<std::uint32_t>(frame.currentline);
     }
-    return 0;
+    return compiled_line_;
 }
 
 std::string Vm::position(lua_State* L) const {
@@ -276,9 +294,12 @@ std::string Vm::position(lua_State* L) const {
 void Vm::execute(std::string_view source, const std::string& chunk, int environment) {
     const int environment_index = lua_absindex(main_, environment);
     const Running running(*this, main_);
-    const int status = luaL_loadbufferx(main_, source.data(), source.size(), chunk.c_str(), "t");
+    compiled_line_ = 0;
+    SourceLines lines{source, compiled_line_};
+    const int status = lua_load(main_, next_line, &lines, chunk.c_str(), "t");
     if (status != LUA_OK)
         fail(main_, status);
+    compiled_line_ = 0;
     lua_pushvalue(main_, environment_index);
     lua_setupvalue(main_, -2, 1);
     call(0, 1);
@@ -354,7 +375,7 @@ void Vm::fail(lua_State* L, int status) {
     if (latched_)
         throw world::Error(printable(*latched_));
     if (status == LUA_ERRMEM)
-        throw world::Error(script_ + ": the scenario needs more than 64 MB of memory");
+        throw world::Error(position(L) + "the scenario needs more than 64 MB of memory");
     std::string message = with_position(L, message_at_top(L));
     // A script's own error() may hold many lines; a message is one.
     if (const auto end = message.find('\n'); end != std::string::npos)

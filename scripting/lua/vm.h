@@ -111,7 +111,7 @@ class Vm {
     /// there is none.
     std::string position(lua_State* L) const;
 
-    /// The line of it; 0 when there is none.
+    /// The line of it, or the one that is being compiled; 0 when there is neither.
     std::uint32_t line(lua_State* L) const;
 
     Run* run = nullptr;        ///< none while only the header is read
@@ -143,7 +143,8 @@ class Vm {
 
     std::string script_;
     lua_State* main_ = nullptr;
-    lua_State* current_ = nullptr;  ///< the stack that runs now
+    lua_State* current_ = nullptr;     ///< the stack that runs now
+    std::uint32_t compiled_line_ = 0;  ///< that Lua's compiler reads; 0: it does not run
     Account account_;
     Memory memory_{account_};
     int collections_ = 0;          ///< of memory, in this tick
