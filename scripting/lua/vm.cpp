@@ -246,9 +246,12 @@ void Vm::pay_ahead(lua_State* L) {
 
 void Vm::charge(lua_State* L, std::uint64_t instructions) {
     account_.take(instructions);
-    if (!is_latched() && account_.in_tick > budget_per_tick)
+    if (!is_latched() && account_.in_tick > budget_)
         latch(position(L) +
-              "more than 10,000,000 instructions in one tick: a loop without wait()?");
+              (budget_ == budget_per_tick
+                   ? "more than 10,000,000 instructions in one tick: a loop without wait()?"
+                   : "more than 2,500,000 instructions before the first tick: a loop outside of "
+                     "run?"));
     if (is_latched())
         raise(L, "");
 }

@@ -25,6 +25,10 @@ extern const std::string_view prelude_source;
 /// that is not seen in instructions is charged as such: Memory, `charge`.
 inline constexpr std::uint64_t budget_per_tick = 10'000'000;
 
+/// The same until the first tick: to compile the file and to run what stands outside of functions.
+/// A run does it twice, once to know its town and once to play.
+inline constexpr std::uint64_t budget_per_load = 2'500'000;
+
 /// One Lua machine: its memory, its budget, and how its mistakes become world::Error.
 ///
 /// What must it do?   Run a stranger's code so that it answers the same in every run, always comes
@@ -69,6 +73,7 @@ class Vm {
     /// Fills the account for the next tick.
     void refill() {
         account_.in_tick = 0;
+        budget_ = budget_per_tick;
         collections_ = 0;
     }
 
@@ -146,6 +151,7 @@ class Vm {
     lua_State* current_ = nullptr;     ///< the stack that runs now
     std::uint32_t compiled_line_ = 0;  ///< that Lua's compiler reads; 0: it does not run
     Account account_;
+    std::uint64_t budget_ = budget_per_load;  ///< [VM instructions] until the next refill
     Memory memory_{account_};
     int collections_ = 0;          ///< of memory, in this tick
     std::size_t chain_ = 0;        ///< the longest that the script made, in tables

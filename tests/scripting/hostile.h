@@ -25,5 +25,7 @@ std::vector<Hostile> hostile_asks();   ///< to the world
 std::string times(int count, const std::string& text);
 
 inline constexpr const char* spent_in_a_tick = "more than 10,000,000 instructions in one tick";
+inline constexpr const char* spent_in_a_load =
+    "more than 2,500,000 instructions before the first tick";
 
 }  // namespace reprise::test

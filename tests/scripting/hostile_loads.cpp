@@ -1,5 +1,8 @@
 #include "tests/scripting/hostile.h"
 
+#include <cstdint>
+#include <ostream>
+
 namespace reprise::test {
 
 namespace {
@@ -40,6 +43,10 @@ std::string multiples(std::int64_t factor, int count) {
 }
 
 }  // namespace
+
+void PrintTo(const Hostile& script, std::ostream* out) {
+    *out << script.name;
+}
 
 std::string times(int count, const std::string& text) {
     std::string all;
@@ -92,7 +99,11 @@ std::vector<Hostile> hostile_loads() {
         {"ManyFunctions", file("local t={" + times(65'000, "function()end,") + "}"), ""},
         {"LongList", file("local t={" + times(450'000, "1,") + "}"), ""},
         {"LargerThanAMegabyte", file(times(1'100'000, " ")), "more than 1 MB"},
-        {"LoopInTheHeader", file("while true do end"), spent_in_a_tick},
+        {"LoopInTheHeader", file("while true do end"), spent_in_a_load},
+        {"WorkInTheHeader",
+         file("local s = ('a'):rep(60000) local p = '%f[' .. ('b'):rep(60000) .. ']' while true do "
+              "s:find(p) end"),
+         spent_in_a_load},
     };
 }
 

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <ostream>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -12,10 +11,6 @@
 
 // No tick and no load takes longer than 2 s of the processor's time, whatever the script.
 namespace reprise::test {
-
-void PrintTo(const Hostile& script, std::ostream* out) {
-    *out << script.name;
-}
 
 namespace {
 

@@ -55,7 +55,13 @@ TEST(Budget, IsOneForTheLastTickToo) {
 }
 
 TEST(Budget, HoldsInTheHeaderToo) {
-    EXPECT_EQ(test::mistake_in_file("while true do end"), std::string("test.lua:1") + spent);
+    EXPECT_EQ(test::mistake_in_file("while true do end"),
+              "test.lua:1: more than 2,500,000 instructions before the first tick: a loop outside "
+              "of run?");
+}
+
+TEST(Budget, OfTheFirstTickIsWhole) {
+    EXPECT_EQ(mistake("for i = 1, 9e6 do end"), "");
 }
 
 TEST(Budget, IsSpentByPowersThatAreNearlyNothing) {
