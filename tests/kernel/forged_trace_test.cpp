@@ -10,6 +10,7 @@
 #include "replay/chain_seed.h"
 #include "replay/noun_check.h"
 #include "replay/outcomes.h"
+#include "replay/recovery.h"
 #include "replay/slice.h"
 #include "replay/trace_facts.h"
 #include "replay/trace_file.h"
@@ -201,6 +202,26 @@ TEST_F(ForgedTrace, IsToldOfABranchAndOfASlice) {
     TraceReader trace(whole_);
     slice(trace, 1, 4, part);
     flip_bytes(part, 12);
+}
+
+TEST_F(ForgedTrace, IsToldOfAMergedAndOfARecoveredTrace) {
+    const auto merged = folder_ / "merged.mcap";
+    {
+        TraceReader trace(whole_);
+        slice(trace, 1, 3, folder_ / "1.mcap");
+        slice(trace, 4, 6, folder_ / "2.mcap");
+        std::vector<TraceReader> parts;
+        parts.emplace_back(folder_ / "1.mcap");
+        parts.emplace_back(folder_ / "2.mcap");
+        merge(parts, merged);
+    }
+    flip_bytes(merged, 12);
+    Bytes bytes = read_file(whole_);
+    bytes.resize(bytes.size() - mcap::tail_size);
+    write_file(folder_ / "cut.mcap", bytes);
+    const auto recovered = folder_ / "recovered.mcap";
+    replay::recover(folder_ / "cut.mcap", recovered);
+    flip_bytes(recovered, 12);
 }
 
 /// Every value of the episode, changed in all places where it is, with the ticks as they were. Only
