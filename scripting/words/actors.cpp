@@ -88,6 +88,17 @@ Actor& Actors::add(Actor actor) {
     return actors_.back();
 }
 
+std::size_t Actors::vehicles_near(const Eigen::Vector3d& p_world, double radius) const {
+    const auto near = [&](const Actor& actor) {
+        if (actor.is_walker() || actor.presence == Actor::Presence::gone)
+            return false;
+        const bool here = actor.presence == Actor::Presence::here;
+        return (here || actor.p_world_asked) &&
+               ((here ? actor.position : *actor.p_world_asked) - p_world).norm() <= radius;
+    };
+    return static_cast<std::size_t>(std::count_if(actors_.begin(), actors_.end(), near));
+}
+
 const Actor* Actors::find(const std::string& name) const {
     const auto found = std::find_if(
         actors_.begin(), actors_.end(), [&](const Actor& actor) { return actor.name == name; });

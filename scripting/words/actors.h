@@ -38,8 +38,9 @@ struct Actor {
     std::uint64_t asked_at = 0;  ///< tick in which the scenario asked for it
     Presence presence = Presence::coming;
     std::uint64_t gone_at = 0;
-    double travelled = 0;               ///< [m] since spawn
-    Eigen::Vector3d position{0, 0, 0};  ///< where it was last seen, world
+    double travelled = 0;                            ///< [m] since spawn
+    Eigen::Vector3d position{0, 0, 0};               ///< where it was last seen, world
+    std::optional<Eigen::Vector3d> p_world_asked{};  ///< where it is to come, if that was said
     Contacts contacts;
 
     bool is_walker() const { return driver == world::Driver::walker; }
@@ -86,6 +87,9 @@ class Actors {
     };
 
     Count present() const { return present_; }
+
+    /// Vehicles that are, or are about to come, within so many metres. O(actors).
+    std::size_t vehicles_near(const Eigen::Vector3d& p_world, double radius) const;
 
     /// Null when nobody has that name.
     const Actor* find(const std::string& name) const;

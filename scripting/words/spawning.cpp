@@ -74,9 +74,15 @@ void want_room(const Run& run, const Actor& actor) {
                            most_driven_actors));
 }
 
-/// Lane, s and offset into the command.
+/// As the kernel will put it down, roughly: on the centre line, then aside.
+Eigen::Vector3d place_of(const world::LaneT& lane, const world::CommandT& command) {
+    const world::LanePoint at = world::point_at(lane, command.s);
+    return at.position + command.offset * Eigen::Vector3d(-std::sin(at.yaw), std::cos(at.yaw), 0);
+}
+
+/// Lane, s and offset into the command, the place into the actor.
 void read_place(
-    Run& run, lua_State* L, const Fields& fields, const Actor& actor, world::CommandT& command) {
+    Run& run, lua_State* L, const Fields& fields, Actor& actor, world::CommandT& command) {
     const auto name = fields.text("lane");
     if (!name) {
         if (actor.is_walker() || actor.driver == world::Driver::parked)
@@ -112,6 +118,13 @@ void read_place(
                            farthest,
                            drives ? ", half the width of '" + *name + "'" : "",
                            number_text(command.offset)));
+    actor.p_world_asked = place_of(lane, command);
+    if (!actor.is_walker() &&
+        run.actors.vehicles_near(*actor.p_world_asked, place_radius) >= most_in_a_place)
+        refuse("spawn",
+               fmt::format("more than {} vehicles within {:.0f} m: they would stand in each other",
+                           most_in_a_place,
+                           place_radius));
 }
 
 /// [ticks]
