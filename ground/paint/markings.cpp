@@ -15,6 +15,7 @@
 #include "ground/paint/stop_lines.h"
 #include "ground/paint/turn_arrows.h"
 #include "world/frames.h"
+#include "world/lane_starts.h"
 #include "world/tick.h"
 #include "world/town.h"
 
@@ -84,10 +85,11 @@ Painter::Painter(const world::TownT& town)
 }
 
 void Painter::paint_dashed(const Line& line) {
-    const double length = length_of(line);
+    const MeasuredLine measured(line);
+    const double length = measured.length();
     // Half a gap at both ends, so that the pattern runs on across a seam of two lanes.
     for (double s = (dash_period - dash_length) / 2; s + dash_length <= length; s += dash_period)
-        paint_.line(stretch(line, s, s + dash_length), line_width);
+        paint_.line(measured.stretch(s, s + dash_length), line_width);
 }
 
 /// Between opposite directions: dashed in towns on roads of one lane each way; solid near
@@ -101,14 +103,16 @@ void Painter::paint_centre_line(const world::LaneT& lane, const Line& line) {
     const auto meets = [&](std::uint32_t junction) {
         return junction < roads_meet_.size() && roads_meet_[junction];
     };
-    const double length = length_of(line);
+    const MeasuredLine measured(line);
+    const double length = measured.length();
     const double scale = lane.length / length;
+    const world::LaneStarts starts(lane);
     // Who comes the other way ends where this lane starts.
     const double first_dash = meets(town_.lanes[lane.opposite].junction) ? near_junction : 0;
     const double last_dash = length - (meets(lane.junction) ? near_junction : 0);
     const auto is_bend = [&](double s) {
-        const double before = world::point_at(lane, (s - bend_ahead) * scale).yaw;
-        const double after = world::point_at(lane, (s + bend_ahead) * scale).yaw;
+        const double before = starts.at(lane, (s - bend_ahead) * scale).yaw;
+        const double after = starts.at(lane, (s + bend_ahead) * scale).yaw;
         return std::abs(world::wrap_angle(after - before)) > bend;
     };
     constexpr double margin = (dash_period - dash_length) / 2;
@@ -119,13 +123,13 @@ void Painter::paint_centre_line(const world::LaneT& lane, const Line& line) {
             continue;
         // What came before is solid as far as this dash's gap.
         if (s > solid_from)
-            paint_.line(stretch(line, solid_from, s), line_width);
-        paint_.line(stretch(line, s + margin, std::min(s + margin + dash_length, next)),
+            paint_.line(measured.stretch(solid_from, s), line_width);
+        paint_.line(measured.stretch(s + margin, std::min(s + margin + dash_length, next)),
                     line_width);
         solid_from = next;
     }
     if (length > solid_from)
-        paint_.line(stretch(line, solid_from, length), line_width);
+        paint_.line(measured.stretch(solid_from, length), line_width);
 }
 
 void Painter::paint_inner_edge(std::uint32_t index, const Line& centre) {
@@ -164,11 +168,12 @@ void Painter::paint_lane(std::uint32_t index) {
 
 void Painter::paint_zebra(const world::LaneT& lane, const SurfaceHeight& road) {
     const Line centre = clean_line(lane.centre);
-    const double length = length_of(centre);
+    const MeasuredLine measured(centre);
+    const double length = measured.length();
     const auto height = [&](const Eigen::Vector2d& p) { return road.at(p) + paint_height; };
     const double cell = road.is_plane() ? 0 : surface_cell;
     for (double s = stripe_width / 2; s + stripe_width <= length; s += 2 * stripe_width) {
-        const Line stripe = stretch(centre, s, s + stripe_width);
+        const Line stripe = measured.stretch(s, s + stripe_width);
         if (stripe.size() < 2)
             continue;
         const Ribbon ribbon = make_ribbon(stripe, -lane.width / 2, lane.width / 2);

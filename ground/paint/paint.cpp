@@ -12,20 +12,30 @@ double length_of(const Line& line) {
 }
 
 Line stretch(const Line& line, double from, double to) {
+    return MeasuredLine(line).stretch(from, to);
+}
+
+MeasuredLine::MeasuredLine(const Line& line) : line_(line), passed_{0} {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+        passed_.push_back(passed_.back() + (line[i + 1] - line[i]).norm());
+}
+
+Line MeasuredLine::stretch(double from, double to) const {
     constexpr double shortest = 1e-3;
     Line part;
-    double passed = 0;
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        const Eigen::Vector3d along = line[i + 1] - line[i];
+    const auto behind = std::upper_bound(passed_.begin(), passed_.end(), from);
+    std::size_t i =
+        behind == passed_.begin() ? 0 : static_cast<std::size_t>(behind - passed_.begin()) - 1;
+    for (; i + 1 < line_.size() && passed_[i] < to; ++i) {
+        const Eigen::Vector3d along = line_[i + 1] - line_[i];
         const double length = along.norm();
-        const double first = std::max(from, passed);
-        const double last = std::min(to, passed + length);
+        const double first = std::max(from, passed_[i]);
+        const double last = std::min(to, passed_[i + 1]);
         if (last - first > shortest) {
             if (part.empty())
-                part.push_back(line[i] + along * ((first - passed) / length));
-            part.push_back(line[i] + along * ((last - passed) / length));
+                part.push_back(line_[i] + along * ((first - passed_[i]) / length));
+            part.push_back(line_[i] + along * ((last - passed_[i]) / length));
         }
-        passed += length;
     }
     return part;
 }

@@ -18,6 +18,22 @@ double length_of(const Line& line);
 /// The part of a line between two arc lengths, from < to.
 Line stretch(const Line& line, double from, double to);
 
+/// A line of which many parts are asked for.
+class MeasuredLine {
+  public:
+    /// `line` must outlive this.
+    explicit MeasuredLine(const Line& line);
+
+    double length() const { return passed_.back(); }
+
+    /// As stretch(line, from, to), but without a walk to its start.
+    Line stretch(double from, double to) const;
+
+  private:
+    const Line& line_;
+    std::vector<double> passed_;  ///< [m] to each of its points; 0 of an empty line
+};
+
 /// Gathers what is painted on roads.
 class Paint {
   public:

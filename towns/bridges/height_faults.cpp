@@ -17,6 +17,7 @@
 #include "towns/check/walk_check.h"
 #include "towns/check/walk_map.h"
 #include "world/frames.h"
+#include "world/lane_starts.h"
 #include "world/town.h"
 
 namespace reprise::towns {
@@ -47,15 +48,17 @@ void find_ramps(const world::TownT& town, std::vector<HeightFault>& faults) {
 void find_low_roads(const world::TownT& town,
                     const ground::GroundProbe& probe,
                     std::vector<HeightFault>& faults) {
-    for (const world::LaneT& lane : town.lanes)
+    for (const world::LaneT& lane : town.lanes) {
+        const world::LaneStarts starts(lane);
         for (double s = step / 2; s < lane.length; s += step) {
-            const Eigen::Vector3d p = world::point_at(lane, s).position;
+            const Eigen::Vector3d p = starts.at(lane, s).position;
             const auto hit = probe.below(p + headroom * Eigen::Vector3d::UnitZ());
             if (!hit || hit->surface == ground::Surface::terrain || hit->z < p.z() + surface)
                 continue;
             faults.push_back({HeightFault::Kind::low, p.head<2>()});
             break;
         }
+    }
 }
 
 bool all_pass(const std::vector<Criterion>& criteria) {

@@ -6,6 +6,7 @@
 
 #include "ground/mesh/ground.h"
 #include "towns/furnish/props.h"
+#include "world/lane_starts.h"
 #include "world/models/catalogue.h"
 
 namespace reprise::towns {
@@ -106,12 +107,13 @@ void park_along_wide_lanes(PlacementContext& context) {
         if (!roadside.kerb_side || roadside.driven == world::none)
             continue;
         const world::LaneT& lane = context.town.lanes[roadside.driven];
+        const world::LaneStarts starts(lane);
         Draws draws(context.seed, Purpose::furniture, 3ULL << 32 | i);
         for (double s = 20; s < lane.length - 20; s += 6.5) {
             const std::uint16_t model = choose_parked_model(draws);
             const VehicleModel& car = world::vehicle_models()[model];
             const double offset = lane.width / 2 - car_from_kerb - car.width / 2;
-            const world::LanePoint at = world::point_at(lane, s);
+            const world::LanePoint at = starts.at(lane, s);
             const Vector2d middle =
                 at.position.head<2>() + world::left_of(at.yaw) * (side * offset);
             const Footprint footprint{middle, at.yaw, car.length, car.width};

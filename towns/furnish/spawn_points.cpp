@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ground/mesh/ground.h"
+#include "world/lane_starts.h"
 #include "world/town_generated.h"
 
 namespace reprise::towns {
@@ -39,8 +40,9 @@ void add_spawn_point(PlacementContext& context,
 
 void add_on_driving_lane(PlacementContext& context, std::uint32_t index) {
     const LaneT& lane = context.town.lanes[index];
+    const world::LaneStarts starts(lane);
     for (double s = after_junction; s <= lane.length - before_end; s += vehicle_spacing) {
-        const world::LanePoint at = world::point_at(lane, s);
+        const world::LanePoint at = starts.at(lane, s);
         if (context.solid.is_clear({at.position.head<2>(), at.yaw, longest_start, car_width}, 0.3))
             add_spawn_point(context, index, s, at, at.position.head<2>(), 0);
     }
@@ -48,8 +50,9 @@ void add_on_driving_lane(PlacementContext& context, std::uint32_t index) {
 
 void add_on_sidewalk(PlacementContext& context, std::uint32_t index) {
     const LaneT& lane = context.town.lanes[index];
+    const world::LaneStarts starts(lane);
     for (double s = walker_end; s <= lane.length - walker_end; s += walker_spacing) {
-        const world::LanePoint at = world::point_at(lane, s);
+        const world::LanePoint at = starts.at(lane, s);
         const Vector2d left = world::left_of(at.yaw);
         // Beside what stands in the middle.
         for (const double t : std::array{0.0, 0.4, -0.4, 0.8, -0.8}) {
