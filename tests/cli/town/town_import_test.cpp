@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "process/program.h"
 #include "tests/cli/program.h"
 
 namespace reprise::test {
@@ -195,6 +196,39 @@ TEST(TownImport, DoesNotTrustTheExitCodeOfNetconvert) {
         EXPECT_THAT(result.out, HasSubstr(one.said));
         EXPECT_THAT(folder.files(), ElementsAre("bin/netconvert"));
     }
+}
+
+/// What would take hours or gigabytes is refused before netconvert sees it.
+TEST(TownImport, OfAnImpossibleOpenDriveMapIsShortAndSmall) {
+    const Folder folder;
+    const std::string map = read_file(source("tests/maps/bridge.xodr"));
+    const auto refused = [&](const std::string& from, const std::string& to) {
+        std::string changed = map;
+        changed.replace(changed.find(from), from.size(), to);
+        write_file(folder / "m.xodr", changed);
+        const process::ProgramResult result =
+            process::run_program({.name = REPRISE_PROGRAM,
+                                  .words = {"town", "import", "m.xodr", "-o", "t"},
+                                  .folder = folder.path(),
+                                  .limits = {.memory = std::uint64_t{600} << 20U, .seconds = 2}});
+        EXPECT_EQ(result.code, 2) << result.said;
+        EXPECT_THAT(folder.files(), ElementsAre("m.xodr"));
+        return result.said;
+    };
+    EXPECT_THAT(refused("length=\"618.451302\"", "length=\"6e9\""),
+                HasSubstr("m.xodr:3: <road>: "));
+    EXPECT_THAT(refused("curvature=\"0.025", "curvature=\"1e7"), HasSubstr("m.xodr:3: <arc>: "));
+    EXPECT_THAT(refused("x=\"135.000000\"", "x=\"9e7\""), HasSubstr("m.xodr:3: <geometry>: "));
+    std::string lanes;
+    for (int i = 0; i < 100'000; ++i)
+        lanes += "<lane id=\"-3\" type=\"driving\"><width a=\"3\"/></lane>";
+    EXPECT_THAT(refused("</right>", lanes + "</right>"), HasSubstr("m.xodr:3: <laneSection>: "));
+    std::string deep;
+    for (int i = 0; i < 100'000; ++i)
+        deep += "<userData>";
+    for (int i = 0; i < 100'000; ++i)
+        deep += "</userData>";
+    EXPECT_THAT(refused("</right>", deep + "</right>"), HasSubstr("nested more than 1000 deep"));
 }
 
 TEST(TownImport, OfABrokenMapStopsARun) {
