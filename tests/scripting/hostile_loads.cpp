@@ -1,7 +1,7 @@
-#include "tests/scripting/hostile.h"
-
 #include <cstdint>
 #include <ostream>
+
+#include "tests/scripting/hostile.h"
 
 namespace reprise::test {
 
