@@ -1,10 +1,8 @@
 // A whole tick, recorded, beside its bare parts in the same run: one bare libsumo step with the
 // same cars, and ten bare Bullet substeps with the same bodies.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -15,43 +13,20 @@
 #include "replay/trace_writer.h"
 #include "tests/bench/bare_bullet.h"
 #include "tests/bench/drive.h"
+#include "tests/bench/timer.h"
 #include "traffic/background.h"
 #include "world/frames.h"
 
 namespace {
 
 using namespace reprise;
-using Clock = std::chrono::steady_clock;
 
 constexpr int rounds = 3;     // whole, bare, whole, bare, ...: the machine's mood hits both
 constexpr int warm_up = 200;  // ticks until queues have formed
 constexpr int measured = 400;
 constexpr double near_distance = 60;  // [m] as far as physics keeps bodies
 
-/// Sums and medians of what was timed tick by tick: one slow tick of a busy machine does not count.
-class Timer {
-  public:
-    /// Times `work`. [s]
-    template <typename Work>
-    void time(const Work& work) {
-        const auto begin = Clock::now();
-        work();
-        times_.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
-    }
-
-    double sum() const { return std::accumulate(times_.begin(), times_.end(), 0.0); }
-
-    double median() const {
-        std::vector<double> sorted = times_;
-        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-        std::nth_element(sorted.begin(), middle, sorted.end());
-        return *middle;
-    }
-
-  private:
-    std::vector<double> times_;
-};
-
+using bench::Timer;
 Timer* sumo_watch = nullptr;  // while a run is measured
 
 }  // namespace
