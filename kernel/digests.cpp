@@ -6,6 +6,21 @@
 
 namespace reprise::kernel {
 
+namespace {
+
+void add(world::Hasher& hasher, const world::SensorT& sensor) {
+    hasher.add_text(sensor.name);
+    hasher.add(sensor.kind);
+    hasher.add(sensor.width);
+    hasher.add(sensor.height);
+    hasher.add(sensor.position);
+    for (const double angle : {sensor.fov, sensor.yaw, sensor.pitch})
+        hasher.add(angle);
+    hasher.add(sensor.every);
+}
+
+}  // namespace
+
 std::uint64_t digest_of(const scripting::Scenario& scenario, const world::TickDraft& next) {
     world::Hasher hasher;
     hasher.add(scenario.digest());
@@ -27,6 +42,10 @@ std::uint64_t digest_of(const scripting::Scenario& scenario, const world::TickDr
         hasher.add_text(command.text);
         if (command.latency != 0)
             hasher.add(command.latency);
+        for (const auto& sensor : command.rig)
+            add(hasher, *sensor);
+        if (command.sees_sensors)
+            hasher.add(command.sees_sensors);
     }
     return hasher.digest64();
 }

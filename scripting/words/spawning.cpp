@@ -10,6 +10,7 @@
 #include "scripting/words/caps.h"
 #include "scripting/words/handles.h"
 #include "scripting/words/places.h"
+#include "scripting/words/rig.h"
 #include "scripting/words/vocabulary.h"
 #include "world/models/catalogue.h"
 
@@ -143,11 +144,20 @@ std::uint8_t read_latency(const Fields& fields, const Actor& actor) {
 }
 
 int spawn(Run& run, lua_State* L) {
-    const Fields fields(
-        L,
-        1,
-        "spawn",
-        {"name", "model", "driver", "latency", "lane", "s", "offset", "speed", "speed_kmh"});
+    const Fields fields(L,
+                        1,
+                        "spawn",
+                        {"name",
+                         "model",
+                         "driver",
+                         "latency",
+                         "lane",
+                         "s",
+                         "offset",
+                         "speed",
+                         "speed_kmh",
+                         "rig",
+                         "sees"});
     Actor actor;
     actor.id = run.actors.next_id();
     actor.line = run.vm.line(L);
@@ -165,6 +175,10 @@ int spawn(Run& run, lua_State* L) {
     if (speed > 0 && (actor.is_walker() || actor.driver == world::Driver::parked))
         refuse("spawn", fmt::format("'{}' starts at rest", actor.name));
 
+    const std::uint8_t latency = read_latency(fields, actor);
+    auto rig = read_rig(L, fields, actor, latency);
+    const bool sees_sensors = read_sees_sensors(fields, actor);
+
     world::CommandT& said = run.say(L, world::CommandKind::spawn, actor.id);
     said.driver = actor.driver;
     said.model = actor.model;
@@ -173,7 +187,9 @@ int spawn(Run& run, lua_State* L) {
     said.offset = command.offset;
     said.speed = speed;
     said.text = actor.name;
-    said.latency = read_latency(fields, actor);
+    said.latency = latency;
+    said.rig = std::move(rig);
+    said.sees_sensors = sees_sensors;
     push_handle(L, run.actors.add(std::move(actor)).id);
     return 1;
 }

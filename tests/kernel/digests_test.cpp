@@ -2,8 +2,11 @@
 // change without anybody noticing.
 #include "kernel/digests.h"
 
+#include <algorithm>
 #include <functional>
 #include <map>
+#include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -108,6 +111,39 @@ TEST(Digests, TheScenariosCoversWeatherFrictionAndCommands) {
                     {{"weather", [](Tick& next) { next.tick.weather.mutate_rain(1); }},
                      {"friction", [](Tick& next) { next.tick.road_friction = 0.5; }},
                      {"command", [](Tick& next) { next.tick.commands.emplace_back(); }}});
+}
+
+TEST(Digests, TheScenariosCoversAllThatARigSays) {
+    const world::Recording recording = test::in_town1("wait(1)", 0, 1);
+    const world::LaneMap lanes(recording.town);
+    const scripting::Scenario scenario(recording.episode, recording.town, lanes);
+    const auto digest = [&](const std::function<void(world::CommandT&)>& change) {
+        world::TickDraft next = some_tick();
+        world::CommandT& command = next.tick.commands.emplace_back();
+        command.rig.push_back(std::make_unique<world::SensorT>());
+        change(command);
+        return digest_of(scenario, next);
+    };
+    std::vector<std::uint64_t> digests{digest([](world::CommandT&) {})};
+    digests.push_back(digest([](world::CommandT& one) { one.rig.clear(); }));
+    digests.push_back(digest([](world::CommandT& one) { one.sees_sensors = true; }));
+    const std::vector<std::function<void(world::SensorT&)>> changes{
+        [](world::SensorT& sensor) { sensor.name = "front"; },
+        [](world::SensorT& sensor) { sensor.kind = world::SensorKind::depth; },
+        [](world::SensorT& sensor) { sensor.width = 84; },
+        [](world::SensorT& sensor) { sensor.height = 84; },
+        [](world::SensorT& sensor) { sensor.fov = 1; },
+        [](world::SensorT& sensor) {
+            sensor.position = {0, 0, 1};
+        },
+        [](world::SensorT& sensor) { sensor.yaw = 1; },
+        [](world::SensorT& sensor) { sensor.pitch = 1; },
+        [](world::SensorT& sensor) { sensor.every = 2; },
+    };
+    for (const auto& change : changes)
+        digests.push_back(digest([&](world::CommandT& one) { change(*one.rig.front()); }));
+    std::sort(digests.begin(), digests.end());
+    EXPECT_EQ(std::adjacent_find(digests.begin(), digests.end()), digests.end());
 }
 
 }  // namespace

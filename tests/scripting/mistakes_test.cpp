@@ -195,11 +195,12 @@ TEST(Mistakes, InCalledFunctionsNameTheInnermostLineOfTheScript) {
 
 TEST(Mistakes, CanBeCaughtByTheScript) {
     EXPECT_EQ(
-        test::printed("print(pcall(wait, -1)) print(pcall(function() spawn{ wheels = 1 } end))")
+        test::printed("print(pcall(wait, -1)) print(pcall(function() spawn{ colour = 1 } end))")
             .at(1),
-        "false test.lua:1: spawn: unknown key 'wheels' (known: name, model, driver, lane, s, "
+        "false test.lua:1: spawn: unknown key 'colour' (known: name, model, driver, latency, lane, "
+        "s, "
         "offset, speed, "
-        "speed_kmh)");
+        "speed_kmh, rig, sees)");
 }
 
 TEST(Mistakes, AnActorThatNeverComesIsNamedWithTheLineOfItsSpawn) {

@@ -1,0 +1,189 @@
+#include "scripting/words/rig.h"
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "scripting/lua/text.h"
+#include "scripting/lua/vm.h"
+#include "world/check.h"
+#include "world/rig.h"
+
+// What a vehicle carries, and what its driver is shown.
+namespace reprise::scripting {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr std::size_t most_picture_bytes = std::size_t{2} << 30U;  // in memory at once, of a driver
+const std::vector<std::string> sensor_kinds{"rgb", "depth", "semantic"};
+const std::vector<std::string> sights{"everything", "sensors"};
+
+double within(const Fields& fields, const char* key, double usual, double low, double high) {
+    const double value = fields.number(key).value_or(usual);
+    if (value < low || value > high)
+        refuse(fields.who(),
+               fmt::format(
+                   "'{}' must be in [{:g}, {:g}], got {}", key, low, high, number_text(value)));
+    return value;
+}
+
+std::int64_t whole_within(const Fields& fields,
+                          const char* key,
+                          std::int64_t usual,
+                          std::int64_t low,
+                          std::int64_t high) {
+    const std::int64_t value = fields.integer(key).value_or(usual);
+    if (value < low || value > high)
+        refuse(fields.who(),
+               fmt::format("'{}' must be in [{}, {}], got {}", key, low, high, value));
+    return value;
+}
+
+/// The table on top of the stack as the sensor with this number.
+std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number) {
+    const Fields fields(L,
+                        -1,
+                        fmt::format("spawn: sensor {} of 'rig'", number),
+                        {"name",
+                         "kind",
+                         "width",
+                         "height",
+                         "fov_deg",
+                         "x",
+                         "y",
+                         "z",
+                         "yaw_deg",
+                         "pitch_deg",
+                         "every"});
+    auto sensor = std::make_unique<world::SensorT>();
+    const auto name = fields.text("name");
+    if (!name)
+        refuse(fields.who(), "'name' is missing");
+    if (!world::is_sensor_name(*name))
+        refuse(fields.who(),
+               fmt::format("'name' must be 1 to {} letters, digits, '_' or '-', as it names a "
+                           "folder, got '{}'",
+                           world::longest_sensor_name,
+                           printable(*name)));
+    sensor->name = *name;
+    const std::string kind = fields.text("kind").value_or(sensor_kinds.front());
+    const auto known = std::find(sensor_kinds.begin(), sensor_kinds.end(), kind);
+    if (known == sensor_kinds.end())
+        refuse(fields.who(),
+               fmt::format("no kind '{}'{}; there are rgb, depth and semantic",
+                           kind,
+                           world::did_you_mean(kind, sensor_kinds)));
+    sensor->kind = static_cast<world::SensorKind>(known - sensor_kinds.begin());
+    const world::SensorSpec usual;
+    const auto side = [&](const char* key, int pixels) {
+        return static_cast<std::uint16_t>(
+            whole_within(fields, key, pixels, 1, world::largest_picture_side));
+    };
+    sensor->width = side("width", usual.width);
+    sensor->height = side("height", usual.height);
+    sensor->fov =
+        within(fields, "fov_deg", 90, world::narrowest_view_deg, world::widest_view_deg) * degree;
+    const auto place = [&](const char* key, double metres) {
+        return within(fields, key, metres, -world::farthest_mount, world::farthest_mount);
+    };
+    sensor->position = {place("x", usual.position.x()),
+                        place("y", usual.position.y()),
+                        place("z", usual.position.z())};
+    sensor->yaw = within(fields, "yaw_deg", 0, -360, 360) * degree;
+    sensor->pitch = within(fields, "pitch_deg", 0, -90, 90) * degree;
+    sensor->every = static_cast<std::uint32_t>(
+        whole_within(fields, "every", 1, 1, world::longest_sensor_period));
+    return sensor;
+}
+
+/// Entries of the list on top of the stack; refuses what is none.
+std::size_t count_sensors(lua_State* L) {
+    const std::string wanted = "'rig' must be a list of sensors { { name = 'front', ... }, ... }";
+    if (lua_type(L, -1) != LUA_TTABLE)
+        refuse("spawn", fmt::format("{}, got {}", wanted, luaL_typename(L, -1)));
+    std::size_t entries = 0;
+    for (lua_pushnil(L); lua_next(L, -2) != 0; lua_pop(L, 1))
+        ++entries;
+    Vm::of(L).charge_walk(L, entries);
+    const std::size_t length = lua_rawlen(L, -1);
+    if (entries == 0 || entries != length)
+        refuse("spawn", wanted);
+    if (length > world::most_sensors)
+        refuse(
+            "spawn",
+            fmt::format("'rig' has {} sensors, where {} is the most", length, world::most_sensors));
+    return length;
+}
+
+std::size_t bytes_of(const world::SensorT& sensor) {
+    world::SensorSpec spec;
+    spec.kind = sensor.kind;
+    spec.width = sensor.width;
+    spec.height = sensor.height;
+    return world::picture_bytes(spec);
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<world::SensorT>> read_rig(lua_State* L,
+                                                      const Fields& spawn,
+                                                      const Actor& actor,
+                                                      std::uint8_t latency) {
+    std::vector<std::unique_ptr<world::SensorT>> rig;
+    if (!spawn.mentions("rig"))
+        return rig;
+    if (!actor.is_driven() && actor.driver != world::Driver::external)
+        refuse(
+            "spawn",
+            fmt::format("'rig' is for the drivers 'autopilot', 'manual' and 'external', '{}' has "
+                        "another one",
+                        actor.name));
+    spawn.push("rig");
+    const std::size_t length = count_sensors(L);
+    std::size_t bytes = 0;
+    for (std::size_t i = 1; i <= length; ++i) {
+        lua_rawgeti(L, -1, static_cast<lua_Integer>(i));
+        rig.push_back(read_sensor(L, i));
+        lua_pop(L, 1);
+        bytes += bytes_of(*rig.back());
+        for (std::size_t other = 0; other + 1 < i; ++other)
+            if (rig[other]->name == rig.back()->name)
+                refuse("spawn",
+                       fmt::format("sensors {} and {} of 'rig' are both named '{}'",
+                                   other + 1,
+                                   i,
+                                   rig.back()->name));
+    }
+    lua_pop(L, 1);
+    // As many are kept as a driver may still look at: remote/picture_ring.h.
+    const std::size_t kept = bytes * (std::size_t{2} + latency);
+    if (kept > most_picture_bytes)
+        refuse("spawn",
+               fmt::format("the pictures of 'rig' need {:.1f} GB of memory, where {:.1f} are the "
+                           "most: smaller or fewer ones, or a smaller 'latency'",
+                           static_cast<double>(kept) * 1e-9,
+                           static_cast<double>(most_picture_bytes) * 1e-9));
+    return rig;
+}
+
+bool read_sees_sensors(const Fields& spawn, const Actor& actor) {
+    if (!spawn.mentions("sees"))
+        return false;
+    if (actor.driver != world::Driver::external)
+        refuse("spawn",
+               fmt::format("'sees' is for driver = 'external', '{}' is driven by Reprise",
+                           actor.name));
+    const std::string sight = spawn.text("sees").value_or(sights.front());
+    if (std::find(sights.begin(), sights.end(), sight) == sights.end())
+        refuse("spawn",
+               fmt::format("'sees' must be 'everything' or 'sensors', got '{}'{}",
+                           sight,
+                           world::did_you_mean(sight, sights)));
+    return sight == sights.back();
+}
+
+}  // namespace reprise::scripting

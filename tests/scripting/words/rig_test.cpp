@@ -1,0 +1,112 @@
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/scripting/stage.h"
+
+namespace reprise::test {
+namespace {
+
+constexpr const char* external = "spawn{ model = 'sedan', driver = 'external', lane = 'east_1', ";
+
+std::string of_rig(const std::string& rig) {
+    return mistake("spawn{ model = 'sedan', lane = 'east_1', s = 20, rig = " + rig + " }");
+}
+
+std::string of_sensor(const std::string& keys) {
+    return of_rig("{ { name = 'front', " + keys + " } }");
+}
+
+const world::CommandT& spawned(Stage& stage) {
+    stage.step();
+    return stage.commands.front();
+}
+
+TEST(RigWords, AreRecordedAsTheyWereSaid) {
+    Stage stage(running(std::string(external) + R"(latency = 3, sees = 'sensors', rig = {
+        { name = 'front' },
+        { name = 'left-2', kind = 'depth', width = 200, height = 88, fov_deg = 60, x = -1.5, y = 0.5, z = 2,
+          yaw_deg = 90, pitch_deg = -10, every = 4 } } })"));
+    const world::CommandT& command = spawned(stage);
+    EXPECT_TRUE(command.sees_sensors);
+    ASSERT_EQ(command.rig.size(), 2U);
+    world::SensorT usual;
+    usual.name = "front";
+    usual.width = 800;
+    usual.height = 600;
+    usual.fov = std::numbers::pi / 2;
+    usual.position = {1, 0, 1.4};
+    usual.every = 1;
+    EXPECT_TRUE(*command.rig[0] == usual);
+    world::SensorT said;
+    said.name = "left-2";
+    said.kind = world::SensorKind::depth;
+    said.width = 200;
+    said.height = 88;
+    said.fov = std::numbers::pi / 3;
+    said.position = {-1.5, 0.5, 2};
+    said.yaw = std::numbers::pi / 2;
+    said.pitch = -std::numbers::pi / 18;
+    said.every = 4;
+    EXPECT_NEAR(command.rig[1]->fov, said.fov, 1e-15);
+    EXPECT_NEAR(command.rig[1]->pitch, said.pitch, 1e-15);
+    said.fov = command.rig[1]->fov;
+    said.pitch = command.rig[1]->pitch;
+    EXPECT_TRUE(*command.rig[1] == said);
+}
+
+TEST(RigWords, AreAbsentWhereNobodySaysThem) {
+    Stage stage(running(std::string(external) + "sees = 'everything' }"));
+    EXPECT_TRUE(spawned(stage).rig.empty());
+    EXPECT_FALSE(spawned(stage).sees_sensors);
+}
+
+TEST(RigWords, MistakesAreOneLineThatNamesTheSensor) {
+    const std::string list =
+        "test.lua:1: spawn: 'rig' must be a list of sensors { { name = "
+        "'front', ... }, ... }";
+    const std::string first = "test.lua:1: spawn: sensor 1 of 'rig': ";
+    EXPECT_EQ(of_rig("'rgb'"), list + ", got string");
+    EXPECT_EQ(of_rig("{}"), list);
+    EXPECT_EQ(of_rig("{ name = 'front' }"), list);
+    EXPECT_EQ(of_rig("{ { name = 'a' }, 7 }"),
+              "test.lua:1: spawn: sensor 2 of 'rig': the argument must be a table { key = value }, "
+              "got 7");
+    EXPECT_EQ(of_rig("{ {} }"), first + "'name' is missing");
+    EXPECT_EQ(of_rig("{ { name = '../x' } }"),
+              first +
+                  "'name' must be 1 to 40 letters, digits, '_' or '-', as it names a folder, "
+                  "got '../x'");
+    EXPECT_EQ(of_rig("{ { name = 'a' }, { name = 'b' }, { name = 'a' } }"),
+              "test.lua:1: spawn: sensors 1 and 3 of 'rig' are both named 'a'");
+    EXPECT_EQ(of_sensor("kind = 'detph'"),
+              first + "no kind 'detph' (did you mean 'depth'?); there are rgb, depth and semantic");
+    EXPECT_EQ(of_sensor("wdth = 3"), first + "unknown key 'wdth' (did you mean 'width'?)");
+    EXPECT_EQ(of_sensor("width = 0"), first + "'width' must be in [1, 4096], got 0");
+    EXPECT_EQ(of_sensor("height = 4097"), first + "'height' must be in [1, 4096], got 4097");
+    EXPECT_EQ(of_sensor("width = 84.5"), first + "'width' must be a whole number, got 84.5");
+    EXPECT_EQ(of_sensor("fov_deg = 171"), first + "'fov_deg' must be in [1, 170], got 171.0");
+    EXPECT_EQ(of_sensor("x = 0/0"), first + "'x' must be a finite number, got nan");
+    EXPECT_EQ(of_sensor("z = 51"), first + "'z' must be in [-50, 50], got 51.0");
+    EXPECT_EQ(of_sensor("pitch_deg = 91"), first + "'pitch_deg' must be in [-90, 90], got 91.0");
+    EXPECT_EQ(of_sensor("every = 0"), first + "'every' must be in [1, 100000], got 0");
+    EXPECT_EQ(mistake("local r = {} for i = 1, 17 do r[i] = { name = 's' .. i } end spawn{ model = "
+                      "'sedan', rig = r }"),
+              "test.lua:1: spawn: 'rig' has 17 sensors, where 16 is the most");
+    EXPECT_EQ(mistake("spawn{ name = 'v', model = 'van', driver = 'traffic', rig = { { name = 'a' "
+                      "} } }"),
+              "test.lua:1: spawn: 'rig' is for the drivers 'autopilot', 'manual' and 'external', "
+              "'v' has another one");
+    EXPECT_EQ(mistake("spawn{ name = 'v', model = 'van', driver = 'external', latency = 100, rig = "
+                      "{ { name = 'a', width = 4096, height = 4096 } } }"),
+              "test.lua:1: spawn: the pictures of 'rig' need 5.1 GB of memory, where 2.1 are the "
+              "most: smaller or fewer ones, or a smaller 'latency'");
+    EXPECT_EQ(mistake("spawn{ name = 'v', model = 'van', sees = 'sensors' }"),
+              "test.lua:1: spawn: 'sees' is for driver = 'external', 'v' is driven by Reprise");
+    EXPECT_EQ(mistake(std::string(external) + "sees = 'sensor' }"),
+              "test.lua:1: spawn: 'sees' must be 'everything' or 'sensors', got 'sensor' (did you "
+              "mean 'sensors'?)");
+}
+
+}  // namespace
+}  // namespace reprise::test

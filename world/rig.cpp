@@ -1,0 +1,99 @@
+#include "world/rig.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "world/check.h"
+#include "world/frames.h"
+
+namespace reprise::world {
+
+namespace {
+
+/// A little wider than what scripts are held to: degrees have become radians.
+bool is_possible(const SensorSpec& sensor, std::uint32_t every) {
+    const auto within = [](double value, double low, double high) {
+        return value >= low && value <= high;
+    };
+    constexpr double turn = 2 * std::numbers::pi + 1e-9;
+    const double degree = std::numbers::pi / 180;
+    return is_sensor_name(sensor.name) && sensor.kind <= SensorKind::semantic &&
+           within(sensor.width, 1, largest_picture_side) &&
+           within(sensor.height, 1, largest_picture_side) &&
+           within(
+               sensor.fov, narrowest_view_deg * degree - 1e-9, widest_view_deg * degree + 1e-9) &&
+           sensor.position.allFinite() &&
+           sensor.position.lpNorm<Eigen::Infinity>() <= farthest_mount &&
+           within(sensor.yaw, -turn, turn) && within(sensor.pitch, -turn, turn) && every >= 1 &&
+           every <= longest_sensor_period;
+}
+
+}  // namespace
+
+std::vector<std::size_t> Rig::due(std::uint64_t tick) const {
+    std::vector<std::size_t> found;
+    for (std::size_t sensor = 0; sensor < sensors.size(); ++sensor)
+        if (is_due(sensor, tick))
+            found.push_back(sensor);
+    return found;
+}
+
+Rig rig_of(const Command& spawn, std::uint64_t tick) {
+    Rig rig;
+    rig.since = tick;
+    if (spawn.rig() == nullptr)
+        return rig;
+    if (spawn.rig()->size() > most_sensors)
+        throw Error(fmt::format("actor {} carries {} sensors, where {} is the most",
+                                spawn.actor(),
+                                spawn.rig()->size(),
+                                most_sensors));
+    for (const Sensor* said : *spawn.rig()) {
+        SensorSpec sensor;
+        sensor.name = said->name() == nullptr ? "" : said->name()->str();
+        sensor.kind = said->kind();
+        sensor.width = said->width();
+        sensor.height = said->height();
+        sensor.fov = said->fov();
+        sensor.actor = spawn.actor();
+        sensor.position = said->position() == nullptr
+                              ? Eigen::Vector3d::Zero()
+                              : Eigen::Vector3d(to_eigen(*said->position()));
+        sensor.yaw = said->yaw();
+        sensor.pitch = said->pitch();
+        const bool taken =
+            std::any_of(rig.sensors.begin(), rig.sensors.end(), [&](const SensorSpec& other) {
+                return other.name == sensor.name;
+            });
+        if (taken || !is_possible(sensor, said->every()))
+            throw Error(fmt::format("actor {} carries a sensor {} that is not possible",
+                                    spawn.actor(),
+                                    rig.sensors.size() + 1));
+        rig.sensors.push_back(sensor);
+        rig.every.push_back(said->every());
+    }
+    return rig;
+}
+
+bool is_sensor_name(std::string_view name) {
+    return !name.empty() && name.size() <= longest_sensor_name &&
+           std::all_of(name.begin(), name.end(), [](char c) {
+               return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                      c == '_' || c == '-';
+           });
+}
+
+int channels(SensorKind kind) {
+    return kind == SensorKind::rgb ? 3 : 1;
+}
+
+std::size_t picture_bytes(const SensorSpec& sensor) {
+    const std::size_t pixel = sensor.kind == SensorKind::depth
+                                  ? sizeof(float)
+                                  : static_cast<std::size_t>(channels(sensor.kind));
+    return static_cast<std::size_t>(sensor.width) * static_cast<std::size_t>(sensor.height) * pixel;
+}
+
+}  // namespace reprise::world

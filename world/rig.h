@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "world/sensor.h"
+#include "world/tick.h"
+
+namespace reprise::world {
+
+// What a rig may be. Scenarios are told so at their line; traces are held to it before anything is
+// rendered.
+inline constexpr std::size_t most_sensors = 16;                         ///< on a vehicle
+inline constexpr int largest_picture_side = 4096;                       ///< [px]
+inline constexpr std::size_t longest_sensor_name = 40;                  ///< [bytes]
+inline constexpr double narrowest_view_deg = 1, widest_view_deg = 170;  ///< horizontal
+inline constexpr double farthest_mount = 50;  ///< [m] from the vehicle's origin, along each axis
+inline constexpr std::uint32_t longest_sensor_period = 100'000;  ///< [ticks]
+
+/// The sensors that a vehicle carries, and when each of them looks.
+struct Rig {
+    SensorRig sensors;                 ///< in the scenario's order; `actor` is who carries them
+    std::vector<std::uint32_t> every;  ///< [ticks] of each
+    std::uint64_t since = 0;           ///< the tick in which the vehicle appeared
+
+    /// Whether a sensor makes a frame of this tick.
+    bool is_due(std::size_t sensor, std::uint64_t tick) const {
+        return tick >= since && (tick - since) % every[sensor] == 0;
+    }
+
+    /// How many frames a sensor has made before this tick.
+    std::uint64_t frames_before(std::size_t sensor, std::uint64_t tick) const {
+        return (tick - since + every[sensor] - 1) / every[sensor];
+    }
+
+    /// The sensors that look in this tick, by their index.
+    std::vector<std::size_t> due(std::uint64_t tick) const;
+};
+
+/// Of a spawn command in the tick with this index. Empty where nothing is carried. Throws Error for
+/// a rig that no scenario could have said.
+Rig rig_of(const Command& spawn, std::uint64_t tick);
+
+/// Fit to name a folder: letters, digits, '_' and '-'.
+bool is_sensor_name(std::string_view name);
+
+/// Of the interleaved channels of a frame: 3 or 1.
+int channels(SensorKind kind);
+
+/// [bytes] of the pixels of one frame.
+std::size_t picture_bytes(const SensorSpec& sensor);
+
+}  // namespace reprise::world
