@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <list>
 #include <numbers>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "cli/process/new_folder.h"
 #include "cli/process/progress.h"
 #include "cli/process/say.h"
+#include "cli/recorded_rig.h"
 #include "render/picture.h"
 #include "render/sensors.h"
 #include "replay/trace_reader.h"
@@ -34,7 +36,7 @@ Span ticks_to_render(const RenderOptions& options, const replay::TraceReader& tr
     Span span;
     span.from = std::max(trace.first(), parse_tick("--from", options.from, step_ns, trace.first()));
     span.to = std::min(trace.last(), parse_tick("--to", options.to, step_ns, trace.last()));
-    span.every = parse_tick("--every", options.every, step_ns, 0);
+    span.every = parse_tick("--every", options.every.empty() ? "1s" : options.every, step_ns, 0);
     if (span.every < 1)
         throw world::Error("--every: expected 1 tick at least, got '" + options.every + "'");
     if (span.from > span.to)
@@ -93,6 +95,12 @@ std::optional<std::uint32_t> mount_actor(const RenderOptions& options,
     return tick.vehicles().front().id();
 }
 
+/// Who carries a recorded rig, as long as it is there.
+std::optional<std::uint32_t> mounted(const world::Rig& rig, const world::TickView& tick) {
+    const std::uint32_t actor = rig.sensors.front().actor;
+    return world::find(tick.vehicles(), actor) == nullptr ? std::nullopt : std::optional(actor);
+}
+
 void save(const world::SensorFrame& frame, const fs::path& folder) {
     const std::string name = fmt::format("{:06}.png", frame.tick);
     render::write_png(frame, folder / name);
@@ -100,50 +108,90 @@ void save(const world::SensorFrame& frame, const fs::path& folder) {
         render::write_png(render::viewable(frame), folder / "view" / name);
 }
 
+/// What to look with, and where its pictures go.
+struct Cameras {
+    world::SensorRig sensors;
+    std::optional<world::Rig> recorded;  ///< what the vehicle carried, where that is rendered
+    std::vector<fs::path> folders;       ///< of each sensor
+};
+
+Cameras find_cameras(const RenderOptions& options, replay::TraceReader& trace, std::uint64_t last) {
+    Cameras cameras;
+    if (options.recorded_rig)
+        cameras.recorded = recorded_rig(trace, options.actor, last);
+    cameras.sensors = cameras.recorded ? cameras.recorded->sensors : make_rig(options);
+    const fs::path folder = options.directory;
+    for (const world::SensorSpec& sensor : cameras.sensors)
+        cameras.folders.push_back(
+            cameras.recorded || cameras.sensors.size() > 1 ? folder / sensor.name : folder);
+    return cameras;
+}
+
 /// Those that stay empty go again.
-std::list<NewFolder> make_folders(const RenderOptions& options) {
+std::list<NewFolder> make_folders(const Cameras& cameras) {
     std::list<NewFolder> folders;
-    for (const std::string& camera : options.cameras) {
-        const fs::path folder = options.cameras.size() == 1 ? fs::path(options.directory)
-                                                            : fs::path(options.directory) / camera;
-        folders.emplace_front(camera == "rgb" ? folder : folder / "view");
-    }
+    for (std::size_t i = 0; i < cameras.folders.size(); ++i)
+        folders.emplace_front(cameras.sensors[i].kind == world::SensorKind::rgb
+                                  ? cameras.folders[i]
+                                  : cameras.folders[i] / "view");
     return folders;
+}
+
+/// The sensors that look in a tick, by their index: those of a recorded rig where they looked in
+/// the run, unless every so many ticks were asked for.
+std::vector<std::size_t> due(const Cameras& cameras,
+                             const RenderOptions& options,
+                             std::uint64_t tick) {
+    if (cameras.recorded && options.every.empty())
+        return cameras.recorded->due(tick);
+    std::vector<std::size_t> all(cameras.sensors.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
 }
 
 }  // namespace
 
 int render(const RenderOptions& options) {
     replay::TraceReader trace(options.trace);
-    const Span span = ticks_to_render(options, trace);
-    world::SensorRig rig = make_rig(options);
-    const std::list<NewFolder> folders = make_folders(options);
+    Span span = ticks_to_render(options, trace);
+    const Cameras cameras = find_cameras(options, trace, span.to);
+    if (cameras.recorded && options.every.empty())
+        span.every = 1;
+    const std::list<NewFolder> folders = make_folders(cameras);
     render::Sensors sensors(trace.recording().town,
                             {.threads = options.threads, .portable = options.portable});
     const world::WeatherPreset* other = world::find_weather(options.weather);
-    Progress progress("rendering", "pictures", (span.to - span.from) / span.every + 1);
-    std::uint64_t done = 0;
+    Progress progress("rendering", "ticks", (span.to - span.from) / span.every + 1);
+    std::uint64_t ticks = 0;
+    std::size_t pictures = 0;
     for (std::uint64_t index = span.from; index <= span.to; index += span.every) {
+        progress.update(++ticks);
+        const std::vector<std::size_t> looking = due(cameras, options, index);
+        if (looking.empty())
+            continue;
         const world::TickView tick = trace.tick(index).view;
-        const auto actor = mount_actor(options, trace.episode(), tick);
+        const auto actor = cameras.recorded ? mounted(*cameras.recorded, tick)
+                                            : mount_actor(options, trace.episode(), tick);
         if (!actor)
             continue;
-        for (world::SensorSpec& sensor : rig)
-            sensor.actor = *actor;
+        world::SensorRig rig;
+        for (const std::size_t i : looking) {
+            rig.push_back(cameras.sensors[i]);
+            rig.back().actor = *actor;
+        }
         const world::Weather& weather = other != nullptr ? other->weather : *tick.tick->weather();
-        for (const world::SensorFrame& frame : sensors.observe(tick, rig, weather))
-            save(frame,
-                 rig.size() == 1 ? fs::path(options.directory)
-                                 : fs::path(options.directory) / frame.name);
-        progress.update(++done);
+        const std::vector<world::SensorFrame> frames = sensors.observe(tick, rig, weather);
+        for (std::size_t i = 0; i < frames.size(); ++i)
+            save(frames[i], cameras.folders[looking[i]]);
+        pictures += frames.size();
     }
     progress.clear();
     say("{}: {} pictures of {} in {:.2f} s\n",
         options.directory,
-        done * rig.size(),
+        pictures,
         other != nullptr ? other->name : trace.episode().weather_name,
         progress.seconds());
-    if (done == 0)
+    if (pictures == 0)
         throw world::Error("no vehicle to mount the camera on in these ticks of " + options.trace);
     return exit_good;
 }

@@ -76,11 +76,16 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
     command.add_option("--from", render.from, "First tick, or time such as 2.5s")
         ->type_name("TICK");
     command.add_option("--to", render.to, "Last tick, or time")->type_name("TICK");
-    command.add_option("--every", render.every, "Every so many ticks, or time (default 1s)")
+    command
+        .add_option("--every",
+                    render.every,
+                    "Every so many ticks, or time (default: as the rig does, else 1s)")
         ->type_name("N");
     command
         .add_option(
-            "--actor", render.actor, "The vehicle that carries the camera (default: the first)")
+            "--actor",
+            render.actor,
+            "The vehicle that carries the cameras (default: the first with a rig, or the first)")
         ->type_name("ID");
     command
         .add_option("--mount",
@@ -104,6 +109,9 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
     command.footer(
         "Pictures are named by tick: DIR/000120.png. depth: 16-bit, millimetres; semantic: 8-bit\n"
         "class ids (CARLA 0.9.14); DIR/view/ holds versions of these two for people to look at.\n"
+        "A vehicle that carries a rig is rendered with it, DIR/SENSOR/000120.png, at the ticks at\n"
+        "which it saw, unless --camera, --size, --fov, --mount, --pitch or --yaw say other "
+        "cameras.\n"
         "Example: reprise render a.mcap -o rain --weather hard_rain_sunset --every 20");
 }
 
@@ -114,6 +122,9 @@ void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions&
     if (app.get_subcommand("render")->count("--threads") > 0)
         read_threads(words.threads, render);
     check_cameras(render.cameras);
+    for (const char* option : {"--camera", "--size", "--fov", "--mount", "--pitch", "--yaw"})
+        if (app.get_subcommand("render")->count(option) > 0)
+            render.recorded_rig = false;
     if (render.cameras.empty())
         render.cameras = {"rgb"};
 }

@@ -15,12 +15,13 @@ struct RenderOptions {
     std::string directory;
     std::string weather;               ///< empty: as recorded
     std::vector<std::string> cameras;  ///< rgb, depth, semantic
+    bool recorded_rig = true;          ///< where there is one: no option says other cameras
     int width = 800;
     int height = 600;
     double fov_deg = 90;
-    std::string from;  ///< tick, or seconds with an s behind; empty: the first
-    std::string to;    ///< likewise; empty: the last
-    std::string every = "1s";
+    std::string from;         ///< tick, or seconds with an s behind; empty: the first
+    std::string to;           ///< likewise; empty: the last
+    std::string every;        ///< empty: as the rig does; without one 1s
     std::uint32_t actor = 0;  ///< 0: the first physics vehicle
     std::vector<double> mount{1.0, 0.0, 1.4};
     double pitch_deg = 0;
