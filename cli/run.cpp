@@ -188,7 +188,10 @@ world::Outcome end_of(const kernel::Kernel& kernel, Seats& seats, std::uint64_t 
             name);
     if (!seats.loss())
         return kernel.outcome();
-    say(stderr, "reprise: {}\n", seats.loss()->reason);
+    say(stderr,
+        "reprise: {}{}\n",
+        seats.loss()->ours ? "this is our fault, please report it: " : "",
+        seats.loss()->reason);
     return world::outcome_of_lost_driver(seats.loss()->actor, ticks);
 }
 
@@ -247,6 +250,8 @@ int run(const RunOptions& options) {
         throw world::Error(fmt::format("--nudge {}: the run ended at tick {}; nothing was nudged",
                                        nudge->text,
                                        outcome.ticks));
+    if (seats.loss() && seats.loss()->ours)
+        return exit_our_fault;
     return outcome.verdict == "failed" || seats.loss() ? exit_differs : exit_good;
 }
 

@@ -4,10 +4,21 @@
 
 #include <fmt/format.h>
 
+#include "cli/process/helper_program.h"
+#include "cli/process/reproduce.h"
 #include "world/check.h"
 #include "world/printable.h"
 
 namespace reprise::cli {
+
+namespace {
+
+/// For the shell.
+std::string render_program() {
+    return "exec " + shell_path(helper_program("reprise-render")) + " live";
+}
+
+}  // namespace
 
 Seats::Seats(const std::vector<std::string>& plans,
              const remote::Patience& patience,
@@ -27,7 +38,7 @@ Seats::Seats(const std::vector<std::string>& plans,
 
 void Seats::lose(const remote::Seat& seat, const remote::Lost& lost) {
     if (!loss_)
-        loss_ = Loss{seat.actor(), lost.reason};
+        loss_ = Loss{seat.actor(), lost.reason, lost.ours};
 }
 
 /// Who was spawned gets its driver, who was despawned loses it.
@@ -54,7 +65,10 @@ void Seats::welcome(const world::Tick& tick) {
                 command->line(),
                 name,
                 name));
-        if (const auto lost = (*seat)->take(command->actor(), *recording_))
+        const bool carries = command->rig() != nullptr && command->rig()->size() > 0;
+        const remote::Spawned spawned{
+            command, tick.index(), carries ? render_program() : std::string()};
+        if (const auto lost = (*seat)->take(command->actor(), *recording_, spawned))
             lose(**seat, *lost);
         taken_[command->actor()] = {std::move(*seat), command->latency()};
         free_.erase(seat);
@@ -67,6 +81,10 @@ void Seats::go_on(const world::SealedTick& tick) {
     // All are shown the tick before the first is waited for: they think at the same time.
     for (const auto& [id, taken] : taken_)
         if (const auto lost = loss_ ? std::nullopt : taken.seat->show(tick))
+            lose(*taken.seat, *lost);
+    for (const auto& [id, taken] : taken_)
+        if (const auto lost =
+                loss_ || taken.silent_ticks > 0 ? std::nullopt : taken.seat->show_due())
             lose(*taken.seat, *lost);
     for (auto& [id, taken] : taken_) {
         if (loss_)

@@ -37,6 +37,7 @@ class Seats {
     struct Loss {
         std::string actor;   ///< its name
         std::string reason;  ///< for people
+        bool ours = false;   ///< not the driver failed, but we did
     };
 
     const std::optional<Loss>& loss() const { return loss_; }

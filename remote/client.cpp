@@ -1,5 +1,6 @@
 #include "remote/client.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -12,6 +13,7 @@
 
 #include "remote/frame_channel.h"
 #include "remote/schema.h"
+#include "remote/shared_memory.h"
 #include "world/check.h"
 
 namespace reprise::remote {
@@ -66,11 +68,13 @@ void unpack(const flatbuffers::Vector<std::uint8_t>* bytes, Object& object, cons
 }  // namespace
 
 struct Client::Parts {
-    explicit Parts(int descriptor) : channel(descriptor, largest_message) {}
+    explicit Parts(int descriptor) : channel(descriptor, largest_message) {
+        world::FinishTrafficBuffer(no_traffic, world::CreateTraffic(no_traffic));
+    }
 
     /// Hello and ready.
     void begin() {
-        const Frame frame = channel.receive();
+        Frame frame = channel.receive();
         if (frame.kind != Kind::hello)
             throw world::Error("the run did not begin with hello");
         const Hello& hello = frame.as<Hello>();
@@ -86,10 +90,36 @@ struct Client::Parts {
         step = world::seconds(1, hello.step_ns());
         unpack<world::Town>(hello.town(), town, "town");
         unpack<world::Episode>(hello.episode(), episode, "episode");
+        read_rig(hello);
+        if (hello.shared_bytes() > 0)
+            memory.emplace(
+                std::move(frame.descriptor), hello.shared_bytes(), SharedMemory::Use::look);
+    }
+
+    void read_rig(const Hello& hello) {
+        if (hello.spawn() == nullptr)
+            return;
+        flatbuffers::Verifier verifier(hello.spawn()->data(), hello.spawn()->size());
+        if (!verifier.VerifyBuffer<world::Command>(nullptr))
+            throw world::Error("the run said hello with what is no command");
+        rig = world::rig_of(*flatbuffers::GetRoot<world::Command>(hello.spawn()->data()), 0);
+    }
+
+    /// The pixels of a frame, wherever they are.
+    std::span<const std::uint8_t> pixels(const remote::Picture& picture, std::size_t size) const {
+        if (picture.data() != nullptr && picture.data()->size() == size)
+            return {picture.data()->data(), size};
+        if (!memory || picture.offset() > memory->bytes().size() ||
+            size > memory->bytes().size() - picture.offset())
+            throw world::Error("the run showed a picture without its pixels");
+        return memory->bytes().subspan(picture.offset(), size);
     }
 
     FrameChannel channel;
     Frame last;  ///< the ticks look into it
+    std::optional<SharedMemory> memory;
+    world::Rig rig;
+    flatbuffers::FlatBufferBuilder no_traffic;  ///< of who sees sensors only
     std::uint32_t actor = 0;
     std::uint64_t tick = 0;
     std::string name;
@@ -147,13 +177,38 @@ std::optional<world::TickView> Client::next() {
     };
     if (!holds(seen.tick(),
                [](auto& v) { return v.template VerifyBuffer<world::Tick>(nullptr); }) ||
-        !holds(seen.traffic(),
-               [](auto& v) { return v.template VerifyBuffer<world::Traffic>(nullptr); }))
+        (seen.traffic() != nullptr && !holds(seen.traffic(), [](auto& v) {
+             return v.template VerifyBuffer<world::Traffic>(nullptr);
+         })))
         throw world::Error("the run showed what is no tick");
-    const world::TickView view{world::GetTick(seen.tick()->data()),
-                               world::GetTraffic(seen.traffic()->data())};
+    const world::TickView view{
+        world::GetTick(seen.tick()->data()),
+        world::GetTraffic(seen.traffic() != nullptr ? seen.traffic()->data()
+                                                    : parts.no_traffic.GetBufferPointer())};
     parts.tick = view.index();
     return view;
+}
+
+const world::SensorRig& Client::sensors() const {
+    return parts_->rig.sensors;
+}
+
+std::optional<Client::Picture> Client::picture(std::string_view sensor) const {
+    const world::SensorRig& sensors = parts_->rig.sensors;
+    const auto carried =
+        std::find_if(sensors.begin(), sensors.end(), [&](const world::SensorSpec& one) {
+            return one.name == sensor;
+        });
+    if (carried == sensors.end())
+        throw world::Error(fmt::format("'{}' carries no sensor '{}'", name(), sensor));
+    const auto* shown = parts_->last.kind == Kind::observation
+                            ? parts_->last.as<Observation>().pictures()
+                            : nullptr;
+    if (shown != nullptr)
+        for (const remote::Picture* picture : *shown)
+            if (picture->sensor() == carried - sensors.begin())
+                return Picture{&*carried, parts_->pixels(*picture, world::picture_bytes(*carried))};
+    return std::nullopt;
 }
 
 void Client::say(const Wheel& wheel) {

@@ -4,9 +4,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "world/episode_generated.h"
+#include "world/rig.h"
 #include "world/tick.h"
 #include "world/town_generated.h"
 
@@ -45,6 +48,20 @@ class Client {
     /// The next tick; nothing when the run is over. It lives until the next call. Throws
     /// world::Error when the run is gone without a word.
     std::optional<world::TickView> next();
+
+    /// What the vehicle carries; empty without a rig.
+    const world::SensorRig& sensors() const;
+
+    /// A frame: `pixels` as world/sensor.h has them, in memory that the renderer writes into. They
+    /// stay until the answer to the tick after theirs.
+    struct Picture {
+        const world::SensorSpec* sensor = nullptr;
+        std::span<const std::uint8_t> pixels;
+    };
+
+    /// What a sensor saw at the last tick; nothing when it was not due. Throws world::Error for a
+    /// sensor that the vehicle does not carry.
+    std::optional<Picture> picture(std::string_view sensor) const;
 
     /// The answer to the last tick: from the next one on.
     void say(const Wheel& wheel);

@@ -27,6 +27,36 @@ struct Header {
     std::uint32_t kind = 0;
 };
 
+/// Room beside a message for one descriptor.
+struct DescriptorRoom {
+    void offer(msghdr& message) {
+        message.msg_control = bytes.data();
+        message.msg_controllen = bytes.size();
+    }
+
+    void put(msghdr& message, int descriptor) {
+        offer(message);
+        cmsghdr* head = CMSG_FIRSTHDR(&message);
+        head->cmsg_level = SOL_SOCKET;
+        head->cmsg_type = SCM_RIGHTS;
+        head->cmsg_len = CMSG_LEN(sizeof(int));
+        std::memcpy(CMSG_DATA(head), &descriptor, sizeof(int));
+    }
+
+    /// What came; below 0: nothing.
+    static int taken(msghdr& message) {
+        const cmsghdr* head = CMSG_FIRSTHDR(&message);
+        if (head == nullptr || head->cmsg_level != SOL_SOCKET || head->cmsg_type != SCM_RIGHTS ||
+            head->cmsg_len < CMSG_LEN(sizeof(int)))
+            return -1;
+        int descriptor = -1;
+        std::memcpy(&descriptor, CMSG_DATA(head), sizeof(int));
+        return descriptor;
+    }
+
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> bytes{};
+};
+
 /// [s] of a clock that only runs forward.
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -63,8 +93,13 @@ struct FrameChannel::Wait {
         : given_up(&patience.given_up),
           until(patience.seconds ? std::optional(now() + *patience.seconds) : std::nullopt) {}
 
-    /// Until the socket is ready for `events`, or throws.
     void until_ready(int descriptor, short events) const {
+        pollfd one{descriptor, events, 0};
+        until_any_ready({&one, 1});
+    }
+
+    /// Until one of the sockets is ready for its events, or throws.
+    void until_any_ready(std::span<pollfd> sockets) const {
         for (;;) {
             double longest = *given_up ? glance : 3600;  // [s]
             if (until) {
@@ -72,8 +107,8 @@ struct FrameChannel::Wait {
                 if (longest <= 0)
                     throw ChannelFault("said nothing in time");
             }
-            pollfd one{descriptor, events, 0};
-            const int ready = poll(&one, 1, static_cast<int>(std::ceil(longest * 1e3)));
+            const int ready =
+                poll(sockets.data(), sockets.size(), static_cast<int>(std::ceil(longest * 1e3)));
             if (ready > 0)
                 return;
             if (ready < 0 && errno != EINTR)
@@ -88,7 +123,14 @@ struct FrameChannel::Wait {
 };
 
 void wait_for_input(int descriptor, const Patience& patience) {
-    FrameChannel::Wait(patience).until_ready(descriptor, POLLIN);
+    wait_for_any_input({&descriptor, 1}, patience);
+}
+
+void wait_for_any_input(std::span<const int> descriptors, const Patience& patience) {
+    std::vector<pollfd> sockets;
+    for (const int descriptor : descriptors)
+        sockets.push_back({descriptor, POLLIN, 0});
+    FrameChannel::Wait(patience).until_any_ready(sockets);
 }
 
 FrameChannel::FrameChannel(int descriptor, std::size_t largest)
@@ -104,7 +146,17 @@ FrameChannel::~FrameChannel() {
         close(descriptor_);
 }
 
-void FrameChannel::send(Kind kind, std::span<const std::uint8_t> body, const Patience& patience) {
+bool FrameChannel::carries_descriptors() const {
+    sockaddr_storage address{};
+    socklen_t size = sizeof(address);
+    return getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address), &size) == 0 &&
+           address.ss_family == AF_UNIX;
+}
+
+void FrameChannel::send(Kind kind,
+                        std::span<const std::uint8_t> body,
+                        const Patience& patience,
+                        int handed_over) {
     Header header{static_cast<std::uint32_t>(body.size()), static_cast<std::uint32_t>(kind)};
     std::array<iovec, 2> parts{iovec{&header, sizeof(header)},
                                iovec{const_cast<std::uint8_t*>(body.data()), body.size()}};
@@ -114,6 +166,9 @@ void FrameChannel::send(Kind kind, std::span<const std::uint8_t> body, const Pat
         msghdr message{};
         message.msg_iov = parts.data();
         message.msg_iovlen = parts.size();
+        DescriptorRoom room;
+        if (handed_over >= 0)
+            room.put(message, handed_over);
         const ssize_t sent = sendmsg(descriptor_, &message, MSG_NOSIGNAL | MSG_DONTWAIT);
         if (sent < 0) {
             if (errno == EAGAIN)
@@ -123,6 +178,7 @@ void FrameChannel::send(Kind kind, std::span<const std::uint8_t> body, const Pat
                                                                          : std::strerror(errno));
             continue;
         }
+        handed_over = -1;  // it went with the first byte
         left -= static_cast<std::size_t>(sent);
         auto taken = static_cast<std::size_t>(sent);
         for (iovec& part : parts) {
@@ -134,10 +190,16 @@ void FrameChannel::send(Kind kind, std::span<const std::uint8_t> body, const Pat
     }
 }
 
-void FrameChannel::read(void* target, std::size_t size, const Wait& wait) {
+void FrameChannel::read(void* target, std::size_t size, const Wait& wait, Descriptor& came_along) {
     auto* at = static_cast<char*>(target);
     while (size > 0) {
-        const ssize_t came = recv(descriptor_, at, size, MSG_DONTWAIT);
+        iovec part{at, size};
+        msghdr message{};
+        message.msg_iov = &part;
+        message.msg_iovlen = 1;
+        DescriptorRoom room;
+        room.offer(message);
+        const ssize_t came = recvmsg(descriptor_, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC);
         if (came == 0)
             throw ChannelFault("has hung up");
         if (came < 0) {
@@ -147,6 +209,8 @@ void FrameChannel::read(void* target, std::size_t size, const Wait& wait) {
                 throw ChannelFault(errno == ECONNRESET ? "has hung up" : std::strerror(errno));
             continue;
         }
+        if (const int number = DescriptorRoom::taken(message); number >= 0)
+            came_along = Descriptor(number);
         at += came;
         size -= static_cast<std::size_t>(came);
     }
@@ -155,14 +219,16 @@ void FrameChannel::read(void* target, std::size_t size, const Wait& wait) {
 Frame FrameChannel::receive(const Patience& patience) {
     const Wait wait(patience);
     Header header;
-    read(&header, sizeof(header), wait);
+    Descriptor came_along;
+    read(&header, sizeof(header), wait, came_along);
     if (header.size > largest_)
         throw ChannelFault(
             fmt::format("said a message of {} bytes, where {} is the most", header.size, largest_));
     Frame frame{static_cast<Kind>(header.kind),
                 std::vector<std::uint64_t>((header.size + 7) / 8),
                 header.size};
-    read(frame.words.data(), header.size, wait);
+    read(frame.words.data(), header.size, wait, came_along);
+    frame.descriptor = std::move(came_along);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(frame.words.data());
     if (!is_message(frame.kind, {bytes, frame.size}))
         throw ChannelFault(

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "remote/descriptor.h"
 #include "remote/wire_generated.h"
 
 namespace reprise::remote {
@@ -30,6 +31,7 @@ struct Frame {
     Kind kind = Kind::goodbye;
     std::vector<std::uint64_t> words;  ///< the body, aligned as its doubles want it
     std::size_t size = 0;              ///< [bytes] of the body
+    Descriptor descriptor{};           ///< that came with it
 
     template <class Table>
     const Table& as() const {
@@ -39,6 +41,9 @@ struct Frame {
 
 /// Waits until there is something to read, or somebody to accept. Throws ChannelFault.
 void wait_for_input(int descriptor, const Patience& patience);
+
+/// The same for any of several; below 0 stands for none.
+void wait_for_any_input(std::span<const int> descriptors, const Patience& patience);
 
 /// One connected stream socket that carries frames (wire.fbs). Owns the descriptor.
 class FrameChannel {
@@ -51,8 +56,12 @@ class FrameChannel {
     FrameChannel& operator=(const FrameChannel&) = delete;
     FrameChannel& operator=(FrameChannel&&) = delete;
 
-    /// Waits until all is handed over. Throws ChannelFault.
-    void send(Kind kind, std::span<const std::uint8_t> body, const Patience& patience = {});
+    /// Waits until all is handed over. `handed_over`: a descriptor that the other process gets
+    /// with the message, where the socket carries them. Throws ChannelFault.
+    void send(Kind kind,
+              std::span<const std::uint8_t> body,
+              const Patience& patience = {},
+              int handed_over = -1);
 
     /// Waits for the next message as send() does. Throws ChannelFault, also for a body that is no
     /// table of its kind.
@@ -60,10 +69,15 @@ class FrameChannel {
 
     int descriptor() const { return descriptor_; }
 
+    /// Whether open files can be handed over: between processes of one machine only.
+    bool carries_descriptors() const;
+
   private:
-    friend void wait_for_input(int descriptor, const Patience& patience);
+    friend void wait_for_any_input(std::span<const int> descriptors, const Patience& patience);
     struct Wait;
-    void read(void* target, std::size_t size, const Wait& wait);
+
+    /// `came_along` gets a descriptor that comes with the bytes.
+    void read(void* target, std::size_t size, const Wait& wait, Descriptor& came_along);
 
     int descriptor_;
     std::size_t largest_;

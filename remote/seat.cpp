@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -20,7 +21,10 @@
 
 #include "process/companion.h"
 #include "remote/frame_channel.h"
+#include "remote/live_rig.h"
+#include "remote/messages.h"
 #include "remote/schema.h"
+#include "remote/shared_memory.h"
 #include "world/check.h"
 
 namespace reprise::remote {
@@ -30,10 +34,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t largest_answer = 64 << 10;  // [bytes]
 constexpr std::string_view socket_word = "socket:";
-
-std::span<const std::uint8_t> bytes_of(const flatbuffers::FlatBufferBuilder& builder) {
-    return {builder.GetBufferPointer(), builder.GetSize()};
-}
 
 /// Where a driver finds us; gone from the folder with us.
 class Listener {
@@ -81,6 +81,11 @@ class Listener {
     int descriptor_ = -1;
 };
 
+bool has_input(int descriptor) {
+    pollfd one{descriptor, POLLIN, 0};
+    return poll(&one, 1, 0) > 0;
+}
+
 /// What is wrong with a value that a driver said, or "".
 std::string fault_of(const char* name, double value, double low, double high) {
     if (value >= low && value <= high)
@@ -98,17 +103,6 @@ std::string fault_of(const Control& control, std::uint64_t shown) {
         if (!fault.empty())
             return fault;
     return "";
-}
-
-std::string pack(const world::Recording& recording, std::vector<std::uint8_t>& town) {
-    flatbuffers::FlatBufferBuilder builder;
-    builder.Finish(world::Town::Pack(builder, &recording.town), world::TownIdentifier());
-    town.assign(builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize());
-    world::EpisodeT episode = recording.episode;
-    episode.scenario.clear();  // a driver shall see the road, not the script
-    flatbuffers::FlatBufferBuilder small;
-    small.Finish(world::Episode::Pack(small, &episode), world::EpisodeIdentifier());
-    return {reinterpret_cast<const char*>(small.GetBufferPointer()), small.GetSize()};
 }
 
 }  // namespace
@@ -136,6 +130,18 @@ struct Seat::Parts {
     std::optional<process::Companion> program;
     std::optional<std::uint32_t> id;
     std::deque<std::uint64_t> shown;  ///< ticks without an answer yet
+    std::optional<LiveRig> rig;
+    bool sees_sensors = false;
+
+    /// A tick whose frames are being rendered, or that stands behind such a one.
+    struct Unshown {
+        std::uint64_t index = 0;
+        std::vector<std::uint8_t> tick;
+        std::vector<std::uint8_t> traffic;
+        std::vector<PlacedPicture> pictures;
+    };
+
+    std::deque<Unshown> unshown;
 
     /// What became of it: how its program ended says more than a socket that is closed.
     Lost lost(const std::string& fault) {
@@ -146,6 +152,49 @@ struct Seat::Parts {
                                             : fmt::format("ended with exit code {}", ended->code);
         channel.reset();
         return {fmt::format("the driver of '{}' {}", plan.actor, reason)};
+    }
+
+    Lost lost_renderer(const RenderFault& fault) const {
+        return {fmt::format("the process that renders for '{}' {}", plan.actor, fault.what()),
+                true};
+    }
+
+    std::optional<Lost> hand_over(std::uint64_t tick, const Packed& observation) {
+        shown.push_back(tick);
+        try {
+            channel->send(Kind::observation, bytes_of(observation), patience);
+        } catch (const ChannelFault& fault) {
+            return lost(fault.what());
+        }
+        return std::nullopt;
+    }
+
+    /// What waits for no frame, or for such as have come meanwhile.
+    std::optional<Lost> show_finished() {
+        for (; !unshown.empty(); unshown.pop_front()) {
+            const Unshown& next = unshown.front();
+            if (!next.pictures.empty() && !rig->has(next.index))
+                break;
+            const auto* memory =
+                channel->carries_descriptors() ? nullptr : rig->memory().bytes().data();
+            if (const auto gone = hand_over(
+                    next.index, pack_observation(next.tick, next.traffic, next.pictures, memory)))
+                return gone;
+        }
+        return std::nullopt;
+    }
+
+    /// While the driver thinks, frames of later ticks come, and are handed on.
+    std::optional<Lost> wait_for_answer() {
+        while (!unshown.empty()) {
+            const std::array<int, 2> both{channel->descriptor(), rig->descriptor()};
+            wait_for_any_input(both, patience);
+            if (has_input(channel->descriptor()))
+                break;
+            if (const auto gone = show_finished())
+                return gone;
+        }
+        return std::nullopt;
     }
 };
 
@@ -177,9 +226,17 @@ std::optional<std::uint32_t> Seat::id() const {
     return parts_->id;
 }
 
-std::optional<Lost> Seat::take(std::uint32_t id, const world::Recording& recording) {
+std::optional<Lost> Seat::take(std::uint32_t id,
+                               const world::Recording& recording,
+                               const Spawned& spawned) {
     Parts& parts = *parts_;
     parts.id = id;
+    if (spawned.command != nullptr) {
+        parts.sees_sensors = spawned.command->sees_sensors();
+        const world::Rig rig = world::rig_of(*spawned.command, spawned.tick);
+        if (!rig.sensors.empty())  // it reads the town while the driver does
+            parts.rig.emplace(spawned.render_program, *spawned.command, rig, recording);
+    }
     if (parts.listener) {
         int descriptor = -1;
         try {
@@ -190,20 +247,15 @@ std::optional<Lost> Seat::take(std::uint32_t id, const world::Recording& recordi
         parts.listener.reset();  // one driver a seat: a second finds nobody
         parts.channel.emplace(descriptor, largest_answer);
     }
-    std::vector<std::uint8_t> town;
-    const std::string episode = pack(recording, town);
-    flatbuffers::FlatBufferBuilder builder;
-    const auto schema = builder.CreateString(schema_digest());
-    const auto name = builder.CreateString(parts.plan.actor);
-    builder.ForceVectorAlignment(episode.size(), 1, 16);
-    const auto of_episode =
-        builder.CreateVector(reinterpret_cast<const std::uint8_t*>(episode.data()), episode.size());
-    builder.ForceVectorAlignment(town.size(), 1, 16);
-    const auto of_town = builder.CreateVector(town);
-    builder.Finish(CreateHello(
-        builder, wire_version, schema, id, name, recording.episode.step_ns, of_episode, of_town));
+    const bool looks_itself = parts.rig && parts.channel->carries_descriptors();
+    const Packed hello = pack_hello({id,
+                                     parts.plan.actor,
+                                     spawned.command,
+                                     looks_itself ? parts.rig->memory().bytes().size() : 0},
+                                    recording);
+    const Descriptor memory = looks_itself ? parts.rig->memory().for_looking() : Descriptor();
     try {
-        parts.channel->send(Kind::hello, bytes_of(builder), parts.patience);
+        parts.channel->send(Kind::hello, bytes_of(hello), parts.patience, memory.number());
         const Frame frame = parts.channel->receive(parts.patience);
         if (frame.kind != Kind::ready)
             return parts.lost("did not say that it is ready");
@@ -218,27 +270,50 @@ std::optional<Lost> Seat::take(std::uint32_t id, const world::Recording& recordi
 
 std::optional<Lost> Seat::show(const world::SealedTick& tick) {
     Parts& parts = *parts_;
-    flatbuffers::FlatBufferBuilder builder(tick.tick_bytes().size() + tick.traffic_bytes().size() +
-                                           256);
-    const auto aligned = [&](std::span<const std::uint8_t> bytes) {
-        builder.ForceVectorAlignment(bytes.size(), 1, 16);
-        return builder.CreateVector(bytes.data(), bytes.size());
-    };
-    const auto traffic = aligned(tick.traffic_bytes());
-    const auto of_tick = aligned(tick.tick_bytes());
-    builder.Finish(CreateObservation(builder, of_tick, traffic));
-    parts.shown.push_back(tick.view().index());
+    const std::uint64_t index = tick.view().index();
+    std::vector<std::uint8_t> own;
+    std::span<const std::uint8_t> of_tick = tick.tick_bytes();
+    std::span<const std::uint8_t> of_traffic = tick.traffic_bytes();
+    if (parts.sees_sensors) {
+        own = own_tick(tick.view(), *parts.id);
+        of_tick = own;
+        of_traffic = {};
+    }
     try {
-        parts.channel->send(Kind::observation, bytes_of(builder), parts.patience);
+        auto pictures = parts.rig ? parts.rig->ask(tick) : std::vector<PlacedPicture>();
+        if (pictures.empty() && parts.unshown.empty())
+            return parts.hand_over(index, pack_observation(of_tick, of_traffic, {}, nullptr));
+        parts.unshown.push_back({index,
+                                 {of_tick.begin(), of_tick.end()},
+                                 {of_traffic.begin(), of_traffic.end()},
+                                 std::move(pictures)});
+        return parts.show_finished();
+    } catch (const RenderFault& fault) {
+        return parts.lost_renderer(fault);
+    }
+}
+
+std::optional<Lost> Seat::show_due() {
+    Parts& parts = *parts_;
+    if (!parts.shown.empty() || parts.unshown.empty())
+        return std::nullopt;
+    try {
+        parts.rig->wait_for(parts.unshown.front().index, parts.patience.given_up);
+        return parts.show_finished();
+    } catch (const RenderFault& fault) {
+        return parts.lost_renderer(fault);
     } catch (const ChannelFault& fault) {
         return parts.lost(fault.what());
     }
-    return std::nullopt;
 }
 
 std::variant<world::Control, Lost> Seat::answer() {
     Parts& parts = *parts_;
+    if (const auto lost = show_due())
+        return *lost;
     try {
+        if (const auto lost = parts.wait_for_answer())
+            return *lost;
         const Frame frame = parts.channel->receive(parts.patience);
         if (frame.kind == Kind::goodbye) {
             const auto* reason = frame.as<Goodbye>().reason();
@@ -257,12 +332,15 @@ std::variant<world::Control, Lost> Seat::answer() {
                               said.lamps(),
                               said.hand_brake(),
                               said.reverse());
+    } catch (const RenderFault& fault) {
+        return parts.lost_renderer(fault);
     } catch (const ChannelFault& fault) {
         return parts.lost(fault.what());
     }
 }
 
 void Seat::leave(const std::string& reason) {
+    parts_->rig.reset();
     if (!parts_->channel)
         return;
     flatbuffers::FlatBufferBuilder builder;

@@ -28,10 +28,19 @@ SeatPlan parse_seat(const std::string& text);
 /// 1".
 struct Lost {
     std::string reason;
+    bool ours = false;  ///< not the driver failed, but we did
+};
+
+/// How the scenario spawned a vehicle: what it carries, and what its driver is shown.
+struct Spawned {
+    const world::Command* command = nullptr;
+    std::uint64_t tick = 0;      ///< in which it appeared
+    std::string render_program;  ///< for the shell, see LiveRig
 };
 
 /// The place at the wheel that a driver in another program takes. The run goes tick by tick with
-/// it: show() what was recorded, then wait for its answer().
+/// it: show() what was recorded, then wait for its answer(). Where the vehicle carries a rig, a
+/// tick is shown as soon as its frames are there.
 class Seat {
   public:
     /// Starts the program, or makes the socket, open for this user only. `patience`: for each
@@ -44,13 +53,21 @@ class Seat {
     const std::string& actor() const;
 
     /// The vehicle is there, with this id: says hello, and waits for the driver to be ready.
-    std::optional<Lost> take(std::uint32_t id, const world::Recording& recording);
+    /// Throws world::Error for a rig that is not possible.
+    std::optional<Lost> take(std::uint32_t id,
+                             const world::Recording& recording,
+                             const Spawned& spawned = {});
 
     /// Its id, once taken.
     std::optional<std::uint32_t> id() const;
 
-    /// Hands over a tick. Does not wait for what the driver makes of it.
+    /// Hands over a tick, or begins to render what belongs to it. Does not wait for what the driver
+    /// makes of it.
     std::optional<Lost> show(const world::SealedTick& tick);
+
+    /// Before answer(), where there are several: waits for the frames of the tick that it is to
+    /// answer, and hands them over.
+    std::optional<Lost> show_due();
 
     /// What the driver makes of the first tick that was shown and not answered yet.
     std::variant<world::Control, Lost> answer();

@@ -1,9 +1,11 @@
-"""Drive in Reprise: `reprise.drive(lambda tick: reprise.Control(throttle=0.4))`. See docs/drivers.md."""
+"""Drive in Reprise: `reprise.drive(lambda tick: reprise.Control(throttle=0.4))`. See docs/drivers.md, docs/python.md."""
 from .driver import Control, Driver, Ego, Observation, Run, drive
 from .nouns import Noun, dtype, enum, points
+from .pictures import Images, Sensors
 from .trace import Trace, TraceError
 from .wire import WireError
 
 __all__ = [
-    "Control", "Driver", "Ego", "Noun", "Observation", "Run", "Trace", "TraceError", "WireError", "drive", "dtype", "enum", "points",
+    "Control", "Driver", "Ego", "Images", "Noun", "Observation", "Run", "Sensors", "Trace", "TraceError", "WireError",
+    "drive", "dtype", "enum", "points",
 ]  # fmt: skip

@@ -4,12 +4,16 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
+import struct
 from typing import Any, Callable
 
 import numpy as np
 
 from .nouns import Noun
+from .pictures import Images, Sensors
 from .wire import VERSION, Wire, WireError
+
+_NO_TRAFFIC = struct.pack("<IHHi", 8, 4, 4, 4)  # a table in which nothing is said: who sees sensors only has no other
 
 
 @dataclasses.dataclass(frozen=True)
@@ -34,15 +38,17 @@ class Run:
     """What stays the same in a run.
 
     Attributes: `actor` id of the driven vehicle, `name` the scenario's word for it, `step` [s] between ticks, `town`
-    and `episode` nouns (world/town.fbs, world/episode.fbs); `town.lanes[i].centre` is a centre line.
+    and `episode` nouns (world/town.fbs, world/episode.fbs); `town.lanes[i].centre` is a centre line; `sensors.rig` what
+    the vehicle carries (Sensor of world/tick.fbs).
     """
 
-    def __init__(self, hello: Noun) -> None:
+    def __init__(self, hello: Noun, memory: int | None = None) -> None:
         self.actor: int = hello.actor
         self.name: str = hello.name
         self.step: float = hello.step_ns * 1e-9
         self.town = Noun(hello.town.data, "world.Town")
         self.episode = Noun(hello.episode.data, "world.Episode")
+        self.sensors = Sensors.of(hello, memory)
 
 
 class Ego:
@@ -75,7 +81,19 @@ class Observation:
     def __init__(self, run: Run, message: Noun) -> None:
         self.run = run
         self.tick = Noun(message.tick.data, "world.Tick")
-        self.traffic = Noun(message.traffic.data, "world.Traffic")
+        self.traffic = Noun(message.traffic.data if len(message.traffic) else _NO_TRAFFIC, "world.Traffic")
+        #: by the names of their sensors: those that were due in this tick
+        self.images = Images(run.sensors, message.pictures)
+
+    def image(self, name: str) -> np.ndarray | None:
+        """What the sensor of that name sees in this tick; None where it makes no frame of it (`every`).
+
+        rgb: (height, width, 3) uint8; depth: (height, width) float32 [m] along the optical axis, inf where only sky is;
+        semantic: (height, width) uint8, CARLA 0.9.14's classes. A view into shared memory that may not be written: it
+        stays as it is until the driver has answered the next tick; what is to be kept longer is copied (`.copy()`).
+        Raises KeyError for a sensor that the vehicle does not carry.
+        """
+        return self.images.get(name)
 
     @property
     def index(self) -> int:
@@ -127,13 +145,13 @@ def drive(driver: Driver, address: str | None = None) -> int:
     wire = Wire(address)
     ticks = 0
     try:
-        kind, hello = wire.receive()
+        kind, hello = wire.receive_first()
         if kind != "hello":
             raise WireError("the run did not begin with hello")
         wire.ready()
         if hello.version != VERSION:
             raise WireError(f"the run speaks version {hello.version} of the wire, this package {VERSION}")
-        run = Run(hello)
+        run = Run(hello, wire.descriptor())
         while True:
             kind, message = wire.receive()
             if kind != "observation":

@@ -37,9 +37,23 @@ class Wire:
                 "no run to drive in: start this program by reprise run SCENARIO.lua --driver NAME='...', or name a socket"
             )
         self._channel = _connect(address)
+        self._descriptor: int | None = None
 
     def close(self) -> None:
         self._channel.close()
+
+    def descriptor(self) -> int | None:
+        """What was handed over with the first message, once: the caller's from then on."""
+        descriptor, self._descriptor = self._descriptor, None
+        return descriptor
+
+    def receive_first(self) -> tuple[str, Noun]:
+        """As receive(); an open file may come along: see descriptor()."""
+        if self._channel.family == socket.AF_UNIX:
+            head, descriptors, _, _ = socket.recv_fds(self._channel, 8, 1)
+            self._descriptor = descriptors[0] if descriptors else None
+            return self._rest(bytes(head) + bytes(self._read(8 - len(head))))
+        return self.receive()
 
     def _read(self, size: int) -> memoryview:
         data = bytearray(size)
@@ -53,7 +67,10 @@ class Wire:
 
     def receive(self) -> tuple[str, Noun]:
         """The next message: its kind, such as 'observation', and the noun it holds."""
-        size, number = struct.unpack("<II", self._read(8))
+        return self._rest(self._read(8))
+
+    def _rest(self, head: bytes | memoryview) -> tuple[str, Noun]:
+        size, number = struct.unpack("<II", head)
         kind = _NAMES.get(number)
         if kind is None:
             raise WireError(f"the run said a message of the unknown kind {number}")

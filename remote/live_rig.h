@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "remote/frame_channel.h"
+#include "remote/picture_ring.h"
+#include "world/recording.h"
+#include "world/rig.h"
+#include "world/tick.h"
+
+namespace reprise::remote {
+
+class SharedMemory;
+
+/// The process that renders is gone, which is never the user's mistake: "was ended by signal 9".
+class RenderFault : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// What the cameras of one vehicle see while the run goes on. A process of its own renders: it is
+/// told the town once, then ticks as they are recorded, and writes pixels into memory that it, the
+/// run and the driver share. It knows no kernel, the run no renderer.
+class LiveRig {
+  public:
+    /// Starts it; does not wait for it. `program`: the line for the shell; it finds its socket in
+    /// the variable REPRISE_LIVE. `rig` is not empty. Throws world::Error.
+    LiveRig(const std::string& program,
+            const world::Command& spawn,
+            const world::Rig& rig,
+            const world::Recording& recording);
+    ~LiveRig();
+    LiveRig(const LiveRig&) = delete;
+    LiveRig& operator=(const LiveRig&) = delete;
+
+    const SharedMemory& memory() const;
+
+    /// Has the frames of this tick rendered; which ones those are, none where no sensor is due.
+    /// Does not wait for them. Throws RenderFault.
+    std::vector<PlacedPicture> ask(const world::SealedTick& tick);
+
+    /// Whether the frames of this tick, for which it was asked, are there. Throws RenderFault.
+    bool has(std::uint64_t tick);
+
+    /// Waits for them. Throws RenderFault, and ChannelFault when somebody gives up.
+    void wait_for(std::uint64_t tick, const std::function<bool()>& given_up);
+
+    /// Readable when frames have come, for poll().
+    int descriptor() const;
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// The other side, which the process that renders is: what it was told, and how it answers.
+class LivePictures {
+  public:
+    /// From the variable REPRISE_LIVE. Waits for the run's first word. Throws world::Error.
+    LivePictures();
+    ~LivePictures();
+    LivePictures(const LivePictures&) = delete;
+    LivePictures& operator=(const LivePictures&) = delete;
+
+    const world::TownT& town() const;
+
+    /// Says that all is ready for the first tick.
+    void ready();
+
+    struct Wish {
+        world::TickView tick;
+        world::SensorRig sensors;  ///< due in this tick
+    };
+
+    /// The next tick to be looked at, until the next call; nothing when the run is over.
+    std::optional<Wish> next();
+
+    /// The pixels of the last wish, in its order.
+    void show(std::span<const world::SensorFrame> frames);
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace reprise::remote

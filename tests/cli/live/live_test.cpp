@@ -1,0 +1,249 @@
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "render/picture.h"
+#include "render/sensors.h"
+#include "replay/trace_reader.h"
+#include "tests/cli/program.h"
+#include "world/rig.h"
+
+namespace reprise::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr const char* rig = R"(rig = {
+    { name = 'rgb', width = 84, height = 84 },
+    { name = 'depth', kind = 'depth', width = 84, height = 84 },
+    { name = 'semantic', kind = 'semantic', width = 84, height = 84 },
+    { name = 'side', width = 60, height = 40, fov_deg = 70, yaw_deg = 80, pitch_deg = -5, y = 0.8, every = 3 },
+}, )";
+
+constexpr const char* python =
+    "PYTHONPATH=" REPRISE_SOURCE "/python /usr/bin/python3 -B " REPRISE_SOURCE
+    "/tests/cli/live/looking_driver.py ";
+constexpr const char* compiled = "exec " REPRISE_LOOKING_DRIVER " ";
+
+/// Runs of half a second (10 ticks) in Town 1 among 20 cars in the rain; who is driven comes in the
+/// third tick.
+class Live : public testing::Test {
+  protected:
+    void scenario(const std::string& name, const std::string& more) {
+        write_file(folder_ / (name + ".lua"),
+                   "return scenario '" + name +
+                       "' { town = 'town1', cars = 20, seed = 7, duration = 0.5, weather = "
+                       "'hard_rain_sunset', run = function() wait_ticks(2) spawn{ name = 'ego', "
+                       "model = 'sedan', " +
+                       more + "} wait(60) end }\n");
+    }
+
+    /// Returns what was printed.
+    std::string run(const std::string& name, const std::string& driver, int code = 0) {
+        std::vector<std::string> words{"run", name + ".lua", "-o", name + ".mcap"};
+        if (!driver.empty())
+            words.insert(words.end(), {"--driver", "ego=" + driver});
+        const Result result = reprise(words, folder_.path());
+        EXPECT_EQ(result.code, code) << result.out;
+        return result.out;
+    }
+
+    std::string make_folder(const std::string& name) {
+        std::filesystem::create_directory(folder_ / name);
+        return folder_ / name;
+    }
+
+    /// The names of the frames that a driver kept.
+    std::vector<std::string> kept(const std::string& name) {
+        std::vector<std::string> names;
+        for (const auto& file : std::filesystem::directory_iterator(folder_ / name))
+            names.push_back(file.path().stem());
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+
+    std::string kept_frame(const std::string& name, const world::SensorFrame& frame) {
+        return read_file(folder_ / fmt::format("{}/{}_{}.raw", name, frame.name, frame.tick));
+    }
+
+    /// Each frame that a driver kept is what the renderer makes of the trace, and what `reprise
+    /// render` writes, to the last bit; and none is missing but of the last ticks of a late driver,
+    /// which the run does not wait for.
+    void expect_frames_of_trace(const std::string& name,
+                                const std::string& frames,
+                                std::uint64_t latency = 0) {
+        const Result rendered =
+            reprise({"render", name + ".mcap", "-o", name + "_again"}, folder_.path());
+        ASSERT_EQ(rendered.code, 0) << rendered.out;
+        replay::TraceReader trace(folder_ / (name + ".mcap"));
+        render::Sensors sensors(trace.recording().town);
+        world::Rig carried;
+        std::size_t pictures = 0;
+        std::size_t shown = 0;
+        for (std::uint64_t index = 1; index < trace.last(); ++index) {
+            const world::TickView tick = trace.tick(index).view;
+            for (const world::Command* command : *tick.tick->commands())
+                carried = world::rig_of(*command, index);
+            for (const std::size_t due : carried.due(index)) {
+                const auto again =
+                    sensors.observe(tick, {carried.sensors[due]}, *tick.tick->weather());
+                const world::SensorFrame& frame = again.front();
+                const std::string pixels(frame.data.begin(), frame.data.end());
+                const std::string seen = kept_frame(frames, frame);
+                if (index + latency < trace.last() || !seen.empty()) {
+                    EXPECT_TRUE(seen == pixels) << frame.name << " at " << index;
+                    ++shown;
+                }
+                const std::string written = folder_ / "one.png";
+                render::write_png(frame, written);
+                EXPECT_TRUE(
+                    read_file(written) ==
+                    read_file(folder_ /
+                              fmt::format("{}_again/{}/{:06}.png", name, frame.name, index)))
+                    << frame.name << " at " << index;
+                ++pictures;
+            }
+        }
+        EXPECT_EQ(kept(frames).size(), shown);
+        const std::size_t unseen = carried.due(trace.last()).size();  // nobody is asked behind it
+        EXPECT_THAT(rendered.out, HasSubstr(fmt::format(": {} pictures of ", pictures + unseen)));
+    }
+
+    Folder folder_;
+};
+
+TEST_F(Live, FramesSeenAreThoseThatTheTraceGivesAfterwards) {
+    scenario("seen", std::string(rig) + "driver = 'external' ");
+    run("seen", compiled + make_folder("cpp"));
+    expect_frames_of_trace("seen", "cpp");
+    const std::vector<std::string> names = kept("cpp");
+    EXPECT_EQ(std::count_if(names.begin(),
+                            names.end(),
+                            [](const std::string& name) { return name.starts_with("side"); }),
+              3)
+        << "every third tick";
+}
+
+TEST_F(Live, PythonSeesTheSameAsCpp) {
+    scenario("seen", std::string(rig) + "driver = 'external' ");
+    run("seen", compiled + make_folder("cpp"));
+    const std::string trace = read_file(folder_ / "seen.mcap");
+    run("seen", python + make_folder("py"));
+    EXPECT_TRUE(trace == read_file(folder_ / "seen.mcap"));
+    ASSERT_EQ(kept("cpp"), kept("py"));
+    ASSERT_THAT(kept("cpp"), Not(IsEmpty()));
+    for (const std::string& name : kept("cpp"))
+        EXPECT_TRUE(read_file(folder_ / ("cpp/" + name + ".raw")) ==
+                    read_file(folder_ / ("py/" + name + ".raw")))
+            << name;
+}
+
+TEST_F(Live, ALateDriverSeesTheFramesOfItsTicks) {
+    scenario("late", std::string(rig) + "driver = 'external', latency = 3 ");
+    run("late", compiled + make_folder("frames"));
+    expect_frames_of_trace("late", "frames", 3);
+}
+
+TEST_F(Live, WhoSeesSensorsOnlyIsShownNothingOfOthers) {
+    scenario("blind", std::string(rig) + "driver = 'external', sees = 'sensors' ");
+    run("blind", python + make_folder("frames") + " sensors");
+    expect_frames_of_trace("blind", "frames");
+}
+
+struct Pair {
+    std::string said;    ///< of both
+    std::string sees;    ///< of the one with the rig
+    std::string driver;  ///< of both
+};
+
+/// All of a tick but what is made of the script itself, where the rig stands.
+world::TickT without_script(const world::TickView& view) {
+    world::TickT tick;
+    view.tick->UnPackTo(&tick);
+    tick.digests.mutate_scenario(0);
+    tick.digests.mutable_state() = {};
+    tick.digests.mutable_chain() = {};
+    for (world::CommandT& command : tick.commands) {
+        command.rig.clear();
+        command.sees_sensors = false;
+    }
+    return tick;
+}
+
+world::TrafficT traffic(const world::TickView& view) {
+    world::TrafficT traffic;
+    view.traffic->UnPackTo(&traffic);
+    return traffic;
+}
+
+TEST_F(Live, SensorsNeverChangeWhatHappens) {
+    const std::string driver = compiled + make_folder("frames");
+    for (const Pair& pair :
+         {Pair{"driver = 'external' ", "", driver},
+          Pair{"driver = 'external', latency = 2 ", "sees = 'sensors', ", driver},
+          Pair{"driver = 'autopilot' ", "", ""}}) {
+        scenario("with", rig + pair.sees + pair.said);
+        scenario("without", pair.said);
+        run("with", pair.driver);
+        run("without", pair.driver);
+        replay::TraceReader with(folder_ / "with.mcap");
+        replay::TraceReader without(folder_ / "without.mcap");
+        ASSERT_EQ(with.ticks(), 10U);
+        ASSERT_EQ(without.ticks(), 10U);
+        for (std::uint64_t index = 1; index <= 10; ++index) {
+            const world::TickView one = with.tick(index).view;
+            const world::TickView other = without.tick(index).view;
+            EXPECT_TRUE(without_script(one) == without_script(other)) << pair.said << index;
+            EXPECT_TRUE(traffic(one) == traffic(other)) << pair.said << index;
+        }
+        const Result verified = reprise({"verify", "with.mcap"}, folder_.path());
+        EXPECT_EQ(verified.code, 0) << verified.out;
+    }
+}
+
+TEST_F(Live, ARendererThatDiesIsOurFaultAndTheTraceIsWhole) {
+    scenario("killed", std::string(rig) + "driver = 'external' ");
+    const std::string told = run("killed", compiled + make_folder("frames") + " kill", 70);
+    EXPECT_THAT(told,
+                HasSubstr("reprise: this is our fault, please report it: the process that renders "
+                          "for 'ego' was ended by signal 9\n"));
+    EXPECT_THAT(told, HasSubstr("driver_lost"));
+    const Result verified = reprise({"verify", "killed.mcap"}, folder_.path());
+    EXPECT_EQ(verified.code, 0) << verified.out;
+    EXPECT_EQ(replay::TraceReader(folder_ / "killed.mcap").ticks(), 7U);
+}
+
+TEST_F(Live, OtherCamerasAreRenderedWhereTheyAreAskedFor) {
+    scenario("other", std::string(rig) + "driver = 'autopilot' ");
+    run("other", "");
+    const auto files = [&](const std::vector<std::string>& more) {
+        const Folder out;
+        std::vector<std::string> words{"render", folder_ / "other.mcap", "-o", out / "p"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Result result = reprise(words);
+        EXPECT_EQ(result.code, 0) << result.out;
+        return out.files();
+    };
+    EXPECT_THAT(files({"--size", "40x30", "--every", "8", "--from", "2"}),
+                ElementsAre("p/000010.png"))
+        << "in tick 2 there is nobody yet";
+    EXPECT_THAT(files({"--camera", "depth", "--size", "40x30", "--from", "10"}),
+                ElementsAre("p/000010.png", "p/view/000010.png"));
+    EXPECT_THAT(files({"--from", "10"}),
+                ElementsAre("p/depth/000010.png",
+                            "p/depth/view/000010.png",
+                            "p/rgb/000010.png",
+                            "p/semantic/000010.png",
+                            "p/semantic/view/000010.png"));
+    EXPECT_THAT(files({"--from", "9", "--to", "9"}), testing::Contains("p/side/000009.png"));
+    EXPECT_THAT(files({"--from", "10", "--every", "1"}), testing::Contains("p/side/000010.png"));
+}
+
+}  // namespace
+}  // namespace reprise::test
