@@ -1,11 +1,13 @@
 // `reprise branch`.
-//   must      begin exactly where the recorded run was; ten what-ifs cost one way there
+//   must      begin exactly where the recorded run was; ten what-ifs cost one way there; need no
+//             driver in another program that is not named
 //   assumes   the trace is whole ticks of one run, and this build makes the same ones
 //   goes      all scripts are read first; a kernel follows the trace to the tick; then a copy of
 //             this process for each script, with its own trace: the parent's ticks, then its own
 //   keeps     nothing: no state is saved, a fork has all of it
 #include "cli/branch.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -19,6 +21,7 @@
 #include "cli/process/progress.h"
 #include "cli/process/say.h"
 #include "cli/run_again.h"
+#include "cli/seats.h"
 #include "files/output_place.h"
 #include "kernel/verify.h"
 #include "process/copy.h"
@@ -26,6 +29,8 @@
 #include "replay/trace_writer.h"
 #include "scripting/scenario.h"
 #include "world/check.h"
+#include "world/external_drivers.h"
+#include "world/printable.h"
 
 namespace reprise::cli {
 
@@ -93,8 +98,43 @@ std::vector<WhatIf> plan(const BranchOptions& options,
     return all;
 }
 
+/// What drivers in other programs do behind a branch: those that took over, what they say; the
+/// others what they did in the recorded run, as long as that lasted, and then they brake.
+std::vector<world::Control> inputs(const Seats& seats,
+                                   const world::ExternalDrivers& drivers,
+                                   replay::TraceReader& trace,
+                                   std::uint64_t tick) {
+    std::vector<world::Control> all(seats.controls().begin(), seats.controls().end());
+    const bool recorded = tick <= trace.ticks();
+    const auto before =
+        recorded ? trace.recorded(tick).view.controls() : std::span<const world::Control>();
+    for (const auto& [actor, spawn] : drivers.spawns()) {
+        if (seats.drives(actor))
+            continue;
+        const auto said = std::find_if(before.begin(), before.end(), [id = actor](const auto& one) {
+            return one.actor() == id;
+        });
+        if (said != before.end())
+            all.push_back(*said);
+        else if (!recorded)
+            all.emplace_back(0, 1, 0, actor, std::uint16_t{0}, false, false);
+    }
+    return all;
+}
+
+/// The kernel at the tick where the run branches.
+struct There {
+    kernel::Kernel* kernel;
+    const world::SealedTick* tick;
+    world::ExternalDrivers drivers;
+};
+
 /// In the child: the parent's ticks as they are recorded, then what the script makes of it.
-void go_on(kernel::Kernel& kernel, replay::TraceReader& trace, const WhatIf& what_if) {
+void go_on(There& there,
+           replay::TraceReader& trace,
+           const WhatIf& what_if,
+           const BranchOptions& options) {
+    kernel::Kernel& kernel = *there.kernel;
     world::Recording recording = trace.recording();
     recording.episode.branches.push_back(what_if.branch);
     recording.episode.fingerprint = this_build();
@@ -102,19 +142,27 @@ void go_on(kernel::Kernel& kernel, replay::TraceReader& trace, const WhatIf& wha
         what_if.output, recording, replay::Level::full, replay::Unfinished::remove);
     for (std::uint64_t index = 1; index <= what_if.branch.tick; ++index)
         writer.append(trace.tick(index));
+    Seats seats(options.drivers, {options.driver_timeout}, recording);
+    seats.take_over(there.drivers, *there.tick);
     kernel.branch(what_if.branch);
-    while (!kernel.finished())
-        writer.append(kernel.step());
-    writer.close(kernel.outcome());
+    for (std::uint64_t next = what_if.branch.tick + 1; !kernel.finished() && !seats.loss();
+         ++next) {
+        const world::SealedTick& tick = kernel.step(inputs(seats, there.drivers, trace, next));
+        writer.append(tick);
+        if (!kernel.finished())
+            seats.go_on(tick);
+    }
+    writer.close(seats.end(kernel.outcome()));
 }
 
-std::vector<process::CopyResult> go_on_in_copies(kernel::Kernel& kernel,
+std::vector<process::CopyResult> go_on_in_copies(There& there,
                                                  replay::TraceReader& trace,
-                                                 const std::vector<WhatIf>& what_ifs) {
+                                                 const std::vector<WhatIf>& what_ifs,
+                                                 const BranchOptions& options) {
     std::vector<process::Copy> copies;
     for (const WhatIf& what_if : what_ifs)
         copies.push_back({.subject = what_if.output, .work = [&] {
-                              go_on(kernel, trace, what_if);
+                              go_on(there, trace, what_if, options);
                               return "";
                           }});
     return process::run_copies(process::Children(), copies);
@@ -137,16 +185,47 @@ int report(const WhatIf& what_if, const process::CopyResult& result) {
         what_if.branch.tick + 1,
         outcome.verdict,
         outcome.reason);
-    return outcome.verdict == "failed" ? exit_differs : exit_good;
+    return outcome.verdict == "failed" || outcome.verdict == "driver_lost" ? exit_differs
+                                                                           : exit_good;
+}
+
+/// Mistakes in --driver, before the long way to the tick.
+void check_drivers(const BranchOptions& options) {
+    for (const remote::SeatPlan& plan : parse_seats(options.drivers))
+        if (!plan.socket.empty() && options.scripts.size() > 1)
+            throw world::Error(
+                fmt::format("--driver {}=socket:{}: one driver comes there, and {} scripts need "
+                            "one each: name a command, or branch for each script",
+                            plan.actor,
+                            plan.socket.string(),
+                            options.scripts.size()));
+}
+
+/// Who of other programs' vehicles goes on without one.
+void tell_undriven(const world::ExternalDrivers& drivers,
+                   const BranchOptions& options,
+                   std::uint64_t ticks) {
+    const std::vector<remote::SeatPlan> plans = parse_seats(options.drivers);
+    for (const auto& [actor, spawn] : drivers.spawns())
+        if (std::none_of(plans.begin(), plans.end(), [name = spawn.command.text](const auto& plan) {
+                return plan.actor == name;
+            }))
+            say(stderr,
+                "reprise: '{0}' does what its driver did until tick {1}, then it brakes; --driver "
+                "{0}=COMMAND lets another one take over\n",
+                world::printable(spawn.command.text),
+                ticks);
 }
 
 }  // namespace
 
 int branch(const BranchOptions& options) {
-    if (options.scripts.empty() && options.parameters.empty())
+    if (options.scripts.empty() && options.parameters.empty() && options.drivers.empty())
         throw world::Error(
             "branch: nothing would be different: give --script WHAT_IF.lua, which takes over, or "
-            "--set KEY=VALUE, with which the run's own script goes on");
+            "--set KEY=VALUE, with which the run's own script goes on, or --driver NAME=COMMAND, "
+            "which drives on");
+    check_drivers(options);
     self_test();
     replay::TraceReader trace(options.trace);
     require_repeatable(trace);
@@ -160,9 +239,12 @@ int branch(const BranchOptions& options) {
         files::output_target(what_if.output, "the trace");  // rather now than after a long way
     print_recording_build(trace);
     kernel::Kernel kernel(trace.recording());
+    There there{&kernel, nullptr, {}};
     Progress progress("going there", "ticks", tick);
     const auto divergence =
         kernel::follow(kernel, trace, tick, [&](const world::SealedTick& tick_there) {
+            there.tick = &tick_there;  // of the last one it stays
+            there.drivers.hear(*tick_there.view().tick);
             progress.update(tick_there.view().index());
         });
     progress.clear();
@@ -171,7 +253,8 @@ int branch(const BranchOptions& options) {
                                  trace,
                                  *divergence,
                                  fmt::format(" before tick {}; nothing was written", tick));
-    const auto results = go_on_in_copies(kernel, trace, what_ifs);
+    tell_undriven(there.drivers, options, trace.ticks());
+    const auto results = go_on_in_copies(there, trace, what_ifs, options);
     int code = exit_good;
     for (std::size_t i = 0; i < what_ifs.size(); ++i)
         code = std::max(code, report(what_ifs[i], results[i]));

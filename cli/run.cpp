@@ -179,20 +179,12 @@ int tell_stopped(int signal, std::uint64_t ticks, const std::string& rest) {
     return exit_stopped + signal;
 }
 
-/// How the run ended: with its scenario, or with a driver in another program; what became of that
-/// is said here only, because equal runs write equal traces.
-world::Outcome end_of(const kernel::Kernel& kernel, Seats& seats, std::uint64_t ticks) {
-    for (const std::string& name : seats.leave("the run ended"))
-        say(stderr,
-            "reprise: --driver {}: nobody was spawned with that name and driver = 'external'\n",
-            name);
-    if (!seats.loss())
-        return kernel.outcome();
-    say(stderr,
-        "reprise: {}{}\n",
-        seats.loss()->ours ? "this is our fault, please report it: " : "",
-        seats.loss()->reason);
-    return world::outcome_of_lost_driver(seats.loss()->actor, ticks);
+/// How a recorded run ended, when it was with a driver in another program, whose controls are in
+/// its trace only until then.
+std::optional<world::Outcome> recorded_loss(const std::optional<replay::TraceReader>& before) {
+    if (!before || before->outcome().verdict != "driver_lost")
+        return std::nullopt;
+    return before->outcome();
 }
 
 }  // namespace
@@ -221,9 +213,11 @@ int run(const RunOptions& options) {
     Seats seats(
         options.drivers, {options.driver_timeout, [&] { return stop.signal() != 0; }}, recording);
     Progress progress("running", "ticks", world::tick_limit(recording.episode));
+    const std::optional<world::Outcome> lost_before = recorded_loss(before);
     std::uint64_t index = 0;
     try {
-        while (!kernel.finished() && stop.signal() == 0 && !seats.loss()) {
+        while (!kernel.finished() && stop.signal() == 0 && !seats.loss() &&
+               !(lost_before && index >= lost_before->ticks)) {
             const world::SealedTick& tick =
                 kernel.step(before ? inputs(*before, index + 1) : seats.controls());
             ++index;
@@ -243,7 +237,8 @@ int run(const RunOptions& options) {
         trace.reset();
         return tell_stopped(stop.signal(), index, rest);
     }
-    const world::Outcome outcome = end_of(kernel, seats, index);
+    const bool lost_again = lost_before && !kernel.finished();
+    const world::Outcome outcome = lost_again ? *lost_before : seats.end(kernel.outcome());
     trace->close(outcome);
     print_summary(recording, kernel, outcome, path, progress.seconds());
     if (nudge && nudge->tick > outcome.ticks)
@@ -252,7 +247,8 @@ int run(const RunOptions& options) {
                                        outcome.ticks));
     if (seats.loss() && seats.loss()->ours)
         return exit_our_fault;
-    return outcome.verdict == "failed" || seats.loss() ? exit_differs : exit_good;
+    const bool good = outcome.verdict != "failed" && outcome.verdict != "driver_lost";
+    return good ? exit_good : exit_differs;
 }
 
 }  // namespace reprise::cli

@@ -6,6 +6,7 @@
 
 #include "cli/process/helper_program.h"
 #include "cli/process/reproduce.h"
+#include "cli/process/say.h"
 #include "world/check.h"
 #include "world/printable.h"
 
@@ -20,19 +21,23 @@ std::string render_program() {
 
 }  // namespace
 
-Seats::Seats(const std::vector<std::string>& plans,
-             const remote::Patience& patience,
-             const world::Recording& recording)
-    : recording_(&recording) {
+std::vector<remote::SeatPlan> parse_seats(const std::vector<std::string>& texts) {
     std::vector<remote::SeatPlan> all;
-    for (const std::string& text : plans) {
+    for (const std::string& text : texts) {
         all.push_back(remote::parse_seat(text));
         for (std::size_t i = 0; i + 1 < all.size(); ++i)
             if (all[i].actor == all.back().actor)
                 throw world::Error(
                     fmt::format("--driver {}: '{}' has a driver already", text, all[i].actor));
     }
-    for (const remote::SeatPlan& plan : all)
+    return all;
+}
+
+Seats::Seats(const std::vector<std::string>& plans,
+             const remote::Patience& patience,
+             const world::Recording& recording)
+    : recording_(&recording) {
+    for (const remote::SeatPlan& plan : parse_seats(plans))
         free_.push_back(std::make_unique<remote::Seat>(plan, patience));
 }
 
@@ -41,8 +46,31 @@ void Seats::lose(const remote::Seat& seat, const remote::Lost& lost) {
         loss_ = Loss{seat.actor(), lost.reason, lost.ours};
 }
 
+/// Gives an actor the driver that was named for it, if one was.
+bool Seats::seat(const world::ExternalDrivers::Spawn& spawn) {
+    const auto seat = std::find_if(free_.begin(), free_.end(), [&](const auto& one) {
+        return one->actor() == spawn.command.text;
+    });
+    if (seat == free_.end())
+        return false;
+    flatbuffers::FlatBufferBuilder builder;
+    builder.Finish(world::Command::Pack(builder, &spawn.command));
+    const remote::Spawned spawned{flatbuffers::GetRoot<world::Command>(builder.GetBufferPointer()),
+                                  spawn.tick,
+                                  spawn.command.rig.empty() ? std::string() : render_program()};
+    const std::uint32_t actor = spawn.command.actor;
+    if (const auto lost = (*seat)->take(actor, *recording_, spawned))
+        lose(**seat, *lost);
+    taken_[actor] = {std::move(*seat), spawn.command.latency};
+    free_.erase(seat);
+    return true;
+}
+
 /// Who was spawned gets its driver, who was despawned loses it.
 void Seats::welcome(const world::Tick& tick) {
+    const world::EpisodeT& episode = recording_->episode;
+    const std::string& path =
+        episode.branches.empty() ? episode.scenario_path : episode.branches.back().scenario_path;
     for (const world::Command* command : *tick.commands()) {
         if (command->kind() == world::CommandKind::despawn) {
             const auto gone = taken_.find(command->actor());
@@ -54,30 +82,33 @@ void Seats::welcome(const world::Tick& tick) {
         if (command->kind() != world::CommandKind::spawn ||
             command->driver() != world::Driver::external)
             continue;
-        const std::string name = command->text()->str();
-        const auto seat = std::find_if(
-            free_.begin(), free_.end(), [&](const auto& one) { return one->actor() == name; });
-        if (seat == free_.end())
+        world::ExternalDrivers::Spawn spawn{{}, tick.index()};
+        command->UnPackTo(&spawn.command);
+        const std::string& name = spawn.command.text;
+        if (!seat(spawn))
             throw world::Error(fmt::format(
                 "{}:{}: spawn: '{}' is driven by another program: say which by --driver "
                 "{}='COMMAND'",
-                world::printable(recording_->episode.scenario_path),
+                world::printable(path),
                 command->line(),
                 name,
                 name));
-        const bool carries = command->rig() != nullptr && command->rig()->size() > 0;
-        const remote::Spawned spawned{
-            command, tick.index(), carries ? render_program() : std::string()};
-        if (const auto lost = (*seat)->take(command->actor(), *recording_, spawned))
-            lose(**seat, *lost);
-        taken_[command->actor()] = {std::move(*seat), command->latency()};
-        free_.erase(seat);
     }
 }
 
 void Seats::go_on(const world::SealedTick& tick) {
-    controls_.clear();
     welcome(*tick.view().tick);
+    ask(tick);
+}
+
+void Seats::take_over(const world::ExternalDrivers& there, const world::SealedTick& tick) {
+    for (const auto& [actor, spawn] : there.spawns())
+        seat(spawn);
+    ask(tick);
+}
+
+void Seats::ask(const world::SealedTick& tick) {
+    controls_.clear();
     // All are shown the tick before the first is waited for: they think at the same time.
     for (const auto& [id, taken] : taken_)
         if (const auto lost = loss_ ? std::nullopt : taken.seat->show(tick))
@@ -101,13 +132,20 @@ void Seats::go_on(const world::SealedTick& tick) {
     }
 }
 
-std::vector<std::string> Seats::leave(const std::string& reason) {
+world::Outcome Seats::end(const world::Outcome& otherwise) {
     for (const auto& [id, taken] : taken_)
-        taken.seat->leave(reason);
-    std::vector<std::string> never_came;
+        taken.seat->leave("the run ended");
     for (const auto& seat : free_)
-        never_came.push_back(seat->actor());
-    return never_came;
+        say(stderr,
+            "reprise: --driver {}: nobody was spawned with that name and driver = 'external'\n",
+            seat->actor());
+    if (!loss_)
+        return otherwise;
+    say(stderr,
+        "reprise: {}{}\n",
+        loss_->ours ? "this is our fault, please report it: " : "",
+        loss_->reason);
+    return world::outcome_of_lost_driver(loss_->actor, otherwise.ticks);
 }
 
 }  // namespace reprise::cli

@@ -9,10 +9,14 @@
 #include <vector>
 
 #include "remote/seat.h"
+#include "world/external_drivers.h"
 #include "world/recording.h"
 #include "world/tick.h"
 
 namespace reprise::cli {
+
+/// What --driver was given. Throws world::Error, also when an actor is named twice.
+std::vector<remote::SeatPlan> parse_seats(const std::vector<std::string>& texts);
 
 /// The drivers in other programs through a run: who appears gets the one that was named for it, all
 /// are shown each tick, and all are waited for. Their controls are inputs of the run, which is
@@ -30,6 +34,10 @@ class Seats {
     /// world::Error, "my.lua:3: ...", for an actor that nobody was named for.
     void go_on(const world::SealedTick& tick);
 
+    /// Likewise in the middle of a run: who is named here drives whoever is there from this tick
+    /// on; nobody else needs a driver. Until its first answer acts, a vehicle keeps its control.
+    void take_over(const world::ExternalDrivers& there, const world::SealedTick& tick);
+
     /// For the next step, sorted by actor.
     std::span<const world::Control> controls() const { return controls_; }
 
@@ -42,11 +50,18 @@ class Seats {
 
     const std::optional<Loss>& loss() const { return loss_; }
 
-    /// The run is over. Returns the names of drivers whose actor never came.
-    std::vector<std::string> leave(const std::string& reason);
+    /// The run is over: says goodbye, and on stderr who was lost and who never came; that is said
+    /// there only, because equal runs write equal traces. Returns how it ended: with the loss, or
+    /// as `otherwise` has it.
+    world::Outcome end(const world::Outcome& otherwise);
+
+    /// Whether the driver of this actor is one of ours.
+    bool drives(std::uint32_t actor) const { return taken_.count(actor) > 0; }
 
   private:
     void welcome(const world::Tick& tick);
+    bool seat(const world::ExternalDrivers::Spawn& spawn);
+    void ask(const world::SealedTick& tick);
     void lose(const remote::Seat& seat, const remote::Lost& lost);
 
     const world::Recording* recording_;

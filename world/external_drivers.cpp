@@ -9,15 +9,18 @@ void ExternalDrivers::hear(const Tick& tick) {
         return;
     for (const Command* command : *tick.commands()) {
         if (command->kind() == CommandKind::despawn)
-            names_.erase(command->actor());
-        if (command->kind() == CommandKind::spawn && command->driver() == Driver::external)
-            names_[command->actor()] = command->text() == nullptr ? "" : command->text()->str();
+            spawns_.erase(command->actor());
+        if (command->kind() == CommandKind::spawn && command->driver() == Driver::external) {
+            Spawn& spawn = spawns_[command->actor()];
+            command->UnPackTo(&spawn.command);
+            spawn.tick = tick.index();
+        }
     }
 }
 
 bool ExternalDrivers::explain(const Outcome& outcome) const {
-    return std::any_of(names_.begin(), names_.end(), [&](const auto& one) {
-        return outcome == outcome_of_lost_driver(one.second, outcome.ticks);
+    return std::any_of(spawns_.begin(), spawns_.end(), [&](const auto& one) {
+        return outcome == outcome_of_lost_driver(one.second.command.text, outcome.ticks);
     });
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <map>
-#include <string>
 
 #include "world/recording.h"
 #include "world/tick.h"
@@ -15,15 +14,20 @@ class ExternalDrivers {
     /// The next tick of a run, as it was recorded whole.
     void hear(const Tick& tick);
 
-    /// By actor: its name.
-    const std::map<std::uint32_t, std::string>& names() const { return names_; }
+    struct Spawn {
+        CommandT command;        ///< as the scenario said it
+        std::uint64_t tick = 0;  ///< in which it did
+    };
+
+    /// By actor: how the scenario spawned it.
+    const std::map<std::uint32_t, Spawn>& spawns() const { return spawns_; }
 
     /// Whether an outcome says that the driver of one of them was lost. Which one cannot be seen in
     /// ticks.
     bool explain(const Outcome& outcome) const;
 
   private:
-    std::map<std::uint32_t, std::string> names_;
+    std::map<std::uint32_t, Spawn> spawns_;
 };
 
 }  // namespace reprise::world

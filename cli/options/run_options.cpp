@@ -46,9 +46,31 @@ void add_start(CLI::App& command, RunOptions& run, std::vector<std::string>& ass
     add_set_and_for(command, assignments, run.seconds, "End after this much simulated time");
 }
 
+void add_drivers(CLI::App& command, DriverOptions& options) {
+    command
+        .add_option(
+            "--driver",
+            options.drivers,
+            "Who drives the actor of this name, spawned with driver = 'external': a program "
+            "that is started, or one that runs already and comes to a socket; may be given "
+            "again. See docs/drivers.md")
+        ->type_name("NAME=COMMAND|NAME=socket:PATH")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);
+    command
+        .add_option("--driver-timeout",
+                    options.driver_timeout,
+                    "End the run when a driver needs longer than this for an answer, in seconds of "
+                    "real time (default: wait)")
+        ->type_name("SECONDS")
+        ->check(CLI::PositiveNumber);
+}
+
 void add_branch(CLI::App& app, BranchOptions& branch, std::vector<std::string>& assignments) {
     CLI::App& command = *app.add_subcommand(
-        "branch", "What if: let another script, or other parameters, take over in a recorded run");
+        "branch",
+        "What if: let another script, other parameters, or another driver take over in a recorded "
+        "run");
     command.add_option("trace", branch.trace, "The trace")->required()->type_name("T.mcap");
     command.add_option("--at", branch.at, "The last tick of what was, or time such as 12.5 or 12s")
         ->required()
@@ -68,14 +90,19 @@ void add_branch(CLI::App& app, BranchOptions& branch, std::vector<std::string>& 
         ->required()
         ->type_name("B.mcap|DIR");
     add_set_and_for(command, assignments, branch.seconds, "End this long after the branch");
+    add_drivers(command, branch);
     command.footer(
         "The run is simulated again up to that tick, and every tick compared with the trace; then\n"
         "each script goes on in a process of its own. Traffic, walkers, contacts and random "
         "streams\n"
-        "are in their true state. Exit status: 0 all checks passed, 1 one failed, or the run came\n"
+        "are in their true state. Vehicles of other programs that no --driver is named for do "
+        "what\n"
+        "they did in the trace, and brake behind its end.\n"
+        "Exit status: 0 all checks passed, 1 one failed, or a driver was lost, or the run came\n"
         "out differently, 2 bad input.\n"
         "Examples: reprise branch a.mcap --at 12.5 --script brake.lua swerve.lua -o what_if\n"
-        "          reprise branch a.mcap --at 12.5 --set distance=10 -o closer.mcap");
+        "          reprise branch a.mcap --at 12.5 --set distance=10 -o closer.mcap\n"
+        "          reprise branch a.mcap --at 12.5 --driver ego='./other_stack' -o other.mcap");
 }
 
 void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignments) {
@@ -98,23 +125,7 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
             },
             ""));
     add_start(command, run, assignments);
-    command
-        .add_option(
-            "--driver",
-            run.drivers,
-            "Who drives the actor of this name, spawned with driver = 'external': a program "
-            "that is started, or one that runs already and comes to a socket; may be given "
-            "again. See docs/drivers.md")
-        ->type_name("NAME=COMMAND|NAME=socket:PATH")
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->allow_extra_args(false);
-    command
-        .add_option("--driver-timeout",
-                    run.driver_timeout,
-                    "End the run when a driver needs longer than this for an answer, in seconds of "
-                    "real time (default: wait)")
-        ->type_name("SECONDS")
-        ->check(CLI::PositiveNumber);
+    add_drivers(command, run);
     add_level(command, run.level, {"full", "keyed", "core", "inputs"});
     command
         .add_option("--nudge",

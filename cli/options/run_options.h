@@ -12,20 +12,24 @@ class App;
 
 namespace reprise::cli {
 
-struct RunOptions {
+/// Who drives the actors that are spawned with driver = 'external'.
+struct DriverOptions {
+    std::vector<std::string> drivers;      ///< NAME=COMMAND or NAME=socket:PATH
+    std::optional<double> driver_timeout;  ///< [s] of real time for an answer
+};
+
+struct RunOptions : DriverOptions {
     std::string scenario;
     std::string output;  ///< empty: the scenario's name in the working directory
     std::optional<std::string> town;
     std::optional<std::uint64_t> seed;
     std::optional<double> seconds;
     std::vector<std::pair<std::string, std::string>> parameters;
-    std::string level = "full";            ///< how much of each tick is kept
-    std::string nudge;                     ///< TICK[:ACTOR.FIELD[:UNITS]]; empty: none
-    std::vector<std::string> drivers;      ///< NAME=COMMAND or NAME=socket:PATH
-    std::optional<double> driver_timeout;  ///< [s] of real time for an answer
+    std::string level = "full";  ///< how much of each tick is kept
+    std::string nudge;           ///< TICK[:ACTOR.FIELD[:UNITS]]; empty: none
 };
 
-struct BranchOptions {
+struct BranchOptions : DriverOptions {
     std::string trace;
     std::string at;  ///< tick, or seconds with an s behind
     std::vector<std::string> scripts;
@@ -42,6 +46,9 @@ void add_branch(CLI::App& app, BranchOptions& branch, std::vector<std::string>& 
 
 /// What a run may be given besides its scenario: --town, --seed, --set, --for.
 void add_start(CLI::App& command, RunOptions& run, std::vector<std::string>& assignments);
+
+/// --driver and --driver-timeout.
+void add_drivers(CLI::App& command, DriverOptions& options);
 
 /// KEY=VALUE in its two parts. Throws CLI::ValidationError.
 std::pair<std::string, std::string> split_assignment(const std::string& text);

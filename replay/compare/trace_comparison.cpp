@@ -198,8 +198,10 @@ Divergence only_starts_differ(TraceReader& expected,
     return divergence;
 }
 
-/// "distance = 10, gap = 2"
+/// "distance = 10, gap = 2"; without any it is another driver.
 std::string settings_text(const world::BranchT& branch) {
+    if (branch.parameters.empty())
+        return "another driver";
     std::string text;
     for (const world::ParameterT& parameter : branch.parameters)
         text += (text.empty() ? "" : ", ") + parameter.key + " = " + parameter.value;
