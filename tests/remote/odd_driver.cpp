@@ -1,6 +1,9 @@
-// A driver for tests: odd_driver HABIT. `steady` drives well; every other one breaks the wire's
-// rules in its way, in the third tick if it gets that far.
+// A driver for tests: odd_driver HABIT [SOCKET]. `steady` drives well, `counting` says in each tick
+// which one that is; every other one breaks the wire's rules in its way, in the third tick if it
+// gets that far. odd_driver killed TICK: is, in that one.
 #include <chrono>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -48,6 +51,13 @@ void misbehave(const std::string& habit, Client& run) {
         const std::uint32_t header[] = {0xffff'ffffU, 4};
         say_raw(header, sizeof(header));
     }
+    if (habit == "interrupts") {  // Ctrl-C while the run waits for us; who we are is for the test
+        std::FILE* note = std::fopen("odd_driver.pid", "w");
+        std::fprintf(note, "%d\n", static_cast<int>(getpid()));
+        std::fclose(note);
+        kill(getppid(), SIGINT);
+        std::this_thread::sleep_for(std::chrono::hours(1));
+    }
     if (habit == "cut") {
         const std::uint32_t header[] = {64, 4};
         say_raw(header, sizeof(header));
@@ -73,13 +83,19 @@ int main(int count, char** words) {
         return 5;
     if (habit == "other_version")
         return be_of_another_version();
+    const bool killed = habit == "killed";
     try {
-        Client run(count > 2 ? words[2] : "");
+        Client run(count > 2 && !killed ? words[2] : "");
         int ticks = 0;
         while (const auto tick = run.next()) {
+            if (killed && tick->index() == std::strtoull(words[2], nullptr, 10))
+                std::raise(SIGKILL);
             if (++ticks == 3)
                 misbehave(habit, run);
-            run.say({.throttle = 0.25, .steer = 0.125, .lamps = 8});
+            if (habit == "counting")
+                run.say({.throttle = 0.125, .steer = static_cast<double>(tick->index()) / 1024});
+            else
+                run.say({.throttle = 0.25, .steer = 0.125, .lamps = 8});
         }
     } catch (const reprise::world::Error&) {
         return 6;
