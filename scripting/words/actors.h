@@ -47,7 +47,8 @@ struct Actor {
 
     /// Has a body of its own in physics.
     bool is_driven() const {
-        return driver == world::Driver::autopilot || driver == world::Driver::manual;
+        return driver == world::Driver::autopilot || driver == world::Driver::manual ||
+               driver == world::Driver::external;
     }
 };
 

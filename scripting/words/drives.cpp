@@ -41,6 +41,12 @@ Actor& driver_of_car(Run& run, lua_State* L, const char* who) {
     return actor;
 }
 
+/// A car that is sent somewhere: another program's, too, which reads in the tick where to.
+Actor& sent_car(Run& run, lua_State* L, const char* who) {
+    Actor& actor = actor_at(run, L, 1, who);
+    return actor.driver == Driver::external ? actor : driver_of_car(run, L, who);
+}
+
 double over(lua_State* L, int index, const char* who) {
     const Fields options(L, index, who, {"over"}, true);
     const double duration = options.number("over").value_or(0);
@@ -104,7 +110,7 @@ int change_lane(Run& run, lua_State* L) {
 }
 
 int set_route(Run& run, lua_State* L) {
-    const Actor& actor = driver_of_car(run, L, "set_route");
+    const Actor& actor = sent_car(run, L, "set_route");
     if (lua_type(L, 2) != LUA_TTABLE || lua_rawlen(L, 2) == 0)
         refuse("set_route", "needs a list of lanes or edges: ego:set_route{ 'a1_b1', 'b1_b2' }");
     std::vector<std::uint32_t> lanes;
@@ -136,7 +142,7 @@ std::string wanted_lane(const Fields& fields) {
 }
 
 int route_to(Run& run, lua_State* L) {
-    const Actor& actor = driver_of_car(run, L, "route_to");
+    const Actor& actor = sent_car(run, L, "route_to");
     const Fields fields(L, 2, "route_to", {"lane", "s"});
     const std::uint32_t lane = run.lane_named(L, wanted_lane(fields));
     const world::LaneT& goal = run.town.lanes[lane];

@@ -71,7 +71,7 @@ void want_room(const Run& run, const Actor& actor) {
         refuse("spawn", fmt::format("more than {} actors at a time", most_present_actors));
     if (actor.is_driven() && driven >= most_driven_actors)
         refuse("spawn",
-               fmt::format("more than {} actors with the driver 'autopilot' or 'manual' at a time",
+               fmt::format("more than {} actors with the driver 'autopilot', 'manual' or 'external' at a time",
                            most_driven_actors));
 }
 

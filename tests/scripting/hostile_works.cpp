@@ -224,7 +224,13 @@ std::vector<Hostile> hostile_asks() {
          "spawn: more than 1000 actors at a time"},
         {"Autopilots",
          "for i = 1, 1e6 do spawn{ model = 'sedan', lane = 'east_1', s = i % 40 * 10 } end",
-         "spawn: more than 300 actors with the driver 'autopilot' or 'manual' at a time"},
+         "spawn: more than 300 actors with the driver 'autopilot', 'manual' or 'external' at a "
+         "time"},
+        {"ActorsOfOtherPrograms",
+         "for i = 1, 1e6 do spawn{ model = 'sedan', driver = 'external', lane = 'east_1', s = i % "
+         "40 * 10 } end",
+         "spawn: more than 300 actors with the driver 'autopilot', 'manual' or 'external' at a "
+         "time"},
         {"ActorsInOnePlace",
          "for i = 1, 999 do spawn{ model = 'sedan', lane = 'east_1', s = 20 + i / 999 } end",
          "spawn: more than 12 vehicles within 5 m: they would stand in each other"},

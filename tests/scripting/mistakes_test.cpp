@@ -138,6 +138,28 @@ TEST(Mistakes, OfHandles) {
         });
 }
 
+TEST(Mistakes, OfOrdersToAnotherProgramsCar) {
+    expect(
+        "local other = spawn{ name = 'other', model = 'sedan', driver = 'external', "
+        "lane = 'east_1', s = 50 } wait_ticks(1)\n",
+        {
+            {"other:set_speed(3)",
+             "set_speed: 'other' is driven by another program: only 'autopilot', 'traffic' and "
+             "walkers obey"},
+            {"other:free_speed()",
+             "free_speed: 'other' is driven by another program: only 'autopilot', 'traffic' and "
+             "walkers obey"},
+            {"other:change_lane('left')",
+             "change_lane: 'other' is driven by another program: only 'autopilot', 'traffic' and "
+             "walkers obey"},
+            {"other:set_route{}",
+             "set_route: needs a list of lanes or edges: ego:set_route{ 'a1_b1', 'b1_b2' }"},
+            {"other:route_to{ lane = 'west_1' }",
+             "route_to: no way leads from 'east_1' to 'west_1'"},
+            {"other:control{}", "control: 'other' has a driver: spawn it with driver = 'manual'"},
+        });
+}
+
 TEST(Mistakes, OfWaitsChecksAndPlaces) {
     expect(
         "\n",

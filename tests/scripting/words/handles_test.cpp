@@ -104,6 +104,20 @@ TEST(Handle, PlansAWayToAPlace) {
     EXPECT_THAT(routes[1], ElementsAre(2)) << "by the time it obeys, it may be on another lane";
 }
 
+TEST(Handle, TellsAnotherProgramWhereToGo) {
+    test::Stage stage(test::running(R"(
+        local other = spawn{ model = 'sedan', driver = 'external', lane = 'east_1', s = 50 }
+        wait_ticks(1)
+        other:set_route{ 'east_1' }
+        print(other:route_to{ lane = 'east_1', s = 90 }))"));
+    EXPECT_NEAR(std::stod(stage.play(3).back()), 40, 1e-6);
+    std::vector<double> ends;
+    for (const auto& command : stage.commands)
+        if (command.kind == CommandKind::set_route)
+            ends.push_back(command.s);
+    EXPECT_THAT(ends, ElementsAre(stage.town.lanes[1].length, 90));
+}
+
 TEST(Handle, SaysWhatAnActorIsTold) {
     test::Stage stage(test::running(R"(
         local ego = spawn{ model = 'sedan', lane = 'east_1', s = 50 }
