@@ -5,6 +5,8 @@
 #include <iterator>
 #include <map>
 
+#include <fmt/format.h>
+
 #include "cli/process/reproduce.h"
 #include "world/check.h"
 
@@ -26,6 +28,25 @@ fs::path with_ending(const fs::path& path, const std::string& ending) {
     return path.string() + ending;
 }
 
+/// A Lua file's text without its comments.
+std::string code_of(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::string source((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    for (std::size_t at = 0; (at = source.find("--", at)) != std::string::npos;) {
+        const bool block = source.compare(at, 4, "--[[") == 0;
+        const std::size_t end = block ? source.find("]]", at) : source.find('\n', at);
+        source.erase(at, end == std::string::npos ? end : end - at + (block ? 2 : 0));
+    }
+    return source;
+}
+
+/// Whether a scenario may have a car that another program drives: it says the driver's name.
+bool may_be_external(const fs::path& scenario) {
+    const std::string source = code_of(scenario);
+    return source.find("'external'") != std::string::npos ||
+           source.find("\"external\"") != std::string::npos;
+}
+
 /// The case that a golden of this name belongs to. A scenario may have an @ in its own name.
 GoldenCase case_of_golden(const fs::path& golden) {
     GoldenCase found;
@@ -40,19 +61,14 @@ GoldenCase case_of_golden(const fs::path& golden) {
     if (!is_file(found.scenario))
         found.state = GoldenCase::State::orphan;
     else if (!is_file(golden))
-        found.state = GoldenCase::State::no_golden;
+        found.state = may_be_external(found.scenario) ? GoldenCase::State::external
+                                                      : GoldenCase::State::no_golden;
     return found;
 }
 
 /// Whether a Lua file could return a scenario: without comments, it says the word.
 bool may_be_scenario(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::string source((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    for (std::size_t at = 0; (at = source.find("--", at)) != std::string::npos;) {
-        const bool block = source.compare(at, 4, "--[[") == 0;
-        const std::size_t end = block ? source.find("]]", at) : source.find('\n', at);
-        source.erase(at, end == std::string::npos ? end : end - at + (block ? 2 : 0));
-    }
+    const std::string source = code_of(path);
     for (std::size_t at = 0; (at = source.find("scenario", at)) != std::string::npos; at += 8) {
         const auto is_word = [&](std::size_t i) {
             return i < source.size() &&
@@ -229,7 +245,8 @@ std::string stored_town(const std::string& town, const fs::path& golden) {
 
 std::vector<std::string> run_words(const GoldenCase& tested,
                                    const replay::GivenSetup& given,
-                                   const fs::path& trace) {
+                                   const fs::path& trace,
+                                   const DriverOptions& drivers) {
     const std::string scenario = tested.scenario.string();
     std::vector<std::string> words{"run", scenario.starts_with('-') ? "./" + scenario : scenario};
     const auto add = [&](const std::string& option, const std::string& value) {
@@ -245,6 +262,10 @@ std::vector<std::string> run_words(const GoldenCase& tested,
     add("--for", given.seconds);
     for (const auto& [key, value] : given.parameters)
         add("--set", key + "=" + value);
+    for (const std::string& driver : drivers.drivers)
+        add("--driver", driver);
+    if (drivers.driver_timeout)
+        add("--driver-timeout", fmt::format("{}", *drivers.driver_timeout));
     add("-o", trace.string());
     return words;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/options/run_options.h"
 #include "replay/golden/golden.h"
 
 namespace reprise::cli {
@@ -14,7 +15,13 @@ struct GoldenCase {
     std::filesystem::path scenario;  ///< of an orphan: where it should be
     std::filesystem::path golden;    ///< where it is, or would be
     std::string name;                ///< "late"; "" for the scenario as it stands
-    enum class State : std::uint8_t { ready, no_golden, orphan } state = State::ready;
+    enum class State : std::uint8_t {
+        ready,
+        no_golden,
+        external,  ///< no golden, and it says that another program drives: its checks only are
+                   ///< tested
+        orphan
+    } state = State::ready;
 
     /// "scenarios/cut_in@late": what reports call it, and `reprise test` takes.
     std::string label() const;
@@ -40,7 +47,8 @@ std::string stored_town(const std::string& town, const std::filesystem::path& go
 /// The words behind "reprise": run SCENARIO --seed ... -o TRACE. No "-o" without a trace.
 std::vector<std::string> run_words(const GoldenCase& tested,
                                    const replay::GivenSetup& given,
-                                   const std::filesystem::path& trace = {});
+                                   const std::filesystem::path& trace = {},
+                                   const DriverOptions& drivers = {});
 
 /// A command as one would type it.
 std::string command_line(const std::vector<std::string>& words);

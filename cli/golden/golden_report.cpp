@@ -108,8 +108,12 @@ const char* to_word(CaseResult result) {
             return "CHANGED";
         case CaseResult::nondeterministic:
             return "NONDETERMINISTIC";
+        case CaseResult::failed:
+            return "FAILED";
         case CaseResult::no_golden:
             return "NO GOLDEN";
+        case CaseResult::not_run:
+            return "NOT RUN";
         case CaseResult::orphan:
             return "ORPHAN";
         case CaseResult::error:
@@ -144,6 +148,26 @@ std::string difference_text(const Golden& expected,
            rows("start", replay::start_differences(expected, found)) + build_rows(expected, found);
 }
 
+std::string failed_checks_text(const Golden& run) {
+    std::string text;
+    std::size_t rows = 0;
+    for (const replay::GoldenCheck& check : run.checks)
+        if (check.status != "passed" && rows++ < most_rows)
+            text += report_row(
+                rows == 1 ? "checks" : "",
+                fmt::format(
+                    "{}: {}{}{}",
+                    check.name,
+                    check.status,
+                    check.tick == 0
+                        ? ""
+                        : fmt::format(" at {} s", replay::golden_seconds(check.tick, run.step_ns)),
+                    check.detail.empty() ? "" : ", " + check.detail));
+    if (rows > most_rows)
+        text += report_row("", fmt::format("and {} more", rows - most_rows));
+    return text + report_row("ended", run.reason);
+}
+
 std::string signature_of(const GoldenDifference& difference) {
     const std::string stages =
         difference.checkpoints.first ? difference.checkpoints.first->what : "";
@@ -172,6 +196,10 @@ std::optional<RunFailure> failure_of(const process::ProgramResult& result,
         failure.headline = last_lines(log, 1);
         if (failure.headline.starts_with("reprise: "))
             failure.headline.erase(0, 9);
+        if (failure.headline.find("is driven by another program: say which") != std::string::npos)
+            failure.text = report_row("next",
+                                      "such scenarios have no golden, only their checks are "
+                                      "tested: reprise test --driver NAME='COMMAND'");
         return failure;
     }
     failure.kind = result.code == exit_our_fault ? "fault" : "crash";

@@ -16,7 +16,9 @@ enum class CaseResult : std::uint8_t {
     passed,
     changed,
     nondeterministic,
+    failed,  ///< without a golden: a check, or the driver was lost
     no_golden,
+    not_run,  ///< another program drives, and none was named
     orphan,
     error
 };
@@ -33,6 +35,7 @@ struct CaseReport {
     std::string signature;   ///< of a change: cases that share it probably share the cause
     double seconds = 0;      ///< of wall time, the candidate's first run
     replay::GivenSetup given;
+    DriverOptions drivers;                                    ///< empty where nobody else drives
     std::vector<std::pair<std::string, std::string>> starts;  ///< seed, parameters, ... of the run
 };
 
@@ -43,6 +46,9 @@ std::string to_text(const CaseReport& report);
 std::string difference_text(const replay::Golden& expected,
                             const replay::Golden& found,
                             const replay::GoldenDifference& difference);
+
+/// The checks that failed, in rows, and why the run ended.
+std::string failed_checks_text(const replay::Golden& run);
 
 /// Severity, and the stages of the first checkpoint that differs.
 std::string signature_of(const replay::GoldenDifference& difference);

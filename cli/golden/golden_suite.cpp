@@ -1,12 +1,18 @@
 // The heart of `reprise test`.
-//   must      fail for one reason only, say which, and say how to come back to it
+//   must      fail for one reason only, say which, and say how to come back to it; never let a
+//             case pass that was not run
 //   assumes   that `reprise run` makes equal bytes of equal inputs, and finds out when it does not
 //   goes      every case at once in processes of their own; those that differ from their golden
-//             once more, one at a time; then what became of each
+//             once more, one at a time; then what became of each. Where another program drives,
+//             there is no golden: a stack under development changes its last bits daily; the
+//             verdict counts
 //   keeps     the traces of cases that failed, in the output folder
 #include "cli/golden/golden_suite.h"
 
+#include <algorithm>
+#include <cstring>
 #include <optional>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -19,6 +25,7 @@
 #include "replay/golden/golden_difference.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
+#include "world/tick.h"
 
 namespace reprise::cli {
 
@@ -32,9 +39,22 @@ struct Running {
     std::optional<replay::Golden> golden;
     GoldenRun run;
     fs::path trace;
+    fs::path log;
     std::optional<replay::Golden> candidate;
     std::optional<replay::GoldenDifference> difference;
 };
+
+/// What a run said of a driver that it lost: a line on stderr, before its summary.
+std::string complaint(const fs::path& log) {
+    constexpr std::size_t summary = 200;  // lines: checks are a line each
+    const std::string mark = "reprise: the driver of ";
+    std::istringstream lines(last_lines(log, summary));
+    std::string last;
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with(mark))
+            last = line.substr(std::strlen("reprise: "));
+    return last;
+}
 
 class Suite {
   public:
@@ -102,6 +122,8 @@ class Suite {
             report.text = report_row("next", accept_command(tested));
             return false;
         }
+        if (tested.state == State::external)
+            return prepare_external(i);
         Running& running = running_[i];
         try {
             running.golden = replay::load_golden(tested.golden);
@@ -110,10 +132,32 @@ class Suite {
             return false;
         }
         report.given = running.golden->given;
-        running.trace = temporary_ / fmt::format("{}.mcap", i);
-        running.run = {run_words(tested, report.given, running.trace),
-                       temporary_ / fmt::format("{}.log", i)};
+        plan_run(i);
         return true;
+    }
+
+    bool prepare_external(std::size_t i) {
+        CaseReport& report = reports_[i];
+        if (options_.drivers.empty()) {
+            report.result = CaseResult::not_run;
+            report.headline = "another program drives, and none was named";
+            report.text = report_row(
+                "next",
+                "reprise test " + shell_path(report.tested.scenario) + " --driver NAME='COMMAND'");
+            return false;
+        }
+        report.drivers = options_;
+        plan_run(i);
+        return true;
+    }
+
+    void plan_run(std::size_t i) {
+        const CaseReport& report = reports_[i];
+        Running& running = running_[i];
+        running.trace = temporary_ / fmt::format("{}.mcap", i);
+        running.log = temporary_ / fmt::format("{}.log", i);
+        running.run = {run_words(report.tested, report.given, running.trace, report.drivers),
+                       running.log};
     }
 
     void run_first(const std::vector<std::size_t>& ready) {
@@ -142,11 +186,45 @@ class Suite {
         if (report.result == CaseResult::error)
             return;
         replay::TraceReader trace(running.trace);
+        if (!running.golden) {
+            judge_checks(i, replay::make_golden(trace));
+            return;
+        }
         running.candidate = replay::make_golden(trace, running.golden->sampling);
         report.starts = running.candidate->starts;
         running.difference = replay::compare(*running.golden, *running.candidate);
         if (!running.difference)
             pass(i);
+    }
+
+    /// Without a golden: whether the checks hold, and the drivers lasted.
+    void judge_checks(std::size_t i, const replay::Golden& run) {
+        CaseReport& report = reports_[i];
+        report.starts = run.starts;
+        const auto collisions =
+            std::count_if(run.events.begin(), run.events.end(), [](const auto& event) {
+                return event.kind == world::EnumNameEventKind(world::EventKind::collision);
+            });
+        report.headline = fmt::format("checks only: verdict {}, {} checks, {} collisions",
+                                      run.verdict,
+                                      run.checks.size(),
+                                      collisions);
+        if (run.verdict == "passed" || run.verdict == "completed") {
+            remove_kept(i);
+            return;
+        }
+        report.result = CaseResult::failed;
+        report.text = failed_checks_text(run);
+        if (run.verdict == "driver_lost")
+            report.text += report_row("because", complaint(running_[i].log));
+        const fs::path trace = kept(i, ".mcap");
+        copy_file_whole(running_[i].trace, trace);
+        report.text += report_row("next", "reprise info " + shell_path(trace));
+    }
+
+    void remove_kept(std::size_t i) {
+        for (const char* ending : {".mcap", ".second.mcap", ".log"})
+            remove_stale(kept(i, ending), options_.output);
     }
 
     void pass(std::size_t i) {
@@ -158,8 +236,7 @@ class Suite {
             report.headline += fmt::format("; {} changed without effect", change.what);
         if (!options_.keep.empty() && golden.chain == candidate.chain)
             keep_trace(running_[i].trace, candidate.chain, options_.keep);
-        for (const char* ending : {".mcap", ".second.mcap", ".log"})
-            remove_stale(kept(i, ending), options_.output);
+        remove_kept(i);
     }
 
     /// Runs the candidate a second time, alone: two equal runs mean that the behaviour changed, two

@@ -57,8 +57,12 @@ const char* failure_type(CaseResult result) {
             return "changed";
         case CaseResult::nondeterministic:
             return "nondeterministic";
+        case CaseResult::failed:
+            return "failed";
         case CaseResult::no_golden:
             return "no_golden";
+        case CaseResult::not_run:
+            return "not_run";
         case CaseResult::orphan:
             return "orphan";
         default:
@@ -76,7 +80,7 @@ void add_properties(pugi::xml_node node, const CaseReport& report) {
     for (const auto& [name, value] : report.starts)
         add(name, value);
     if (report.result != CaseResult::orphan)
-        add("command", command_line(run_words(report.tested, report.given)));
+        add("command", command_line(run_words(report.tested, report.given, {}, report.drivers)));
 }
 
 void add_case(pugi::xml_node suite, const CaseReport& report) {

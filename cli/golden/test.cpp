@@ -33,9 +33,10 @@ int exit_code(Counts counts) {
         return exit_nondeterministic;
     if (counts[CaseResult::error] > 0)
         return exit_bad_input;
-    const bool failed =
-        counts[CaseResult::changed] + counts[CaseResult::no_golden] + counts[CaseResult::orphan] >
-        0;
+    const bool failed = counts[CaseResult::changed] + counts[CaseResult::failed] +
+                            counts[CaseResult::no_golden] + counts[CaseResult::not_run] +
+                            counts[CaseResult::orphan] >
+                        0;
     return failed ? exit_differs : exit_good;
 }
 
@@ -68,6 +69,8 @@ void print_summary(Counts counts, double seconds) {
         if (counts[result] > 0)
             text += fmt::format(", {} {}", counts[result], what);
     };
+    add(CaseResult::failed, "failed");
+    add(CaseResult::not_run, "not run");
     add(CaseResult::no_golden, "without a golden");
     add(CaseResult::orphan, "orphaned");
     add(CaseResult::error, "with errors");
@@ -80,8 +83,22 @@ int list_cases(const FoundCases& found) {
             one.label(),
             one.state == State::ready       ? ""
             : one.state == State::no_golden ? "  (no golden yet)"
+            : one.state == State::external  ? "  (checks only: another program drives)"
                                             : "  (orphan)");
     return exit_good;
+}
+
+void check_drivers(const TestOptions& options, const FoundCases& found) {
+    if (options.drivers.empty())
+        return;
+    const auto is_external = [](const GoldenCase& one) { return one.state == State::external; };
+    if (std::none_of(found.cases.begin(), found.cases.end(), is_external))
+        throw world::Error("--driver " + options.drivers.front() +
+                           ": none of these scenarios has a car that another program drives");
+    for (const std::string& driver : options.drivers)
+        if (driver.find("=socket:") != std::string::npos && options.jobs != 1)
+            throw world::Error("--driver " + driver +
+                               ": one run at a time can be at a socket: add --jobs 1");
 }
 
 }  // namespace
@@ -95,6 +112,7 @@ int test(const TestOptions& options) {
                            (options.paths.empty() ? "" : " in " + options.paths.front()));
     if (options.list)
         return list_cases(found);
+    check_drivers(options, found);
     if (!options.junit.empty())
         check_writable(options.junit);  // rather now than after an hour
     try {

@@ -44,12 +44,16 @@ void add_test(CLI::App& app, TestOptions& test) {
                     "Folder for the traces of cases that fail (default reprise-test)")
         ->type_name("DIR");
     add_keep(command, test.keep);
+    add_drivers(command, test);
     command.add_flag("--list", test.list, "Say which cases there are, and run none");
     command.footer(
         "A golden lies beside its scenario: cut_in.golden, and cut_in@NAME.golden for a case.\n"
-        "Exit status: 0 all equal; 1 changed, or no golden; 2 bad input, or a run broke;\n"
+        "Scenarios with a car of another program are run with --driver; their checks count.\n"
+        "Exit status: 0 all equal; 1 changed, failed, not run, or no golden; 2 bad input, or a run "
+        "broke;\n"
         "3 nondeterministic: two runs of one candidate differ.\n"
-        "Example: reprise test scenarios --junit results.xml");
+        "Examples: reprise test scenarios --junit results.xml\n"
+        "          reprise test my_scenarios --driver ego='python3 my_driver.py'");
 }
 
 void add_accept(CLI::App& app, AcceptOptions& accept, std::vector<std::string>& assignments) {

@@ -12,7 +12,7 @@ class App;
 
 namespace reprise::cli {
 
-struct TestOptions {
+struct TestOptions : DriverOptions {
     std::vector<std::string> paths;
     std::size_t jobs = 0;  ///< 0: one a core
     std::string junit;     ///< empty: none
