@@ -42,7 +42,7 @@ world::TickDraft draft_after(const world::TickView& last) {
 }  // namespace
 
 struct Kernel::Parts {
-    explicit Parts(const world::Recording& its_recording)
+    Parts(const world::Recording& its_recording, const ground::GroundMesh* ground)
         : recording(its_recording),
           episode(recording.episode),
           town(recording.town),
@@ -52,7 +52,7 @@ struct Kernel::Parts {
           roster(episode, town, lanes, obstacles),
           background(episode, town, lanes, recording.network),
           pedestrians(episode, town, lanes),
-          physics(episode, ground::build_ground(town), obstacles),
+          physics(episode, ground != nullptr ? *ground : ground::build_ground(town), obstacles),
           continued(replay::chain_seed(recording)),
           last(genesis(episode, continued)),
           nudger(roster, pedestrians, physics) {}
@@ -74,7 +74,8 @@ struct Kernel::Parts {
     std::string reason;
 };
 
-Kernel::Kernel(const world::Recording& recording) : parts_(std::make_unique<Parts>(recording)) {}
+Kernel::Kernel(const world::Recording& recording, const ground::GroundMesh* ground)
+    : parts_(std::make_unique<Parts>(recording, ground)) {}
 
 Kernel::~Kernel() = default;
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ground/mesh/ground.h"
 #include "kernel/drill/nudge.h"
 #include "kernel/stage.h"
 #include "world/check_result.h"
@@ -19,7 +20,8 @@ namespace reprise::kernel {
 class Kernel {
   public:
     /// Starts everything; the world is empty until the first step. `recording` must outlive this.
-    explicit Kernel(const world::Recording& recording);
+    /// `ground`: the town's, where it has been made already (40 ms in Town 1); looked at here only.
+    explicit Kernel(const world::Recording& recording, const ground::GroundMesh* ground = nullptr);
     ~Kernel();
     Kernel(const Kernel&) = delete;
     Kernel& operator=(const Kernel&) = delete;

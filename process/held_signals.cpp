@@ -1,7 +1,10 @@
 #include "process/held_signals.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string>
+#include <sys/signalfd.h>
+#include <unistd.h>
 
 namespace reprise::process {
 
@@ -31,6 +34,8 @@ HeldSignals::HeldSignals() {
 }
 
 HeldSignals::~HeldSignals() {
+    if (descriptor_ >= 0)
+        close(descriptor_);
     release();
 }
 
@@ -40,6 +45,17 @@ void HeldSignals::wait() const {
     const int came = sigtimedwait(&awaited_, nullptr, &tenth);
     if (came != -1 && came != SIGCHLD)
         throw Stopped(came);
+}
+
+int HeldSignals::descriptor() const {
+    if (descriptor_ < 0)
+        descriptor_ = signalfd(-1, &awaited_, SFD_CLOEXEC);
+    return descriptor_;
+}
+
+int HeldSignals::take() const {
+    const timespec at_once{};
+    return std::max(0, sigtimedwait(&awaited_, nullptr, &at_once));
 }
 
 void HeldSignals::release() const {

@@ -28,11 +28,18 @@ class HeldSignals {
     /// end.
     void wait() const;
 
+    /// For poll(): readable while one of them is waiting to be taken. Also in a child.
+    int descriptor() const;
+
+    /// The one that waits, if any: one of those, or SIGCHLD; else 0.
+    int take() const;
+
     /// In a child: signals as they were before. Safe between fork and exec.
     void release() const;
 
   private:
     sigset_t awaited_{};
+    mutable int descriptor_ = -1;
     sigset_t before_{};
 
     struct sigaction child_before_ {};

@@ -81,6 +81,12 @@ bool is_message(Kind kind, std::span<const std::uint8_t> body) {
             return holds<Control>(body);
         case Kind::goodbye:
             return holds<Goodbye>(body);
+        case Kind::open:
+            return holds<Open>(body);
+        case Kind::reset:
+            return holds<Reset>(body);
+        case Kind::fault:
+            return holds<Fault>(body);
     }
     return false;
 }

@@ -1,7 +1,7 @@
 // What cameras see while a run goes on.
-//   must      hand over each frame whole, never before its pixels are there; tell a renderer's death
-//   assumes   both ends are of one build; ticks are asked for in their order
-//   goes      hello with the memory; then ticks with the places for their frames, and an answer for
+//   must      hand over each frame whole, never before its pixels are there; tell a renderer's
+//   death assumes   both ends are of one build; ticks are asked for in their order goes      hello
+//   with the memory; then ticks with the places for their frames, and an answer for
 //             each once the pixels lie there
 //   keeps     which tick was asked for last, and which answered
 #include "remote/live_rig.h"

@@ -69,7 +69,8 @@ Packed pack_hello(const Greeting& greeting, const world::Recording& recording) {
 Packed pack_observation(std::span<const std::uint8_t> tick,
                         std::span<const std::uint8_t> traffic,
                         std::span<const PlacedPicture> pictures,
-                        const std::uint8_t* memory) {
+                        const std::uint8_t* memory,
+                        const Guidance& guidance) {
     Packed message(tick.size() + traffic.size() + 256);
     std::vector<flatbuffers::Offset<Picture>> placed;
     for (const PlacedPicture& picture : pictures) {
@@ -85,7 +86,8 @@ Packed pack_observation(std::span<const std::uint8_t> tick,
     using Bytes = flatbuffers::Offset<flatbuffers::Vector<std::uint8_t>>;
     const Bytes of_traffic = traffic.empty() ? Bytes() : add(message, traffic);
     const Bytes of_tick = tick.empty() ? Bytes() : add(message, tick);
-    message.Finish(CreateObservation(message, of_tick, of_traffic, of_pictures));
+    message.Finish(CreateObservation(
+        message, of_tick, of_traffic, of_pictures, guidance.turning, guidance.way_to_goal));
     return message;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "remote/guide.h"
 #include "remote/picture_ring.h"
 #include "remote/wire_generated.h"
 #include "world/recording.h"
@@ -31,7 +32,8 @@ Packed pack_hello(const Greeting& greeting, const world::Recording& recording);
 Packed pack_observation(std::span<const std::uint8_t> tick,
                         std::span<const std::uint8_t> traffic,
                         std::span<const PlacedPicture> pictures,
-                        const std::uint8_t* memory);
+                        const std::uint8_t* memory,
+                        const Guidance& guidance = {});
 
 /// What a vehicle knows of itself, as a world.Tick: index, its control, state, wheels and
 /// measurement (its gap_ahead, which is seen and not felt, is nan). All else is empty or zero.

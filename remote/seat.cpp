@@ -1,7 +1,8 @@
 // The simulator's end of the wire.
-//   must      never wait for a driver that is gone; say of each fault what it was; leave nothing
-//   behind assumes   one driver a seat; it is asked once a tick goes      start or await it, hello,
-//   ready; then tick by tick observation, control; goodbye keeps     which tick it was shown last
+//   must      never wait for a driver that is gone; say of each fault what it was
+//   assumes   one driver a seat; it is asked once a tick
+//   goes      start or await it, hello, ready; then tick by tick observation, control; goodbye
+//   keeps     which ticks were shown and not answered, and those whose frames are not there yet
 #include "remote/seat.h"
 
 #include <algorithm>
@@ -12,8 +13,6 @@
 #include <deque>
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
-#include <sys/un.h>
 #include <unistd.h>
 #include <utility>
 
@@ -21,6 +20,8 @@
 
 #include "process/companion.h"
 #include "remote/frame_channel.h"
+#include "remote/guide.h"
+#include "remote/listener.h"
 #include "remote/live_rig.h"
 #include "remote/messages.h"
 #include "remote/schema.h"
@@ -34,52 +35,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t largest_answer = 64 << 10;  // [bytes]
 constexpr std::string_view socket_word = "socket:";
-
-/// Where a driver finds us; gone from the folder with us.
-class Listener {
-  public:
-    explicit Listener(fs::path path) : path_(std::move(path)) {
-        sockaddr_un address{};
-        address.sun_family = AF_UNIX;
-        if (path_.native().size() >= sizeof(address.sun_path))
-            throw world::Error(
-                fmt::format("--driver socket:{}: a socket's path has at most {} bytes",
-                            path_.string(),
-                            sizeof(address.sun_path) - 1));
-        std::memcpy(address.sun_path, path_.c_str(), path_.native().size());
-        descriptor_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-        const mode_t before = umask(0177);  // the owner's only
-        const int bound =
-            bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof(address));
-        const int reason = errno;
-        umask(before);
-        if (bound != 0 || listen(descriptor_, 1) != 0) {
-            close(descriptor_);
-            throw world::Error(fmt::format("--driver socket:{}: cannot listen there: {}",
-                                           path_.string(),
-                                           std::strerror(bound != 0 ? reason : errno)));
-        }
-    }
-
-    ~Listener() {
-        close(descriptor_);
-        std::error_code ignored;
-        fs::remove(path_, ignored);
-    }
-
-    Listener(const Listener&) = delete;
-    Listener& operator=(const Listener&) = delete;
-
-    /// The first driver that comes. Throws ChannelFault when none did in time.
-    int accept_one(const Patience& patience) const {
-        wait_for_input(descriptor_, patience);
-        return accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC);
-    }
-
-  private:
-    fs::path path_;
-    int descriptor_ = -1;
-};
 
 bool has_input(int descriptor) {
     pollfd one{descriptor, POLLIN, 0};
@@ -130,6 +85,7 @@ struct Seat::Parts {
     std::optional<process::Companion> program;
     std::optional<std::uint32_t> id;
     std::deque<std::uint64_t> shown;  ///< ticks without an answer yet
+    std::optional<Guide> guide;       ///< once taken
     std::optional<LiveRig> rig;
     bool sees_sensors = false;
 
@@ -139,6 +95,7 @@ struct Seat::Parts {
         std::vector<std::uint8_t> tick;
         std::vector<std::uint8_t> traffic;
         std::vector<PlacedPicture> pictures;
+        Guidance guidance;
     };
 
     std::deque<Unshown> unshown;
@@ -151,11 +108,31 @@ struct Seat::Parts {
                 reason = ended->signal != 0 ? fmt::format("was ended by signal {}", ended->signal)
                                             : fmt::format("ended with exit code {}", ended->code);
         channel.reset();
-        return {fmt::format("the driver of '{}' {}", plan.actor, reason)};
+        return {fmt::format("the driver of '{}' {}", plan.actor, reason), std::nullopt};
+    }
+
+    void say_last(Kind kind, const flatbuffers::FlatBufferBuilder& builder) {
+        rig.reset();
+        if (!channel)
+            return;
+        try {
+            channel->send(kind, bytes_of(builder), {1.0});
+        } catch (const ChannelFault&) {
+            // Whoever left before us needs no goodbye.
+        }
+        channel.reset();
+    }
+
+    /// It said something else than was to be said now.
+    Lost said_else(Frame frame, const char* what) {
+        Lost result = lost(what);
+        result.said = std::move(frame);
+        return result;
     }
 
     Lost lost_renderer(const RenderFault& fault) const {
         return {fmt::format("the process that renders for '{}' {}", plan.actor, fault.what()),
+                std::nullopt,
                 true};
     }
 
@@ -177,8 +154,10 @@ struct Seat::Parts {
                 break;
             const auto* memory =
                 channel->carries_descriptors() ? nullptr : rig->memory().bytes().data();
-            if (const auto gone = hand_over(
-                    next.index, pack_observation(next.tick, next.traffic, next.pictures, memory)))
+            if (auto gone =
+                    hand_over(next.index,
+                              pack_observation(
+                                  next.tick, next.traffic, next.pictures, memory, next.guidance)))
                 return gone;
         }
         return std::nullopt;
@@ -191,7 +170,7 @@ struct Seat::Parts {
             wait_for_any_input(both, patience);
             if (has_input(channel->descriptor()))
                 break;
-            if (const auto gone = show_finished())
+            if (auto gone = show_finished())
                 return gone;
         }
         return std::nullopt;
@@ -203,7 +182,7 @@ Seat::Seat(const SeatPlan& plan, Patience patience) : parts_(std::make_unique<Pa
     parts.plan = plan;
     parts.patience = std::move(patience);
     if (!plan.socket.empty()) {
-        parts.listener.emplace(plan.socket);
+        parts.listener.emplace(plan.socket, "--driver socket:");
         return;
     }
     std::array<int, 2> ends{};
@@ -212,6 +191,13 @@ Seat::Seat(const SeatPlan& plan, Patience patience) : parts_(std::make_unique<Pa
     parts.channel.emplace(ends[0], largest_answer);
     const FrameChannel theirs(ends[1], largest_answer);  // closed here once the program has it
     parts.program.emplace(plan.command, theirs.descriptor(), "REPRISE_DRIVER=fd:%d");
+}
+
+Seat::Seat(std::string actor, FrameChannel channel, Patience patience)
+    : parts_(std::make_unique<Parts>()) {
+    parts_->plan.actor = std::move(actor);
+    parts_->patience = std::move(patience);
+    parts_->channel.emplace(std::move(channel));
 }
 
 Seat::~Seat() {
@@ -231,6 +217,7 @@ std::optional<Lost> Seat::take(std::uint32_t id,
                                const Spawned& spawned) {
     Parts& parts = *parts_;
     parts.id = id;
+    parts.guide.emplace(recording.town, id);
     if (spawned.command != nullptr) {
         parts.sees_sensors = spawned.command->sees_sensors();
         const world::Rig rig = world::rig_of(*spawned.command, spawned.tick);
@@ -256,9 +243,9 @@ std::optional<Lost> Seat::take(std::uint32_t id,
     const Descriptor memory = looks_itself ? parts.rig->memory().for_looking() : Descriptor();
     try {
         parts.channel->send(Kind::hello, bytes_of(hello), parts.patience, memory.number());
-        const Frame frame = parts.channel->receive(parts.patience);
+        Frame frame = parts.channel->receive(parts.patience);
         if (frame.kind != Kind::ready)
-            return parts.lost("did not say that it is ready");
+            return parts.said_else(std::move(frame), "did not say that it is ready");
         if (const auto version = frame.as<Ready>().version(); version != wire_version)
             return parts.lost(
                 fmt::format("speaks version {} of the wire, this is {}", version, wire_version));
@@ -271,6 +258,7 @@ std::optional<Lost> Seat::take(std::uint32_t id,
 std::optional<Lost> Seat::show(const world::SealedTick& tick) {
     Parts& parts = *parts_;
     const std::uint64_t index = tick.view().index();
+    const Guidance guidance = parts.guide->look(*tick.view().tick);
     std::vector<std::uint8_t> own;
     std::span<const std::uint8_t> of_tick = tick.tick_bytes();
     std::span<const std::uint8_t> of_traffic = tick.traffic_bytes();
@@ -282,11 +270,13 @@ std::optional<Lost> Seat::show(const world::SealedTick& tick) {
     try {
         auto pictures = parts.rig ? parts.rig->ask(tick) : std::vector<PlacedPicture>();
         if (pictures.empty() && parts.unshown.empty())
-            return parts.hand_over(index, pack_observation(of_tick, of_traffic, {}, nullptr));
+            return parts.hand_over(index,
+                                   pack_observation(of_tick, of_traffic, {}, nullptr, guidance));
         parts.unshown.push_back({index,
                                  {of_tick.begin(), of_tick.end()},
                                  {of_traffic.begin(), of_traffic.end()},
-                                 std::move(pictures)});
+                                 std::move(pictures),
+                                 guidance});
         return parts.show_finished();
     } catch (const RenderFault& fault) {
         return parts.lost_renderer(fault);
@@ -309,18 +299,18 @@ std::optional<Lost> Seat::show_due() {
 
 std::variant<world::Control, Lost> Seat::answer() {
     Parts& parts = *parts_;
-    if (const auto lost = show_due())
-        return *lost;
+    if (auto lost = show_due())
+        return std::move(*lost);
     try {
-        if (const auto lost = parts.wait_for_answer())
-            return *lost;
-        const Frame frame = parts.channel->receive(parts.patience);
+        if (auto lost = parts.wait_for_answer())
+            return std::move(*lost);
+        Frame frame = parts.channel->receive(parts.patience);
         if (frame.kind == Kind::goodbye) {
             const auto* reason = frame.as<Goodbye>().reason();
             return parts.lost("left" + (reason == nullptr ? "" : ": " + reason->str()));
         }
         if (frame.kind != Kind::control)
-            return parts.lost("said something else than a control");
+            return parts.said_else(std::move(frame), "said something else than a control");
         const Control& said = frame.as<Control>();
         if (const std::string fault = fault_of(said, parts.shown.front()); !fault.empty())
             return parts.lost(fault);
@@ -339,17 +329,23 @@ std::variant<world::Control, Lost> Seat::answer() {
     }
 }
 
-void Seat::leave(const std::string& reason) {
-    parts_->rig.reset();
-    if (!parts_->channel)
-        return;
+void Seat::leave(const std::string& reason, const std::optional<world::Outcome>& outcome) {
     flatbuffers::FlatBufferBuilder builder;
-    builder.Finish(CreateGoodbye(builder, builder.CreateString(reason)));
-    try {
-        parts_->channel->send(Kind::goodbye, bytes_of(builder), {1.0});
-    } catch (const ChannelFault&) {
-        // Whoever left before us needs no goodbye.
-    }
+    const auto why = builder.CreateString(reason);
+    builder.Finish(
+        outcome
+            ? CreateGoodbye(builder, why, builder.CreateString(outcome->verdict), outcome->ticks)
+            : CreateGoodbye(builder, why));
+    parts_->say_last(Kind::goodbye, builder);
+}
+
+void Seat::fail(const std::string& text, std::uint32_t line) {
+    flatbuffers::FlatBufferBuilder builder;
+    builder.Finish(CreateFault(builder, builder.CreateString(text), line));
+    parts_->say_last(Kind::fault, builder);
+}
+
+void Seat::abandon() {
     parts_->channel.reset();
 }
 

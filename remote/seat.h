@@ -28,7 +28,8 @@ SeatPlan parse_seat(const std::string& text);
 /// 1".
 struct Lost {
     std::string reason;
-    bool ours = false;  ///< not the driver failed, but we did
+    std::optional<Frame> said{};  ///< what it said in place of an answer, where that was a message
+    bool ours = false;            ///< not the driver failed, but we did
 };
 
 /// How the scenario spawned a vehicle: what it carries, and what its driver is shown.
@@ -46,6 +47,10 @@ class Seat {
     /// Starts the program, or makes the socket, open for this user only. `patience`: for each
     /// answer. Throws world::Error.
     Seat(const SeatPlan& plan, Patience patience);
+
+    /// Of a driver that is here already.
+    Seat(std::string actor, FrameChannel channel, Patience patience);
+
     ~Seat();
     Seat(const Seat&) = delete;
     Seat& operator=(const Seat&) = delete;
@@ -72,8 +77,15 @@ class Seat {
     /// What the driver makes of the first tick that was shown and not answered yet.
     std::variant<world::Control, Lost> answer();
 
-    /// The run is over, or the vehicle gone: says goodbye.
-    void leave(const std::string& reason);
+    /// The run is over, or the vehicle gone: says goodbye. `outcome`: of the run.
+    void leave(const std::string& reason, const std::optional<world::Outcome>& outcome = {});
+
+    /// The run cannot go on, which is not the driver's doing: says why. `line` of the scenario, or
+    /// 0.
+    void fail(const std::string& text, std::uint32_t line);
+
+    /// Lets go of the connection without a word.
+    void abandon();
 
   private:
     struct Parts;

@@ -33,6 +33,19 @@ std::vector<std::string> neighbours(const std::filesystem::path& path) {
     return names;
 }
 
+/// Throws world::Error for what is no text of a scenario.
+void check_text(const std::string& shown, const std::string& source) {
+    if (source.size() > longest_file)
+        throw world::Error(fmt::format("'{}' is larger than 1 MB: not a scenario", shown));
+    if (source.find_first_not_of(" \t\r\n") == std::string::npos)
+        throw world::Error(
+            fmt::format("'{}' is empty: a scenario file ends with: return scenario "
+                        "'name' {{ ... }}",
+                        shown));
+    if (source.front() == '\x1b')
+        throw world::Error(fmt::format("'{}' is compiled Lua: a scenario is Lua source", shown));
+}
+
 std::string read_source(const std::filesystem::path& path) {
     const std::string shown = path.string();
     std::error_code error;
@@ -50,13 +63,7 @@ std::string read_source(const std::filesystem::path& path) {
     const std::string source{std::istreambuf_iterator<char>(file), {}};
     if (!file)
         throw world::Error(fmt::format("cannot read '{}'", shown));
-    if (source.find_first_not_of(" \t\r\n") == std::string::npos)
-        throw world::Error(
-            fmt::format("'{}' is empty: a scenario file ends with: return scenario "
-                        "'name' {{ ... }}",
-                        shown));
-    if (source.front() == '\x1b')
-        throw world::Error(fmt::format("'{}' is compiled Lua: a scenario is Lua source", shown));
+    check_text(shown, source);
     return source;
 }
 
@@ -125,9 +132,16 @@ std::uint64_t limit_of_branch(const world::EpisodeT& run,
 
 world::EpisodeT load_episode(const std::filesystem::path& scenario_lua,
                              const Overrides& overrides) {
+    return episode_of_text(scenario_lua.filename().string(), read_source(scenario_lua), overrides);
+}
+
+world::EpisodeT episode_of_text(const std::string& name,
+                                const std::string& source,
+                                const Overrides& overrides) {
+    check_text(name, source);
     world::EpisodeT episode;
-    episode.scenario = read_source(scenario_lua);
-    episode.scenario_path = scenario_lua.filename().string();
+    episode.scenario = source;
+    episode.scenario_path = name;
     Vm vm(episode.scenario_path);
     Header header = read_header(vm, episode.scenario);
     override_parameters(header, overrides, episode.scenario_path);

@@ -29,6 +29,11 @@ struct Overrides {
 /// or holds an unknown key, model, weather or parameter.
 world::EpisodeT load_episode(const std::filesystem::path& scenario_lua, const Overrides& overrides);
 
+/// The same of a text that is in no file; `name` is what messages call it, such as my.lua.
+world::EpisodeT episode_of_text(const std::string& name,
+                                const std::string& source,
+                                const Overrides& overrides);
+
 /// What takes over in a branch of that run at that tick. `overrides` may hold parameters, and a
 /// duration from the tick on; without one, and when the script names none, the run's own limit
 /// stays. Throws world::Error as above, and for a script that wants another town, seed, cars or
