@@ -7,11 +7,17 @@
 namespace reprise::cli {
 
 int live() {
-    remote::LivePictures pictures;
-    render::Sensors sensors(pictures.town());
-    pictures.ready();
-    while (const auto wish = pictures.next())
-        pictures.show(sensors.observe(wish->tick, wish->sensors, *wish->tick.tick->weather()));
+    try {
+        remote::LivePictures pictures;
+        render::Sensors sensors(pictures.town());
+        pictures.ready();
+        for (;;) {
+            const remote::LivePictures::Wish wish = pictures.next();
+            pictures.show(sensors.observe(wish.tick, wish.sensors, *wish.tick.tick->weather()));
+        }
+    } catch (const remote::ChannelFault&) {
+        // The run ended, and says why; nobody looks any more.
+    }
     return exit_good;
 }
 

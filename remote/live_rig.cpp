@@ -186,13 +186,9 @@ void LivePictures::ready() {
     parts_->channel.send(Kind::ready, bytes_of(builder));
 }
 
-std::optional<LivePictures::Wish> LivePictures::next() {
+LivePictures::Wish LivePictures::next() {
     Parts& parts = *parts_;
-    try {
-        parts.last = parts.channel.receive();
-    } catch (const ChannelFault&) {
-        return std::nullopt;  // the run is over
-    }
+    parts.last = parts.channel.receive();
     REPRISE_CHECK(parts.last.kind == Kind::observation, "no tick to look at");
     const Observation& seen = parts.last.as<Observation>();
     Wish wish{{world::GetTick(seen.tick()->data()), world::GetTraffic(seen.traffic()->data())}, {}};
@@ -215,11 +211,7 @@ void LivePictures::show(std::span<const world::SensorFrame> frames) {
         std::memcpy(memory.data() + place.offset(), pixels.data(), pixels.size());
         done.push_back({place.sensor(), place.tick(), place.offset(), pixels.size()});
     }
-    try {
-        parts.channel.send(Kind::observation, bytes_of(pack_observation({}, {}, done, nullptr)));
-    } catch (const ChannelFault&) {
-        // The run is over: next() says it.
-    }
+    parts.channel.send(Kind::observation, bytes_of(pack_observation({}, {}, done, nullptr)));
 }
 
 }  // namespace reprise::remote

@@ -61,7 +61,8 @@ class LiveRig {
 /// The other side, which the process that renders is: what it was told, and how it answers.
 class LivePictures {
   public:
-    /// From the variable REPRISE_LIVE. Waits for the run's first word. Throws world::Error.
+    /// From the variable REPRISE_LIVE. Waits for the run's first word. Throws world::Error where
+    /// there is no run; all here throw ChannelFault when it is gone.
     LivePictures();
     ~LivePictures();
     LivePictures(const LivePictures&) = delete;
@@ -77,8 +78,8 @@ class LivePictures {
         world::SensorRig sensors;  ///< due in this tick
     };
 
-    /// The next tick to be looked at, until the next call; nothing when the run is over.
-    std::optional<Wish> next();
+    /// The next tick to be looked at, until the next call.
+    Wish next();
 
     /// The pixels of the last wish, in its order.
     void show(std::span<const world::SensorFrame> frames);

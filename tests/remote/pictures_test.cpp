@@ -5,10 +5,14 @@
 #include <netinet/in.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <thread>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "process/companion.h"
+#include "remote/client.h"
 #include "remote/frame_channel.h"
 #include "remote/messages.h"
 #include "remote/shared_memory.h"
@@ -108,6 +112,90 @@ TEST(Observation, CarriesThePixelsWhereTheyCannotBeShared) {
         EXPECT_THAT(std::vector<std::uint8_t>(picture.data()->begin(), picture.data()->end()),
                     testing::ElementsAre(3, 4));
     }
+}
+
+/// Two ends of a connection over TCP on this machine, which carries no descriptors.
+std::array<int, 2> tcp_pair() {
+    const Descriptor listener(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(address);
+    auto* place = reinterpret_cast<sockaddr*>(&address);
+    const int far = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    EXPECT_EQ(bind(listener.number(), place, size), 0);
+    EXPECT_EQ(listen(listener.number(), 1), 0);
+    EXPECT_EQ(getsockname(listener.number(), place, &size), 0);
+    EXPECT_EQ(connect(far, place, size), 0);
+    return {accept4(listener.number(), nullptr, nullptr, SOCK_CLOEXEC), far};
+}
+
+/// The run's part for a driver over TCP that carries one camera of 2 x 1 px: one tick with a frame,
+/// one without. Returns what it says to the first, of which the throttle is what it saw.
+double throttle_for_picture(FrameChannel& channel) {
+    world::CommandT spawn;
+    spawn.kind = world::CommandKind::spawn;
+    auto& sensor = *spawn.rig.emplace_back(std::make_unique<world::SensorT>());
+    sensor.name = "front";
+    sensor.width = 2;
+    sensor.height = 1;
+    sensor.fov = 1;
+    sensor.every = 2;
+    Packed said;
+    said.Finish(world::Command::Pack(said, &spawn));
+    world::Recording recording;
+    recording.town = test::straight_road(100, 1);
+    channel.send(Kind::hello,
+                 bytes_of(pack_hello(
+                     {1, "ego", flatbuffers::GetRoot<world::Command>(said.GetBufferPointer()), 0},
+                     recording)));
+    EXPECT_EQ(channel.receive().kind, Kind::ready);
+    world::TickDraft draft;
+    draft.tick.index = 5;
+    const world::SealedTick tick = world::seal(draft, {});
+    const std::array<std::uint8_t, 6> memory{10, 20, 30, 40, 50, 60};
+    const std::array<PlacedPicture, 1> pictures{PlacedPicture{0, 5, 0, 6}};
+    channel.send(Kind::observation,
+                 bytes_of(pack_observation(tick.tick_bytes(), {}, pictures, memory.data())));
+    const Frame answer = channel.receive();
+    EXPECT_EQ(answer.kind, Kind::control);
+    channel.send(Kind::observation, bytes_of(pack_observation(tick.tick_bytes(), {}, {}, nullptr)));
+    const Frame blind = channel.receive();
+    EXPECT_EQ(blind.kind, Kind::control);
+    EXPECT_EQ(blind.as<Control>().throttle(), 0);
+    Packed goodbye;
+    goodbye.Finish(CreateGoodbye(goodbye));
+    channel.send(Kind::goodbye, bytes_of(goodbye));
+    return answer.as<Control>().throttle();
+}
+
+TEST(Pictures, ComeInMessagesToADriverInCppThatSharesNoMemory) {
+    const auto [ours, theirs] = tcp_pair();
+    FrameChannel channel(ours, 64 << 10);
+    std::thread driver([address = "fd:" + std::to_string(theirs)] {
+        Client run(address);
+        while (run.next()) {
+            const auto seen = run.picture("front");
+            EXPECT_THROW(run.picture("back"), world::Error);
+            run.say({.throttle = seen ? seen->pixels[4] / 100.0 : 0});
+        }
+    });
+    EXPECT_EQ(throttle_for_picture(channel), 0.5);
+    driver.join();
+}
+
+TEST(Pictures, ComeInMessagesToADriverInPythonThatSharesNoMemory) {
+    const auto [ours, theirs] = tcp_pair();
+    FrameChannel channel(ours, 64 << 10);
+    const process::Companion driver(
+        "PYTHONPATH=" REPRISE_SOURCE
+        "/python exec /usr/bin/python3 -B -c 'import reprise; "
+        "reprise.drive(lambda seen: reprise.Control(throttle=seen.image(\"front\")[0, 1, 1] / "
+        "100 if seen.images else 0))'",
+        theirs,
+        "REPRISE_DRIVER=fd:%d");
+    close(theirs);
+    EXPECT_EQ(throttle_for_picture(channel), 0.5);
 }
 
 TEST(OwnTick, HoldsNothingOfOthers) {

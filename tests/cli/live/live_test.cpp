@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cstdio>
+#include <poll.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -30,6 +33,11 @@ constexpr const char* python =
     "PYTHONPATH=" REPRISE_SOURCE "/python /usr/bin/python3 -B " REPRISE_SOURCE
     "/tests/cli/live/looking_driver.py ";
 constexpr const char* compiled = "exec " REPRISE_LOOKING_DRIVER " ";
+
+/// Of a process that may be gone already: below 0.
+int pidfd(pid_t process) {
+    return static_cast<int>(syscall(SYS_pidfd_open, process, 0));
+}
 
 /// Runs of half a second (10 ticks) in Town 1 among 20 cars in the rain; who is driven comes in the
 /// third tick.
@@ -217,6 +225,59 @@ TEST_F(Live, ARendererThatDiesIsOurFaultAndTheTraceIsWhole) {
     const Result verified = reprise({"verify", "killed.mcap"}, folder_.path());
     EXPECT_EQ(verified.code, 0) << verified.out;
     EXPECT_EQ(replay::TraceReader(folder_ / "killed.mcap").ticks(), 7U);
+}
+
+TEST_F(Live, ARendererEndsWithItsRunHoweverThatEnds) {
+    scenario("ended", std::string(rig) + "driver = 'external' ");
+    reprise(
+        {"run", "ended.lua", "--driver", "ego=" + (compiled + make_folder("frames")) + " kill_run"},
+        folder_.path());
+    const std::string id = read_file(folder_ / "frames/renderer");
+    ASSERT_NE(id, "");
+    const int descriptor = pidfd(std::stoi(id));
+    if (descriptor < 0)
+        return;  // it is gone already
+    pollfd gone{descriptor, POLLIN, 0};
+    EXPECT_EQ(poll(&gone, 1, 60'000), 1) << "it still runs a minute later";
+    close(descriptor);
+}
+
+TEST_F(Live, ADriverThatNeverComesIsAllThatIsTold) {
+    scenario("alone", std::string(rig) + "driver = 'external' ");
+    EXPECT_THAT(run("alone", compiled + make_folder("frames") + " leave", 1),
+                testing::StartsWith("reprise: the driver of 'ego' ended with exit code 5\n"));
+}
+
+TEST_F(Live, EachOfSeveralSeesItsOwn) {
+    const std::string other =
+        "driver = 'external' } spawn{ name = 'other', model = 'van', driver = "
+        "'external', rig = { { name = 'rgb', width = 40, height = 30 } } ";
+    scenario("two", rig + other);
+    const Result ran = reprise({"run",
+                                "two.lua",
+                                "-o",
+                                "two.mcap",
+                                "--driver",
+                                "ego=" + (compiled + make_folder("ego")),
+                                "--driver",
+                                "other=" + (compiled + make_folder("other"))},
+                               folder_.path());
+    ASSERT_EQ(ran.code, 0) << ran.out;
+    EXPECT_EQ(kept("ego").size(), 7U * 3 + 3);
+    EXPECT_EQ(kept("other").size(), 7U);
+    replay::TraceReader trace(folder_ / "two.mcap");
+    render::Sensors sensors(trace.recording().town);
+    for (const std::string who : {"ego", "other"}) {
+        const world::TickView spawning = trace.tick(3).view;
+        world::SensorSpec sensor;
+        for (const world::Command* command : *spawning.tick->commands())
+            if (command->text()->str() == who)
+                sensor = world::rig_of(*command, 3).sensors.front();
+        const world::TickView tick = trace.tick(9).view;
+        const auto again = sensors.observe(tick, {sensor}, *tick.tick->weather());
+        const std::string pixels(again.front().data.begin(), again.front().data.end());
+        EXPECT_TRUE(kept_frame(who, again.front()) == pixels) << who;
+    }
 }
 
 TEST_F(Live, OtherCamerasAreRenderedWhereTheyAreAskedFor) {

@@ -1,12 +1,14 @@
-// A driver for tests that keeps what it sees: looking_driver FOLDER [kill]. Each frame becomes
-// FOLDER/SENSOR_TICK.raw. `kill`: in its fourth tick it ends the process that renders.
-#include <chrono>
+// A driver for tests that keeps what it sees: looking_driver FOLDER [kill|kill_run|leave]. Each
+// frame becomes FOLDER/SENSOR_TICK.raw. In its fourth tick `kill` ends the process that renders,
+// `kill_run` writes that one's id to FOLDER/renderer and ends the run; `leave` never says that it
+// is ready.
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
-#include <thread>
 #include <unistd.h>
 
 #include "remote/client.h"
@@ -23,20 +25,35 @@ void keep(const fs::path& folder, const std::string& name, std::span<const std::
 }
 
 /// A child of the run that started us.
-void end_renderer() {
+pid_t renderer() {
     const std::string run = "/proc/" + std::to_string(getppid());
     std::ifstream children(run + "/task/" + std::to_string(getppid()) + "/children");
     for (pid_t child = 0; children >> child;) {
         std::string name;
         std::getline(std::ifstream("/proc/" + std::to_string(child) + "/comm"), name);
         if (name == "reprise-render")
-            kill(child, SIGKILL);
+            return child;
+    }
+    return 0;
+}
+
+void misbehave(const std::string& habit, const fs::path& folder) {
+    const pid_t found = renderer();
+    if (found == 0)
+        std::abort();
+    if (habit == "kill")
+        kill(found, SIGKILL);
+    if (habit == "kill_run") {
+        std::ofstream(folder / "renderer") << found;
+        kill(getppid(), SIGKILL);
     }
 }
 
 }  // namespace
 
 int main(int count, char** words) {
+    if (count > 2 && std::string(words[2]) == "leave")
+        return 5;
     try {
         reprise::remote::Client run;
         int ticks = 0;
@@ -46,8 +63,8 @@ int main(int count, char** words) {
                     keep(words[1],
                          sensor.name + "_" + std::to_string(tick->index()),
                          picture->pixels);
-            if (count > 2 && ++ticks == 4)
-                end_renderer();
+            if (++ticks == 4 && count > 2)
+                misbehave(words[2], words[1]);
             run.say({.throttle = 0.5, .steer = 0.125});
         }
     } catch (const reprise::world::Error& error) {
