@@ -3,9 +3,10 @@ from .driver import Control, Driver, Ego, Observation, Run, drive
 from .nouns import Noun, dtype, enum, points
 from .pictures import Images, Sensors
 from .trace import Trace, TraceError
+from .way import Way
 from .wire import WireError
 
 __all__ = [
-    "Control", "Driver", "Ego", "Images", "Noun", "Observation", "Run", "Sensors", "Trace", "TraceError", "WireError",
+    "Control", "Driver", "Ego", "Images", "Noun", "Observation", "Run", "Sensors", "Trace", "TraceError", "Way", "WireError",
     "drive", "dtype", "enum", "points",
 ]  # fmt: skip
