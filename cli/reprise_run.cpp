@@ -1,9 +1,10 @@
-// `reprise run`, `verify`, `expand`, `branch` and `import`: the program with SUMO, Bullet and Lua
-// in it.
+// `reprise run`, `serve`, `verify`, `expand`, `branch` and `import`: the program with SUMO, Bullet
+// and Lua in it.
 #include "cli/branch.h"
 #include "cli/expand.h"
 #include "cli/process/command_main.h"
 #include "cli/run.h"
+#include "cli/serve.h"
 #include "cli/trace/import.h"
 #include "cli/verify.h"
 
@@ -16,6 +17,8 @@ int main(int argc, char** argv) {
             return expand(line.expand);
         if (line.command == "import")
             return import_log(line.tools.import_from);
+        if (line.command == "serve")
+            return serve(line.serve);
         return line.command == "verify" ? verify(line.verify) : run(line.run);
     });
 }

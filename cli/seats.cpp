@@ -41,9 +41,9 @@ Seats::Seats(const std::vector<std::string>& plans,
         free_.push_back(std::make_unique<remote::Seat>(plan, patience));
 }
 
-void Seats::lose(const remote::Seat& seat, const remote::Lost& lost) {
+void Seats::lose(const remote::Seat& seat, remote::Lost lost) {
     if (!loss_)
-        loss_ = Loss{seat.actor(), lost.reason, lost.ours};
+        loss_ = Loss{seat.actor(), std::move(lost.reason), lost.ours, std::move(lost.said)};
 }
 
 /// Gives an actor the driver that was named for it, if one was.
@@ -59,8 +59,8 @@ bool Seats::seat(const world::ExternalDrivers::Spawn& spawn) {
                                   spawn.tick,
                                   spawn.command.rig.empty() ? std::string() : render_program()};
     const std::uint32_t actor = spawn.command.actor;
-    if (const auto lost = (*seat)->take(actor, *recording_, spawned))
-        lose(**seat, *lost);
+    if (auto lost = (*seat)->take(actor, *recording_, spawned))
+        lose(**seat, std::move(*lost));
     taken_[actor] = {std::move(*seat), spawn.command.latency};
     free_.erase(seat);
     return true;
@@ -111,12 +111,11 @@ void Seats::ask(const world::SealedTick& tick) {
     controls_.clear();
     // All are shown the tick before the first is waited for: they think at the same time.
     for (const auto& [id, taken] : taken_)
-        if (const auto lost = loss_ ? std::nullopt : taken.seat->show(tick))
-            lose(*taken.seat, *lost);
+        if (auto lost = loss_ ? std::nullopt : taken.seat->show(tick))
+            lose(*taken.seat, std::move(*lost));
     for (const auto& [id, taken] : taken_)
-        if (const auto lost =
-                loss_ || taken.silent_ticks > 0 ? std::nullopt : taken.seat->show_due())
-            lose(*taken.seat, *lost);
+        if (auto lost = loss_ || taken.silent_ticks > 0 ? std::nullopt : taken.seat->show_due())
+            lose(*taken.seat, std::move(*lost));
     for (auto& [id, taken] : taken_) {
         if (loss_)
             return;
@@ -124,28 +123,53 @@ void Seats::ask(const world::SealedTick& tick) {
             --taken.silent_ticks;
             continue;
         }
-        const auto answer = taken.seat->answer();
-        if (const auto* lost = std::get_if<remote::Lost>(&answer))
-            lose(*taken.seat, *lost);
+        auto answer = taken.seat->answer();
+        if (auto* lost = std::get_if<remote::Lost>(&answer))
+            lose(*taken.seat, std::move(*lost));
         else
             controls_.push_back(std::get<world::Control>(answer));
     }
 }
 
 world::Outcome Seats::end(const world::Outcome& otherwise) {
-    for (const auto& [id, taken] : taken_)
-        taken.seat->leave("the run ended");
-    for (const auto& seat : free_)
+    const world::Outcome outcome =
+        loss_ ? world::outcome_of_lost_driver(loss_->actor, otherwise.ticks) : otherwise;
+    for (const std::string& name : leave("the run ended", outcome))
         say(stderr,
             "reprise: --driver {}: nobody was spawned with that name and driver = 'external'\n",
-            seat->actor());
-    if (!loss_)
-        return otherwise;
-    say(stderr,
-        "reprise: {}{}\n",
-        loss_->ours ? "this is our fault, please report it: " : "",
-        loss_->reason);
-    return world::outcome_of_lost_driver(loss_->actor, otherwise.ticks);
+            name);
+    if (loss_)
+        say(stderr,
+            "reprise: {}{}\n",
+            loss_->ours ? "this is our fault, please report it: " : "",
+            loss_->reason);
+    return outcome;
+}
+
+std::vector<std::string> Seats::leave(const std::string& reason,
+                                      const std::optional<world::Outcome>& outcome) {
+    for (const auto& [id, taken] : taken_)
+        taken.seat->leave(reason, outcome);
+    std::vector<std::string> never_came;
+    for (const auto& seat : free_) {
+        seat->leave(reason, outcome);
+        never_came.push_back(seat->actor());
+    }
+    return never_came;
+}
+
+void Seats::fail(const std::string& text, std::uint32_t line) {
+    for (const auto& [id, taken] : taken_)
+        taken.seat->fail(text, line);
+    for (const auto& seat : free_)
+        seat->fail(text, line);
+}
+
+void Seats::abandon() {
+    for (const auto& [id, taken] : taken_)
+        taken.seat->abandon();
+    for (const auto& seat : free_)
+        seat->abandon();
 }
 
 }  // namespace reprise::cli

@@ -29,6 +29,9 @@ class Seats {
           const remote::Patience& patience,
           const world::Recording& recording);
 
+    /// One more, of a driver that is here already.
+    void add(std::unique_ptr<remote::Seat> seat) { free_.push_back(std::move(seat)); }
+
     /// Behind a tick that is not the last: shows it, and waits for the answers that are due: to
     /// this tick, or to an earlier one by the latency that the scenario gave an actor. Throws
     /// world::Error, "my.lua:3: ...", for an actor that nobody was named for.
@@ -43,9 +46,10 @@ class Seats {
 
     /// A driver that drives no longer: the run ends where it is.
     struct Loss {
-        std::string actor;   ///< its name
-        std::string reason;  ///< for people
-        bool ours = false;   ///< not the driver failed, but we did
+        std::string actor;                    ///< its name
+        std::string reason;                   ///< for people
+        bool ours = false;                    ///< not the driver failed, but we did
+        std::optional<remote::Frame> said{};  ///< in place of an answer
     };
 
     const std::optional<Loss>& loss() const { return loss_; }
@@ -55,6 +59,16 @@ class Seats {
     /// as `otherwise` has it.
     world::Outcome end(const world::Outcome& otherwise);
 
+    /// The same without a word to people. Returns the names of drivers whose actor never came.
+    std::vector<std::string> leave(const std::string& reason,
+                                   const std::optional<world::Outcome>& outcome = {});
+
+    /// The run cannot go on: tells all drivers why.
+    void fail(const std::string& text, std::uint32_t line);
+
+    /// Without a word: they have something else to listen to.
+    void abandon();
+
     /// Whether the driver of this actor is one of ours.
     bool drives(std::uint32_t actor) const { return taken_.count(actor) > 0; }
 
@@ -62,7 +76,7 @@ class Seats {
     void welcome(const world::Tick& tick);
     bool seat(const world::ExternalDrivers::Spawn& spawn);
     void ask(const world::SealedTick& tick);
-    void lose(const remote::Seat& seat, const remote::Lost& lost);
+    void lose(const remote::Seat& seat, remote::Lost lost);
 
     const world::Recording* recording_;
     std::vector<std::unique_ptr<remote::Seat>> free_;

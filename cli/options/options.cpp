@@ -68,6 +68,7 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     add_strip(app, strip);
     add_expand(app, expand);
     add_branch(app, branch, app_->branch_assignments);
+    add_serve(app, serve);
     add_render(app, render, app_->render_words);
     add_tool_commands(app, tools);
     add_town_commands(app, town);

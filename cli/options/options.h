@@ -7,6 +7,7 @@
 #include "cli/options/golden_options.h"
 #include "cli/options/render_options.h"
 #include "cli/options/run_options.h"
+#include "cli/options/serve_options.h"
 #include "cli/options/tool_options.h"
 #include "cli/options/town_options.h"
 #include "cli/options/trace_options.h"
@@ -41,6 +42,7 @@ class CommandLine {
     GoldenListOptions golden_list;
     ToolOptions tools;
     TownOptions town;
+    ServeOptions serve;
 
   private:
     struct App;

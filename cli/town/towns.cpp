@@ -1,6 +1,7 @@
 #include "cli/town/towns.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -91,6 +92,24 @@ bool looks_like_path(const std::string& town) {
            is_map(town);
 }
 
+/// The town of that name in the first of the folders that has it, or an empty path.
+fs::path network_named(const std::string& town, const std::vector<fs::path>& folders) {
+    std::error_code ignored;
+    for (const fs::path& folder : folders) {
+        const fs::path network = folder / town / (town + ".net.xml");
+        if (fs::exists(network, ignored))
+            return network;
+    }
+    return {};
+}
+
+std::string joined_names(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names)
+        list += (list.empty() ? "" : ", ") + name;
+    return list.empty() ? "none" : list;
+}
+
 fs::path find_network(const std::string& town, const fs::path& scenario) {
     std::error_code ignored;
     const bool has_ending = town.ends_with(".xodr") || town.ends_with(".osm");
@@ -99,20 +118,14 @@ fs::path find_network(const std::string& town, const fs::path& scenario) {
     if (looks_like_path(town) || fs::is_regular_file(town, ignored))
         return town;
     const auto folders = town_folders(scenario);
-    for (const fs::path& folder : folders) {
-        const fs::path network = folder / town / (town + ".net.xml");
-        if (fs::exists(network, ignored))
-            return network;
-    }
+    if (const fs::path network = network_named(town, folders); !network.empty())
+        return network;
     if (fs::is_directory(town, ignored))
         return network_in(town);
     const auto names = names_in(folders);
-    std::string list;
-    for (const std::string& name : names)
-        list += (list.empty() ? "" : ", ") + name;
     throw world::Error(
         "no town '" + town + "'" + world::did_you_mean(town, names) + "; there are " +
-        (list.empty() ? "none" : list) +
+        joined_names(names) +
         ", or give the path of a SUMO network (.net.xml), a town's folder or a map (.xodr, .osm)");
 }
 
@@ -120,6 +133,21 @@ fs::path find_network(const std::string& town, const fs::path& scenario) {
 
 towns::Network load_town(const std::string& town, const fs::path& scenario) {
     return is_map(town) ? import_map(town) : towns::load_network(find_network(town, scenario));
+}
+
+towns::Network load_named_town(const std::string& name, const fs::path& folder) {
+    const auto folders = town_folders(folder / "any.lua");
+    const bool is_name =
+        !name.empty() && name.front() != '.' &&
+        std::all_of(name.begin(), name.end(), [](unsigned char letter) {
+            return std::isalnum(letter) != 0 || letter == '_' || letter == '-' || letter == '.';
+        });
+    if (is_name)
+        if (const fs::path network = network_named(name, folders); !network.empty())
+            return towns::load_network(network);
+    const auto names = names_in(folders);
+    throw world::Error("no town '" + name + "'" + world::did_you_mean(name, names) +
+                       "; there are " + joined_names(names));
 }
 
 }  // namespace reprise::cli

@@ -13,4 +13,8 @@ namespace reprise::cli {
 /// belong to this program. Throws world::Error that lists the towns there are.
 towns::Network load_town(const std::string& town, const std::filesystem::path& scenario = {});
 
+/// Of a town that others name: its name only, looked up in `folder`/towns, then in this program's
+/// own. Throws world::Error for what is no name, such as a path.
+towns::Network load_named_town(const std::string& name, const std::filesystem::path& folder);
+
 }  // namespace reprise::cli

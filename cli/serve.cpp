@@ -1,0 +1,175 @@
+#include "cli/serve.h"
+
+#include <array>
+#include <charconv>
+#include <csignal>
+#include <fstream>
+#include <list>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <fmt/format.h>
+
+#include "cli/fingerprint/self_test.h"
+#include "cli/process/guard.h"
+#include "cli/process/say.h"
+#include "cli/serve_session.h"
+#include "process/held_signals.h"
+#include "process/offshoot.h"
+#include "remote/listener.h"
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace {
+
+constexpr std::size_t largest_word = 2 << 20;    // [bytes] of a client
+constexpr std::string_view open_socket = "fd:";  // a socket that is open and connected
+constexpr const char* loopback = "127.0.0.1";
+constexpr std::size_t most_turned_away = 16;  // at once, while they are told why
+constexpr double patience_at_end = 6;         // [s] for sessions to close their traces
+
+std::string read_token(const std::string& path) {
+    constexpr std::size_t shortest = 16;
+    if (path.empty())
+        return "";
+    std::ifstream file(path);
+    std::string token;
+    std::getline(file, token);
+    if (token.size() < shortest)
+        throw world::Error(fmt::format(
+            "--token-file {}: expected a first line of at least {} characters", path, shortest));
+    return token;
+}
+
+/// The descriptor that fd:N names, when it does.
+std::optional<int> open_descriptor(const std::string& text) {
+    if (!text.starts_with(open_socket))
+        return std::nullopt;
+    int descriptor = -1;
+    const char* const begin = text.data() + open_socket.size();
+    const char* const end = text.data() + text.size();
+    sockaddr_storage peer{};
+    socklen_t size = sizeof(peer);
+    if (std::from_chars(begin, end, descriptor).ptr != end || descriptor < 3 ||
+        getpeername(descriptor, reinterpret_cast<sockaddr*>(&peer), &size) != 0)
+        throw world::Error("--socket " + text + ": expected the number of a connected socket");
+    return descriptor;
+}
+
+class Server {
+  public:
+    Server(const ServeOptions& options, const process::HeldSignals& signals)
+        : options_(options),
+          signals_(&signals),
+          token_(read_token(options.token_file)) {
+        if (options_.port)
+            listener_.emplace(options_.listen.empty() ? loopback : options_.listen, *options_.port);
+        else
+            listener_.emplace(std::filesystem::path(options_.socket), "--socket ");
+        if (!options_.town.empty())
+            town_ = make_ready(options_.town, options_.folder);
+    }
+
+    std::string place() const {
+        return options_.port ? fmt::format("{}:{}",
+                                           options_.listen.empty() ? loopback : options_.listen,
+                                           listener_->port())
+                             : options_.socket;
+    }
+
+    /// Until a signal ends us. Returns it.
+    int run() {
+        for (;;) {
+            std::array<pollfd, 2> all{pollfd{listener_->descriptor(), POLLIN, 0},
+                                      pollfd{signals_->descriptor(), POLLIN, 0}};
+            poll(all.data(), all.size(), -1);
+            if (all[1].revents != 0) {
+                const int signal = signals_->take();
+                sessions_.remove_if([](process::Offshoot& one) { return one.wait(0).has_value(); });
+                if (signal != 0 && signal != SIGCHLD)
+                    return signal;
+            }
+            if (all[0].revents != 0)
+                welcome();
+        }
+    }
+
+    /// All episodes end, with whole traces where they can.
+    void end() {
+        for (const process::Offshoot& session : sessions_)
+            session.ask_to_end();
+        double left = patience_at_end;
+        for (process::Offshoot& session : sessions_)
+            if (!session.wait(left))
+                left = 0;
+        sessions_.clear();
+    }
+
+  private:
+    void welcome() {
+        std::optional<remote::FrameChannel> client;
+        try {
+            client.emplace(listener_->accept_one({1.0}), largest_word);
+        } catch (const remote::ChannelFault&) {
+            return;  // it went as soon as it came
+        }
+        std::string why_not;
+        if (options_.port && token_.empty() && !remote::is_of_our_user(client->descriptor()))
+            why_not = "this server is another user's: it wants a --token-file";
+        else if (sessions_.size() >= options_.episodes)
+            why_not = fmt::format("{} clients are served already (--episodes)", options_.episodes);
+        if (sessions_.size() >= options_.episodes + most_turned_away)
+            return;  // without a word
+        try {
+            sessions_.emplace_back(
+                [&] {
+                    listener_->let_go();
+                    if (why_not.empty())
+                        Session(options_, token_, std::move(town_), std::move(*client), *signals_)
+                            .run();
+                    else
+                        turn_away(*client, why_not);
+                    return exit_good;
+                },
+                true);
+        } catch (const world::Error& error) {
+            say(stderr, "reprise: {}\n", error.what());  // the client is hung up on
+        }
+    }
+
+    ServeOptions options_;
+    const process::HeldSignals* signals_;
+    std::string token_;
+    std::optional<remote::Listener> listener_;
+    std::unique_ptr<ReadyTown> town_;
+    std::list<process::Offshoot> sessions_;
+};
+
+}  // namespace
+
+int serve(const ServeOptions& asked) {
+    self_test();
+    ServeOptions options = asked;
+    if (options.socket.empty())
+        options.socket = "reprise.sock";
+    const process::HeldSignals signals;
+    if (const auto descriptor = open_descriptor(options.socket)) {
+        auto town = options.town.empty() ? nullptr : make_ready(options.town, options.folder);
+        Session(options,
+                read_token(options.token_file),
+                std::move(town),
+                {*descriptor, largest_word},
+                signals)
+            .run();
+        return exit_good;
+    }
+    Server server(options, signals);
+    say("serving at {}\n", server.place());
+    std::fflush(stdout);
+    const int signal = server.run();
+    server.end();
+    return exit_stopped + signal;
+}
+
+}  // namespace reprise::cli

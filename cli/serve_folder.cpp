@@ -1,0 +1,36 @@
+#include "cli/serve_folder.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace fs = std::filesystem;
+
+fs::path file_in(const fs::path& folder, const std::string& name, const std::string& ending) {
+    constexpr std::size_t longest = 200;
+    const bool is_plain = std::all_of(name.begin(), name.end(), [](unsigned char letter) {
+        return letter >= ' ' && letter != '/' && letter != '\\' && letter != 127;
+    });
+    if (!is_plain || name.size() <= ending.size() || name.size() > longest || name.front() == '.' ||
+        !name.ends_with(ending))
+        throw world::Error(
+            fmt::format("'{}': expected the name of a file in the server's folder, such as my{}",
+                        name,
+                        ending));
+    const fs::path path = folder / name;
+    // What a writer puts beside it until it is whole counts as well.
+    for (const fs::path& one : {path, fs::path(path.string() + ".partial")}) {
+        std::error_code ignored;
+        const fs::file_status there = fs::symlink_status(one, ignored);
+        if (fs::exists(there) && !fs::is_regular_file(there))
+            throw world::Error(fmt::format(
+                "'{}': is no plain file in the server's folder; links are not followed", name));
+    }
+    return path;
+}
+
+}  // namespace reprise::cli

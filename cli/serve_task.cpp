@@ -1,0 +1,115 @@
+#include "cli/serve_task.h"
+
+#include <fmt/format.h>
+
+#include "world/check.h"
+#include "world/town.h"
+#include "world/weather.h"
+
+namespace reprise::cli {
+
+namespace {
+
+constexpr unsigned most_cars = 10'000;
+
+/// A place as the parameters of the script have it: lane '' is drawn there.
+struct NamedPlace {
+    std::string lane;
+    double s = 0;
+};
+
+constexpr const char* task_text =
+    R"lua(-- A driver in another program goes from a place to a goal, within the time that the way takes at 10 km/h
+-- (Dosovitskiy et al., CoRL 2017). Collisions and wrong lanes do not end it: they are in the measurements.
+-- Lanes that are not named are chosen by the seed; without a goal it drives until the time limit.
+return scenario 'task' {{
+    town = '{town}', cars = {cars}, weather = '{weather}', duration = 7200,
+    params = {{ model = 'sedan', start = '', s = 10.0, with_goal = false, goal = '', goal_s = 30.0 }},
+
+    run = function(p)
+        local place = {{ name = 'ego', model = p.model, driver = 'external' }}
+        if p.start ~= '' then place.lane, place.s = p.start, p.s end
+        local ego = spawn(place)
+        if not p.with_goal then wait(7200) end
+
+        local goal = p.goal ~= '' and p.goal or pick_lane{{ length = 50 }}
+        local length = ego:route_to{{ lane = goal, s = p.goal_s }}
+        -- The goal may lie on the lane that we start from, behind us.
+        local function arrived()
+            return ego:distance_driven() > length - 10 and ego:lane() == goal and ego:s() >= p.goal_s
+        end
+        check.eventually('arrived in time', arrived, {{ within = length / (10 / 3.6), stop = true }})
+        wait_until(arrived)
+        finish 'arrived'
+    end,
+}}
+)lua";
+
+NamedPlace named_place(const remote::Place& place, const world::TownT& town, const char* what) {
+    switch (place.kind()) {
+        case remote::PlaceKind::drawn:
+            break;
+        case remote::PlaceKind::lane: {
+            const std::string name = place.lane() == nullptr ? "" : place.lane()->str();
+            const auto lane = world::find_lane(town, name);
+            if (!lane || town.lanes[*lane].kind != world::LaneKind::driving)
+                throw world::Error(fmt::format(
+                    "the task's {}: no lane for cars '{}' in {}", what, name, town.name));
+            return {name, place.s()};
+        }
+        case remote::PlaceKind::spawn_point: {
+            const auto index = place.spawn_point();
+            if (index >= town.spawn_points.size() || town.spawn_points[index].for_walkers())
+                throw world::Error(
+                    fmt::format("the task's {}: {} has no spawn point {} for cars; there are {}",
+                                what,
+                                town.name,
+                                index,
+                                town.spawn_points.size()));
+            const world::SpawnPoint& point = town.spawn_points[index];
+            return {town.lanes.at(point.lane()).name, point.s()};
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+TaskScenario scenario_of(const remote::Task& task, const world::TownT& town) {
+    const std::string weather = task.weather() == nullptr || task.weather()->size() == 0
+                                    ? "clear_noon"
+                                    : task.weather()->str();
+    if (world::find_weather(weather) == nullptr)
+        throw world::Error(fmt::format("the task's weather: no weather '{}'{}",
+                                       weather,
+                                       world::did_you_mean(weather, world::weather_names())));
+    if (task.cars() > most_cars)
+        throw world::Error(fmt::format("the task's cars: at most {}", most_cars));
+    TaskScenario scenario;
+    // Only names that were looked up go into the text; what a client wrote goes in as parameters.
+    scenario.source = fmt::format(task_text,
+                                  fmt::arg("town", town.name),
+                                  fmt::arg("cars", task.cars()),
+                                  fmt::arg("weather", weather));
+    auto& parameters = scenario.overrides.parameters;
+    if (task.model() != nullptr && task.model()->size() != 0)
+        parameters.emplace_back("model", task.model()->str());
+    if (task.start() != nullptr) {
+        const NamedPlace start = named_place(*task.start(), town, "start");
+        if (!start.lane.empty()) {
+            parameters.emplace_back("start", start.lane);
+            parameters.emplace_back("s", fmt::format("{}", start.s));
+        }
+    }
+    if (task.goal() != nullptr) {
+        parameters.emplace_back("with_goal", "true");
+        const NamedPlace goal = named_place(*task.goal(), town, "goal");
+        if (!goal.lane.empty()) {
+            parameters.emplace_back("goal", goal.lane);
+            parameters.emplace_back("goal_s", fmt::format("{}", goal.s));
+        }
+    }
+    return scenario;
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,337 @@
+"""What `reprise serve` and reprise.Simulation promise. The variable REPRISE names the program."""
+import os
+import pathlib
+import re
+import select
+import signal
+import socket
+import stat
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import reprise
+from reprise.wire import Wire, WireError
+
+PROGRAM = os.environ["REPRISE"]
+HERE = pathlib.Path(__file__).resolve().parent
+DRIVEN = """return scenario 'driven' {
+    town = 'town1', cars = 20, seed = 3, duration = 3,
+    run = function()
+        spawn{ name = 'ego', model = 'sedan', driver = 'external' }
+        wait(3600)
+    end,
+}
+"""
+WAITING = 20  # [s] of patience for what takes milliseconds; a promise of its own is named where it is one
+
+
+def drive(seen):
+    """Some driving that depends on what is seen."""
+    return reprise.Control(throttle=0.6 if seen.ego.speed < 9 else 0.0, steer=0.2 if seen.index % 40 < 9 else -0.05)
+
+
+def chains(sim, ticks, **changes):
+    seen, found = sim.reset(**changes), []
+    while seen is not None and len(found) < ticks:
+        found.append(seen.tick.digests["chain"].tobytes())
+        seen = sim.step(drive(seen))
+    return found
+
+
+def reprise_program(*words):
+    done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=False, timeout=120)
+    return done.returncode, done.stdout + done.stderr
+
+
+def descendants(pid):
+    """All processes below this one."""
+    found = []
+    for task in pathlib.Path(f"/proc/{pid}/task").glob("*/children"):
+        try:
+            children = [int(word) for word in task.read_text().split()]
+        except OSError:
+            continue
+        for child in children:
+            found += [child, *descendants(child)]
+    return found
+
+
+def is_alive(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] not in "ZX"
+    except OSError:
+        return False
+
+
+def wait_until(condition, what):
+    until = time.monotonic() + WAITING
+    while not condition():
+        if time.monotonic() > until:
+            raise AssertionError(f"waited {WAITING} s in vain: {what}")
+        select.select([], [], [], 0.005)
+
+
+class Server:
+    """A `reprise serve` of the test's."""
+
+    def __init__(self, *words):
+        self.process = subprocess.Popen([PROGRAM, "serve", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        line = self.process.stdout.readline()
+        self.said = line
+        self.place = line.removeprefix("serving at ").strip()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait(WAITING)
+        self.process.stdout.close()
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory(prefix="serve_")
+        self.addCleanup(place.cleanup)
+        self.folder = pathlib.Path(place.name)
+        (self.folder / "driven.lua").write_text(DRIVEN)
+
+
+class Episodes(Case):
+    def test_a_reset_is_a_fresh_process_tick_for_tick(self):
+        with reprise.Simulation("town1", cars=40, seed=7) as sim:
+            first = chains(sim, 60)
+            other = chains(sim, 30, seed=8)  # another kernel
+            again = chains(sim, 60, seed=7)
+            once_more = chains(sim, 60)  # a copy of one that is ready
+        with reprise.Simulation("town1", cars=40, seed=7) as sim:
+            fresh = chains(sim, 60)
+        self.assertEqual(len(set(first)), 60)
+        self.assertNotEqual(first[:30], other)
+        self.assertEqual(first, again)
+        self.assertEqual(first, once_more)
+        self.assertEqual(first, fresh)
+
+    def test_an_episode_is_what_reprise_run_records_and_verify_finds_again(self):
+        trace, run = self.folder / "served.mcap", self.folder / "run.mcap"
+        with reprise.Simulation(scenario="driven.lua", folder=self.folder) as sim:
+            sim.reset(seed=5)
+            sim.step()
+            sim.reset(seed=3, trace="served.mcap")
+            outcome = sim.run(drive)
+        self.assertEqual((outcome.verdict, outcome.ticks), ("completed", 60))
+        script = f"import sys; sys.path[:0] = {[str(HERE)]!r}; import reprise, serve_test; reprise.drive(serve_test.drive)"
+        command = f"{sys.executable} -B -c \"{script}\""
+        code, said = reprise_program("run", str(self.folder / "driven.lua"), "--driver", f"ego={command}", "-o", str(run))
+        self.assertEqual(code, 0, said)
+        chain = [re.search(r"chain +(\w+)", reprise_program("info", str(one))[1])[1] for one in (trace, run)]
+        self.assertEqual(chain[0], chain[1])
+        code, said = reprise_program("verify", str(trace))
+        self.assertEqual(code, 0, said)
+
+    def test_traces_of_episodes_that_were_left_are_whole_and_verify(self):
+        with reprise.Simulation(scenario="driven.lua", folder=self.folder) as sim:
+            sim.reset(trace="left_by_reset.mcap")
+            sim.step(throttle=1.0)
+            sim.reset(trace="left_by_closing.mcap")
+            sim.step(throttle=1.0)
+        for name in ("left_by_reset.mcap", "left_by_closing.mcap"):
+            code, said = reprise_program("verify", str(self.folder / name))
+            self.assertEqual(code, 0, said)
+            self.assertIn("driver_lost", reprise_program("info", str(self.folder / name))[1])
+
+    def test_a_scenarios_mistake_is_told_with_its_line_and_the_session_lives_on(self):
+        broken = "return scenario 'broken' {\n    run = function()\n        spam()\n    end,\n}\n"
+        with reprise.Simulation(folder=self.folder) as sim:
+            with self.assertRaisesRegex(reprise.Fault, "scenario.lua:3: .*'spam'.*spawn") as caught:
+                sim.reset(scenario=broken)
+            self.assertEqual(caught.exception.line, 3)
+            late = DRIVEN.replace("wait(3600)", "wait(0.1)\n        spam()")
+            sim.reset(scenario=late)
+            with self.assertRaisesRegex(reprise.Fault, "scenario.lua:6: "):
+                for _ in range(10):
+                    sim.step()
+            with self.assertRaisesRegex(reprise.Fault, "before a vehicle 'ego'"):
+                sim.reset(scenario="return scenario 'empty' {\n    run = function() end,\n}\n")
+            self.assertEqual(sim.reset(scenario="driven.lua").index, 1)
+
+    def test_a_goal_is_reached_or_missed_by_the_time_of_10_kmh(self):
+        with reprise.Simulation("town1", start=("b1_b2_1", 20.0), goal=("b1_b2_1", 60.0), trace="task.mcap",
+                                folder=self.folder) as sim:  # fmt: skip
+            seen = sim.reset()
+            seen = sim.step()  # the goal is given when the vehicle is there
+            self.assertEqual(seen.turning, "follow_lane")
+            self.assertAlmostEqual(seen.way_to_goal, 40.0, delta=0.5)
+            outcome = sim.run(lambda seen: reprise.Control(throttle=0.5 if seen.ego.speed < 8 else 0.0))
+            self.assertEqual((outcome.verdict, outcome.reason), ("passed", "arrived"))
+            sim.reset()
+            outcome = sim.run(lambda seen: reprise.Control(brake=1.0))
+            self.assertEqual(outcome.verdict, "failed")
+            self.assertAlmostEqual(outcome.ticks * 0.05, 40 * 3.6 / 10, delta=0.3)
+
+    def test_fifty_resets_leave_no_process_and_no_descriptor(self):
+        with reprise.Simulation("town1", seed=1) as sim:
+            def state():
+                below = descendants(os.getpid())
+                return len(below), sorted(len(os.listdir(f"/proc/{pid}/fd")) for pid in below)
+
+            sim.reset()
+            before = state()
+            for _ in range(50):
+                sim.step()
+                sim.reset()
+            self.assertEqual(state(), before)
+            there = descendants(os.getpid())
+        wait_until(lambda: not any(map(is_alive, there)), "children of a closed simulation end")
+
+
+class Servers(Case):
+    def test_two_clients_at_once_disturb_each_other_in_nothing(self):
+        with Server("--socket", str(self.folder / "s"), "--folder", str(self.folder)) as server:
+            with reprise.Simulation("town1", cars=20, seed=7, server=server.place) as alone:
+                wanted = chains(alone, 20)
+            with reprise.Simulation("town1", cars=20, seed=7, server=server.place) as one, \
+                    reprise.Simulation("town2", cars=20, seed=9, server=server.place) as two:  # fmt: skip
+                seen, other, found = one.reset(), two.reset(), []
+                for _ in range(20):
+                    found.append(seen.tick.digests["chain"].tobytes())
+                    seen, other = one.step(drive(seen)), two.step(drive(other))
+            self.assertEqual(found, wanted)
+
+    def test_the_socket_is_its_owners_and_gone_in_the_end(self):
+        path = self.folder / "s"
+        with Server("--socket", str(path)) as server:
+            self.assertEqual(stat.S_IMODE(path.stat().st_mode), 0o600)
+            with reprise.Simulation(server=server.place) as sim:
+                sim.reset()
+                there = descendants(server.process.pid)
+                self.assertGreaterEqual(len(there), 3)
+                server.process.terminate()
+                with self.assertRaises((WireError, reprise.Fault)):
+                    for _ in range(100_000):
+                        sim.step()
+                self.assertEqual(server.process.wait(WAITING), 128 + signal.SIGTERM)
+        self.assertFalse(path.exists())
+        self.assertFalse(any(map(is_alive, there)))
+
+    def test_when_the_server_ends_the_trace_is_whole(self):
+        with Server("--socket", str(self.folder / "s"), "--folder", str(self.folder)) as server:
+            with reprise.Simulation(scenario="driven.lua", server=server.place, trace="a.mcap") as sim:
+                sim.reset()
+                sim.step()
+                server.process.terminate()
+                server.process.wait(WAITING)
+        code, said = reprise_program("verify", str(self.folder / "a.mcap"))
+        self.assertEqual(code, 0, said)
+
+    def test_when_the_server_is_killed_clients_hear_of_it_in_a_second_and_its_children_end(self):
+        path = self.folder / "s"
+        with Server("--socket", str(path)) as server:
+            with reprise.Simulation(server=server.place) as sim:
+                sim.reset()
+                there = descendants(server.process.pid)
+                server.process.kill()
+                killed = time.monotonic()
+                with self.assertRaises(WireError):
+                    for _ in range(100_000):
+                        sim.step()
+                self.assertLess(time.monotonic() - killed, 1)  # the promise itself
+                wait_until(lambda: not any(map(is_alive, there)), "children of a killed server end")
+        self.assertTrue(path.exists())  # nobody could take it away
+        with Server("--socket", str(path)) as server, reprise.Simulation(server=server.place) as sim:
+            self.assertEqual(sim.reset().index, 1)
+
+    def test_no_more_clients_than_episodes(self):
+        with Server("--socket", str(self.folder / "s"), "--episodes", "1") as server:
+            with reprise.Simulation(server=server.place):
+                with self.assertRaisesRegex(reprise.Fault, "1 clients are served already"):
+                    reprise.Simulation(server=server.place)
+
+    def test_names_that_lead_out_of_the_folder_are_refused(self):
+        inside = self.folder / "inside"
+        inside.mkdir()
+        (inside / "link.lua").symlink_to(self.folder / "driven.lua")
+        (inside / "link.mcap").symlink_to(self.folder / "secret.mcap")
+        (inside / "late.mcap.partial").symlink_to(self.folder / "secret.mcap")
+        (inside / "driven.lua").write_text(DRIVEN)
+        with Server("--socket", str(self.folder / "s"), "--folder", str(inside)) as server:
+            wire = Wire(server.place)
+            wire.say("open", version=1)
+            self.assertEqual(wire.receive()[0], "open")
+            for name in ("../driven.lua", str(self.folder / "driven.lua"), "..", "", ".lua", "link.lua", "a\0b.lua", "driven.txt"):
+                with self.subTest(scenario=name):
+                    wire.say("reset", file=name)
+                    self.assertEqual(wire.receive()[0], "fault")
+            for name in ("../a.mcap", str(self.folder / "a.mcap"), "link.mcap", "late.mcap", ".mcap", "a.txt"):
+                with self.subTest(trace=name):
+                    wire.say("reset", file="driven.lua", trace=name)
+                    self.assertEqual(wire.receive()[0], "fault")
+            for town in ("../town1", "/etc/passwd", "town1/town1.net.xml", ".", ""):
+                with self.subTest(town=town):
+                    wire.say("reset", task={"town": town})
+                    kind, message = wire.receive()
+                    self.assertEqual(kind, "fault")
+                    self.assertIn("no town", message.text)
+            wire.close()
+        self.assertEqual(sorted(one.name for one in self.folder.iterdir()), ["driven.lua", "inside"])
+
+    def test_what_is_no_message_ends_the_session_only(self):
+        with Server("--socket", str(self.folder / "s")) as server:
+            for bytes_said in (b"GET / HTTP/1.1\r\n\r\n", struct.pack("<II", 0xFFFFFFFF, 6), struct.pack("<II", 4, 99) + b"none"):
+                with socket.socket(socket.AF_UNIX) as client:
+                    client.connect(server.place)
+                    client.sendall(bytes_said)
+                    client.shutdown(socket.SHUT_WR)
+                    client.settimeout(WAITING)
+                    try:
+                        while client.recv(4096):
+                            pass
+                    except ConnectionResetError:
+                        pass
+            with reprise.Simulation(server=server.place) as sim:
+                self.assertEqual(sim.reset().index, 1)
+
+
+class Ports(Case):
+    def test_tcp_drives_as_a_socket_does(self):
+        with Server("--port", "0") as server:
+            self.assertRegex(server.place, r"^127\.0\.0\.1:\d+$")
+            with reprise.Simulation(cars=5, seed=2, server=server.place) as sim:
+                over_tcp = chains(sim, 10)
+        with reprise.Simulation(cars=5, seed=2) as sim:
+            self.assertEqual(over_tcp, chains(sim, 10))
+
+    def test_another_address_is_refused_without_listen(self):
+        with Server("--port", "0") as server:
+            port = int(server.place.split(":")[1])
+            with socket.socket() as client:
+                with self.assertRaises(ConnectionRefusedError):
+                    client.connect(("127.0.0.2", port))  # another one of this machine's
+
+    def test_listening_elsewhere_wants_a_token(self):
+        code, said = reprise_program("serve", "--port", "0", "--listen", "127.0.0.2")
+        self.assertEqual(code, 2)
+        self.assertIn("--token-file", said)
+        token = self.folder / "token"
+        token.write_text("short\n")
+        code, said = reprise_program("serve", "--port", "0", "--listen", "127.0.0.2", "--token-file", str(token))
+        self.assertEqual(code, 2)
+        self.assertIn("at least 16 characters", said)
+
+    def test_only_the_right_token_opens(self):
+        token = self.folder / "token"
+        token.write_text("a token of some length\n")
+        with Server("--port", "0", "--listen", "127.0.0.2", "--token-file", str(token)) as server:
+            for wrong in (None, "", "a token of some lengt", "a token of some length ", "another token, as long"):
+                with self.assertRaisesRegex(reprise.Fault, "wrong token"):
+                    reprise.Simulation(server=server.place, token=wrong)
+            with reprise.Simulation(server=server.place, token="a token of some length") as sim:
+                self.assertEqual(sim.reset().index, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
