@@ -9,11 +9,14 @@ from typing import Any, Callable
 
 import numpy as np
 
-from .nouns import Noun
+from .nouns import Noun, enum
 from .pictures import Images, Sensors
 from .wire import VERSION, Wire, WireError
 
 _NO_TRAFFIC = struct.pack("<IHHi", 8, 4, 4, 4)  # a table in which nothing is said: who sees sensors only has no other
+
+
+_TURNINGS = {number: name for name, number in enum("remote.Turning").items()}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -82,6 +85,7 @@ class Observation:
         self.run = run
         self.tick = Noun(message.tick.data, "world.Tick")
         self.traffic = Noun(message.traffic.data if len(message.traffic) else _NO_TRAFFIC, "world.Traffic")
+        self._message = message
         #: by the names of their sensors: those that were due in this tick
         self.images = Images(run.sensors, message.pictures)
 
@@ -104,6 +108,16 @@ class Observation:
     def time(self) -> float:
         """[s] of simulated time since the start."""
         return self.index * self.run.step
+
+    @property
+    def turning(self) -> str:
+        """What to do at the next junction: 'follow_lane', 'straight', 'left' or 'right'; 'none' without a goal."""
+        return _TURNINGS[self._message.turning]
+
+    @property
+    def way_to_goal(self) -> float:
+        """[m] along the shortest way; 0 without a goal."""
+        return self._message.way_to_goal
 
     @functools.cached_property
     def ego(self) -> Ego:
@@ -157,7 +171,7 @@ def drive(driver: Driver, address: str | None = None) -> int:
             if kind != "observation":
                 return ticks
             seen = Observation(run, message)
-            wire.control(seen.index, *_values(driver(seen)))
+            wire.control(seen.index, *values_of(driver(seen)))
             ticks += 1
     except WireError:
         raise
@@ -168,7 +182,7 @@ def drive(driver: Driver, address: str | None = None) -> int:
         wire.close()
 
 
-def _values(control: Control) -> tuple[float, float, float, bool, bool, int]:
+def values_of(control: Control) -> tuple[float, float, float, bool, bool, int]:
     if not isinstance(control, Control):
         raise TypeError(f"a driver returns a reprise.Control, got {control!r}")
     return (control.throttle, control.brake, control.steer, control.hand_brake, control.reverse, control.lamps)

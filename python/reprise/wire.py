@@ -4,11 +4,13 @@ from __future__ import annotations
 import os
 import socket
 import struct
+from typing import Any
 
 import flatbuffers
 
 from . import schema
 from .nouns import Noun
+from .packing import pack
 
 VERSION = 1
 _KINDS = schema.ENUMS["remote.Kind"][1]
@@ -22,15 +24,28 @@ class WireError(RuntimeError):
 def _connect(address: str) -> socket.socket:
     if address.startswith("fd:"):
         return socket.socket(fileno=int(address[3:]))
-    channel = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-    channel.connect(address)
+    host, colon, port = address.rpartition(":")
+    try:
+        if colon and port.isdigit() and "/" not in host:
+            channel = socket.create_connection((host, int(port)))
+            channel.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            return channel
+        channel = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        channel.connect(address)
+    except OSError as error:
+        raise WireError(f"{address}: nobody is there: {error.strerror or error}") from None
     return channel
 
 
 class Wire:
     """One connection with a run."""
 
-    def __init__(self, address: str | None = None) -> None:
+    digest = schema.DIGEST
+
+    def __init__(self, address: str | socket.socket | None = None) -> None:
+        if isinstance(address, socket.socket):
+            self._channel = address
+            return
         address = address or os.environ.get("REPRISE_DRIVER", "")
         if not address:
             raise WireError(
@@ -59,7 +74,10 @@ class Wire:
         data = bytearray(size)
         view, got = memoryview(data), 0
         while got < size:
-            count = self._channel.recv_into(view[got:])
+            try:
+                count = self._channel.recv_into(view[got:])
+            except ConnectionError:
+                count = 0
             if count == 0:
                 raise WireError("the run has hung up")
             got += count
@@ -77,8 +95,17 @@ class Wire:
         return kind, Noun(self._read(size), f"remote.{kind.capitalize()}")
 
     def _send(self, kind: str, builder: flatbuffers.Builder) -> None:
-        body = builder.Output()
-        self._channel.sendall(struct.pack("<II", len(body), _KINDS[kind]) + body)
+        self._put(kind, builder.Output())
+
+    def _put(self, kind: str, body: bytearray) -> None:
+        try:
+            self._channel.sendall(struct.pack("<II", len(body), _KINDS[kind]) + body)
+        except ConnectionError:
+            raise WireError("the run has hung up") from None
+
+    def say(self, kind: str, **values: Any) -> None:
+        """A message of any kind, by the fields of its table."""
+        self._put(kind, pack(f"remote.{kind.capitalize()}", values))
 
     def ready(self) -> None:
         """Answers hello."""

@@ -1,0 +1,225 @@
+"""Episodes that a program begins itself: steps, resets, at a server of its own or one that runs already."""
+from __future__ import annotations
+
+import dataclasses
+import os
+import pathlib
+import shutil
+import socket
+import subprocess
+from typing import Any, Mapping, Union
+
+from .driver import Control, Driver, Observation, Run, values_of
+from .nouns import Noun
+from .wire import VERSION, Wire, WireError
+
+Place = Union[str, int, "tuple[str, float]", None]
+
+
+class Fault(ValueError):
+    """The server cannot do what was asked: one line that says why, `line` of the scenario where there is one.
+
+    The simulation lives on: reset() begins another episode.
+    """
+
+    def __init__(self, text: str, line: int) -> None:
+        super().__init__(text)
+        self.line = line
+
+
+@dataclasses.dataclass(frozen=True)
+class Outcome:
+    """How an episode ended: `verdict` is 'passed', 'failed' or, without checks, 'completed'."""
+
+    verdict: str
+    reason: str
+    ticks: int
+
+
+def find_program() -> str:
+    """The program `reprise`: what the variable REPRISE names, or the first in PATH."""
+    program = os.environ.get("REPRISE") or shutil.which("reprise")
+    if not program:
+        raise FileNotFoundError("no program 'reprise' in PATH: install it, or name it in the variable REPRISE")
+    return program
+
+
+def _place(place: Place) -> dict[str, Any] | None:
+    if place is None:
+        return None
+    if place == "drawn":
+        return {"kind": "drawn"}
+    if isinstance(place, str):
+        return {"kind": "lane", "lane": place, "s": 10.0}
+    if isinstance(place, tuple):
+        return {"kind": "lane", "lane": place[0], "s": float(place[1])}
+    return {"kind": "spawn_point", "spawn_point": int(place)}
+
+
+class _Server:
+    """A `reprise serve` of our own, for one client; ends with us however we end, as it loses its socket then."""
+
+    def __init__(self, folder: str) -> None:
+        self.channel, its_own = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
+        number = its_own.fileno()
+        with its_own:
+            self._process = subprocess.Popen(
+                [find_program(), "serve", "--socket", f"fd:{number}", "--folder", folder],
+                pass_fds=[number], stdin=subprocess.DEVNULL, start_new_session=True,
+            )  # fmt: skip
+
+    def end(self) -> None:
+        for ask in (lambda: None, self._process.terminate, self._process.kill):
+            ask()
+            try:
+                self._process.wait(5)
+                return
+            except subprocess.TimeoutExpired:
+                continue
+
+
+class Simulation:
+    """Episodes in which this program drives the vehicle 'ego', in lockstep: nothing moves between two steps.
+
+        with reprise.Simulation('town1', cars=100, seed=7) as sim:
+            seen = sim.reset()
+            while seen is not None:
+                seen = sim.step(throttle=0.4)
+            print(sim.outcome)
+
+    `town`, `cars`, `weather`, `model`, `start` and `goal` make a task: a place is a lane ('b1_b2_1', or with metres
+    along it ('b1_b2_1', 30.0)), the number of a spawn point, or 'drawn' (by the seed). No `start` is drawn as well; no
+    `goal` is none. With a goal the episode ends on arrival ('passed'), or when the time is over that the way takes at
+    10 km/h ('failed'). `seconds` limits an episode; without it a task lasts two hours.
+
+    `scenario` takes the place of a task: a file's name in the server's folder, a path (read here), or Lua text, whose
+    parameters `settings` changes; it spawns 'ego' with driver = 'external'.
+
+    `trace` is a name in the folder, such as 'a.mcap'; each reset writes it anew. Equal arguments give equal ticks,
+    whatever was driven before, here or elsewhere.
+
+    `server` is the socket of a `reprise serve` that runs already, 'PATH' or 'HOST:PORT' (then with its `token`, if
+    it wants one); without it this starts one of its own, in `folder`, and ends it with close() or the `with`.
+    """
+
+    def __init__(self, town: str = "town1", *, cars: int = 0, seed: int | None = None, weather: str = "clear_noon",
+                 start: Place = None, goal: Place = None, model: str = "sedan", scenario: str | os.PathLike | None = None,
+                 settings: Mapping[str, Any] | None = None, seconds: float = 0.0, trace: str | None = None,
+                 server: str | None = None, token: str | None = None, folder: str | os.PathLike = ".") -> None:  # fmt: skip
+        self._plan = dict(town=town, cars=cars, seed=seed, weather=weather, start=start, goal=goal, model=model,
+                          scenario=scenario, settings=settings, seconds=seconds, trace=trace)  # fmt: skip
+        self.outcome: Outcome | None = None  #: of the last episode, once it has ended
+        self.run_info: Run | None = None  #: what stays the same in this episode; also `seen.run`
+        self._seen: Observation | None = None
+        self._server = None if server else _Server(os.fspath(folder))
+        try:
+            self._wire = Wire(self._server.channel if self._server else server)
+            self._say("open", version=VERSION, schema=self._wire.digest, token=token)
+            kind, answer = self._hear()
+            if kind != "open" or answer.version != VERSION:
+                raise WireError(f"the server speaks another version of the wire than this package ({VERSION})")
+        except BaseException:
+            self.close()
+            raise
+
+    def __enter__(self) -> Simulation:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Leaves; the episode that runs ends. May be called again."""
+        wire, self._wire = getattr(self, "_wire", None), None
+        if wire:
+            try:
+                if not self._seen:
+                    wire.say("goodbye", reason="closed")
+            except WireError:
+                pass  # it went first
+            wire.close()
+        elif self._server:
+            self._server.channel.close()
+        server, self._server = self._server, None
+        if server:
+            server.end()
+
+    def _say(self, kind: str, **values: Any) -> None:
+        if self._wire is None:
+            raise WireError("this simulation is closed")
+        self._wire.say(kind, **values)
+
+    def _hear(self) -> tuple[str, Noun]:
+        if self._wire is None:
+            raise WireError("this simulation is closed")
+        kind, message = self._wire.receive()
+        if kind == "fault":
+            self._seen = None
+            raise Fault(message.text, message.line)
+        return kind, message
+
+    def reset(self, **changes: Any) -> Observation:
+        """Begins an episode and returns what its first tick shows. `changes` to the arguments of the class, such as
+        seed=8, stay for the resets after it. Raises Fault for what cannot be, such as a mistake in a scenario."""
+        for name in changes:
+            if name not in self._plan:
+                raise TypeError(f"reset: no '{name}'; there are {', '.join(self._plan)}")
+        self._plan.update(changes)
+        self._seen, self.outcome = None, None
+        self._say("reset", **self._message())
+        kind, message = self._hear()
+        if kind == "goodbye":
+            self.outcome = Outcome(message.verdict, message.reason, message.ticks)
+            raise Fault("the episode ended before a vehicle 'ego' with driver = 'external' was there", 0)
+        self._wire.ready()
+        self.run_info = Run(message)
+        seen = self._look()
+        if seen is None:
+            raise Fault("the episode ended in the tick in which 'ego' appeared", 0)
+        return seen
+
+    def _message(self) -> dict[str, Any]:
+        plan = self._plan
+        message: dict[str, Any] = dict(seeded=plan["seed"] is not None, seed=plan["seed"] or 0,
+                                       seconds=plan["seconds"] or 0.0, trace=plan["trace"])  # fmt: skip
+        if plan["scenario"] is None:
+            message["task"] = dict(town=plan["town"], cars=plan["cars"], weather=plan["weather"], model=plan["model"],
+                                   start=_place(plan["start"]), goal=_place(plan["goal"]))  # fmt: skip
+            return message
+        scenario = os.fspath(plan["scenario"])
+        if "\n" in scenario:
+            message.update(source=scenario)
+        elif "/" in scenario:
+            path = pathlib.Path(scenario)
+            message.update(source=path.read_text(), name=path.name)
+        else:
+            message.update(file=scenario)
+        texts = {key: str(value).lower() if isinstance(value, bool) else str(value)
+                 for key, value in (plan["settings"] or {}).items()}  # fmt: skip
+        message["settings"] = [dict(key=key, value=value) for key, value in texts.items()] or None
+        return message
+
+    def _look(self) -> Observation | None:
+        kind, message = self._hear()
+        if kind == "observation":
+            self._seen = Observation(self.run_info, message)
+        else:
+            self._seen, self.outcome = None, Outcome(message.verdict, message.reason, message.ticks)
+        return self._seen
+
+    def step(self, control: Control | None = None, **values: Any) -> Observation | None:
+        """One tick (`seen.run.step` seconds) with this control, given whole or by its fields: step(throttle=0.4).
+        Returns what the next tick shows; None when the episode is over, and `outcome` says how it ended."""
+        if self._seen is None:
+            raise RuntimeError("no episode runs: reset() begins one")
+        control = control if control is not None else Control(**values)
+        self._wire.control(self._seen.index, *values_of(control))
+        return self._look()
+
+    def run(self, driver: Driver, ticks: int | None = None) -> Outcome | None:
+        """Lets a driver drive, from a reset where no episode runs, until the end or for so many ticks."""
+        seen = self._seen or self.reset()
+        while seen is not None and (ticks is None or ticks > 0):
+            seen = self.step(driver(seen))
+            ticks = None if ticks is None else ticks - 1
+        return self.outcome
