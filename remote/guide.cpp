@@ -49,10 +49,14 @@ void Guide::hear(const world::Tick& tick) {
     }
 }
 
+/// What lies behind a stop that was passed is no part of the way any more.
 void Guide::pass_stops(std::uint32_t lane) {
     while (passed_ + 1 < stops_.size() &&
-           town_->lanes[stops_[passed_]].edge == town_->lanes[lane].edge)
+           town_->lanes[stops_[passed_]].edge == town_->lanes[lane].edge) {
         ++passed_;
+        route_.reset();
+        planned_on_ = world::none;
+    }
 }
 
 /// Through the stops that are left, as one way.

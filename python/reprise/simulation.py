@@ -149,10 +149,10 @@ class Simulation:
             raise WireError("this simulation is closed")
         self._wire.say(kind, **values)
 
-    def _hear(self) -> tuple[str, Noun]:
+    def _hear(self, first: bool = False) -> tuple[str, Noun]:
         if self._wire is None:
             raise WireError("this simulation is closed")
-        kind, message = self._wire.receive()
+        kind, message = self._wire.receive_first() if first else self._wire.receive()
         if kind == "fault":
             self._seen = None
             raise Fault(message.text, message.line)
@@ -167,12 +167,12 @@ class Simulation:
         self._plan.update(changes)
         self._seen, self.outcome = None, None
         self._say("reset", **self._message())
-        kind, message = self._hear()
+        kind, message = self._hear(first=True)
         if kind == "goodbye":
             self.outcome = Outcome(message.verdict, message.reason, message.ticks)
             raise Fault("the episode ended before a vehicle 'ego' with driver = 'external' was there", 0)
         self._wire.ready()
-        self.run_info = Run(message)
+        self.run_info = Run(message, self._wire.descriptor())
         seen = self._look()
         if seen is None:
             raise Fault("the episode ended in the tick in which 'ego' appeared", 0)

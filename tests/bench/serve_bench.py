@@ -53,7 +53,7 @@ def main():
         print(f"{'':34} {'wall':>9} us {'processor':>9} us of a tick")
         for _ in range(3):  # interleaved
             alone, start = (without_driver(folder, words) for words in ((), ("--for", "0.05")))
-            show("without a driver", *(2 * [(whole - begin) / TICKS for whole, begin in zip(alone, start)])[:2])
+            show("without a driver", *((whole - begin) / TICKS for whole, begin in zip(alone, start)))
             whole, here = from_python(folder)
             show("from Python, all processes", whole[0] / TICKS, (whole[1] - start[1]) / TICKS)
             show("from Python, its own", here[0] / TICKS, here[1] / TICKS)
