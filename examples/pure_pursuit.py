@@ -1,4 +1,4 @@
-"""Pure pursuit along the route that the scenario set: towards a point of it some way ahead, as fast as bends and red lights allow.
+"""Pure pursuit along the route that the scenario set, as fast as bends and red lights allow.
 
 reprise run examples/pure_pursuit.lua --driver ego='python3 examples/pure_pursuit.py'
 """

@@ -19,8 +19,8 @@ def _change(room: float) -> float:
 class Way:
     """The shortest way for cars from a place on a lane through others, as `set_route` and `route_to` name them.
 
-    `points` (n, 2) [m], about one each metre; `bends` (n) [1/m] how sharply it bends there; `limits` (n) [m/s] the speed
-    limits; `stops` (index of the point before the junction, index in `town.signals`) of each signal on the way.
+    `points` (n, 2) [m], about one each metre; `bends` (n) [1/m] how sharply it bends there; `limits` (n) [m/s] the
+    speed limits; `stops` (index of the point before the junction, index in `town.signals`) of each signal on the way.
     Raises ValueError where no way leads.
     """
 
@@ -101,7 +101,8 @@ class Way:
             inside = np.clip((share - begin) / (end - begin) * 1.4 - 0.2, 0, 1)  # calm at both ends
             aside = changes * inside * inside * (3 - 2 * inside)
             line = sum(
-                np.maximum(0, 1 - np.abs(aside - i))[:, None] * self._along(lane, share) for i, lane in enumerate(street)
+                np.maximum(0, 1 - np.abs(aside - i))[:, None] * self._along(lane, share)
+                for i, lane in enumerate(street)
             )
             parts.append(line)
             limits.append(np.full(len(line), self._town.lanes[street[-1]].speed_limit))

@@ -1,7 +1,7 @@
 """A driver in another program on every route of a town's tasks.
 
-external_routes.py REPRISE SCENARIO.lua DRIVER.py TASKS.json [EVERY]: a line for each route that goes wrong, exit status 1
-when any did. Every EVERY-th route only; 1: all.
+external_routes.py REPRISE SCENARIO.lua DRIVER.py TASKS.json [EVERY]: what was said on each route that
+goes wrong, exit status 1 when any did. Every EVERY-th route only; 1: all.
 """
 import concurrent.futures
 import json
