@@ -67,10 +67,14 @@ CURVED = [  # real ones; that our car keeps its lane there is another question, 
 ]
 # Commands that read a trace and make another thing of it are rows like all others: a recipe with `needs`.
 VERIFIED = Recipe("verified", ("verify", "{short}"), makes="", needs=(SHORT,))
+# Another program drives, here only: everywhere else its controls come from the trace, and make the same bytes again.
+DRIVEN = run_recipe("driven", HERE / "driven.lua", "--driver", "ego={tools}/odd_driver steady")
+DRIVEN_AGAIN = Recipe("driven_again", ("run", "{driven}", "-o", "{out}"), needs=(DRIVEN,))
+DRIVEN_VERIFIED = Recipe("driven_verified", ("verify", "{driven}"), makes="", needs=(DRIVEN,))
 RENDER = ("render", "{short}", "-o", "{out}", "--camera", "rgb,depth,semantic", "--size", "160x120", "--every", "60")
 PICTURES = Recipe("pictures", RENDER, program="reprise-render", makes="/", needs=(SHORT,))
 PORTABLE = Recipe("portable_pictures", (*RENDER, "--portable"), program="reprise-render", makes="/", needs=(SHORT,))
-RECIPES = {recipe.name: recipe for recipe in (SHORT, LONG, *CURVED, VERIFIED, PICTURES, PORTABLE)}
+RECIPES = {recipe.name: recipe for recipe in (SHORT, LONG, *CURVED, VERIFIED, DRIVEN, DRIVEN_AGAIN, DRIVEN_VERIFIED, PICTURES, PORTABLE)}
 
 
 @dataclass(frozen=True)
@@ -94,7 +98,7 @@ class Lab:
 
     def command(self, recipe, environment, out):
         # Not by way of the thin `reprise`: an emulated program that becomes another one leaves the emulator.
-        places = {"out": out, **{need.name: self.reference(need) for need in recipe.needs}}
+        places = {"out": out, "tools": self.tools, **{need.name: self.reference(need) for need in recipe.needs}}
         words = [word.format(**places) for word in recipe.words]
         return [*environment.words, str(self.bin / recipe.program), *words]
 
@@ -218,6 +222,9 @@ def rows(lab):
     table += [row_of(LONG, each) for each in around + emulated]
     table += [row_of(recipe, each) for recipe in CURVED for each in masks]
     table += [row_of(VERIFIED, each) for each in (PLAIN, *masks, *emulated)]
+    table += [repeats(DRIVEN, 3, True)]
+    table += [row_of(DRIVEN_AGAIN, each, each.name in ("no_aslr", "malloc_perturb", "one_cpu")) for each in around]
+    table += [row_of(DRIVEN_VERIFIED, each, each.name in ("mask_no_fma", "mask_no_sse4")) for each in masks + emulated]
     for recipe in (PICTURES, PORTABLE):
         table += [row_of(recipe.but("--threads", str(count)), PLAIN, label=f"{count}_threads") for count in (1, 3, 7)]
         table += [row_of(recipe, each) for each in around_pictures]
