@@ -1,6 +1,7 @@
 #include "cli/seats.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -129,6 +130,10 @@ void Seats::ask(const world::SealedTick& tick) {
         else
             controls_.push_back(std::get<world::Control>(answer));
     }
+}
+
+std::optional<remote::Frame> Seats::take_said() {
+    return loss_ ? std::exchange(loss_->said, std::nullopt) : std::nullopt;
 }
 
 world::Outcome Seats::end(const world::Outcome& otherwise) {

@@ -54,6 +54,9 @@ class Seats {
 
     const std::optional<Loss>& loss() const { return loss_; }
 
+    /// What the lost driver said in place of an answer; once.
+    std::optional<remote::Frame> take_said();
+
     /// The run is over: says goodbye, and on stderr who was lost and who never came; that is said
     /// there only, because equal runs write equal traces. Returns how it ended: with the loss, or
     /// as `otherwise` has it.

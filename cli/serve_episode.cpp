@@ -78,7 +78,7 @@ std::optional<remote::Frame> play_episode(kernel::Kernel& kernel,
     } catch (const std::exception& error) {  // whatever it was, the session lives on
         seats.fail(error.what(), line_named_in(error.what()));
     }
-    return seats.loss() ? seats.loss()->said : std::nullopt;
+    return seats.take_said();
 }
 
 }  // namespace reprise::cli
