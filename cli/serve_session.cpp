@@ -17,6 +17,7 @@
 #include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/digest.h"
+#include "world/printable.h"
 
 namespace reprise::cli {
 

@@ -326,7 +326,7 @@ class Ports(Case):
         token = self.folder / "token"
         token.write_text("a token of some length\n")
         with Server("--port", "0", "--listen", "127.0.0.2", "--token-file", str(token)) as server:
-            for wrong in (None, "", "a token of some lengt", "a token of some length ", "another token, as long"):
+            for wrong in (None, "", "a token of some", "a token of some length ", "another token, as long"):
                 with self.assertRaisesRegex(reprise.Fault, "wrong token"):
                     reprise.Simulation(server=server.place, token=wrong)
             with reprise.Simulation(server=server.place, token="a token of some length") as sim:
