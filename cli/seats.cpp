@@ -54,11 +54,8 @@ bool Seats::seat(const world::ExternalDrivers::Spawn& spawn) {
     });
     if (seat == free_.end())
         return false;
-    flatbuffers::FlatBufferBuilder builder;
-    builder.Finish(world::Command::Pack(builder, &spawn.command));
-    const remote::Spawned spawned{flatbuffers::GetRoot<world::Command>(builder.GetBufferPointer()),
-                                  spawn.tick,
-                                  spawn.command.rig.empty() ? std::string() : render_program()};
+    const remote::Spawned spawned{
+        &spawn.command, spawn.tick, spawn.command.rig.empty() ? std::string() : render_program()};
     const std::uint32_t actor = spawn.command.actor;
     if (auto lost = (*seat)->take(actor, *recording_, spawned))
         lose(**seat, std::move(*lost));

@@ -82,15 +82,15 @@ struct LiveRig::Parts {
 };
 
 LiveRig::LiveRig(const std::string& program,
-                 const world::Command& spawn,
+                 const world::CommandT& spawn,
                  const world::Rig& rig,
                  const world::Recording& recording) {
     const auto [ours, theirs] = socket_pair();
     const Descriptor handed_over(theirs);
-    parts_ = std::make_unique<Parts>(rig, spawn.latency(), ours);
+    parts_ = std::make_unique<Parts>(rig, spawn.latency, ours);
     parts_->program.emplace(program, theirs, std::string(variable) + "=fd:%d");
     const Packed hello =
-        pack_hello({spawn.actor(), spawn.text()->str(), &spawn, parts_->ring.bytes()}, recording);
+        pack_hello({spawn.actor, spawn.text, &spawn, parts_->ring.bytes()}, recording);
     try {
         parts_->channel->send(Kind::hello, bytes_of(hello), {}, parts_->memory.descriptor());
     } catch (const ChannelFault&) {

@@ -31,7 +31,7 @@ class LiveRig {
     /// Starts it; does not wait for it. `program`: the line for the shell; it finds its socket in
     /// the variable REPRISE_LIVE. `rig` is not empty. Throws world::Error.
     LiveRig(const std::string& program,
-            const world::Command& spawn,
+            const world::CommandT& spawn,
             const world::Rig& rig,
             const world::Recording& recording);
     ~LiveRig();

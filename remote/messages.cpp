@@ -48,11 +48,8 @@ Packed pack_hello(const Greeting& greeting, const world::Recording& recording) {
     const auto town =
         add(message, bytes_of(packed<world::Town>(recording.town, world::TownIdentifier())));
     flatbuffers::Offset<flatbuffers::Vector<std::uint8_t>> spawn;
-    if (greeting.spawn != nullptr) {
-        world::CommandT command;
-        greeting.spawn->UnPackTo(&command);
-        spawn = add(message, bytes_of(packed<world::Command>(command, nullptr)));
-    }
+    if (greeting.spawn != nullptr)
+        spawn = add(message, bytes_of(packed<world::Command>(*greeting.spawn, nullptr)));
     message.Finish(CreateHello(message,
                                wire_version,
                                schema,

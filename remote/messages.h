@@ -16,9 +16,9 @@ namespace reprise::remote {
 /// What the run says first, to a driver and to the process that renders for it.
 struct Greeting {
     std::uint32_t actor = 0;
-    std::string name;                       ///< the scenario's
-    const world::Command* spawn = nullptr;  ///< null: not known
-    std::size_t shared_bytes = 0;           ///< of the memory whose descriptor goes with it
+    std::string name;                        ///< the scenario's
+    const world::CommandT* spawn = nullptr;  ///< null: not known
+    std::size_t shared_bytes = 0;            ///< of the memory whose descriptor goes with it
 };
 
 /// A message as it is packed. The bytes live as long as it.

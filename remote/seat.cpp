@@ -219,7 +219,7 @@ std::optional<Lost> Seat::take(std::uint32_t id,
     parts.id = id;
     parts.guide.emplace(recording.town, id);
     if (spawned.command != nullptr) {
-        parts.sees_sensors = spawned.command->sees_sensors();
+        parts.sees_sensors = spawned.command->sees_sensors;
         const world::Rig rig = world::rig_of(*spawned.command, spawned.tick);
         if (!rig.sensors.empty())  // it reads the town while the driver does
             parts.rig.emplace(spawned.render_program, *spawned.command, rig, recording);

@@ -34,7 +34,7 @@ struct Lost {
 
 /// How the scenario spawned a vehicle: what it carries, and what its driver is shown.
 struct Spawned {
-    const world::Command* command = nullptr;
+    const world::CommandT* command = nullptr;
     std::uint64_t tick = 0;      ///< in which it appeared
     std::string render_program;  ///< for the shell, see LiveRig
 };

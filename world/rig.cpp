@@ -40,41 +40,43 @@ std::vector<std::size_t> Rig::due(std::uint64_t tick) const {
     return found;
 }
 
-Rig rig_of(const Command& spawn, std::uint64_t tick) {
+Rig rig_of(const CommandT& spawn, std::uint64_t tick) {
     Rig rig;
     rig.since = tick;
-    if (spawn.rig() == nullptr)
-        return rig;
-    if (spawn.rig()->size() > most_sensors)
+    if (spawn.rig.size() > most_sensors)
         throw Error(fmt::format("actor {} carries {} sensors, where {} is the most",
-                                spawn.actor(),
-                                spawn.rig()->size(),
+                                spawn.actor,
+                                spawn.rig.size(),
                                 most_sensors));
-    for (const Sensor* said : *spawn.rig()) {
+    for (const auto& said : spawn.rig) {
         SensorSpec sensor;
-        sensor.name = said->name() == nullptr ? "" : said->name()->str();
-        sensor.kind = said->kind();
-        sensor.width = said->width();
-        sensor.height = said->height();
-        sensor.fov = said->fov();
-        sensor.actor = spawn.actor();
-        sensor.position = said->position() == nullptr
-                              ? Eigen::Vector3d::Zero()
-                              : Eigen::Vector3d(to_eigen(*said->position()));
-        sensor.yaw = said->yaw();
-        sensor.pitch = said->pitch();
+        sensor.name = said->name;
+        sensor.kind = said->kind;
+        sensor.width = said->width;
+        sensor.height = said->height;
+        sensor.fov = said->fov;
+        sensor.actor = spawn.actor;
+        sensor.position = to_eigen(said->position);
+        sensor.yaw = said->yaw;
+        sensor.pitch = said->pitch;
         const bool taken =
             std::any_of(rig.sensors.begin(), rig.sensors.end(), [&](const SensorSpec& other) {
                 return other.name == sensor.name;
             });
-        if (taken || !is_possible(sensor, said->every()))
+        if (taken || !is_possible(sensor, said->every))
             throw Error(fmt::format("actor {} carries a sensor {} that is not possible",
-                                    spawn.actor(),
+                                    spawn.actor,
                                     rig.sensors.size() + 1));
         rig.sensors.push_back(sensor);
-        rig.every.push_back(said->every());
+        rig.every.push_back(said->every);
     }
     return rig;
+}
+
+Rig rig_of(const Command& spawn, std::uint64_t tick) {
+    CommandT command;
+    spawn.UnPackTo(&command);
+    return rig_of(command, tick);
 }
 
 bool is_sensor_name(std::string_view name) {

@@ -42,6 +42,7 @@ struct Rig {
 
 /// Of a spawn command in the tick with this index. Empty where nothing is carried. Throws Error for
 /// a rig that no scenario could have said.
+Rig rig_of(const CommandT& spawn, std::uint64_t tick);
 Rig rig_of(const Command& spawn, std::uint64_t tick);
 
 /// Fit to name a folder: letters, digits, '_' and '-'.

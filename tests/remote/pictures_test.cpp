@@ -141,14 +141,9 @@ double throttle_for_picture(FrameChannel& channel) {
     sensor.height = 1;
     sensor.fov = 1;
     sensor.every = 2;
-    Packed said;
-    said.Finish(world::Command::Pack(said, &spawn));
     world::Recording recording;
     recording.town = test::straight_road(100, 1);
-    channel.send(Kind::hello,
-                 bytes_of(pack_hello(
-                     {1, "ego", flatbuffers::GetRoot<world::Command>(said.GetBufferPointer()), 0},
-                     recording)));
+    channel.send(Kind::hello, bytes_of(pack_hello({1, "ego", &spawn, 0}, recording)));
     EXPECT_EQ(channel.receive().kind, Kind::ready);
     world::TickDraft draft;
     draft.tick.index = 5;
