@@ -84,10 +84,12 @@ class Observation:
     def __init__(self, run: Run, message: Noun) -> None:
         self.run = run
         self.tick = Noun(message.tick.data, "world.Tick")
-        self.traffic = Noun(message.traffic.data if len(message.traffic) else _NO_TRAFFIC, "world.Traffic")
         self._message = message
-        #: by the names of their sensors: those that were due in this tick
-        self.images = Images(run.sensors, message.pictures)
+
+    @functools.cached_property
+    def images(self) -> Images:
+        """By the names of their sensors: those that were due in this tick."""
+        return Images(self.run.sensors, self._message.pictures)
 
     def image(self, name: str) -> np.ndarray | None:
         """What the sensor of that name sees in this tick; None where it makes no frame of it (`every`).
@@ -98,6 +100,12 @@ class Observation:
         Raises KeyError for a sensor that the vehicle does not carry.
         """
         return self.images.get(name)
+
+    @functools.cached_property
+    def traffic(self) -> Noun:
+        """world.Traffic: what moves without mass."""
+        traffic = self._message.traffic
+        return Noun(traffic.data if len(traffic) else _NO_TRAFFIC, "world.Traffic")
 
     @property
     def index(self) -> int:
