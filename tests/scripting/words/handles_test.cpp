@@ -10,6 +10,7 @@ namespace reprise::scripting {
 
 using test::printed;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using world::CommandKind;
 
 TEST(Spawn, SaysOneCommandWithEverythingResolved) {
@@ -116,6 +117,26 @@ TEST(Handle, TellsAnotherProgramWhereToGo) {
         if (command.kind == CommandKind::set_route)
             ends.push_back(command.s);
     EXPECT_THAT(ends, ElementsAre(stage.town.lanes[1].length, 90));
+}
+
+TEST(Handle, GivesADriverInAnotherProgramAGoalAndNothingElse) {
+    test::Stage stage(test::running(R"(
+        local ego = spawn{ model = 'sedan', driver = 'external', lane = 'east_1', s = 50 }
+        wait_ticks(1)
+        print(ego:route_to{ lane = 'east_1', s = 90 })
+        ego:set_route{ 'east_2', 'west' }
+        print(select(2, pcall(ego.set_speed, ego, 3)))
+        print(select(2, pcall(ego.change_lane, ego, 'left'))))"));
+    const auto printed = stage.play(3);
+    ASSERT_EQ(printed.size(), 3U);
+    EXPECT_NEAR(std::stod(printed[0]), 40, 1e-6);
+    EXPECT_THAT(printed[1], HasSubstr("set_speed: 'sedan' is driven by another program"));
+    EXPECT_THAT(printed[2], HasSubstr("change_lane: 'sedan' is driven by another program"));
+    std::vector<std::vector<std::uint32_t>> routes;
+    for (const auto& command : stage.commands)
+        if (command.kind == CommandKind::set_route)
+            routes.push_back(command.lanes);
+    EXPECT_THAT(routes, ElementsAre(ElementsAre(1), ElementsAre(2, 4)));
 }
 
 TEST(Handle, SaysWhatAnActorIsTold) {
