@@ -21,7 +21,7 @@ fs::path file_in(const fs::path& folder, const std::string& name, const std::str
             fmt::format("'{}': expected the name of a file in the server's folder, such as my{}",
                         name,
                         ending));
-    const fs::path path = folder / name;
+    fs::path path = folder / name;
     // What a writer puts beside it until it is whole counts as well.
     for (const fs::path& one : {path, fs::path(path.string() + ".partial")}) {
         std::error_code ignored;

@@ -67,7 +67,7 @@ std::optional<world::Route> Guide::plan(world::LanePlace from) const {
     for (std::size_t i = passed_; i < stops_.size(); ++i) {
         const bool is_goal = i + 1 == stops_.size();
         const world::LanePlace stop{stops_[i], is_goal ? goal_s_ : 0};
-        const auto leg = planner.plan(here, stop);
+        auto leg = planner.plan(here, stop);
         if (!leg)
             return std::nullopt;
         for (const world::Route::Piece& piece : leg->pieces)

@@ -32,7 +32,6 @@ namespace reprise::remote {
 
 namespace {
 
-namespace fs = std::filesystem;
 constexpr std::size_t largest_answer = 64 << 10;  // [bytes]
 constexpr std::string_view socket_word = "socket:";
 

@@ -96,7 +96,7 @@ bool looks_like_path(const std::string& town) {
 fs::path network_named(const std::string& town, const std::vector<fs::path>& folders) {
     std::error_code ignored;
     for (const fs::path& folder : folders) {
-        const fs::path network = folder / town / (town + ".net.xml");
+        fs::path network = folder / town / (town + ".net.xml");
         if (fs::exists(network, ignored))
             return network;
     }
@@ -118,7 +118,7 @@ fs::path find_network(const std::string& town, const fs::path& scenario) {
     if (looks_like_path(town) || fs::is_regular_file(town, ignored))
         return town;
     const auto folders = town_folders(scenario);
-    if (const fs::path network = network_named(town, folders); !network.empty())
+    if (fs::path network = network_named(town, folders); !network.empty())
         return network;
     if (fs::is_directory(town, ignored))
         return network_in(town);
@@ -143,7 +143,7 @@ towns::Network load_named_town(const std::string& name, const fs::path& folder) 
             return std::isalnum(letter) != 0 || letter == '_' || letter == '-' || letter == '.';
         });
     if (is_name)
-        if (const fs::path network = network_named(name, folders); !network.empty())
+        if (fs::path network = network_named(name, folders); !network.empty())
             return towns::load_network(network);
     const auto names = names_in(folders);
     throw world::Error("no town '" + name + "'" + world::did_you_mean(name, names) +
