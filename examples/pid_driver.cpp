@@ -1,5 +1,6 @@
-// The PID driver of the CARLA paper's modular pipeline (Dosovitskiy et al., CoRL 2017, section 3.1): 20 km/h
-// along waypoints; here those of its lane, straight on at junctions. It stops at red and behind others.
+// The PID driver of the CARLA paper's modular pipeline (Dosovitskiy et al., CoRL 2017,
+// section 3.1): 20 km/h along waypoints; here those of its lane, straight on at junctions. It stops
+// at red and behind others.
 //     reprise run examples/external.lua --driver ego=pid_driver
 #include <algorithm>
 #include <cmath>
@@ -57,7 +58,9 @@ double angle_to_way(const world::TownT& town,
 }
 
 /// [m] that are free: to the one ahead, or to a signal that is not green.
-double free_way(const world::TownT& town, const world::TickView& tick, const world::Measurement& own) {
+double free_way(const world::TownT& town,
+                const world::TickView& tick,
+                const world::Measurement& own) {
     double free = own.gap_ahead() - 5;
     const world::LaneT& lane = town.lanes[own.lane()];
     const world::Link* link = onwards(lane);

@@ -70,9 +70,11 @@ void want_room(const Run& run, const Actor& actor) {
     if (present >= most_present_actors)
         refuse("spawn", fmt::format("more than {} actors at a time", most_present_actors));
     if (actor.is_driven() && driven >= most_driven_actors)
-        refuse("spawn",
-               fmt::format("more than {} actors with the driver 'autopilot', 'manual' or 'external' at a time",
-                           most_driven_actors));
+        refuse(
+            "spawn",
+            fmt::format(
+                "more than {} actors with the driver 'autopilot', 'manual' or 'external' at a time",
+                most_driven_actors));
 }
 
 /// As the kernel will put it down, roughly: on the centre line, then aside.
