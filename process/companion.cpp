@@ -47,6 +47,21 @@ std::string filled_in(std::string variable, int descriptor) {
     _exit(no_such_program);
 }
 
+/// Ends the program's group when we are gone, however we went: then nobody holds the other end of
+/// the pipe any more. PR_SET_PDEATHSIG reaches the shell only, and not what it started. A shell,
+/// because a copy of us would hold our memory and our sockets.
+[[noreturn]] void be_guardian(pid_t group, int pipe_end) noexcept {
+    static constexpr const char* word = "read nothing; kill -s KILL 0";
+    setpgid(0, group);
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all, nullptr);  // what the group is sent is not meant for it
+    dup2(pipe_end, STDIN_FILENO);
+    close_range(STDERR_FILENO + 1, ~0U, 0);
+    execl("/bin/sh", "sh", "-c", word, nullptr);
+    _exit(no_such_program);
+}
+
 /// A shell says of a program that a signal ended: 128 + signal.
 Ended how(int status) {
     constexpr int by_signal = 128;
@@ -69,19 +84,33 @@ Companion::Companion(const std::string& command, int descriptor, const std::stri
     for (char** ours = environ; *ours != nullptr; ++ours)
         environment.push_back(*ours);
     environment.push_back(nullptr);
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+        throw world::Error(command + ": cannot be started: " + std::strerror(errno));
+    we_live_ = ends[1];
     const pid_t parent = getpid();
     pid_ = fork();
     if (pid_ == 0)
         be_program(parent, descriptor, words, environment);
+    if (pid_ > 0) {
+        setpgid(pid_, pid_);  // here as well: whoever comes first
+        guardian_ = fork();
+        if (guardian_ == 0)
+            be_guardian(pid_, ends[0]);
+    }
+    const int reason = errno;
+    close(ends[0]);
     if (pid_ < 0)
-        throw world::Error(command + ": cannot be started: " + std::strerror(errno));
-    setpgid(pid_, pid_);  // here as well: whoever comes first
+        throw world::Error(command + ": cannot be started: " + std::strerror(reason));
 }
 
 Companion::~Companion() {
     wait(moment);
-    kill(-pid_, SIGKILL);  // what it left, or itself
+    kill(-pid_, SIGKILL);  // what it left, or itself, and the guardian
+    close(we_live_);
     wait(moment);
+    if (guardian_ > 0)
+        waitpid(guardian_, nullptr, 0);
 }
 
 std::optional<Ended> Companion::wait(double seconds) {

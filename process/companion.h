@@ -28,6 +28,8 @@ class Companion {
 
   private:
     pid_t pid_ = -1;
+    pid_t guardian_ = -1;
+    int we_live_ = -1;  ///< our end of a pipe: the guardian sees it close
     std::optional<Ended> ended_;
 };
 

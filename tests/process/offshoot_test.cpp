@@ -1,43 +1,15 @@
 #include "process/offshoot.h"
 
-#include <array>
 #include <csignal>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
 
+#include "tests/process/held_pipe.h"
+
 namespace reprise::process {
 namespace {
-
-/// Its other end is closed when the last process that holds it has ended.
-struct Pipe {
-    Pipe() { EXPECT_EQ(pipe(ends.data()), 0); }
-
-    ~Pipe() {
-        for (const int end : ends)
-            if (end >= 0)
-                close(end);
-    }
-
-    Pipe(const Pipe&) = delete;
-    Pipe& operator=(const Pipe&) = delete;
-
-    /// Waits for a byte; false when nobody is left to write one.
-    bool hear() const {
-        char byte = 0;
-        return read(ends[0], &byte, 1) == 1;
-    }
-
-    void say() const { EXPECT_EQ(write(ends[1], "x", 1), 1); }
-
-    void let_go() {
-        close(ends[1]);
-        ends[1] = -1;
-    }
-
-    std::array<int, 2> ends{-1, -1};
-};
 
 TEST(Offshoot, TellsItsExitCodeOrSignal) {
     Offshoot returns([] { return 7; }, false);
@@ -47,7 +19,7 @@ TEST(Offshoot, TellsItsExitCodeOrSignal) {
 }
 
 TEST(Offshoot, IsAskedToEndWithItsGroup) {
-    Pipe held;
+    HeldPipe held;
     Offshoot leader(
         [&] {
             Offshoot member(
@@ -70,7 +42,7 @@ TEST(Offshoot, IsAskedToEndWithItsGroup) {
 }
 
 TEST(Offshoot, AndItsOwnEndWhenItsOwnerIsKilled) {
-    Pipe held;
+    HeldPipe held;
     const pid_t owner = fork();
     if (owner == 0) {
         Offshoot child(
@@ -97,7 +69,7 @@ TEST(Offshoot, AndItsOwnEndWhenItsOwnerIsKilled) {
 }
 
 TEST(Offshoot, IsEndedWithItsOwnersObject) {
-    Pipe held;
+    HeldPipe held;
     {
         const Offshoot child(
             [&] {

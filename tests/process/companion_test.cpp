@@ -1,0 +1,53 @@
+#include "process/companion.h"
+
+#include <csignal>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "tests/process/held_pipe.h"
+
+namespace reprise::process {
+namespace {
+
+/// A program below the shell that hears of nothing, and holds the pipe that it is given.
+constexpr const char* deaf =
+    "trap '' HUP TERM INT; sh -c 'printf x >/proc/self/fd/${END#fd:}; sleep 1000' & wait";
+
+TEST(Companion, FindsItsDescriptorAndTellsHowItEnded) {
+    HeldPipe held;
+    Companion good("printf x >/proc/self/fd/${END#fd:}; exit 7", held.ends[1], "END=fd:%d");
+    EXPECT_TRUE(held.hear());
+    EXPECT_EQ(good.wait(10)->code, 7);
+    Companion crashes("kill -s ABRT $$", held.ends[1], "END=fd:%d");
+    EXPECT_EQ(crashes.wait(10)->signal, SIGABRT);
+}
+
+TEST(Companion, EndsWithAllThatItStarted) {
+    HeldPipe held;
+    {
+        const Companion companion(deaf, held.ends[1], "END=fd:%d");
+        held.let_go();
+        EXPECT_TRUE(held.hear());
+    }
+    EXPECT_FALSE(held.hear()) << "nobody holds the pipe any more";
+}
+
+TEST(Companion, AndItsOwnEndWhenItsOwnerIsKilled) {
+    HeldPipe held;
+    const pid_t owner = fork();
+    if (owner == 0) {
+        const Companion companion(deaf, held.ends[1], "END=fd:%d");
+        pause();
+        _exit(0);
+    }
+    held.let_go();
+    EXPECT_TRUE(held.hear());
+    kill(owner, SIGKILL);
+    waitpid(owner, nullptr, 0);
+    EXPECT_FALSE(held.hear()) << "nobody holds the pipe any more";
+}
+
+}  // namespace
+}  // namespace reprise::process
