@@ -1,5 +1,9 @@
 #include "cli/serve_task.h"
 
+#include <cmath>
+#include <string_view>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "world/check.h"
@@ -11,6 +15,10 @@ namespace reprise::cli {
 namespace {
 
 constexpr unsigned most_cars = 10'000;
+constexpr unsigned most_sensors = 16;  // as a rig has
+constexpr std::size_t longest_word = 40;
+constexpr std::string_view word_letters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 
 /// A place as the parameters of the script have it: lane '' is drawn there.
 struct NamedPlace {
@@ -27,7 +35,7 @@ return scenario 'task' {{
     params = {{ model = 'sedan', start = '', s = 10.0, with_goal = false, goal = '', goal_s = 30.0 }},
 
     run = function(p)
-        local place = {{ name = 'ego', model = p.model, driver = 'external' }}
+        local place = {{ name = 'ego', model = p.model, driver = 'external'{rig} }}
         if p.start ~= '' then place.lane, place.s = p.start, p.s end
         local ego = spawn(place)
         if not p.with_goal then wait(7200) end
@@ -73,6 +81,42 @@ NamedPlace named_place(const remote::Place& place, const world::TownT& town, con
     return {};
 }
 
+/// `, rig = { ... }` of spawn, in the scenario's words, which say what may be in it.
+std::string rig_text(const remote::Task& task) {
+    if (task.rig() == nullptr || task.rig()->size() == 0)
+        return "";
+    if (task.rig()->size() > most_sensors)
+        throw world::Error(fmt::format("the task's rig: at most {} sensors", most_sensors));
+    std::string text;
+    for (const remote::TaskSensor* sensor : *task.rig()) {
+        // Words that end up in the text are checked: they may not end their quotes.
+        for (const auto* word : {sensor->name(), sensor->kind()})
+            if (word == nullptr || word->size() == 0 || word->size() > longest_word ||
+                word->string_view().find_first_not_of(word_letters) != std::string_view::npos)
+                throw world::Error(
+                    "the task's rig: names and kinds have letters, digits and _, at most 40 of "
+                    "them");
+        text += fmt::format("{{ name = '{}', kind = '{}', width = {}, height = {}, every = {}",
+                            sensor->name()->string_view(),
+                            sensor->kind()->string_view(),
+                            sensor->width(),
+                            sensor->height(),
+                            sensor->every());
+        for (const auto& [key, value] : {std::pair("fov_deg", sensor->fov_deg()),
+                                         std::pair("x", sensor->x()),
+                                         std::pair("y", sensor->y()),
+                                         std::pair("z", sensor->z()),
+                                         std::pair("yaw_deg", sensor->yaw_deg()),
+                                         std::pair("pitch_deg", sensor->pitch_deg())}) {
+            if (!std::isfinite(value))
+                throw world::Error(fmt::format("the task's rig: {} is no number", key));
+            text += fmt::format(", {} = {}", key, value);
+        }
+        text += " }, ";
+    }
+    return ", rig = { " + text + "}";
+}
+
 }  // namespace
 
 TaskScenario scenario_of(const remote::Task& task, const world::TownT& town) {
@@ -90,7 +134,8 @@ TaskScenario scenario_of(const remote::Task& task, const world::TownT& town) {
     scenario.source = fmt::format(task_text,
                                   fmt::arg("town", town.name),
                                   fmt::arg("cars", task.cars()),
-                                  fmt::arg("weather", weather));
+                                  fmt::arg("weather", weather),
+                                  fmt::arg("rig", rig_text(task)));
     auto& parameters = scenario.overrides.parameters;
     if (task.model() != nullptr && task.model()->size() != 0)
         parameters.emplace_back("model", task.model()->str());

@@ -32,6 +32,7 @@ COMMANDS = ("follow_lane", "straight", "left", "right")
 CARS = {"town1": 20, "town2": 15}  # of navigation_dynamic, as the paper's benchmark has them
 NEAR = 4  # other vehicles in an observation
 FAR = 50.0  # [m] where they end
+PICTURES = {"rgb84": (84, 84), "rgb200x88": (200, 88)}  # [px] width, height; the paper's agents saw such
 SHARE = 0.3  # of the footprint: beyond it an infraction
 LONGEST = 2.0  # [s] of one infraction; what lasts longer counts again
 
@@ -83,6 +84,8 @@ class Navigation(gymnasium.Env):
     opposite lane and on the sidewalk, damage (impulse) [1000 N s], steering angle [rad], and of the NEAR nearest
     vehicles where they are ahead and left [m], FAR where there is none.
 
+    Observation 'rgb84', uint8 (84, 84, 3), and 'rgb200x88', uint8 (88, 200, 3): a camera behind the windscreen, 90 degrees.
+
     An episode is one of 25 of its kind, chosen by the seed, or options={'episode': 3}. It terminates on arrival; the
     time of the way at 10 km/h truncates it. `info`: 'success' at the end, 'infractions' so far, 'command',
     'way_to_goal' [m], 'reward_terms'.
@@ -98,18 +101,23 @@ class Navigation(gymnasium.Env):
                  tasks: str | os.PathLike | None = None, render_mode: str | None = None) -> None:  # fmt: skip
         if task not in TASKS:
             raise ValueError(f"no task '{task}'; there are {', '.join(TASKS)}")
-        if obs != "state":
-            if obs.startswith("rgb"):
-                raise NotImplementedError(f"obs='{obs}': pictures in an environment are not there yet; obs='state' is")
-            raise ValueError(f"no observation '{obs}'; there is 'state'")
+        if obs != "state" and obs not in PICTURES:
+            raise ValueError(f"no observation '{obs}'; there are 'state', {', '.join(map(repr, PICTURES))}")
         path = os.fspath(tasks) if tasks else str(_scenarios() / "towns" / town / "tasks.json")
         self.render_mode = render_mode
         self.episodes = read_tasks(path)["navigation" if task == "navigation_dynamic" else task]
         self.weathers = [weather] if isinstance(weather, str) else list(weather)
+        size = PICTURES.get(obs)
         moving = CARS.get(town, 20) if task == "navigation_dynamic" else 0
-        self._sim = Simulation(town, cars=moving if cars is None else cars, server=server, token=token)
+        self._sim = Simulation(town, cars=moving if cars is None else cars, server=server, token=token,
+                               rig=[dict(name="front", width=size[0], height=size[1])] if size else ())
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (2,), np.float32)
-        self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (14 + 2 * NEAR,), np.float32)
+        self.observation_space = (
+            gymnasium.spaces.Box(0, 255, (size[1], size[0], 3), np.uint8)
+            if size
+            else gymnasium.spaces.Box(-np.inf, np.inf, (14 + 2 * NEAR,), np.float32)
+        )
+        self._observe = self._picture if size else self._vector
         self._seen: Observation | None = None
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None):
@@ -125,7 +133,7 @@ class Navigation(gymnasium.Env):
         self._seen = self._sim.step()  # the goal is known from the tick after the vehicle appeared
         self._infractions = Infractions()
         self._measured = self._measure(self._seen)
-        self._last = self._vector(self._seen)
+        self._last = self._observe(self._seen)
         return self._last, {"episode": chosen, **self._info()}
 
     def step(self, action):
@@ -133,7 +141,7 @@ class Navigation(gymnasium.Env):
         control = Control(throttle=max(pedals, 0.0), brake=max(-pedals, 0.0), steer=steer)
         before, seen = self._measured, self._sim.step(control)
         if seen is not None:
-            self._seen, self._last = seen, self._vector(seen)
+            self._seen, self._last = seen, self._observe(seen)
             self._infractions.look(seen)
             self._measured = self._measure(seen)
         success = seen is None and self._sim.outcome.verdict == "passed"
@@ -173,6 +181,9 @@ class Navigation(gymnasium.Env):
             "way_to_goal": self._seen.way_to_goal,
             "infractions": dict(self._infractions.counts),
         }
+
+    def _picture(self, seen: Observation) -> np.ndarray:
+        return seen.image("front").copy()
 
     def _vector(self, seen: Observation) -> np.ndarray:
         ego, measured = seen.ego, self._measure(seen)

@@ -1,6 +1,6 @@
 """Made by make_schema.py from world/*.fbs and remote/wire.fbs: change those."""
 
-DIGEST = "4eb818329e5654f1"
+DIGEST = "d603f1759219b5b4"
 
 # name: (type, values)
 ENUMS = {'remote.Kind': ('uint',
@@ -231,12 +231,24 @@ TABLES = {'remote.Hello': {'version': (0, 'uint'),
  'remote.Goodbye': {'reason': (0, 'string'), 'verdict': (1, 'string'), 'ticks': (2, 'ulong')},
  'remote.Open': {'version': (0, 'uint'), 'schema': (1, 'string'), 'token': (2, 'string')},
  'remote.Place': {'kind': (0, 'PlaceKind'), 'lane': (1, 'string'), 's': (2, 'double'), 'spawn_point': (3, 'uint')},
+ 'remote.TaskSensor': {'name': (0, 'string'),
+                       'kind': (1, 'string'),
+                       'width': (2, 'uint'),
+                       'height': (3, 'uint'),
+                       'fov_deg': (4, 'double'),
+                       'x': (5, 'double'),
+                       'y': (6, 'double'),
+                       'z': (7, 'double'),
+                       'yaw_deg': (8, 'double'),
+                       'pitch_deg': (9, 'double'),
+                       'every': (10, 'uint')},
  'remote.Task': {'town': (0, 'string'),
                  'cars': (1, 'uint'),
                  'weather': (2, 'string'),
                  'model': (3, 'string'),
                  'start': (4, 'Place'),
-                 'goal': (5, 'Place')},
+                 'goal': (5, 'Place'),
+                 'rig': (6, '[TaskSensor]')},
  'remote.Setting': {'key': (0, 'string'), 'value': (1, 'string')},
  'remote.Reset': {'file': (0, 'string'),
                   'source': (1, 'string'),

@@ -7,7 +7,7 @@ import pathlib
 import shutil
 import socket
 import subprocess
-from typing import Any, Mapping, Union
+from typing import Any, Mapping, Sequence, Union
 
 from .driver import Control, Driver, Observation, Run, values_of
 from .nouns import Noun
@@ -78,6 +78,10 @@ class _Server:
                 continue
 
 
+#: of a camera, where nothing else is said
+_SENSOR = dict(kind="rgb", width=800, height=600, fov_deg=90.0, x=1.0, y=0.0, z=1.4, yaw_deg=0.0, pitch_deg=0.0, every=1)
+
+
 class Simulation:
     """Episodes in which this program drives the vehicle 'ego', in lockstep: nothing moves between two steps.
 
@@ -95,6 +99,9 @@ class Simulation:
     `scenario` takes the place of a task: a file's name in the server's folder, a path (read here), or Lua text, whose
     parameters `settings` changes; it spawns 'ego' with driver = 'external'.
 
+    `rig` of a task: cameras of the vehicle, in the words of a scenario's rig, such as [dict(name='front', kind='rgb',
+    width=84, height=84)]; `seen.image('front')` is what one sees. A process that renders is started in each reset.
+
     `trace` is a name in the folder, such as 'a.mcap'; each reset writes it anew. Equal arguments give equal ticks,
     whatever was driven before, here or elsewhere.
 
@@ -105,9 +112,10 @@ class Simulation:
     def __init__(self, town: str = "town1", *, cars: int = 0, seed: int | None = None, weather: str = "clear_noon",
                  start: Place = None, goal: Place = None, model: str = "sedan", scenario: str | os.PathLike | None = None,
                  settings: Mapping[str, Any] | None = None, seconds: float = 0.0, trace: str | None = None,
-                 server: str | None = None, token: str | None = None, folder: str | os.PathLike = ".") -> None:  # fmt: skip
+                 rig: Sequence[Mapping[str, Any]] = (), server: str | None = None, token: str | None = None,
+                 folder: str | os.PathLike = ".") -> None:  # fmt: skip
         self._plan = dict(town=town, cars=cars, seed=seed, weather=weather, start=start, goal=goal, model=model,
-                          scenario=scenario, settings=settings, seconds=seconds, trace=trace)  # fmt: skip
+                          scenario=scenario, settings=settings, seconds=seconds, trace=trace, rig=rig)  # fmt: skip
         self.outcome: Outcome | None = None  #: of the last episode, once it has ended
         self.run_info: Run | None = None  #: what stays the same in this episode; also `seen.run`
         self._seen: Observation | None = None
@@ -184,7 +192,8 @@ class Simulation:
                                        seconds=plan["seconds"] or 0.0, trace=plan["trace"])  # fmt: skip
         if plan["scenario"] is None:
             message["task"] = dict(town=plan["town"], cars=plan["cars"], weather=plan["weather"], model=plan["model"],
-                                   start=_place(plan["start"]), goal=_place(plan["goal"]))  # fmt: skip
+                                   start=_place(plan["start"]), goal=_place(plan["goal"]),
+                                   rig=[{**_SENSOR, **sensor} for sensor in plan["rig"]] or None)  # fmt: skip
             return message
         scenario = os.fspath(plan["scenario"])
         if "\n" in scenario:

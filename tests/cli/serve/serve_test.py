@@ -13,6 +13,7 @@ import tempfile
 import time
 import unittest
 
+import numpy as np
 import reprise
 from reprise.wire import Wire, WireError
 
@@ -172,6 +173,29 @@ class Episodes(Case):
             outcome = sim.run(lambda seen: reprise.Control(brake=1.0))
             self.assertEqual(outcome.verdict, "failed")
             self.assertAlmostEqual(outcome.ticks * 0.05, 40 * 3.6 / 10, delta=0.3)
+
+    def test_a_tasks_cameras_see_the_same_in_every_reset(self):
+        rig = [dict(name="front", width=64, height=48), dict(name="far", kind="depth", width=32, height=32, every=5)]
+        with reprise.Simulation("town1", seed=3, rig=rig) as sim:
+            episodes = []
+            for _ in range(2):
+                seen, live = sim.reset(), []
+                while seen.index < 8:
+                    live.append(seen.image("front").copy())
+                    self.assertEqual(seen.image("far") is not None, seen.index % 5 == 1)
+                    seen = sim.step(throttle=0.5)
+                episodes.append(live)
+        self.assertEqual(episodes[0][0].shape, (48, 64, 3))
+        np.testing.assert_array_equal(*episodes)
+        self.assertGreater(episodes[0][0].std(), 5, "a street is not all of one colour")
+
+    def test_a_rig_that_cannot_be_is_refused(self):
+        with reprise.Simulation("town1", folder=self.folder) as sim:
+            for sensor in (dict(name="a' }, x = os.exit() --"), dict(name="a", kind="smell"), dict(name="a", fov_deg=float("nan")),
+                           dict(name="a", width=100000), dict(name="")):  # fmt: skip
+                with self.assertRaises(reprise.Fault):
+                    sim.reset(rig=[sensor])
+            self.assertEqual(sim.reset(rig=()).index, 1)
 
     def test_fifty_resets_leave_no_process_and_no_descriptor(self):
         with reprise.Simulation("town1", seed=1) as sim:
