@@ -3,6 +3,7 @@
 //   goes      each case twice; what stands against it; then all goldens, or none
 #include "cli/golden/accept.h"
 
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@
 #include "cli/process/temporary_folder.h"
 #include "files/output_file.h"
 #include "replay/golden/golden_difference.h"
+#include "replay/golden/pins.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
 
@@ -30,6 +32,7 @@ namespace fs = std::filesystem;
 struct Candidate {
     GoldenCase tested;
     replay::GivenSetup given;
+    std::vector<std::string> pins;
     std::optional<replay::Golden> before;  ///< none: the case is new
     std::optional<replay::Golden> golden;
     std::string text;  ///< of `golden`
@@ -56,6 +59,11 @@ Candidate prepare(const AcceptOptions& options, const std::string& name) {
     const bool given = candidate.given != replay::GivenSetup{};
     if (tested.state == GoldenCase::State::ready)
         candidate.before = replay::load_golden(tested.golden);
+    candidate.pins = options.pins;
+    if (options.pins.empty() && candidate.before)
+        candidate.pins = candidate.before->pins;
+    if (std::find(candidate.pins.begin(), candidate.pins.end(), "numbers") != candidate.pins.end())
+        candidate.pins.clear();  // that is everything
     if (given && tested.name.empty())
         throw world::Error(
             "accept: --town, --seed, --for and --set make a case of its own: give it a name with "
@@ -149,6 +157,14 @@ class Acceptance {
         candidate.golden = replay::make_golden(first);
         candidate.golden->because = options_.because;
         candidate.golden->given = candidate.given;
+        candidate.golden->pins = candidate.pins;
+        try {
+            replay::check_pins(*candidate.golden);
+        } catch (const world::Error& error) {
+            refuse(candidate, error.what());
+            return exit_bad_input;
+        }
+        replay::keep_pinned(*candidate.golden);
         candidate.text = replay::to_text(*candidate.golden);
         candidate.trace = first.path();
         return judge_change(candidate, first);
@@ -157,9 +173,12 @@ class Acceptance {
     int judge_change(Candidate& candidate, replay::TraceReader& trace) {
         if (!candidate.before)
             return exit_good;
-        const replay::Golden now = replay::make_golden(trace, candidate.before->sampling);
+        replay::Golden now = replay::make_golden(trace, candidate.before->sampling);
+        now.pins = candidate.before->pins;
+        replay::keep_pinned(now);
         const auto difference = replay::compare(*candidate.before, now);
-        if (!difference && candidate.given == candidate.before->given) {
+        if (!difference && candidate.given == candidate.before->given &&
+            candidate.pins == candidate.before->pins) {
             refuse(candidate, "equal to its golden: there is nothing to accept");
             return exit_differs;
         }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/golden/golden_files.h"
 #include "cli/process/guard.h"
@@ -58,6 +59,8 @@ std::string event_rows(const Golden& found, const GoldenDifference& difference) 
 }
 
 std::string checkpoint_rows(const Golden& expected, const GoldenDifference& difference) {
+    if (!expected.pins.empty())
+        return report_row("pinned", fmt::format("{}", fmt::join(expected.pins, ", ")));
     if (!difference.checkpoints.first)
         return report_row("digests", "unchanged: every tick of every stage");
     const auto time = [&](std::uint64_t tick) {

@@ -23,6 +23,7 @@
 #include "cli/process/temporary_folder.h"
 #include "replay/compare/divergence.h"
 #include "replay/golden/golden_difference.h"
+#include "replay/golden/pins.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
 #include "world/tick.h"
@@ -42,6 +43,7 @@ struct Running {
     fs::path log;
     std::optional<replay::Golden> candidate;
     std::optional<replay::GoldenDifference> difference;
+    bool differs_again = false;  ///< two runs of it are not one
 };
 
 /// What a run said of a driver that it lost: a line on stderr, before its summary.
@@ -61,7 +63,7 @@ class Suite {
     Suite(const TestOptions& options, std::vector<GoldenCase> cases)
         : options_(options),
           runner_(options.jobs),
-          progress_("testing", "runs", cases.size()),
+          progress_("testing", "runs", cases.size() * options.repeat),
           running_(cases.size()),
           reports_(cases.size()) {
         for (std::size_t i = 0; i < cases.size(); ++i)
@@ -76,8 +78,9 @@ class Suite {
         run_first(ready);
         for (const std::size_t i : ready)
             guard(i, [&] { judge(i); });
+        repeat(ready);
         for (const std::size_t i : ready)
-            if (running_[i].difference)
+            if (running_[i].difference && !running_[i].differs_again)
                 guard(i, [&] { run_again(i); });
     }
 
@@ -116,6 +119,10 @@ class Suite {
                 report_row("next", "rm " + shell_path(tested.golden) + "   # or bring it back");
             return false;
         }
+        if (tested.state == State::no_golden && options_.checks) {
+            plan_run(i);
+            return true;
+        }
         if (tested.state == State::no_golden) {
             report.result = CaseResult::no_golden;
             report.headline = "no golden yet";
@@ -132,6 +139,13 @@ class Suite {
             return false;
         }
         report.given = running.golden->given;
+        if (options_.checks) {
+            const bool has_story = running.golden->pins.empty() || running.golden->ticks > 0;
+            running.golden->pins = {"verdict"};
+            if (has_story)
+                running.golden->pins.emplace_back("events");
+            replay::keep_pinned(*running.golden);
+        }
         plan_run(i);
         return true;
     }
@@ -175,6 +189,67 @@ class Suite {
         }
     }
 
+    /// Every case so often as was asked for: a run that is not the first one over again is found
+    /// here, whatever the golden says.
+    void repeat(const std::vector<std::size_t>& ready) {
+        std::vector<std::size_t> going;
+        for (const std::size_t i : ready)
+            if (reports_[i].result != CaseResult::error)
+                going.push_back(i);
+        for (std::size_t round = 1; round < options_.repeat && !going.empty(); ++round) {
+            std::vector<GoldenRun> runs;
+            for (const std::size_t i : going)
+                runs.push_back(run_beside(i, "again"));
+            const auto results = runner_.run(
+                runs, [&](std::size_t done) { progress_.update(reports_.size() * round + done); });
+            for (std::size_t n = 0; n < going.size(); ++n)
+                guard(going[n],
+                      [&] { compare_runs(going[n], results[n], runs[n].log, round + 1); });
+            std::erase_if(going, [&](std::size_t i) {
+                return running_[i].differs_again || reports_[i].result == CaseResult::error;
+            });
+        }
+        progress_.clear();
+        if (options_.repeat > 1)
+            for (const std::size_t i : going)
+                reports_[i].headline += fmt::format("; {} runs, one history", options_.repeat);
+    }
+
+    GoldenRun run_beside(std::size_t i, const char* word) const {
+        const CaseReport& report = reports_[i];
+        return {run_words(report.tested,
+                          report.given,
+                          temporary_ / fmt::format("{}.{}.mcap", i, word),
+                          report.drivers),
+                temporary_ / fmt::format("{}.{}.log", i, word)};
+    }
+
+    void compare_runs(std::size_t i,
+                      const process::ProgramResult& result,
+                      const fs::path& log,
+                      std::size_t number) {
+        if (const auto failure = failure_of(result, log)) {
+            fail(i, *failure);
+            reports_[i].text += report_row(
+                "",
+                fmt::format("in run {} of {}; it went through before", number, options_.repeat));
+            return;
+        }
+        const fs::path trace = temporary_ / fmt::format("{}.again.mcap", i);
+        replay::TraceReader expected(running_[i].trace);
+        replay::TraceReader found(trace);
+        const auto divergence = replay::compare(expected, found);
+        if (!divergence)
+            return;
+        running_[i].differs_again = true;
+        const fs::path first_kept = kept(i, ".mcap");
+        const fs::path second_kept = kept(i, ".second.mcap");
+        copy_file_whole(running_[i].trace, first_kept);
+        move_file(trace, second_kept);
+        tell_nondeterministic(i, *divergence, first_kept, second_kept);
+        reports_[i].headline += fmt::format(" (run {} of {})", number, options_.repeat);
+    }
+
     fs::path kept(std::size_t i, const std::string& ending) const {
         return place_in(options_.output, reports_[i].tested.label()).string() + ending;
     }
@@ -191,6 +266,8 @@ class Suite {
             return;
         }
         running.candidate = replay::make_golden(trace, running.golden->sampling);
+        running.candidate->pins = running.golden->pins;
+        replay::keep_pinned(*running.candidate);
         report.starts = running.candidate->starts;
         running.difference = replay::compare(*running.golden, *running.candidate);
         if (!running.difference)
@@ -231,7 +308,8 @@ class Suite {
         CaseReport& report = reports_[i];
         const replay::Golden& golden = *running_[i].golden;
         const replay::Golden& candidate = *running_[i].candidate;
-        report.headline = fmt::format("equal, verdict {}", candidate.verdict);
+        report.headline = fmt::format(
+            "{}, verdict {}", candidate.pins.empty() ? "equal" : "as pinned", candidate.verdict);
         for (const replay::Changed& change : replay::start_differences(golden, candidate))
             report.headline += fmt::format("; {} changed without effect", change.what);
         if (!options_.keep.empty() && golden.chain == candidate.chain)
@@ -244,8 +322,7 @@ class Suite {
     void run_again(std::size_t i) {
         Running& running = running_[i];
         const fs::path second = temporary_ / fmt::format("{}.second.mcap", i);
-        const GoldenRun again{run_words(reports_[i].tested, reports_[i].given, second),
-                              temporary_ / fmt::format("{}.second.log", i)};
+        const GoldenRun again = run_beside(i, "second");
         const process::ProgramResult result = runner_.run({again}).front();
         const fs::path first_kept = kept(i, ".mcap");
         copy_file_whole(running.trace, first_kept);
@@ -274,7 +351,9 @@ class Suite {
         report.result = CaseResult::nondeterministic;
         report.headline =
             "two runs of the same scenario differ; the golden says nothing about that";
-        report.text = report_row("first", replay::to_text(divergence, running_[i].golden->step_ns));
+        report.text = report_row(
+            "first",
+            replay::to_text(divergence, replay::TraceReader(running_[i].trace).episode().step_ns));
         report.text +=
             report_row("next", "reprise diff " + shell_path(first) + " " + shell_path(second));
         report.text += report_row("", "reprise verify " + shell_path(first));

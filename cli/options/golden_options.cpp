@@ -45,6 +45,16 @@ void add_test(CLI::App& app, TestOptions& test) {
         ->type_name("DIR");
     add_keep(command, test.keep);
     add_drivers(command, test);
+    command.add_flag("--checks",
+                     test.checks,
+                     "Verdicts and events only: other numbers do not count, and a scenario without "
+                     "a golden passes when its own checks hold");
+    command
+        .add_option("--repeat",
+                    test.repeat,
+                    "Run each so often: one history, or the first difference of two runs")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100'000));
     command.add_flag("--list", test.list, "Say which cases there are, and run none");
     command.footer(
         "A golden lies beside its scenario: cut_in.golden, and cut_in@NAME.golden for a case.\n"
@@ -53,6 +63,7 @@ void add_test(CLI::App& app, TestOptions& test) {
         "broke;\n"
         "3 nondeterministic: two runs of one candidate differ.\n"
         "Examples: reprise test scenarios --junit results.xml\n"
+        "          reprise test my_scenarios --checks --repeat 100\n"
         "          reprise test my_scenarios --driver ego='python3 my_driver.py'");
 }
 
@@ -72,6 +83,14 @@ void add_accept(CLI::App& app, AcceptOptions& accept, std::vector<std::string>& 
                     accept.name,
                     "Name of a case: the scenario with another town, seed, length or parameters")
         ->type_name("NAME");
+    command
+        .add_option("--pin",
+                    accept.pins,
+                    "What the golden compares, by commas: verdict, events, numbers, or names of "
+                    "actors (default: as before; of a new one: numbers, which is everything)")
+        ->type_name("WHAT,...")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->delimiter(',');
     add_start(command, accept.start, assignments);
     add_jobs(command, accept.jobs);
     add_keep(command, accept.keep);

@@ -19,13 +19,16 @@ struct TestOptions : DriverOptions {
     std::string output = "reprise-test";
     std::string keep;  ///< empty: nowhere
     bool list = false;
+    bool checks = false;     ///< verdict and events only; a golden need not be there
+    std::size_t repeat = 1;  ///< runs of each case, which must be one
 };
 
 struct AcceptOptions {
     std::vector<std::string> names;
     std::string because;
-    std::string name;  ///< of the case; empty: the scenario as it stands
-    RunOptions start;  ///< town, seed, seconds and parameters only
+    std::string name;               ///< of the case; empty: the scenario as it stands
+    std::vector<std::string> pins;  ///< empty: as it was; of a new one: everything
+    RunOptions start;               ///< town, seed, seconds and parameters only
     std::size_t jobs = 0;
     std::string keep;
 };

@@ -61,7 +61,7 @@ struct GoldenEvent {
 /// What happened in the ticks since the last checkpoint, condensed.
 struct Checkpoint {
     std::uint64_t tick = 0;           ///< the last one that it covers
-    std::string history;              ///< of every stage in every tick from the first one to this
+    std::string history;              ///< of these stages in every tick from the first one to this
     std::vector<std::string> stages;  ///< of each stage's digests since the last checkpoint
 
     bool operator==(const Checkpoint&) const = default;
@@ -95,7 +95,8 @@ struct Golden {
     std::string scenario;         ///< file name
     std::string scenario_digest;  ///< XXH3-64 of its text
     GivenSetup given;
-    std::vector<world::ParameterT> build;                     ///< fingerprint, line by line
+    std::vector<std::string> pins;         ///< what is compared: pins.h; none: everything
+    std::vector<world::ParameterT> build;  ///< fingerprint, line by line
     std::vector<std::pair<std::string, std::string>> starts;  ///< town, seed, parameters, ...
     std::string chain;                                        ///< of the whole run, start included
 
@@ -112,7 +113,9 @@ struct Golden {
     std::vector<ActorState> states;
 };
 
-/// Names of Checkpoint::stages, in the order of the step.
+/// Names of Checkpoint::stages, in the order of the step. The scenario's own digest is none of
+/// them: it holds how much memory Lua needs and how many instructions, which code without effect
+/// changes; what a scenario does shows in events, checks and all other stages.
 const std::vector<std::string>& golden_stages();
 
 /// Condenses a run; `because`, `given` stay empty. Without a sampling it chooses one: once a second

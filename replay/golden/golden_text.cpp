@@ -23,7 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
-constexpr int golden_format = 2;  ///< counted up when a key gets another meaning
+constexpr int golden_format = 3;  ///< counted up when a key gets another meaning
 constexpr std::string_view file_start = "{\n\"reprise_golden\": ";
 constexpr std::string_view seal_start = ",\n\"seal\": ";
 constexpr const char* note =
@@ -98,6 +98,7 @@ auto keys_of(const Golden*) {
                       Key{"scenario", &Golden::scenario},
                       Key{"scenario_digest", &Golden::scenario_digest},
                       Key{"given", &Golden::given},
+                      Key{"pins", &Golden::pins},
                       Key{"build", &Golden::build},
                       Key{"start", &Golden::starts},
                       Key{"chain", &Golden::chain},

@@ -193,11 +193,11 @@ TEST_F(GoldenOf, AnotherFormatIsRefusedWithTheWayToANewOne) {
         return test::error_of([&] { parse_golden(text, "cut_in.golden"); });
     };
     EXPECT_THAT(error("reprise golden 1\n# `reprise test` compares\nbecause \"x\"\n"),
-                HasSubstr("cut_in.golden:1: a golden of format 1; this program reads format 2; "
+                HasSubstr("cut_in.golden:1: a golden of format 1; this program reads format 3; "
                           "remove the file and accept the case again (reprise accept SCENARIO "
                           "--because ...)"));
-    EXPECT_THAT(error("{\n\"reprise_golden\": 3,\n[what only format 3 knows]\n"),
-                HasSubstr("cut_in.golden:2: a golden of format 3; this program reads format 2"));
+    EXPECT_THAT(error("{\n\"reprise_golden\": 4,\n[what only format 4 knows]\n"),
+                HasSubstr("cut_in.golden:2: a golden of format 4; this program reads format 3"));
 }
 
 /// Digits that a reader of JSON may round are texts: all of them stay.
