@@ -46,7 +46,8 @@ struct WhatIf {
 };
 
 std::uint64_t branch_tick(const BranchOptions& options, const replay::TraceReader& trace) {
-    const std::uint64_t tick = parse_tick("--at", options.at, trace.episode().step_ns, 0);
+    const std::uint64_t tick =
+        parse_tick("--at", options.at, trace.episode().step_ns, 0, BareNumber::refused);
     const auto& branches = trace.episode().branches;
     const std::uint64_t first = branches.empty() ? 1 : branches.back().tick + 1;
     if (tick < first || tick >= trace.ticks())

@@ -72,7 +72,9 @@ void add_branch(CLI::App& app, BranchOptions& branch, std::vector<std::string>& 
         "What if: let another script, other parameters, or another driver take over in a recorded "
         "run");
     command.add_option("trace", branch.trace, "The trace")->required()->type_name("T.mcap");
-    command.add_option("--at", branch.at, "The last tick of what was, or time such as 12.5 or 12s")
+    command
+        .add_option(
+            "--at", branch.at, "The last tick of what was, such as 250t, or time, such as 12.5s")
         ->required()
         ->type_name("TICK");
     command
@@ -100,9 +102,9 @@ void add_branch(CLI::App& app, BranchOptions& branch, std::vector<std::string>& 
         "they did in the trace, and brake behind its end.\n"
         "Exit status: 0 all checks passed, 1 one failed, or a driver was lost, or the run came\n"
         "out differently, 2 bad input.\n"
-        "Examples: reprise branch a.mcap --at 12.5 --script brake.lua swerve.lua -o what_if\n"
-        "          reprise branch a.mcap --at 12.5 --set distance=10 -o closer.mcap\n"
-        "          reprise branch a.mcap --at 12.5 --driver ego='./other_stack' -o other.mcap");
+        "Examples: reprise branch a.mcap --at 12.5s --script brake.lua swerve.lua -o what_if\n"
+        "          reprise branch a.mcap --at 12.5s --set distance=10 -o closer.mcap\n"
+        "          reprise branch a.mcap --at 12.5s --driver ego='./other_stack' -o other.mcap");
 }
 
 void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignments) {

@@ -70,7 +70,7 @@ TEST_F(Branch, SeveralFromOneTickAreWhatEachIsAlone) {
     run({"branch",
          "parent.mcap",
          "--at",
-         "50",
+         "50t",
          "--script",
          "brake.lua",
          "nothing.lua",
@@ -84,7 +84,7 @@ TEST_F(Branch, SeveralFromOneTickAreWhatEachIsAlone) {
         run({"branch",
              "parent.mcap",
              "--at",
-             "50",
+             "50t",
              "--script",
              script + ".lua",
              "-o",
@@ -106,7 +106,7 @@ TEST_F(Branch, CanBeStrippedExpandedMadeAgainAndBranched) {
     run({"branch",
          "parent.mcap",
          "--at",
-         "50",
+         "50t",
          "--script",
          "brake.lua",
          "-o",
@@ -120,12 +120,13 @@ TEST_F(Branch, CanBeStrippedExpandedMadeAgainAndBranched) {
     EXPECT_TRUE(read_file(folder_ / "e.mcap") == bytes);
     run({"run", "b.mcap", "-o", "again.mcap"}, 0);
     EXPECT_TRUE(read_file(folder_ / "again.mcap") == bytes);
-    run({"branch", "b.mcap", "--at", "80", "--script", "nothing.lua", "-o", "bb.mcap"}, 0);
+    run({"branch", "b.mcap", "--at", "80t", "--script", "nothing.lua", "-o", "bb.mcap"}, 0);
     EXPECT_THAT(run({"verify", "bb.mcap"}, 0), HasSubstr("equal at every one of 110 ticks"));
     EXPECT_THAT(run({"diff", "b.mcap", "bb.mcap"}, 1),
                 HasSubstr("equal for 80 ticks; branched at tick 80 (4.00 s) by nothing.lua"));
-    EXPECT_THAT(run({"branch", "b.mcap", "--at", "50", "--script", "brake.lua", "-o", "x.mcap"}, 2),
-                HasSubstr("expected a tick from 51 to 109"));
+    EXPECT_THAT(
+        run({"branch", "b.mcap", "--at", "50t", "--script", "brake.lua", "-o", "x.mcap"}, 2),
+        HasSubstr("expected a tick from 51 to 109"));
 }
 
 /// The random streams go on, names stay taken, who was decided on stays decided.
@@ -148,7 +149,7 @@ TEST_F(Branch, FindsTheWorldAsItIs) {
     const std::string out = run({"branch",
                                  "parent.mcap",
                                  "--at",
-                                 "100",
+                                 "100t",
                                  "--script",
                                  "look.lua",
                                  "-o",
@@ -180,7 +181,7 @@ TEST_F(Branch, SaysWhatIsWrongAndLeavesNothing) {
         HasSubstr("--at 9s: expected a tick from 1 to "));
     run({"run", "drive.lua", "-o", "nudged.mcap", "--nudge", "30:ego.velocity.x"}, 0);
     EXPECT_THAT(
-        run({"branch", "nudged.mcap", "--at", "50", "--script", "brake.lua", "-o", "x.mcap"}, 1),
+        run({"branch", "nudged.mcap", "--at", "50t", "--script", "brake.lua", "-o", "x.mcap"}, 1),
         HasSubstr("tick 30 (1.50 s), stage physics"));
     std::filesystem::remove(folder_ / "nudged.mcap");
     EXPECT_EQ(folder_.files(), before);
@@ -206,7 +207,7 @@ class BranchOfParameters : public Branch {
 };
 
 TEST_F(BranchOfParameters, GoesOnWithTheRunsOwnScriptWhereItIs) {
-    run({"branch", "parent.mcap", "--at", "2.5", "--set", "wait=4", "-o", "late.mcap"}, 0);
+    run({"branch", "parent.mcap", "--at", "2.5s", "--set", "wait=4", "-o", "late.mcap"}, 0);
     EXPECT_THAT(
         run({"diff", "parent.mcap", "late.mcap"}, 1),
         HasSubstr(
@@ -235,20 +236,25 @@ TEST_F(BranchOfParameters, IsRememberedByEveryWayToMakeItAgain) {
     run({"expand", "s.mcap", "-o", "e.mcap"}, 0);
     EXPECT_TRUE(read_file(folder_ / "e.mcap") == bytes);
     // And may change once more; what the script itself wrote stays unless it is named.
-    run({"branch", "late.mcap", "--at", "60", "--set", "wait=3.5", "--set", "word=go", "-o", "b"},
+    run({"branch", "late.mcap", "--at", "60t", "--set", "wait=3.5", "--set", "word=go", "-o", "b"},
         0);
     EXPECT_THAT(run({"verify", "b/late.mcap"}, 0), HasSubstr("equal at every one of 91 ticks"));
     EXPECT_THAT(run({"info", "b/late.mcap"}, 0), HasSubstr("3.55 s  go\n"));
 }
 
 TEST_F(BranchOfParameters, SaysWhatIsWrong) {
-    EXPECT_THAT(run({"branch", "parent.mcap", "--at", "50", "-o", "x.mcap"}, 2),
+    EXPECT_THAT(run({"branch", "parent.mcap", "--at", "50t", "-o", "x.mcap"}, 2),
                 HasSubstr("nothing would be different: give --script"));
-    EXPECT_THAT(run({"branch", "parent.mcap", "--at", "50", "--set", "wiat=1", "-o", "x.mcap"}, 2),
+    EXPECT_THAT(run({"branch", "parent.mcap", "--at", "50t", "--set", "wiat=1", "-o", "x.mcap"}, 2),
                 HasSubstr("--set wiat=1: no parameter 'wiat' (did you mean 'wait'?)"));
     EXPECT_THAT(
         run({"branch", "parent.mcap", "--at", "1.5t", "--set", "wait=1", "-o", "x.mcap"}, 2),
-        HasSubstr("expected a tick such as 120 or a time such as 2.5 or 10s, got '1.5t'"));
+        HasSubstr("expected a tick such as 120t or a time such as 2.5s, got '1.5t'"));
+    // Ticks or seconds? 50 and 50.0 look alike.
+    for (const char* bare : {"50", "2.5"})
+        EXPECT_THAT(
+            run({"branch", "parent.mcap", "--at", bare, "--set", "wait=1", "-o", "x.mcap"}, 2),
+            HasSubstr(std::string("--at ") + bare + ": ticks or seconds? Write " + bare + "s"));
 }
 
 TEST_F(Branch, HasAWordThatOtherScenariosDoNot) {

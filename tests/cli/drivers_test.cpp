@@ -38,7 +38,7 @@ TEST_P(OneDriver, IsNotNeededForItsTrace) {
     run({"render", "a.mcap", "-o", "pictures", "--camera", "depth", "--size", "64x48"}, 0, nothing);
     run({"run", "a.mcap", "-o", "again.mcap"}, 0, nothing);
     EXPECT_TRUE(bytes("again.mcap") == bytes("a.mcap"));
-    run({"branch", "a.mcap", "--at", "50", "--set", "word=bye", "-o", "b.mcap"}, 0, nothing);
+    run({"branch", "a.mcap", "--at", "50t", "--set", "word=bye", "-o", "b.mcap"}, 0, nothing);
     EXPECT_THAT(run({"verify", "b.mcap"}, 0, nothing),
                 HasSubstr("equal at every one of 100 ticks"));
 }

@@ -22,6 +22,6 @@ done
 head -c "$(($(stat -c %s cut_in.mcap) * 3 / 4))" cut_in.mcap >cut_off.partial
 "$reprise" recover cut_off.partial -o recovered.mcap >/dev/null || (($? == 3))
 printf "return scenario 'brake' { run = function() actor('ego'):set_speed(0) wait(3) end }" >brake.lua
-"$reprise" branch cut_in.mcap --at 4.0 --script brake.lua -o branched.mcap >/dev/null || (($? == 1))
+"$reprise" branch cut_in.mcap --at 4.0s --script brake.lua -o branched.mcap >/dev/null || (($? == 1))
 cp "$here/read_traces.mjs" "$packages/" # modules are looked for from where the file lies
 node "$packages/read_traces.mjs" "$reprise" "$work"

@@ -22,7 +22,7 @@ const std::vector<WritingCommand>& writing_commands() {
         {"Slice", {"slice", "drive.mcap", "--ticks", "10..90", "-o", "OUT"}},
         {"Merge", {"merge", "early.mcap", "late.mcap", "-o", "OUT"}},
         {"Branch",
-         {"branch", "drive.mcap", "--at", "80", "--set", "pause=1", "--for", "5", "-o", "OUT"}},
+         {"branch", "drive.mcap", "--at", "80t", "--set", "pause=1", "--for", "5", "-o", "OUT"}},
         {"Recover", {"recover", "cut.mcap", "-o", "OUT"}},
         {"Import", {"import", "carla.log", "-o", "OUT"}},
         {"ExportFoxglove", {"export", "drive.mcap", "--to", "foxglove", "-o", "OUT"}},

@@ -126,7 +126,8 @@ TEST_F(Cat, MistakesAreToldInOneLineWithASuggestion) {
           Mistake{{"--actor", "77"}, "no actor '77'; the scenario's are ego, other"},
           Mistake{{"--fields", "vehicle.position"}, "(did you mean 'vehicles.position'?)"},
           Mistake{{"--fields", "cars.speed", "--format", "csv", "--ticks", "99"}, "holds 1 to 20"},
-          Mistake{{"--ticks", "5..x"}, "expected a tick such as 120 or a time such as 2.5 or 10s"},
+          Mistake{{"--ticks", "0.5..1"}, "--ticks 0.5: ticks or seconds? Write 0.5s for seconds"},
+          Mistake{{"--ticks", "5..x"}, "expected a tick such as 120t or a time such as 2.5s"},
           Mistake{{"--format", "csv"}, "choose it by --fields: ticks, "},
           Mistake{{"--format", "csv", "--fields", "cars,wheels"}, "not of 'cars'"},
           Mistake{{"--topic", "trafic"}, "did you mean 'traffic'?"}}) {

@@ -56,7 +56,7 @@ TEST_F(Importing, MakesATraceThatNobodySimulatesAgain) {
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{"verify"},
           {"expand", "-o", "x.mcap"},
-          {"branch", "--at", "10", "--script", scenario, "-o", "x.mcap"},
+          {"branch", "--at", "10t", "--script", scenario, "-o", "x.mcap"},
           {"strip", "--level", "core", "-o", "x.mcap"},
           {"run", "-o", "x.mcap"}}) {
         const Result result = on_trace(words);

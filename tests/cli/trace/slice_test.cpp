@@ -74,7 +74,7 @@ TEST_F(SliceCommand, FromLaterOnIsNotSimulatedAndSaysSoInALine) {
         {"verify", "tail.mcap"},
         {"run", "tail.mcap", "-o", "x.mcap"},
         {"expand", "tail.mcap", "-o", "x.mcap"},
-        {"branch", "tail.mcap", "--at", "50", "--script", "drive.lua", "-o", "x.mcap"},
+        {"branch", "tail.mcap", "--at", "50t", "--script", "drive.lua", "-o", "x.mcap"},
         {"diff", "t.mcap", "tail.mcap"},
         {"diff", "tail.mcap", "t.mcap", "--json"},
         {"strip", "tail.mcap", "-o", "x.mcap", "--level", "inputs"},
