@@ -15,6 +15,9 @@
 
 namespace reprise::test {
 
+/// [rad] of a turn into a side road.
+inline constexpr double quarter = std::numbers::pi / 2;
+
 /// A bicycle without mass: wheels that roll where they point. Enough to judge a driver by, and
 /// nothing that could hide its mistakes.
 struct KinematicCar {
