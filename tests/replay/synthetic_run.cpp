@@ -99,6 +99,13 @@ world::Recording recording(std::uint64_t seed) {
     return recording;
 }
 
+Change at(std::uint64_t tick, Change change) {
+    return [=](world::TickDraft& draft) {
+        if (draft.tick.index == tick)
+            change(draft);
+    };
+}
+
 std::vector<world::SealedTick> drive(const SyntheticRun& run) {
     std::vector<world::SealedTick> ticks;
     world::Digest128 chain = replay::chain_seed(recording(run.seed));

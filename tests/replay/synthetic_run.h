@@ -19,6 +19,9 @@ world::Recording recording(std::uint64_t seed = 7);
 /// Changes a tick before it is sealed. Stage digests are computed before this.
 using Change = std::function<void(world::TickDraft&)>;
 
+/// The change, at one tick only.
+Change at(std::uint64_t tick, Change change);
+
 struct SyntheticRun {
     std::uint64_t ticks = 150;
     std::uint32_t cars = 5;
