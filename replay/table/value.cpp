@@ -12,6 +12,8 @@ namespace reprise::replay {
 
 namespace {
 
+using Json = nlohmann::ordered_json;  // as trace_parts.cpp: one kind of JSON is compiled
+
 template <typename Number>
 void append_number(Number value, std::string& out) {
     char text[64];
@@ -66,14 +68,14 @@ void append_json(std::string_view text, std::string& out) {
     if (plain)
         out.append("\"").append(text).append("\"");
     else
-        out += nlohmann::json(text).dump(
-            -1, ' ', world::printable(text) != text, nlohmann::json::error_handler_t::replace);
+        out += Json(text).dump(
+            -1, ' ', world::printable(text) != text, Json::error_handler_t::replace);
 }
 
 std::string valid_utf8(std::string_view text) {
     std::string json;
     append_json(text, json);
-    return nlohmann::json::parse(json).get<std::string>();
+    return Json::parse(json).get<std::string>();
 }
 
 void append_json(const Value& value, std::string& out) {
