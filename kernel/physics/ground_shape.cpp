@@ -1,6 +1,7 @@
 #include "kernel/physics/ground_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
 
@@ -36,9 +37,25 @@ bool GroundShape::Box::may_touch(const btVector3* corners) const {
         if (std::min({p[axis], q[axis], r[axis]}) > half[axis] + reach ||
             std::max({p[axis], q[axis], r[axis]}) < -half[axis] - reach)
             return false;
-    const btVector3 normal = (q - p).cross(r - p);
+    const std::array<btVector3, 3> edges = {q - p, r - q, p - r};
+    const btVector3 normal = edges[0].cross(edges[1]);
     const btScalar box_along_normal = half.dot(normal.absolute());
-    return std::abs(normal.dot(p)) <= box_along_normal + reach * normal.length();
+    if (std::abs(normal.dot(p)) > box_along_normal + reach * normal.length())
+        return false;
+    const std::array<btVector3, 3> corners_of_edges = {r, p, q};  // the one that an edge leaves out
+    const std::array<btVector3, 3> starts = {p, q, r};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+            btVector3 along(0, 0, 0);
+            along[axis] = 1;
+            const btVector3 across = along.cross(edges[i]);
+            const btScalar one = across.dot(starts[i]);
+            const btScalar other = across.dot(corners_of_edges[i]);
+            const btScalar box = half.dot(across.absolute()) + reach * across.length();
+            if (std::min(one, other) > box || std::max(one, other) < -box)
+                return false;
+        }
+    return true;
 }
 
 void GroundShape::processAllTriangles(btTriangleCallback* callback,

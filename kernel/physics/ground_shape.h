@@ -17,7 +17,8 @@ class GroundShape : public btBvhTriangleMeshShape {
         btVector3 half;
         btScalar reach;  ///< [m] at a larger distance from the box there is no contact
 
-        /// No: an axis of the box or the triangle's normal tells them apart. In the ground's frame.
+        /// No: an axis of the box, the triangle's normal, or what stands upright on an axis and an
+        /// edge, tells them apart. In the ground's frame.
         bool may_touch(const btVector3* corners) const;
     };
 
