@@ -7,6 +7,7 @@
 
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/collisions.h"
+#include "kernel/physics/convex_pair.h"
 #include "kernel/physics/ground.h"
 #include "kernel/physics/ground_shape.h"
 #include "kernel/physics/near_cars.h"
@@ -33,6 +34,11 @@ struct Bullet {
             BOX_SHAPE_PROXYTYPE, TRIANGLE_MESH_SHAPE_PROXYTYPE, &box_on_ground);
         dispatcher.registerCollisionCreateFunc(
             TRIANGLE_MESH_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &ground_under_box);
+        for (const int other :
+             {TRIANGLE_SHAPE_PROXYTYPE, CYLINDER_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE}) {
+            dispatcher.registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, other, &convex_pair);
+            dispatcher.registerCollisionCreateFunc(other, BOX_SHAPE_PROXYTYPE, &convex_pair);
+        }
         btDispatcherInfo& dispatch = world.getDispatchInfo();
         dispatch.m_deterministicOverlappingPairs = true;
         dispatch.m_useContinuous = false;
@@ -47,6 +53,7 @@ struct Bullet {
     btDefaultCollisionConfiguration configuration;
     BoxOnGround::Maker box_on_ground{false};
     BoxOnGround::Maker ground_under_box{true};
+    ConvexPair::Maker convex_pair;
     btCollisionDispatcher dispatcher;
     btDbvtBroadphase pairs;
     btSequentialImpulseConstraintSolver solver;
