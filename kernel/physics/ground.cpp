@@ -56,11 +56,19 @@ Ground::Ground(const ground::GroundMesh& mesh, btDynamicsWorld& world)
     shape_ = std::make_unique<GroundShape>(&arrays_, true);
     std::vector<RayGrid::Corners> corners;
     corners.reserve(mesh.triangles.size());
+    btVector3 low = to_bullet(mesh.vertices.front());
+    btVector3 high = low;
+    for (const Eigen::Vector3d& v : mesh.vertices) {
+        low.setMin(to_bullet(v));
+        high.setMax(to_bullet(v));
+    }
     for (const auto& t : mesh.triangles)
         corners.push_back({to_bullet(mesh.vertices[t[0]]),
                            to_bullet(mesh.vertices[t[1]]),
                            to_bullet(mesh.vertices[t[2]])});
     rays_ = std::make_unique<RayGrid>(*shape_->getOptimizedBvh(), std::move(corners));
+    outskirts_ = std::make_unique<Outskirts>(low, high, *rays_);
+    shape_->go_on_beyond(*outskirts_);
 
     btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape_.get());
     info.m_friction = 0.6;
@@ -78,10 +86,20 @@ bool Ground::cast(const btVector3& from, const btVector3& to, Hit& hit) const {
     FirstTriangle first(from, to);
     rays_->cast(first, from, to);
     if (first.index < 0)
-        return false;
+        return cast_at_outskirts(from, to, hit);
     hit.fraction = first.best;
     hit.normal = first.best_normal;
     hit.surface = surfaces_[static_cast<std::size_t>(first.index)];
+    return true;
+}
+
+bool Ground::cast_at_outskirts(const btVector3& from, const btVector3& to, Hit& hit) const {
+    if (!outskirts_->hold(to))
+        return false;
+    const double z = outskirts_->height(to);
+    if (from.z() <= z || to.z() > z)
+        return false;
+    hit = {(from.z() - z) / (from.z() - to.z()), btVector3(0, 0, 1), ground::Surface::terrain};
     return true;
 }
 

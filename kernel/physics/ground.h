@@ -8,11 +8,12 @@
 #include "ground/mesh/ground.h"
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/ground_shape.h"
+#include "kernel/physics/outskirts.h"
 #include "kernel/physics/ray_grid.h"
 
 namespace reprise::kernel {
 
-/// The static ground in Bullet: one triangle mesh with a bounding volume hierarchy.
+/// The static ground in Bullet: one triangle mesh with a bounding volume hierarchy, and outskirts.
 class Ground {
   public:
     /// Copies the mesh and adds one body to `world`, which must outlive this.
@@ -28,16 +29,20 @@ class Ground {
     };
 
     /// The first triangle on the way. Ties go to the lower triangle index, so that the answer does
-    /// not depend on how the hierarchy is walked. Returns false when there is none.
+    /// not depend on how the hierarchy is walked. Where there is none, the outskirts. Returns false
+    /// when the ray meets nothing.
     bool cast(const btVector3& from, const btVector3& to, Hit& hit) const;
 
   private:
+    bool cast_at_outskirts(const btVector3& from, const btVector3& to, Hit& hit) const;
+
     std::vector<std::array<double, 3>> vertices_;
     std::vector<std::array<int, 3>> triangles_;
     std::vector<ground::Surface> surfaces_;
     btTriangleIndexVertexArray arrays_;
     std::unique_ptr<GroundShape> shape_;
     std::unique_ptr<RayGrid> rays_;
+    std::unique_ptr<Outskirts> outskirts_;
     std::unique_ptr<btRigidBody> body_;
     btDynamicsWorld* world_;
 };

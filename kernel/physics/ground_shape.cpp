@@ -58,6 +58,15 @@ bool GroundShape::Box::may_touch(const btVector3* corners) const {
     return true;
 }
 
+void GroundShape::getAabb(const btTransform& pose, btVector3& low, btVector3& high) const {
+    btBvhTriangleMeshShape::getAabb(pose, low, high);
+    if (outskirts_ == nullptr)
+        return;
+    const btVector3 reach(Outskirts::reach, Outskirts::reach, 0);
+    low -= reach;
+    high += reach;
+}
+
 void GroundShape::processAllTriangles(btTriangleCallback* callback,
                                       const btVector3& low,
                                       const btVector3& high) const {
@@ -65,6 +74,8 @@ void GroundShape::processAllTriangles(btTriangleCallback* callback,
         return btBvhTriangleMeshShape::processAllTriangles(callback, low, high);
     OnlyNear near(*box_, *callback);
     btBvhTriangleMeshShape::processAllTriangles(&near, low, high);
+    if (outskirts_ != nullptr)
+        outskirts_->offer(near, low, high);
 }
 
 btCollisionAlgorithm* BoxOnGround::Maker::CreateCollisionAlgorithm(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/physics/bullet.h"
+#include "kernel/physics/outskirts.h"
 
 namespace reprise::kernel {
 
@@ -24,12 +25,18 @@ class GroundShape : public btBvhTriangleMeshShape {
 
     void look_at(const Box* box) { box_ = box; }
 
+    /// What lies beyond its mesh, which must outlive it. Not before that has its bounds.
+    void go_on_beyond(const Outskirts& outskirts) { outskirts_ = &outskirts; }
+
+    void getAabb(const btTransform& pose, btVector3& low, btVector3& high) const override;
+
     void processAllTriangles(btTriangleCallback* callback,
                              const btVector3& low,
                              const btVector3& high) const override;
 
   private:
     const Box* box_ = nullptr;
+    const Outskirts* outskirts_ = nullptr;
 };
 
 /// Bullet's own algorithm for a box on a mesh, which must be a GroundShape, with that look at it.
