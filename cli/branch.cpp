@@ -151,7 +151,7 @@ void go_on(There& there,
         const world::SealedTick& tick = kernel.step(inputs(seats, there.drivers, trace, next));
         writer.append(tick);
         if (!kernel.finished())
-            seats.go_on(tick);
+            seats.go_on(tick, [&] { kernel.begin_step(); });
     }
     writer.close(seats.end(kernel.outcome()));
 }

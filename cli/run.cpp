@@ -225,7 +225,7 @@ int run(const RunOptions& options) {
             print_events(tick.view(), recording.episode.step_ns, progress);
             progress.update(index);
             if (!before && !kernel.finished() && stop.signal() == 0)
-                seats.go_on(tick);
+                seats.go_on(tick, [&] { kernel.begin_step(); });
         }
     } catch (const world::Error&) {
         if (stop.signal() == 0)

@@ -94,23 +94,25 @@ void Seats::welcome(const world::Tick& tick) {
     }
 }
 
-void Seats::go_on(const world::SealedTick& tick) {
+void Seats::go_on(const world::SealedTick& tick, const std::function<void()>& meanwhile) {
     welcome(*tick.view().tick);
-    ask(tick);
+    ask(tick, meanwhile);
 }
 
 void Seats::take_over(const world::ExternalDrivers& there, const world::SealedTick& tick) {
     for (const auto& [actor, spawn] : there.spawns())
         seat(spawn);
-    ask(tick);
+    ask(tick, [] {});
 }
 
-void Seats::ask(const world::SealedTick& tick) {
+void Seats::ask(const world::SealedTick& tick, const std::function<void()>& meanwhile) {
     controls_.clear();
     // All are shown the tick before the first is waited for: they think at the same time.
     for (const auto& [id, taken] : taken_)
         if (auto lost = loss_ ? std::nullopt : taken.seat->show(tick))
             lose(*taken.seat, std::move(*lost));
+    if (!taken_.empty() && !loss_)
+        meanwhile();
     for (const auto& [id, taken] : taken_)
         if (auto lost = loss_ || taken.silent_ticks > 0 ? std::nullopt : taken.seat->show_due())
             lose(*taken.seat, std::move(*lost));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -32,10 +33,11 @@ class Seats {
     /// One more, of a driver that is here already.
     void add(std::unique_ptr<remote::Seat> seat) { free_.push_back(std::move(seat)); }
 
-    /// Behind a tick that is not the last: shows it, and waits for the answers that are due: to
-    /// this tick, or to an earlier one by the latency that the scenario gave an actor. Throws
-    /// world::Error, "my.lua:3: ...", for an actor that nobody was named for.
-    void go_on(const world::SealedTick& tick);
+    /// Behind a tick that is not the last: shows it, does `meanwhile` while drivers think, and
+    /// waits for the answers that are due: to this tick, or to an earlier one by the latency that
+    /// the scenario gave an actor. Throws world::Error, "my.lua:3: ...", for an actor that nobody
+    /// was named for.
+    void go_on(const world::SealedTick& tick, const std::function<void()>& meanwhile);
 
     /// Likewise in the middle of a run: who is named here drives whoever is there from this tick
     /// on; nobody else needs a driver. Until its first answer acts, a vehicle keeps its control.
@@ -78,7 +80,7 @@ class Seats {
   private:
     void welcome(const world::Tick& tick);
     bool seat(const world::ExternalDrivers::Spawn& spawn);
-    void ask(const world::SealedTick& tick);
+    void ask(const world::SealedTick& tick, const std::function<void()>& meanwhile);
     void lose(const remote::Seat& seat, remote::Lost lost);
 
     const world::Recording* recording_;

@@ -39,7 +39,7 @@ void play_on(kernel::Kernel& kernel,
         if (trace)
             trace->append(tick);
         if (!kernel.finished())
-            seats.go_on(tick);
+            seats.go_on(tick, [&] { kernel.begin_step(); });
     }
     const world::Outcome outcome =
         kernel.finished() ? kernel.outcome() : world::outcome_of_lost_driver(driven, ticks);

@@ -1,5 +1,10 @@
 #include "kernel/kernel.h"
 
+#include <exception>
+#include <optional>
+#include <utility>
+#include <vector>
+
 #include "ground/mesh/build_ground.h"
 #include "ground/obstacles.h"
 #include "kernel/blockages.h"
@@ -70,7 +75,10 @@ struct Kernel::Parts {
     world::Digest128 continued;  ///< the chain that the next tick goes on with
     world::SealedTick last;
     Nudger nudger;
-    bool finished = false;
+    std::optional<world::TickDraft> next;    ///< begun, and waiting for controls
+    std::exception_ptr fault;                ///< why it could not be begun
+    std::vector<world::CheckResult> checks;  ///< before it was begun
+    bool ends = false;                       ///< with the tick that is made or was made last
     std::string reason;
 };
 
@@ -79,32 +87,20 @@ Kernel::Kernel(const world::Recording& recording, const ground::GroundMesh* grou
 
 Kernel::~Kernel() = default;
 
-/// Advances the world by one fixed step. The whole simulation is this function: every stage reads
-/// the last tick, which no longer changes, and adds its part to the next one.
+/// Advances the world by one fixed step. The whole simulation is begin() and this: every stage
+/// reads the last tick, which no longer changes, and adds its part to the next one.
 const world::SealedTick& Kernel::step(std::span<const world::Control> controls) {
     Parts& parts = *parts_;
+    if (parts.fault)
+        std::rethrow_exception(parts.fault);
+    if (!parts.next)
+        begin();
     const world::TickView last = parts.last.view();
-    REPRISE_CHECK(!parts.finished, "step after the end, at tick " + std::to_string(last.index()));
-    take_branch(last.index());
-    world::TickDraft next = draft_after(last);
+    world::TickDraft& next = *parts.next;
 
-    // 1. scenario: what should happen
-    parts.scenario.advance(last, next);
-    parts.roster.apply_commands(last, next, parts.physics);
-    note_outcome(next);
-    close(Stage::scenario, next);
-
-    // 2. controls: what the drivers want
+    // 4. controls: what the drivers want
     parts.roster.apply_controls(controls, last, next);
     close(Stage::controls, next);
-
-    // 3. traffic: background cars and signals
-    parts.background.advance(last, next);
-    close(Stage::traffic, next);
-
-    // 4. pedestrians
-    parts.pedestrians.advance(last, next);
-    close(Stage::pedestrians, next);
 
     // 5. physics: everything with mass, in equal substeps
     parts.physics.advance(last, next);
@@ -118,12 +114,50 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
         return parts.roster.is_under_way(vehicle);
     };
     note_blockages(parts.town, step_ns, is_under_way, last, next);
-    if (parts.finished)
+    if (parts.ends)
         parts.scenario.conclude(last, next);
     close(Stage::measurements, next);
 
     // 7. record: from here on the tick never changes
-    return record(next);
+    record(next);
+    parts.next.reset();
+    return parts.last;
+}
+
+/// The stages that look at no control of their tick.
+void Kernel::begin() {
+    Parts& parts = *parts_;
+    const world::TickView last = parts.last.view();
+    REPRISE_CHECK(!finished(), "step after the end, at tick " + std::to_string(last.index()));
+    take_branch(last.index());
+    world::TickDraft next = draft_after(last);
+
+    // 1. scenario: what should happen
+    parts.scenario.advance(last, next);
+    parts.roster.apply_commands(last, next, parts.physics);
+    note_outcome(next);
+    close(Stage::scenario, next);
+
+    // 2. traffic: background cars and signals
+    parts.background.advance(last, next);
+    close(Stage::traffic, next);
+
+    // 3. pedestrians
+    parts.pedestrians.advance(last, next);
+    close(Stage::pedestrians, next);
+    parts.next = std::move(next);
+}
+
+void Kernel::begin_step() {
+    Parts& parts = *parts_;
+    if (parts.next || parts.fault)
+        return;
+    parts.checks = parts.scenario.checks();
+    try {
+        begin();
+    } catch (...) {  // whoever asks for the step hears of it
+        parts.fault = std::current_exception();
+    }
 }
 
 /// Ends a stage: a drill may move a number in what it wrote, then its digest is taken.
@@ -148,7 +182,7 @@ void Kernel::close(Stage stage, world::TickDraft& next) {
 }
 
 /// Seals the draft as the last tick.
-const world::SealedTick& Kernel::record(world::TickDraft& next) {
+void Kernel::record(world::TickDraft& next) {
     Parts& parts = *parts_;
     REPRISE_CHECK(world::is_plain_arithmetic(),
                   "tick " + std::to_string(next.tick.index) +
@@ -156,7 +190,6 @@ const world::SealedTick& Kernel::record(world::TickDraft& next) {
                       "unit in another mode: " + world::unusual_arithmetic());
     parts.last = world::seal(next, parts.continued);
     parts.continued = parts.last.view().tick->digests()->chain();
-    return parts.last;
 }
 
 /// The branch that the recording names behind this tick, if it does.
@@ -168,7 +201,7 @@ void Kernel::take_branch(std::uint64_t tick) {
 
 void Kernel::branch(const world::BranchT& branch) {
     Parts& parts = *parts_;
-    REPRISE_CHECK(branch.tick == parts.last.view().index() && !parts.finished,
+    REPRISE_CHECK(branch.tick == parts.last.view().index() && !parts.next && !parts.ends,
                   "a branch of tick " + std::to_string(branch.tick) + " at tick " +
                       std::to_string(parts.last.view().index()));
     parts.continued = replay::chain_of_branch(parts.continued, branch);
@@ -192,16 +225,16 @@ void Kernel::note_outcome(world::TickDraft& next) {
             next.tick.weather = command.weather;
             next.tick.road_friction = command.road_friction;
         }
-        if (command.kind == world::CommandKind::finish && !parts.finished) {
-            parts.finished = true;
+        if (command.kind == world::CommandKind::finish && !parts.ends) {
+            parts.ends = true;
             parts.reason = command.text.empty() ? "finished" : command.text;
         }
     }
-    if (!parts.finished && next.tick.index >= parts.episode.max_ticks) {
-        parts.finished = true;
+    if (!parts.ends && next.tick.index >= parts.episode.max_ticks) {
+        parts.ends = true;
         parts.reason = "time limit";
     }
-    if (parts.finished) {
+    if (parts.ends) {
         world::EventT event;
         event.kind = world::EventKind::finished;
         event.text = parts.reason;
@@ -210,7 +243,7 @@ void Kernel::note_outcome(world::TickDraft& next) {
 }
 
 bool Kernel::finished() const {
-    return parts_->finished;
+    return parts_->ends && !parts_->next;
 }
 
 world::Outcome Kernel::outcome() const {
@@ -220,11 +253,12 @@ world::Outcome Kernel::outcome() const {
     for (const auto& check : all)
         failed = failed || check.status != Status::pass;
     const std::string verdict = all.empty() ? "completed" : failed ? "failed" : "passed";
-    return {verdict, parts_->reason, parts_->last.view().index()};
+    return {verdict, finished() ? parts_->reason : "", parts_->last.view().index()};
 }
 
 std::vector<world::CheckResult> Kernel::checks() const {
-    return parts_->scenario.checks();
+    const bool begun = parts_->next || parts_->fault;
+    return begun ? parts_->checks : parts_->scenario.checks();
 }
 
 void Kernel::nudge(const Nudge& nudge) {

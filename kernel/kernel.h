@@ -34,6 +34,11 @@ class Kernel {
     /// of no use afterwards.
     const world::SealedTick& step(std::span<const world::Control> controls = {});
 
+    /// The part of the next step that looks at no control: most of it, where there is traffic. For
+    /// the time in which drivers in other programs think; step() does it where nobody did. It
+    /// changes nothing that can be asked here, and what it throws is thrown by step().
+    void begin_step();
+
     /// True once the scenario said finish or the episode's last tick was made.
     bool finished() const;
 
@@ -51,10 +56,11 @@ class Kernel {
     void nudge(const Nudge& nudge);
 
   private:
+    void begin();
     void take_branch(std::uint64_t tick);
     void note_outcome(world::TickDraft& next);
     void close(Stage stage, world::TickDraft& next);
-    const world::SealedTick& record(world::TickDraft& next);
+    void record(world::TickDraft& next);
 
     struct Parts;
     std::unique_ptr<Parts> parts_;

@@ -1,4 +1,5 @@
 // What a whole step promises beyond its stages.
+#include <algorithm>
 #include <cstdint>
 
 #include <gmock/gmock.h>
@@ -84,6 +85,77 @@ TEST(Step, FinishIsTheLastTick) {
     }
     EXPECT_EQ(ticks, 4);
     EXPECT_EQ(kernel.outcome().reason, "enough");
+}
+
+/// The ticks of a run whose car is told something else in each; `ahead`: steps are begun before.
+std::vector<KeptTick> driven(const world::Recording& recording, bool ahead) {
+    kernel::Kernel kernel(recording);
+    std::vector<KeptTick> ticks;
+    while (!kernel.finished()) {
+        const std::size_t count = ticks.size();
+        const bool left = count % 40 < 10;
+        const world::Control said{left ? 0.4 : 0.1, 0, left ? 0.2 : -0.05, 1, 0, false, false};
+        ticks.emplace_back(kernel.step({&said, 1}));
+        if (ahead && !kernel.finished())
+            kernel.begin_step();
+        if (ahead && !kernel.finished() && count % 3 == 0)
+            kernel.begin_step();  // once more is nothing
+    }
+    return ticks;
+}
+
+TEST(Step, BegunWhileDriversThinkItIsTheSameStep) {
+    const world::Recording recording = in_town1(R"(
+        local road = pick_lane{ length = 80 }
+        local car = spawn{ model = 'sedan', driver = 'external', lane = road, s = 20 }
+        spawn{ model = 'sedan' }
+        spawn{ model = 'adult', lane = road, s = 45 }
+        check.never('hit', function() return car:collided() end)
+        wait_ticks(60)
+        set_weather 'hard_rain_sunset'
+        wait_ticks(60)
+        finish 'enough')",
+                                                20,
+                                                60);
+    const std::vector<KeptTick> ahead = driven(recording, true);
+    const std::vector<KeptTick> plain = driven(recording, false);
+    ASSERT_EQ(ahead.size(), 121U);
+    ASSERT_EQ(plain.size(), ahead.size());
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        const replay::RecordedTick one = ahead[i].recorded();
+        const replay::RecordedTick other = plain[i].recorded();
+        ASSERT_TRUE(std::ranges::equal(one.tick_bytes, other.tick_bytes)) << i;
+        ASSERT_TRUE(std::ranges::equal(one.traffic_bytes, other.traffic_bytes)) << i;
+    }
+}
+
+TEST(Step, WhatIsBegunIsToldWhenItIsMade) {
+    const world::Recording recording = in_town1(
+        "check.never('late', function() return time() > 0.12 end) wait_ticks(3) finish 'enough'",
+        0,
+        10);
+    kernel::Kernel kernel(recording);
+    for (int i = 0; i < 3; ++i)
+        kernel.step();
+    using Status = world::CheckResult::Status;
+    ASSERT_EQ(kernel.checks().at(0).status, Status::not_evaluated);
+    kernel.begin_step();
+    EXPECT_FALSE(kernel.finished());
+    EXPECT_EQ(kernel.outcome().reason, "");
+    EXPECT_EQ(kernel.outcome().ticks, 3U);
+    EXPECT_EQ(kernel.checks().at(0).status, Status::not_evaluated);
+    kernel.step();
+    EXPECT_TRUE(kernel.finished());
+    EXPECT_EQ(kernel.outcome().reason, "enough");
+    EXPECT_EQ(kernel.checks().at(0).status, Status::fail);
+}
+
+TEST(Step, AMistakeInWhatIsBegunIsToldByTheStep) {
+    const world::Recording recording = in_town1("wait_ticks(1) spam()", 0, 10);
+    kernel::Kernel kernel(recording);
+    kernel.step();
+    EXPECT_NO_THROW(kernel.begin_step());
+    EXPECT_THROW(kernel.step(), world::Error);
 }
 
 TEST(Step, PhysicsMeetsTheWalkersOfItsTick) {
