@@ -9,13 +9,13 @@ from typing import Any, Callable
 
 import numpy as np
 
-from .nouns import Noun, enum
+from .nouns import Noun, dtype, enum
 from .pictures import Images, Sensors
 from .wire import VERSION, Wire, WireError
 
 _NO_TRAFFIC = struct.pack("<IHHi", 8, 4, 4, 4)  # a table in which nothing is said: who sees sensors only has no other
 
-
+_STATE, _MEASURED = dtype("VehicleState").names, dtype("Measurement").names
 _TURNINGS = {number: name for name, number in enum("remote.Turning").items()}
 
 
@@ -31,6 +31,8 @@ class Control:
     lamps: int = 0  #: bits of world/models/catalogue.h
 
     def __post_init__(self) -> None:
+        if 0 <= self.throttle <= 1 and 0 <= self.brake <= 1 and -1 <= self.steer <= 1:
+            return
         for name, low in (("throttle", 0), ("brake", 0), ("steer", -1)):
             value = getattr(self, name)
             if not low <= value <= 1:
@@ -61,18 +63,38 @@ class Ego:
     counter-clockwise from east; `speed` [m/s] along its own x axis.
     """
 
-    def __init__(self, state: np.void, measured: np.void) -> None:
-        self._state, self._measured = state, measured
-        self.position = np.array(state["position"].item())
-        self.velocity = np.array(state["velocity"].item())
-        w, x, y, z = state["orientation"].item()
-        self.yaw: float = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    def __init__(self, tick: Noun, actor: int) -> None:
+        self._tick, self._actor = tick, actor
+
+    @functools.cached_property
+    def _state(self) -> np.void:
+        vehicles = self._tick.vehicles
+        return vehicles[vehicles["id"].searchsorted(self._actor)]
+
+    @functools.cached_property
+    def _measured(self) -> np.void:
+        measured = self._tick.measurements
+        return measured[measured["actor"].searchsorted(self._actor)]
+
+    @functools.cached_property
+    def position(self) -> np.ndarray:
+        return np.array(self._state["position"].item())
+
+    @functools.cached_property
+    def velocity(self) -> np.ndarray:
+        return np.array(self._state["velocity"].item())
+
+    @functools.cached_property
+    def yaw(self) -> float:
+        w, x, y, z = self._state["orientation"].item()
+        return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
     def __getattr__(self, field: str) -> Any:
-        for record in (self._state, self._measured):
-            if field in record.dtype.names:
-                return record[field]
-        raise AttributeError(f"no '{field}': {', '.join(self._state.dtype.names + self._measured.dtype.names)}")
+        if field in _STATE:
+            return self._state[field]
+        if field in _MEASURED:
+            return self._measured[field]
+        raise AttributeError(f"no '{field}': {', '.join(_STATE + _MEASURED)}")
 
 
 class Observation:
@@ -83,7 +105,7 @@ class Observation:
 
     def __init__(self, run: Run, message: Noun) -> None:
         self.run = run
-        self.tick = Noun(message.tick.data, "world.Tick")
+        self.tick = message.nested("tick", "world.Tick")
         self._message = message
 
     @functools.cached_property
@@ -104,8 +126,7 @@ class Observation:
     @functools.cached_property
     def traffic(self) -> Noun:
         """world.Traffic: what moves without mass."""
-        traffic = self._message.traffic
-        return Noun(traffic.data if len(traffic) else _NO_TRAFFIC, "world.Traffic")
+        return self._message.nested("traffic", "world.Traffic") or Noun(_NO_TRAFFIC, "world.Traffic")
 
     @property
     def index(self) -> int:
@@ -130,9 +151,7 @@ class Observation:
     @functools.cached_property
     def ego(self) -> Ego:
         """The driven vehicle."""
-        vehicles, measured = self.tick.vehicles, self.tick.measurements
-        at = int(np.searchsorted(vehicles["id"], self.run.actor))
-        return Ego(vehicles[at], measured[int(np.searchsorted(measured["actor"], self.run.actor))])
+        return Ego(self.tick, self.run.actor)
 
     @property
     def vehicles(self) -> np.ndarray:

@@ -5,10 +5,10 @@ Nothing is copied: an array looks into the bytes of the message that it came in,
 from __future__ import annotations
 
 import functools
-from typing import Any, Iterator
+import struct
+from typing import Any, Callable, Iterator
 
 import numpy as np
-from flatbuffers.table import Table
 
 from . import schema
 
@@ -16,6 +16,8 @@ _SCALARS = {
     "bool": "?", "ubyte": "u1", "byte": "i1", "ushort": "<u2", "short": "<i2", "uint": "<u4", "int": "<i4",
     "ulong": "<u8", "long": "<i8", "float": "<f4", "double": "<f8",
 }  # fmt: skip
+
+_ushort, _int, _uint = (struct.Struct(kind).unpack_from for kind in ("<H", "<i", "<I"))
 
 
 def _space(name: str, beside: str) -> str:
@@ -46,10 +48,10 @@ class Noun:
     """
 
     def __init__(self, data: bytes | memoryview, name: str, position: int | None = None) -> None:
-        if position is None:
-            position = int(np.frombuffer(data, "<u4", 1)[0])
-        self._name = name
-        self._table = Table(data, position)
+        self._data, self._name = data, name
+        self._at: int = _uint(data, 0)[0] if position is None else position
+        self._vtable: int = self._at - _int(data, self._at)[0]
+        self._readers = _readers(name)
 
     def __dir__(self) -> Iterator[str]:
         return iter(schema.TABLES[self._name])
@@ -58,38 +60,76 @@ class Noun:
         return f"<{self._name}: {', '.join(schema.TABLES[self._name])}>"
 
     def __getattr__(self, field: str) -> Any:
-        fields = schema.TABLES[self._name]
-        if field not in fields:
-            raise AttributeError(f"{self._name} has no field '{field}': {', '.join(fields)}")
-        number, of = fields[field]
-        offset = self._table.Offset(4 + 2 * number)
-        value = self._vector(of[1:-1], offset) if of.startswith("[") else self._single(of, offset)
-        setattr(self, field, value)  # the next look is a plain attribute
+        if field.startswith("_"):
+            raise AttributeError(field)  # of what was not made by __init__, such as a copy in the making
+        if field not in self._readers:
+            raise AttributeError(f"{self._name} has no field '{field}': {', '.join(schema.TABLES[self._name])}")
+        slot, read = self._readers[field]
+        value = self.__dict__[field] = read(self._data, self._place(slot))  # the next look is a plain attribute
         return value
 
-    def _single(self, of: str, offset: int) -> Any:
-        at = offset + self._table.Pos
-        if of == "string":
-            return self._table.String(at).decode() if offset else ""
-        full = _space(of, self._name)
-        if full in schema.TABLES:
-            return Noun(self._table.Bytes, full, self._table.Indirect(at)) if offset else None
-        kind = dtype(of, self._name)
-        if not offset:
-            return np.zeros((), kind)[()] if kind.names else kind.type(0).item()
-        value = np.frombuffer(self._table.Bytes, kind, 1, at)[0]
-        return value if kind.names else value.item()
+    def _place(self, slot: int) -> int:
+        """Where a field is in the data; 0: the writer left it out."""
+        if slot >= _ushort(self._data, self._vtable)[0]:
+            return 0
+        offset = _ushort(self._data, self._vtable + slot)[0]
+        return self._at + offset if offset else 0
 
-    def _vector(self, of: str, offset: int) -> Any:
-        full = _space(of, self._name)
-        begin = self._table.Vector(offset) if offset else 0
-        length = self._table.VectorLen(offset) if offset else 0
+    def nested(self, field: str, name: str) -> Noun | None:
+        """The table that a field of bytes holds, with its own root; None without it."""
+        place = self._place(self._readers[field][0])
+        begin = place and place + _uint(self._data, place)[0] + 4
+        if not begin or not _uint(self._data, begin - 4)[0]:
+            return None
+        return Noun(self._data, name, begin + _uint(self._data, begin)[0])
+
+
+_Reader = Callable[["bytes | memoryview", int], Any]  # of the data, and where the field is in it or 0
+
+
+@functools.lru_cache(maxsize=None)
+def _readers(name: str) -> dict[str, tuple[int, _Reader]]:
+    """How each field of a table is read: its place in the vtable, and the function."""
+    return {
+        field: (4 + 2 * number, _of_vector(of[1:-1], name) if of.startswith("[") else _of_one(of, name))
+        for field, (number, of) in schema.TABLES[name].items()
+    }
+
+
+def _text(data: bytes | memoryview, place: int) -> str:
+    begin = place + _uint(data, place)[0] + 4
+    return bytes(data[begin : begin + _uint(data, begin - 4)[0]]).decode()
+
+
+def _of_one(of: str, beside: str) -> _Reader:
+    full = _space(of, beside)
+    if of == "string":
+        return lambda data, place: _text(data, place) if place else ""
+    if full in schema.TABLES:
+        return lambda data, place: Noun(data, full, place + _uint(data, place)[0]) if place else None
+    kind = dtype(of, beside)
+    if kind.names:
+        return lambda data, place: np.frombuffer(data, kind, 1, place)[0] if place else np.zeros((), kind)[()]
+    left_out = kind.type(0).item()
+    unpack = struct.Struct("<" + kind.char).unpack_from
+    return lambda data, place: unpack(data, place)[0] if place else left_out
+
+
+def _of_vector(of: str, beside: str) -> _Reader:
+    full = _space(of, beside)
+    kind = None if of == "string" or full in schema.TABLES else dtype(of, beside)
+
+    def read(data: bytes | memoryview, place: int) -> Any:
+        begin = place and place + _uint(data, place)[0] + 4
+        length = _uint(data, begin - 4)[0] if place else 0
+        if kind is not None:
+            return np.frombuffer(data, kind, length, begin) if length else np.zeros(0, kind)
+        places = range(begin, begin + 4 * length, 4)
         if of == "string":
-            return [self._table.String(begin + 4 * i).decode() for i in range(length)]
-        if full in schema.TABLES:
-            return [Noun(self._table.Bytes, full, self._table.Indirect(begin + 4 * i)) for i in range(length)]
-        kind = dtype(of, self._name)
-        return np.frombuffer(self._table.Bytes, kind, length, begin) if length else np.zeros(0, kind)
+            return [_text(data, at) for at in places]
+        return [Noun(data, full, at + _uint(data, at)[0]) for at in places]
+
+    return read
 
 
 def points(vectors: np.ndarray) -> np.ndarray:

@@ -176,6 +176,8 @@ class Simulation:
         self._seen, self.outcome = None, None
         self._say("reset", **self._message())
         kind, message = self._hear(first=True)
+        while kind == "observation":  # of the episode before, which with a latency goes on unanswered
+            kind, message = self._hear(first=True)
         if kind == "goodbye":
             self.outcome = Outcome(message.verdict, message.reason, message.ticks)
             raise Fault("the episode ended before a vehicle 'ego' with driver = 'external' was there", 0)
