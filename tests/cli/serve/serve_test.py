@@ -117,6 +117,27 @@ class Episodes(Case):
         self.assertEqual(first, once_more)
         self.assertEqual(first, fresh)
 
+    def test_a_hundred_episodes_on_a_busy_machine_are_one_chain(self):
+        for _ in os.sched_getaffinity(0):
+            busy = subprocess.Popen([sys.executable, "-c", "while True: pass"])
+            self.addCleanup(busy.wait)
+            self.addCleanup(busy.kill)
+        found = []
+        for _ in range(4):  # servers
+            with reprise.Simulation("town1", cars=20, seed=7) as sim:
+                found += [tuple(chains(sim, 15)) for _ in range(25)]
+        self.assertEqual(len(found), 100)
+        self.assertEqual(len(set(found[0])), 15)
+        self.assertEqual(set(found), {found[0]})
+
+    def test_a_reset_while_ticks_of_a_latency_are_on_their_way_begins_anew(self):
+        late = DRIVEN.replace("driver = 'external'", "driver = 'external', latency = 3")
+        with reprise.Simulation(scenario=late) as sim:
+            found = [chains(sim, 10) for _ in range(3)]
+        self.assertEqual(len(set(found[0])), 10)
+        self.assertEqual(found[0], found[1])
+        self.assertEqual(found[0], found[2])
+
     def test_an_episode_is_what_reprise_run_records_and_verify_finds_again(self):
         trace, run = self.folder / "served.mcap", self.folder / "run.mcap"
         with reprise.Simulation(scenario="driven.lua", folder=self.folder) as sim:
