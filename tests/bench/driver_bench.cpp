@@ -1,152 +1,246 @@
-// What a driver in another program adds to a tick, beside a bare round trip of the same bytes in
-// the same run: in each tick the same observation goes to one driver in C++, to one in Python, and
-// to a child that only reads and replies.
-#include <array>
-#include <cstring>
+// What it costs that another program drives, with 100 cars: the built-in driver, and the same
+// control said by this process itself, by a driver in C++, and by drivers in Python without and
+// with cameras. Each drives a run in a process of its own, in turns of a few ticks; beside them
+// bare round trips of the same bytes. Figures are medians of ticks, and of turns of the
+// difference to what nobody was asked in.
+#include <algorithm>
+#include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "kernel/kernel.h"
 #include "remote/seat.h"
+#include "tests/bench/bare_child.h"
 #include "tests/bench/drive.h"
+#include "tests/bench/lane.h"
+#include "tests/bench/stopwatch.h"
 #include "tests/bench/timer.h"
+#include "world/external_drivers.h"
 
 namespace {
 
 using namespace reprise;
 
-constexpr int warm_up = 200;  // ticks until queues have formed
-constexpr int measured = 600;
-constexpr std::size_t answer_bytes = 64;
+constexpr int warm_up = 200;  // [ticks] until queues have formed, without drivers
+constexpr std::uint32_t actor = 1;
+const std::string source = REPRISE_SOURCE;
+const std::string python = "PYTHONPATH=" + source + "/python exec /usr/bin/python3 -B " + source +
+                           "/tests/bench/idle_driver.py";
 
-void move(int descriptor, std::vector<char>& bytes, bool out) {
-    for (std::size_t done = 0; done < bytes.size();) {
-        const ssize_t count = out ? write(descriptor, bytes.data() + done, bytes.size() - done)
-                                  : read(descriptor, bytes.data() + done, bytes.size() - done);
-        if (count <= 0)
-            throw std::runtime_error("the bare child is gone");
-        done += static_cast<std::size_t>(count);
-    }
+enum class Asks { nobody, round_trip, seat, waiting_seat };
+
+/// What a lane is.
+struct Plan {
+    Asks asks = Asks::nobody;
+    std::string command{};  ///< of the driver
+    std::string driver = "external";
+    std::string cameras = "none";
+};
+
+/// What tests/bench/idle_driver.* say as well.
+world::Control idle(const world::TickView& tick) {
+    const bool slow = world::find(tick.measurements(), actor)->speed() < 5;
+    return {slow ? 0.4 : 0.0, 0, 0, actor, 0, false, false};
 }
 
-/// A child at a socket that reads so many bytes, which four of them say before, and replies with
-/// few.
-class BareChild {
+/// A run, and who drives in it.
+class Run {
   public:
-    BareChild() {
-        std::array<int, 2> ends{};
-        if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-            throw std::runtime_error("no socket");
-        child_ = fork();
-        if (child_ == 0) {
-            close(ends[0]);
-            serve(ends[1]);
-        }
-        close(ends[1]);
-        socket_ = ends[0];
+    Run(world::Recording recording, Plan plan)
+        : plan_(std::move(plan)),
+          recording_(std::move(recording)),
+          kernel_(recording_),
+          tick_(&kernel_.step()) {
+        drivers_.hear(*tick_->view().tick);
+        while (tick_->view().index() < warm_up)
+            step(idle(tick_->view()));
+        if (plan_.asks == Asks::round_trip)
+            child_.emplace();
+        if (plan_.command.empty())
+            return;
+        seat_ = std::make_unique<remote::Seat>(remote::SeatPlan{"ego", plan_.command},
+                                               remote::Patience());
+        const auto& spawn = drivers_.spawns().at(actor);
+        const remote::Spawned spawned{&spawn.command, spawn.tick, "exec '" RENDER_PROGRAM "' live"};
+        if (const auto lost = seat_->take(actor, recording_, spawned))
+            throw std::runtime_error(lost->reason);
     }
 
-    ~BareChild() {
-        close(socket_);
-        waitpid(child_, nullptr, 0);
-    }
-
-    BareChild(const BareChild&) = delete;
-    BareChild& operator=(const BareChild&) = delete;
-
-    void round_trip(std::size_t size) {
-        std::vector<char> message(size + sizeof(std::uint32_t));
-        const auto count = static_cast<std::uint32_t>(size);
-        std::memcpy(message.data(), &count, sizeof(count));
-        move(socket_, message, true);
-        std::vector<char> answer(answer_bytes);
-        move(socket_, answer, false);
+    bench::Lap run(unsigned ticks) {
+        bench::Timer each;  // one slow tick of a busy machine does not count
+        bench::Best lap;
+        lap.time([&] {
+            for (unsigned i = 0; i < ticks; ++i)
+                each.time([&] { step(ask()); });
+        });
+        const auto bytes = tick_->tick_bytes().size() + tick_->traffic_bytes().size();
+        return {each.median(),
+                lap.cpu / ticks,
+                static_cast<double>(bytes),
+                tick_->view().tick->digests()->chain()};
     }
 
   private:
-    [[noreturn]] static void serve(int socket) {
-        try {
-            for (;;) {
-                std::vector<char> size(sizeof(std::uint32_t));
-                move(socket, size, false);
-                std::uint32_t count = 0;
-                std::memcpy(&count, size.data(), sizeof(count));
-                std::vector<char> message(count);
-                move(socket, message, false);
-                std::vector<char> answer(answer_bytes);
-                move(socket, answer, true);
-            }
-        } catch (const std::exception&) {
-            _exit(0);
-        }
-    }
+    void step(const world::Control& control) { tick_ = &kernel_.step({&control, 1}); }
 
-    int socket_ = -1;
-    pid_t child_ = -1;
-};
-
-/// As a run asks a driver. [s] into `watch`
-world::Control ask(remote::Seat& seat, const world::SealedTick& tick, bench::Timer& watch) {
-    world::Control said;
-    watch.time([&] {
-        if (const auto lost = seat.show(tick))
+    /// As a run asks a driver.
+    world::Control ask() {
+        if (child_)
+            child_->round_trip(tick_->tick_bytes().size() + tick_->traffic_bytes().size());
+        if (!seat_)
+            return idle(tick_->view());
+        if (const auto lost = seat_->show(*tick_))
             throw std::runtime_error(lost->reason);
-        const auto answer = seat.answer();
+        if (plan_.asks != Asks::waiting_seat)
+            kernel_.begin_step();
+        const auto answer = seat_->answer();
         if (const auto* lost = std::get_if<remote::Lost>(&answer))
             throw std::runtime_error(lost->reason);
-        said = std::get<world::Control>(answer);
+        return std::get<world::Control>(answer);
+    }
+
+    Plan plan_;
+    world::Recording recording_;
+    kernel::Kernel kernel_;
+    const world::SealedTick* tick_;
+    world::ExternalDrivers drivers_;
+    std::unique_ptr<remote::Seat> seat_;
+    std::optional<bench::BareChild> child_;
+};
+
+bench::Lane make_lane(const world::Recording& town1, const Plan& plan) {
+    return bench::Lane([&] {
+        world::Recording recording = town1;
+        recording.episode = scripting::load_episode(
+            source + "/tests/bench/driven.lua",
+            {{}, 7, 36000.0, {{"driver", plan.driver}, {"cameras", plan.cameras}}});
+        auto run = std::make_shared<Run>(std::move(recording), plan);
+        return [run](unsigned ticks) { return run->run(ticks); };
     });
-    return said;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Medians over the rounds.
+struct Course {
+    double tick_us = 0;      ///< of the clock
+    double adds_us = 0;      ///< to a tick that nobody is asked in
+    double adds_cpu_us = 0;  ///< of the process that simulates
+};
+
+Course course_of(const std::vector<bench::Lap>& laps, const std::vector<bench::Lap>& alone) {
+    std::vector<double> wall, adds, adds_cpu;
+    for (std::size_t i = 0; i < laps.size(); ++i) {
+        wall.push_back(1e6 * laps[i].wall);
+        adds.push_back(1e6 * (laps[i].wall - alone[i].wall));
+        adds_cpu.push_back(1e6 * (laps[i].cpu - alone[i].cpu));
+    }
+    return {median(wall), median(adds), median(adds_cpu)};
+}
+
+using Plans = std::vector<std::pair<std::string, Plan>>;
+using Laps = std::map<std::string, std::vector<bench::Lap>>;
+
+/// So many turns of each.
+Laps drive(const Plans& plans, unsigned rounds, unsigned ticks) {
+    const world::Recording town1 = bench::in_town1("tests/bench/driven.lua");
+    std::vector<bench::Lane> lanes;
+    for (const auto& [name, plan] : plans)
+        lanes.push_back(make_lane(town1, plan));
+    Laps laps;
+    for (unsigned round = 0; round <= rounds; ++round)
+        for (std::size_t i = 0; i < lanes.size(); ++i) {
+            const bench::Lap lap = lanes[i].run(ticks);
+            if (round > 0)  // in the first, modules are imported, and the town's scene is made
+                laps[plans[i].first].push_back(lap);
+        }
+    return laps;
+}
+
+double ticks_a_second(const Laps& laps, const char* name) {
+    return 1e6 / course_of(laps.at(name), laps.at("alone")).tick_us;
 }
 
 void Driver(benchmark::State& state) {
-    world::Recording recording = bench::in_town1("tests/bench/driven.lua");
-    const std::string source = REPRISE_SOURCE;
-    bench::Timer step, cpp, python, bare;
-    double bytes = 0;
+    Laps laps;
     for ([[maybe_unused]] const auto _ : state) {
-        BareChild child;
-        kernel::Kernel kernel(recording);
-        const world::SealedTick* tick = &kernel.step();
-        remote::Seat fast({"ego", IDLE_DRIVER}, {});
-        remote::Seat slow({"ego",
-                           "PYTHONPATH=" + source + "/python /usr/bin/python3 " + source +
-                               "/tests/bench/idle_driver.py"},
-                          {});
-        for (remote::Seat* seat : {&fast, &slow})
-            if (const auto lost = seat->take(1, recording))
-                throw std::runtime_error(lost->reason);
-        bench::Timer unused;
-        for (int i = 0; i < warm_up + measured; ++i) {
-            const bool counts = i >= warm_up;
-            const std::size_t size = tick->tick_bytes().size() + tick->traffic_bytes().size();
-            const world::Control said = ask(fast, *tick, counts ? cpp : unused);
-            ask(slow, *tick, counts ? python : unused);
-            (counts ? bare : unused).time([&] { child.round_trip(size); });
-            (counts ? step : unused).time([&] { tick = &kernel.step({&said, 1}); });
-            bytes += counts ? static_cast<double>(size) / measured : 0;
-        }
-        state.SetIterationTime(step.sum() / measured);
+        laps = drive({{"alone", {}},
+                      {"built_in", {Asks::nobody, "", "autopilot"}},
+                      {"bare", {Asks::round_trip}},
+                      {"cpp", {Asks::seat, IDLE_DRIVER}},
+                      {"cpp_waiting", {Asks::waiting_seat, IDLE_DRIVER}},
+                      {"python", {Asks::seat, python}},
+                      {"python_waiting", {Asks::waiting_seat, python}}},
+                     25,
+                     40);
+        state.SetIterationTime(laps["alone"].back().wall);
     }
-    state.counters["observation_B"] = bytes;
-    state.counters["tick_us"] = 1e6 * step.median();
-    state.counters["bare_us"] = 1e6 * bare.median();
-    state.counters["cpp_us"] = 1e6 * cpp.median();
-    state.counters["python_us"] = 1e6 * python.median();
-    state.counters["cpp_of_bare"] = cpp.median() / bare.median();
-    state.counters["python_of_bare"] = python.median() / bare.median();
-    state.counters["ticks/s_cpp"] = 1 / (step.median() + cpp.median());
-    state.counters["ticks/s_python"] = 1 / (step.median() + python.median());
+    for (const auto& [name, own] : laps)
+        if (name != "built_in" && own.back().chain != laps["alone"].back().chain)
+            state.SkipWithError("the drivers did not drive alike");
+    const auto course = [&](const char* name) { return course_of(laps[name], laps["alone"]); };
+    state.counters["ticks/s_built_in"] = ticks_a_second(laps, "built_in");
+    state.counters["ticks/s_alone"] = ticks_a_second(laps, "alone");
+    state.counters["ticks/s_cpp"] = ticks_a_second(laps, "cpp");
+    state.counters["ticks/s_python"] = ticks_a_second(laps, "python");
+    state.counters["observation_B"] = laps["alone"].back().bytes;
+    state.counters["bare_us"] = course("bare").adds_us;
+    state.counters["cpp_us"] = course("cpp").adds_us;
+    state.counters["cpp_waiting_us"] = course("cpp_waiting").adds_us;
+    state.counters["python_us"] = course("python").adds_us;
+    state.counters["python_waiting_us"] = course("python_waiting").adds_us;
+    state.counters["bare_cpu_us"] = course("bare").adds_cpu_us;
+    state.counters["cpp_cpu_us"] = course("cpp").adds_cpu_us;
+}
+
+void Cameras(benchmark::State& state) {
+    Laps laps;
+    for ([[maybe_unused]] const auto _ : state) {
+        laps = drive({{"alone", {}},
+                      {"python", {Asks::seat, python}},
+                      {"rgb84", {Asks::seat, python, "external", "rgb84"}},
+                      {"rgb200x88", {Asks::seat, python, "external", "rgb200x88"}},
+                      {"three800x600", {Asks::seat, python, "external", "three800x600"}}},
+                     3,
+                     5);
+        state.SetIterationTime(laps["three800x600"].back().wall);
+    }
+    state.counters["ticks/s_python"] = ticks_a_second(laps, "python");
+    state.counters["ticks/s_rgb84"] = ticks_a_second(laps, "rgb84");
+    state.counters["ticks/s_rgb200x88"] = ticks_a_second(laps, "rgb200x88");
+    state.counters["ticks/s_three800x600"] = ticks_a_second(laps, "three800x600");
 }
 
 BENCHMARK(Driver)->Iterations(1)->UseManualTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK(Cameras)->Iterations(1)->UseManualTime()->Unit(benchmark::kMicrosecond);
+
+/// One after the other, while nothing else is done: 1 kB, an observation, and with it the pixels of
+/// the cameras above, which really stay where they are.
+void RoundTrip(benchmark::State& state) {
+    bench::BareChild child;
+    for ([[maybe_unused]] const auto _ : state)
+        child.round_trip(static_cast<std::size_t>(state.range(0)));
+    state.counters["B"] = static_cast<double>(state.range(0));
+}
+
+constexpr int observation = 7'300;
+BENCHMARK(RoundTrip)
+    ->Arg(1'000)
+    ->Arg(observation)
+    ->Arg(observation + 84 * 84 * 3)
+    ->Arg(observation + 200 * 88 * 3)
+    ->Arg(observation + 800 * 600 * (3 + 4 + 1))
+    ->UseRealTime()
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 

@@ -1,10 +1,16 @@
 #!/usr/bin/env python3
-"""Resets and steps a second from Python, state only, beside the same run without a driver: serve_bench.py
+"""Episodes from Python, state only: resets a second, steps beside the same run without a driver, and two environments in
+two processes beside one. `./dev bench` calls it: serve_bench.py [--benchmark_filter=REGEX] [--benchmark_out=FILE]
 
-The variable REPRISE names the program; PYTHONPATH holds python/. No test; nothing depends on its figures.
+The variable REPRISE names the program; PYTHONPATH holds python/. Other options of Google Benchmark are passed over; FILE
+gets what it would write. No test; nothing depends on its figures.
 """
+import argparse
+import json
+import multiprocessing
 import os
 import pathlib
+import re
 import resource
 import subprocess
 import tempfile
@@ -38,29 +44,77 @@ def resets(sim, count, seeds):
     return median([timed(lambda: sim.reset(seed=seeds(i))) for i in range(count)])
 
 
-def main():
+def measure_resets():
+    """[s] of each kind of reset in Town 1 with 100 cars."""
+    with reprise.Simulation("town1", cars=100, seed=7) as sim:
+        first = timed(sim.reset)
+        same, other = resets(sim, 30, lambda i: 7), resets(sim, 10, lambda i: 8 + i)
+    return {"first_ms": first * 1e3, "same_seed_ms": same * 1e3, "other_seed_ms": other * 1e3,
+            "resets/s": 1 / same, "resets/s_other_seed": 1 / other}  # fmt: skip
+
+
+def environment(pipe, seed):
+    """A process that steps an episode of its own as often as it is asked to."""
+    control = reprise.Control(brake=1.0)
+    with reprise.Simulation("town1", cars=100, seed=seed) as sim:
+        sim.reset()
+        for steps in iter(pipe.recv, 0):
+            pipe.send(timed(lambda: sim.run(lambda seen: control, steps)))
+
+
+def measure_vector(steps=400, turns=9):
+    """Ticks a second of two environments at once, and of one, in turns."""
+    pipes, workers = zip(*(multiprocessing.Pipe() for _ in range(2)))
+    children = [multiprocessing.Process(target=environment, args=(end, seed)) for seed, end in enumerate(workers)]
+    for child in children:
+        child.start()
+
+    def rate(these):
+        for pipe in these:
+            pipe.send(steps)
+        return len(these) * steps / max(pipe.recv() for pipe in these)
+
+    rate(pipes)  # until queues have formed
+    pairs = [(rate(pipes[turn % 2 :][:1]), rate(pipes)) for turn in range(turns)]
+    for pipe, child in zip(pipes, children):
+        pipe.send(0)
+        child.join()
+    one, two = (median(column) for column in zip(*pairs))
+    return {"ticks/s_one": one, "ticks/s_two": two, "two_of_one": median([both / alone for alone, both in pairs])}
+
+
+def measure_steps():
+    """[us] of a tick with all of a run's work, its trace too; without a driver, and driven from here."""
+    rows = {"alone_us": [], "python_us": [], "alone_cpu_us": [], "python_cpu_us": [], "python_own_cpu_us": []}
     with tempfile.TemporaryDirectory() as place:
         folder = pathlib.Path(place)
         (folder / "driven.lua").write_text(SCENARIO % (TICKS * 0.05, "external"))
         (folder / "alone.lua").write_text(SCENARIO % (TICKS * 0.05, "manual"))
-        rows = []
-        with reprise.Simulation("town1", cars=100, seed=7) as sim:
-            rows.append(("reset, the first", timed(sim.reset)))
-            rows.append(("reset, the same seed", resets(sim, 30, lambda i: 7)))
-            rows.append(("reset, another seed", resets(sim, 10, lambda i: 8 + i)))
-        for name, seconds in rows:
-            print(f"{name:34} {seconds * 1e3:9.1f} ms {1 / seconds:9.0f} /s")
-        print(f"{'':34} {'wall':>9} us {'processor':>9} us of a tick")
         for _ in range(3):  # interleaved
             alone, start = (without_driver(folder, words) for words in ((), ("--for", "0.05")))
-            show("without a driver", *((whole - begin) / TICKS for whole, begin in zip(alone, start)))
             whole, here = from_python(folder)
-            show("from Python, all processes", whole[0] / TICKS, (whole[1] - start[1]) / TICKS)
-            show("from Python, its own", here[0] / TICKS, here[1] / TICKS)
+            seconds = (alone[0] - start[0], whole[0], alone[1] - start[1], whole[1] - start[1], here[1])
+            for row, value in zip(rows.values(), seconds):
+                row.append(value / TICKS * 1e6)
+    return {name: median(values) for name, values in rows.items()}
 
 
-def show(name, wall, processor):
-    print(f"{name:34} {wall * 1e6:9.0f}    {processor * 1e6:9.0f}")
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--benchmark_filter", default=".")
+    parser.add_argument("--benchmark_out", type=pathlib.Path)
+    options, _ = parser.parse_known_args()
+    found = []
+    for name, measure in {"Resets": measure_resets, "Steps": measure_steps, "Vector": measure_vector}.items():
+        if not re.search(options.benchmark_filter, name):
+            continue
+        begin = time.perf_counter()
+        counters = measure()
+        print(f"{name:10}", *(f"{counter}={value:.1f}" for counter, value in counters.items()), flush=True)
+        found.append(dict(run_name=name, run_type="iteration", real_time=time.perf_counter() - begin, cpu_time=0.0,
+                          time_unit="s", **counters))  # fmt: skip
+    if options.benchmark_out:
+        options.benchmark_out.write_text(json.dumps({"benchmarks": found}))
 
 
 def children():
