@@ -150,7 +150,9 @@ void go_on(There& there,
          ++next) {
         const world::SealedTick& tick = kernel.step(inputs(seats, there.drivers, trace, next));
         writer.append(tick);
-        if (!kernel.finished())
+        if (kernel.finished())
+            seats.see_last(tick);
+        else
             seats.go_on(tick, [&] { kernel.begin_step(); });
     }
     writer.close(seats.end(kernel.outcome()));
@@ -193,13 +195,13 @@ int report(const WhatIf& what_if, const process::CopyResult& result) {
 /// Mistakes in --driver, before the long way to the tick.
 void check_drivers(const BranchOptions& options) {
     for (const remote::SeatPlan& plan : parse_seats(options.drivers))
-        if (!plan.socket.empty() && options.scripts.size() > 1)
-            throw world::Error(
-                fmt::format("--driver {}=socket:{}: one driver comes there, and {} scripts need "
-                            "one each: name a command, or branch for each script",
-                            plan.actor,
-                            plan.socket.string(),
-                            options.scripts.size()));
+        if (plan.command.empty() && options.scripts.size() > 1)
+            throw world::Error(fmt::format(
+                "--driver {}={}: one driver comes there, and {} scripts need one each: "
+                "name a command, or branch for each script",
+                plan.actor,
+                plan.port ? fmt::format("tcp:{}", *plan.port) : "socket:" + plan.socket.string(),
+                options.scripts.size()));
 }
 
 /// Who of other programs' vehicles goes on without one.

@@ -224,8 +224,12 @@ int run(const RunOptions& options) {
             trace->append(tick);
             print_events(tick.view(), recording.episode.step_ns, progress);
             progress.update(index);
-            if (!before && !kernel.finished() && stop.signal() == 0)
-                seats.go_on(tick, [&] { kernel.begin_step(); });
+            if (!before && stop.signal() == 0) {
+                if (kernel.finished())
+                    seats.see_last(tick);
+                else
+                    seats.go_on(tick, [&] { kernel.begin_step(); });
+            }
         }
     } catch (const world::Error&) {
         if (stop.signal() == 0)

@@ -38,8 +38,11 @@ Seats::Seats(const std::vector<std::string>& plans,
              const remote::Patience& patience,
              const world::Recording& recording)
     : recording_(&recording) {
-    for (const remote::SeatPlan& plan : parse_seats(plans))
+    for (const remote::SeatPlan& plan : parse_seats(plans)) {
         free_.push_back(std::make_unique<remote::Seat>(plan, patience));
+        if (const std::string place = free_.back()->place(); !place.empty())
+            say(stderr, "reprise: the driver of '{}' may come to {}\n", plan.actor, place);
+    }
 }
 
 void Seats::lose(const remote::Seat& seat, remote::Lost lost) {
@@ -54,8 +57,9 @@ bool Seats::seat(const world::ExternalDrivers::Spawn& spawn) {
     });
     if (seat == free_.end())
         return false;
-    const remote::Spawned spawned{
-        &spawn.command, spawn.tick, spawn.command.rig.empty() ? std::string() : render_program()};
+    const remote::Spawned spawned{&spawn.command,
+                                  spawn.tick,
+                                  spawn.command.rig.empty() ? std::string() : render_program()};
     const std::uint32_t actor = spawn.command.actor;
     if (auto lost = (*seat)->take(actor, *recording_, spawned))
         lose(**seat, std::move(*lost));
@@ -99,7 +103,8 @@ void Seats::go_on(const world::SealedTick& tick, const std::function<void()>& me
     ask(tick, meanwhile);
 }
 
-void Seats::take_over(const world::ExternalDrivers& there, const world::SealedTick& tick) {
+void Seats::take_over(const world::ExternalDrivers& there,
+                      const world::SealedTick& tick) {
     for (const auto& [actor, spawn] : there.spawns())
         seat(spawn);
     ask(tick, [] {});
@@ -129,6 +134,15 @@ void Seats::ask(const world::SealedTick& tick, const std::function<void()>& mean
         else
             controls_.push_back(std::get<world::Control>(answer));
     }
+}
+
+void Seats::see_last(const world::SealedTick& tick) {
+    for (const world::Command* command : *tick.view().tick->commands())
+        if (command->kind() == world::CommandKind::spawn &&
+            command->driver() == world::Driver::external)
+            std::erase_if(free_, [&](const auto& seat) {
+                return seat->actor() == command->text()->string_view();
+            });
 }
 
 std::optional<remote::Frame> Seats::take_said() {

@@ -43,6 +43,10 @@ class Seats {
     /// on; nobody else needs a driver. Until its first answer acts, a vehicle keeps its control.
     void take_over(const world::ExternalDrivers& there, const world::SealedTick& tick);
 
+    /// Behind the last tick: who appears in it has nothing left to be asked for, and its driver,
+    /// should there be one, came for nothing.
+    void see_last(const world::SealedTick& tick);
+
     /// For the next step, sorted by actor.
     std::span<const world::Control> controls() const { return controls_; }
 

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
-#include <cstring>
 #include <string_view>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
+#include "remote/connection.h"
 #include "remote/frame_channel.h"
 #include "remote/schema.h"
 #include "remote/shared_memory.h"
@@ -23,19 +20,8 @@ namespace {
 constexpr std::size_t largest_message = 256 << 20;  // [bytes] a town of a large city
 constexpr std::string_view descriptor_word = "fd:";
 
-int connect_to(const std::string& path) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    if (path.size() >= sizeof(address.sun_path))
-        throw world::Error(path + ": longer than a socket's path may be");
-    std::memcpy(address.sun_path, path.data(), path.size());
-    const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    if (connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
-        const int reason = errno;
-        close(descriptor);
-        throw world::Error(path + ": no run to drive in: " + std::strerror(reason));
-    }
-    return descriptor;
+std::string text_of(const flatbuffers::String* text) {
+    return text == nullptr ? "" : text->str();
 }
 
 int open_channel(const std::string& asked) {
@@ -44,15 +30,15 @@ int open_channel(const std::string& asked) {
     if (address.empty())
         throw world::Error(
             "no run to drive in: start this by reprise run SCENARIO.lua --driver NAME='...', or "
-            "name "
-            "a socket");
+            "name a socket");
     if (!address.starts_with(descriptor_word))
-        return connect_to(address);
+        return open_connection(address);
     const std::string_view number = std::string_view(address).substr(descriptor_word.size());
     int descriptor = -1;
     const auto end = number.data() + number.size();
     if (std::from_chars(number.data(), end, descriptor).ptr != end || descriptor < 0)
-        throw world::Error("REPRISE_DRIVER=" + address + ": expected fd:NUMBER or a socket's path");
+        throw world::Error("REPRISE_DRIVER=" + address +
+                           ": expected fd:NUMBER, a socket's path or HOST:PORT");
     return descriptor;
 }
 
@@ -68,13 +54,17 @@ void unpack(const flatbuffers::Vector<std::uint8_t>* bytes, Object& object, cons
 }  // namespace
 
 struct Client::Parts {
-    explicit Parts(int descriptor) : channel(descriptor, largest_message) {
+    explicit Parts(FrameChannel its) : channel(std::move(its)) {
         world::FinishTrafficBuffer(no_traffic, world::CreateTraffic(no_traffic));
     }
 
     /// Hello and ready.
     void begin() {
         Frame frame = channel.receive();
+        if (frame.kind == Kind::fault)
+            throw world::Error(text_of(frame.as<Fault>().text()));
+        if (frame.kind == Kind::goodbye)
+            throw world::Error("the run ended before there was somebody to drive");
         if (frame.kind != Kind::hello)
             throw world::Error("the run did not begin with hello");
         const Hello& hello = frame.as<Hello>();
@@ -126,10 +116,13 @@ struct Client::Parts {
     double step = 0;
     world::TownT town;
     world::EpisodeT episode;
+    world::Outcome outcome;
 };
 
 Client::Client(const std::string& address)
-    : parts_(std::make_unique<Parts>(open_channel(address))) {
+    : Client(FrameChannel(open_channel(address), largest_message)) {}
+
+Client::Client(FrameChannel channel) : parts_(std::make_unique<Parts>(std::move(channel))) {
     try {
         parts_->begin();
     } catch (const ChannelFault& fault) {
@@ -159,12 +152,22 @@ const world::EpisodeT& Client::episode() const {
     return parts_->episode;
 }
 
+const world::Outcome& Client::outcome() const {
+    return parts_->outcome;
+}
+
 std::optional<world::TickView> Client::next() {
     Parts& parts = *parts_;
     try {
         parts.last = parts.channel.receive();
     } catch (const ChannelFault& fault) {
         throw world::Error(std::string("the run ") + fault.what());
+    }
+    if (parts.last.kind == Kind::fault)
+        throw world::Error(text_of(parts.last.as<Fault>().text()));
+    if (parts.last.kind == Kind::goodbye) {
+        const Goodbye& last = parts.last.as<Goodbye>();
+        parts.outcome = {text_of(last.verdict()), text_of(last.reason()), last.ticks()};
     }
     if (parts.last.kind != Kind::observation)
         return std::nullopt;

@@ -8,12 +8,13 @@
 #include <string>
 #include <string_view>
 
-#include "world/episode_generated.h"
+#include "world/recording.h"
 #include "world/rig.h"
 #include "world/tick.h"
-#include "world/town_generated.h"
 
 namespace reprise::remote {
+
+class FrameChannel;
 
 /// The driver's end of the wire, for drivers in C++: examples/pid_driver.cpp is one.
 ///
@@ -32,9 +33,13 @@ class Client {
         std::uint16_t lamps = 0;
     };
 
-    /// Connects, and waits for the run's hello. `address` is a socket's path, or what the variable
-    /// REPRISE_DRIVER says where it is empty. Throws world::Error.
+    /// Connects, and waits for the run's hello. `address` is a socket's path or HOST:PORT, or what
+    /// the variable REPRISE_DRIVER says where it is empty. Throws world::Error, also when the place
+    /// is taken.
     explicit Client(const std::string& address = {});
+
+    /// Of a connection that is open: waits for hello.
+    explicit Client(FrameChannel channel);
     ~Client();
     Client(const Client&) = delete;
     Client& operator=(const Client&) = delete;
@@ -46,8 +51,11 @@ class Client {
     const world::EpisodeT& episode() const;  ///< without the script's text
 
     /// The next tick; nothing when the run is over. It lives until the next call. Throws
-    /// world::Error when the run is gone without a word.
+    /// world::Error when the run is gone without a word, or says what went wrong.
     std::optional<world::TickView> next();
+
+    /// How the run ended, once next() gave nothing.
+    const world::Outcome& outcome() const;
 
     /// What the vehicle carries; empty without a rig.
     const world::SensorRig& sensors() const;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <deque>
@@ -19,9 +20,9 @@
 #include <fmt/format.h>
 
 #include "process/companion.h"
+#include "remote/door.h"
 #include "remote/frame_channel.h"
 #include "remote/guide.h"
-#include "remote/listener.h"
 #include "remote/live_rig.h"
 #include "remote/messages.h"
 #include "remote/schema.h"
@@ -33,7 +34,9 @@ namespace reprise::remote {
 namespace {
 
 constexpr std::size_t largest_answer = 64 << 10;  // [bytes]
+constexpr std::size_t longest_reason = 300;       // [bytes] of it in ours
 constexpr std::string_view socket_word = "socket:";
+constexpr std::string_view port_word = "tcp:";
 
 bool has_input(int descriptor) {
     pollfd one{descriptor, POLLIN, 0};
@@ -45,6 +48,23 @@ std::string fault_of(const char* name, double value, double low, double high) {
     if (value >= low && value <= high)
         return "";
     return fmt::format("said {} = {} where [{:g}, {:g}] is possible", name, value, low, high);
+}
+
+std::uint16_t port_of(const std::string& digits, const std::string& text) {
+    std::uint16_t port = 0;
+    const char* const end = digits.data() + digits.size();
+    if (const auto read = std::from_chars(digits.data(), end, port);
+        read.ec != std::errc() || read.ptr != end)
+        throw world::Error("--driver " + text +
+                           ": expected tcp:PORT with a port of this machine, 1 to 65535, or 0 for "
+                           "one that is free");
+    return port;
+}
+
+/// What a driver says of itself, for one line of ours.
+std::string shortened(const flatbuffers::String& text) {
+    return text.size() <= longest_reason ? text.str()
+                                         : text.str().substr(0, longest_reason) + " ...";
 }
 
 std::string fault_of(const Control& control, std::uint64_t shown) {
@@ -64,14 +84,17 @@ std::string fault_of(const Control& control, std::uint64_t shown) {
 SeatPlan parse_seat(const std::string& text) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-        throw world::Error("--driver " + text + ": expected NAME=COMMAND or NAME=socket:PATH");
+        throw world::Error("--driver " + text +
+                           ": expected NAME=COMMAND, NAME=socket:PATH or NAME=tcp:PORT");
     SeatPlan plan{text.substr(0, equals)};
     const std::string who = text.substr(equals + 1);
     if (who.starts_with(socket_word))
         plan.socket = who.substr(socket_word.size());
+    else if (who.starts_with(port_word))
+        plan.port = port_of(who.substr(port_word.size()), text);
     else
         plan.command = who;
-    if (plan.command.empty() && plan.socket.empty())
+    if (plan.command.empty() && plan.socket.empty() && !plan.port)
         throw world::Error("--driver " + text + ": 'socket:' needs a path");
     return plan;
 }
@@ -79,7 +102,8 @@ SeatPlan parse_seat(const std::string& text) {
 struct Seat::Parts {
     SeatPlan plan;
     Patience patience;
-    std::optional<Listener> listener;
+    std::function<bool()> asked;          ///< whether the user gives up
+    std::optional<Door> door;             ///< in which it is the only one
     std::optional<FrameChannel> channel;  // closed before the program is waited for
     std::optional<process::Companion> program;
     std::optional<std::uint32_t> id;
@@ -99,11 +123,20 @@ struct Seat::Parts {
 
     std::deque<Unshown> unshown;
 
+    /// Now and then while it is waited for: whether that is in vain, because its program has ended
+    /// and only the socket is still open, in what it has left running.
+    bool is_in_vain() {
+        if (door)
+            door->turn_others_away();
+        return program && channel && program->wait(0) && !has_input(channel->descriptor());
+    }
+
     /// What became of it: how its program ended says more than a socket that is closed.
     Lost lost(const std::string& fault) {
         std::string reason = fault;
-        if (fault == "has hung up" && program)
-            if (const auto ended = program->wait(1))
+        if (program)
+            if (const auto ended = program->wait(fault == "has hung up" ? 1 : 0);
+                ended && (fault == "has hung up" || fault == "was waited for no longer"))
                 reason = ended->signal != 0 ? fmt::format("was ended by signal {}", ended->signal)
                                             : fmt::format("ended with exit code {}", ended->code);
         channel.reset();
@@ -123,7 +156,7 @@ struct Seat::Parts {
     }
 
     /// It said something else than was to be said now.
-    Lost said_else(Frame frame, const char* what) {
+    Lost said_else(Frame frame, const std::string& what) {
         Lost result = lost(what);
         result.said = std::move(frame);
         return result;
@@ -180,10 +213,16 @@ Seat::Seat(const SeatPlan& plan, Patience patience) : parts_(std::make_unique<Pa
     Parts& parts = *parts_;
     parts.plan = plan;
     parts.patience = std::move(patience);
-    if (!plan.socket.empty()) {
-        parts.listener.emplace(plan.socket, "--driver socket:");
+    parts.asked = std::move(parts.patience.given_up);
+    parts.patience.given_up = [&parts] {
+        return parts.is_in_vain() || (parts.asked && parts.asked());
+    };
+    if (!plan.socket.empty())
+        parts.door.emplace(plan.socket, plan.actor);
+    else if (plan.port)
+        parts.door.emplace(*plan.port, plan.actor);
+    if (parts.door)
         return;
-    }
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
         throw world::Error(std::string("--driver: no socket: ") + std::strerror(errno));
@@ -207,6 +246,10 @@ const std::string& Seat::actor() const {
     return parts_->plan.actor;
 }
 
+std::string Seat::place() const {
+    return parts_->door ? parts_->door->place() : "";
+}
+
 std::optional<std::uint32_t> Seat::id() const {
     return parts_->id;
 }
@@ -223,15 +266,14 @@ std::optional<Lost> Seat::take(std::uint32_t id,
         if (!rig.sensors.empty())  // it reads the town while the driver does
             parts.rig.emplace(spawned.render_program, *spawned.command, rig, recording);
     }
-    if (parts.listener) {
-        int descriptor = -1;
+    if (parts.door) {
         try {
-            descriptor = parts.listener->accept_one(parts.patience);
+            Patience patience = parts.patience;
+            patience.given_up = parts.asked;  // who comes now is not turned away
+            parts.channel.emplace(parts.door->let_in(patience), largest_answer);
         } catch (const ChannelFault&) {
             return parts.lost("did not come in time");
         }
-        parts.listener.reset();  // one driver a seat: a second finds nobody
-        parts.channel.emplace(descriptor, largest_answer);
     }
     const bool looks_itself = parts.rig && parts.channel->carries_descriptors();
     const Packed hello = pack_hello({id,
@@ -256,6 +298,8 @@ std::optional<Lost> Seat::take(std::uint32_t id,
 
 std::optional<Lost> Seat::show(const world::SealedTick& tick) {
     Parts& parts = *parts_;
+    if (parts.door)
+        parts.door->turn_others_away();
     const std::uint64_t index = tick.view().index();
     const Guidance guidance = parts.guide->look(*tick.view().tick);
     std::vector<std::uint8_t> own;
@@ -306,7 +350,8 @@ std::variant<world::Control, Lost> Seat::answer() {
         Frame frame = parts.channel->receive(parts.patience);
         if (frame.kind == Kind::goodbye) {
             const auto* reason = frame.as<Goodbye>().reason();
-            return parts.lost("left" + (reason == nullptr ? "" : ": " + reason->str()));
+            return parts.said_else(std::move(frame),
+                                   "left" + (reason == nullptr ? "" : ": " + shortened(*reason)));
         }
         if (frame.kind != Kind::control)
             return parts.said_else(std::move(frame), "said something else than a control");
@@ -336,6 +381,9 @@ void Seat::leave(const std::string& reason, const std::optional<world::Outcome>&
             ? CreateGoodbye(builder, why, builder.CreateString(outcome->verdict), outcome->ticks)
             : CreateGoodbye(builder, why));
     parts_->say_last(Kind::goodbye, builder);
+    if (parts_->door && parts_->id)
+        parts_->door->turn_others_away();
+    parts_->door.reset();
 }
 
 void Seat::fail(const std::string& text, std::uint32_t line) {

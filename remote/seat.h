@@ -14,14 +14,15 @@
 namespace reprise::remote {
 
 /// Who is to drive an actor, as the user says it: ego='python3 my_driver.py', which is started, or
-/// ego=socket:PATH, where a driver that runs already comes to us.
+/// ego=socket:PATH or ego=tcp:PORT, where a driver that runs already comes to us.
 struct SeatPlan {
     std::string actor;
-    std::string command{};           ///< for the shell; empty: it comes to `socket`
-    std::filesystem::path socket{};  ///< a path where nothing is yet
+    std::string command{};                ///< for the shell; empty: it comes to us
+    std::filesystem::path socket{};       ///< a path where nothing is yet
+    std::optional<std::uint16_t> port{};  ///< of this machine; 0: one that is free
 };
 
-/// Throws world::Error, "--driver ego: expected NAME=COMMAND or NAME=socket:PATH".
+/// Throws world::Error, "--driver ego: expected NAME=COMMAND, NAME=socket:PATH or NAME=tcp:PORT".
 SeatPlan parse_seat(const std::string& text);
 
 /// Why a driver drives no longer, in words for people, such as "its program ended with exit code
@@ -35,8 +36,8 @@ struct Lost {
 /// How the scenario spawned a vehicle: what it carries, and what its driver is shown.
 struct Spawned {
     const world::CommandT* command = nullptr;
-    std::uint64_t tick = 0;      ///< in which it appeared
-    std::string render_program;  ///< for the shell, see LiveRig
+    std::uint64_t tick = 0;        ///< in which it appeared
+    std::string render_program;    ///< for the shell, see LiveRig
 };
 
 /// The place at the wheel that a driver in another program takes. The run goes tick by tick with
@@ -56,6 +57,9 @@ class Seat {
     Seat& operator=(const Seat&) = delete;
 
     const std::string& actor() const;
+
+    /// Where its driver is to come to; empty: we started it.
+    std::string place() const;
 
     /// The vehicle is there, with this id: says hello, and waits for the driver to be ready.
     /// Throws world::Error for a rig that is not possible.

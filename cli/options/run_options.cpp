@@ -11,24 +11,25 @@ namespace reprise::cli {
 
 namespace {
 
-void add_set_and_for(CLI::App& command,
-                     std::vector<std::string>& assignments,
-                     std::optional<double>& seconds,
-                     const std::string& what_for) {
-    command.add_option("--set", assignments, "Set a parameter of the scenario; may be given again")
-        ->type_name("KEY=VALUE")
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->allow_extra_args(false);
-    command.add_option("--for", seconds, what_for)
-        ->type_name("SECONDS")
-        ->check(CLI::Validator(
-            [](std::string& text) -> std::string {
+CLI::Validator seconds() {
+    return {[](std::string& text) -> std::string {
                 const double value = std::strtod(text.c_str(), nullptr);
                 return value > 0 && value <= 86'400
                            ? ""
                            : "expected seconds above 0, 86400 at most, got '" + text + "'";
             },
-            ""));
+            ""};
+}
+
+void add_set_and_for(CLI::App& command,
+                     std::vector<std::string>& assignments,
+                     std::optional<double>& limit,
+                     const std::string& what_for) {
+    command.add_option("--set", assignments, "Set a parameter of the scenario; may be given again")
+        ->type_name("KEY=VALUE")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);
+    command.add_option("--for", limit, what_for)->type_name("SECONDS")->check(seconds());
 }
 
 }  // namespace
@@ -52,9 +53,9 @@ void add_drivers(CLI::App& command, DriverOptions& options) {
             "--driver",
             options.drivers,
             "Who drives the actor of this name, spawned with driver = 'external': a program "
-            "that is started, or one that runs already and comes to a socket; may be given "
-            "again. See docs/drivers.md")
-        ->type_name("NAME=COMMAND|NAME=socket:PATH")
+            "that is started, or one that runs already and comes to a socket or a port of this "
+            "machine; may be given again. See docs/drivers.md")
+        ->type_name("NAME=COMMAND|NAME=socket:PATH|NAME=tcp:PORT")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(false);
     command
@@ -63,7 +64,7 @@ void add_drivers(CLI::App& command, DriverOptions& options) {
                     "End the run when a driver needs longer than this for an answer, in seconds of "
                     "real time (default: wait)")
         ->type_name("SECONDS")
-        ->check(CLI::PositiveNumber);
+        ->check(seconds());
 }
 
 void add_branch(CLI::App& app, BranchOptions& branch, std::vector<std::string>& assignments) {

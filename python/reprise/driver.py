@@ -181,12 +181,17 @@ def drive(driver: Driver, address: str | None = None) -> int:
     """Drives until the run is over. Returns how many ticks were driven.
 
     `driver` is asked once a tick. What it raises ends the run with the verdict driver_lost, and is raised here.
-    `address` is a socket's path; without it the program must have been started by `reprise run --driver`.
+    `address` is a socket's path or '127.0.0.1:PORT'; without it the program must have been started by `reprise run
+    --driver`. Raises WireError where the place is taken.
     """
     wire = Wire(address)
     ticks = 0
     try:
         kind, hello = wire.receive_first()
+        if kind == "fault":
+            raise WireError(hello.text)
+        if kind == "goodbye":
+            return ticks  # it ended before there was somebody to drive
         if kind != "hello":
             raise WireError("the run did not begin with hello")
         wire.ready()
@@ -198,7 +203,11 @@ def drive(driver: Driver, address: str | None = None) -> int:
             if kind != "observation":
                 return ticks
             seen = Observation(run, message)
-            wire.control(seen.index, *values_of(driver(seen)))
+            control = values_of(driver(seen))
+            try:
+                wire.control(seen.index, *control)
+            except WireError:
+                continue  # then the run's last word is waiting
             ticks += 1
     except WireError:
         raise

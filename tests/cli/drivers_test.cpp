@@ -91,6 +91,37 @@ TEST_F(Drivers, OneThatRunsAlreadyComesToASocket) {
     EXPECT_TRUE(bytes("a.mcap") == bytes("b.mcap")) << "how it came is nothing that is recorded";
 }
 
+TEST_F(Drivers, OneThatRunsAlreadyComesToAPort) {
+    const std::string in_python = PYTHON
+        " -B -c \"import reprise; reprise.drive(lambda seen: reprise.Control(0.25, "
+        "steer=0.125, lamps=8), '127.0.0.1:$port')\"";
+    for (const std::string& driver : {odd_driver + " steady 127.0.0.1:$port", in_python}) {
+        const Result result = typed(
+            "export PYTHONPATH=" + source("python") +
+                "; reprise run one.lua --driver ego=tcp:0 -o a.mcap 2>said & run=$!; until port=$("
+                "sed -n 's/.*may come to 127.0.0.1://p' said 2>/dev/null | grep .); do kill -0 "
+                "$run || exit 9; done; " +
+                driver + "; wait $run",
+            folder_);
+        EXPECT_EQ(result.code, 0) << result.out << bytes("said");
+        expect_equal("a.mcap", 100);
+        drive("one", odd_driver + " steady", "b.mcap");
+        EXPECT_TRUE(bytes("a.mcap") == bytes("b.mcap"))
+            << "how it came is nothing that is recorded";
+    }
+}
+
+TEST_F(Drivers, APortThatIsTakenIsSaidBeforeAnythingIsDone) {
+    const Result result = typed(
+        "reprise run one.lua --driver ego=tcp:0 -o a.mcap 2>said & run=$!; until port=$(sed "
+        "-n 's/.*may come to 127.0.0.1://p' said 2>/dev/null | grep .); do kill -0 $run || "
+        "exit 9; done; reprise run one.lua --driver ego=tcp:$port -o b.mcap; code=$?; kill "
+        "$run; wait $run; exit $code",
+        folder_);
+    EXPECT_EQ(result.code, 2);
+    EXPECT_THAT(result.out, HasSubstr("cannot listen there: Address already in use"));
+}
+
 TEST_F(Drivers, AnswersActAsManyTicksLaterAsTheScenarioSays) {
     constexpr std::uint64_t first = 1;  // the tick in which it appears, and that it is shown
     for (const std::uint64_t latency : {0U, 1U, 5U}) {
@@ -197,6 +228,52 @@ TEST_F(Drivers, SilentOnesAreLostAfterTheirTime) {
                                  1);
     EXPECT_THAT(said, HasSubstr("the driver of 'ego' said nothing in time"));
     expect_equal("a.mcap", 3);
+}
+
+TEST_F(Drivers, OfAProgramThatHasEndedNobodyWaitsForTheSocketOfItsChild) {
+    const std::string said = drive("one", odd_driver + " leaves_a_child", "a.mcap", 1);
+    EXPECT_THAT(said, HasSubstr("the driver of 'ego' ended with exit code 3"));
+    expect_equal("a.mcap", 3);
+}
+
+TEST_F(Drivers, WhoAppearsInTheLastTickDidAppear) {
+    write_file(folder_ / "short.lua",
+               "return scenario 'short' { town = 'small.net.xml', cars = 0, run = function()\n" +
+                   spawn("ego", 20) + "finish 'at once' end }\n");
+    const std::string said = drive("short", python_driver, "a.mcap");
+    EXPECT_THAT(said, Not(HasSubstr("nobody was spawned")));
+    EXPECT_THAT(said, Not(HasSubstr("Traceback"))) << "there was nothing to drive: no mistake";
+    expect_equal("a.mcap", 1);
+}
+
+TEST_F(Drivers, ALateOnesAnswerToARunThatIsOverIsNoMistakeOfIts) {
+    write_scenario("late", spawn("ego", 20, ", latency = 60"));
+    write_file(folder_ / "slow.py",
+               "import os, reprise, select\n"
+               "def decide(seen):\n"
+               "    while seen.index == 50 and os.path.exists('a.mcap.partial'):\n"
+               "        select.select([], [], [], 0.001)\n"
+               "    return reprise.Control(0.3)\n"
+               "reprise.drive(decide)\n");
+    const std::string said = drive("late", PYTHON " -B slow.py", "a.mcap");
+    EXPECT_THAT(said, Not(HasSubstr("Traceback")));
+    expect_equal("a.mcap", 100);
+}
+
+TEST_F(Drivers, ATimeoutIsANumberAboveZero) {
+    for (const std::string wrong : {"0", "-1", "nan", "inf", "soon"}) {
+        const std::string said = run({"run",
+                                      "one.lua",
+                                      "--driver",
+                                      "ego=" + python_driver,
+                                      "--driver-timeout",
+                                      wrong,
+                                      "-o",
+                                      "a.mcap"},
+                                     2);
+        EXPECT_LT(said.size(), 200U) << said;
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "a.mcap"));
 }
 
 TEST_F(Drivers, SomebodyMustDrive) {

@@ -35,6 +35,20 @@ void misbehave(const std::string& habit, Client& run) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     if (habit == "dies")
         std::exit(3);
+    if (habit == "leaves_a_child") {  // which has our socket, until our group is ended
+        if (fork() == 0)
+            for (;;)
+                pause();
+        std::exit(3);
+    }
+    if (habit == "chatters") {
+        flatbuffers::FlatBufferBuilder builder;
+        const auto reason = builder.CreateString("I am\n" + std::string(30'000, 'x'));
+        builder.Finish(reprise::remote::CreateGoodbye(builder, reason));
+        const std::uint32_t header[] = {builder.GetSize(), 5};
+        say_raw(header, sizeof(header));
+        say_raw(builder.GetBufferPointer(), builder.GetSize());
+    }
     if (habit == "crashes")
         std::abort();
     if (habit == "nan")

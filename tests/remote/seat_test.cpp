@@ -90,6 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
     FaultyDriver,
     testing::Values(Fault{"dies", "the driver of 'ego' ended with exit code 3", 2},
                     Fault{"crashes", "was ended by signal 6", 2},
+                    Fault{"leaves_a_child", "ended with exit code 3", 2},
                     Fault{"nan", "said throttle = nan where [0, 1] is possible", 2},
                     Fault{"too_much", "said steer = -1.5 where [-1, 1] is possible", 2},
                     Fault{"garbage", "bytes, where 65536 is the most", 2},
@@ -138,6 +139,64 @@ TEST(Seat, ADriverThatAlreadyRunsComesToTheSocket) {
     EXPECT_FALSE(std::filesystem::exists(path));
 }
 
+TEST(Seat, WhatADriverSaysAtItsEndIsShortened) {
+    const Drive done = drive_oddly("chatters");
+    EXPECT_THAT(done.lost, HasSubstr("left: I am\nxxx"));
+    EXPECT_LT(done.lost.size(), 400U);
+}
+
+/// A socket or a port: where a driver comes to.
+class Door : public testing::TestWithParam<const char*> {
+  protected:
+    SeatPlan plan() const {
+        SeatPlan plan{"ego"};
+        if (GetParam() == std::string("Port"))
+            plan.port = 0;
+        else
+            plan.socket = testing::TempDir() + "seat_door_" + std::to_string(getpid());
+        return plan;
+    }
+
+    /// What a driver hears that is not let in.
+    static std::string refusal(const std::string& place) {
+        try {
+            const Client second(place);
+        } catch (const world::Error& error) {
+            return error.what();
+        }
+        return "";
+    }
+};
+
+TEST_P(Door, TheFirstDrivesAndEverybodyElseIsToldWhyNot) {
+    Seat seat(plan(), {10.0});
+    const std::string place = seat.place();
+    std::vector<std::string> told;
+    std::thread driver([&] {
+        Client run(place);
+        while (run.next()) {
+            told.push_back(refusal(place));  // somebody else comes, while we are waited for
+            run.say({.throttle = 0.5});
+        }
+    });
+    const auto taken = seat.take(3, recording());
+    EXPECT_FALSE(taken) << taken->reason;
+    for (std::uint64_t index = 1; index <= 2; ++index) {
+        EXPECT_FALSE(seat.show(tick(index)));
+        EXPECT_TRUE(std::holds_alternative<world::Control>(seat.answer()));
+    }
+    seat.leave("done");
+    driver.join();
+    EXPECT_THAT(told,
+                testing::ElementsAre("'ego' has a driver already: it was here first",
+                                     "'ego' has a driver already: it was here first"));
+    EXPECT_THAT(refusal(place), HasSubstr("nobody is there"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, Door, testing::Values("Socket", "Port"), [](const auto& info) {
+    return std::string(info.param);
+});
+
 TEST(Seat, SocketsAreTheirOwnersOnly) {
     const std::string path = testing::TempDir() + "seat_mode_" + std::to_string(getpid());
     const Seat seat({"ego", "", path}, {0.1});
@@ -158,7 +217,16 @@ TEST(SeatPlan, IsReadFromWhatTheUserSays) {
     EXPECT_EQ(parse_seat("ego=python3 a.py --fast=1").command, "python3 a.py --fast=1");
     EXPECT_EQ(parse_seat("ego=python3 a.py").actor, "ego");
     EXPECT_EQ(parse_seat("ego=socket:/tmp/a").socket, "/tmp/a");
-    for (const char* wrong : {"ego", "=x", "ego=", "ego=socket:"})
+    EXPECT_EQ(parse_seat("ego=tcp:2000").port, 2000);
+    EXPECT_EQ(parse_seat("ego=tcp:0").port, 0);
+    for (const char* wrong : {"ego",
+                              "=x",
+                              "ego=",
+                              "ego=socket:",
+                              "ego=tcp:",
+                              "ego=tcp:70000",
+                              "ego=tcp:-1",
+                              "ego=tcp:1.2.3.4:5"})
         EXPECT_THROW(parse_seat(wrong), world::Error) << wrong;
 }
 
