@@ -128,6 +128,13 @@ struct There {
     kernel::Kernel* kernel;
     const world::SealedTick* tick;
     world::ExternalDrivers drivers;
+    std::map<std::uint32_t, remote::Guide> guides;  ///< of those vehicles, by actor
+
+    void hear(const world::Tick& now, const world::TownT& town) {
+        drivers.hear(now);
+        for (const auto& [actor, spawn] : drivers.spawns())
+            guides.try_emplace(actor, town, actor).first->second.look(now);
+    }
 };
 
 /// In the child: the parent's ticks as they are recorded, then what the script makes of it.
@@ -144,7 +151,7 @@ void go_on(There& there,
     for (std::uint64_t index = 1; index <= what_if.branch.tick; ++index)
         writer.append(trace.tick(index));
     Seats seats(options.drivers, {options.driver_timeout}, recording);
-    seats.take_over(there.drivers, *there.tick);
+    seats.take_over(there.drivers, there.guides, *there.tick);
     kernel.branch(what_if.branch);
     for (std::uint64_t next = what_if.branch.tick + 1; !kernel.finished() && !seats.loss();
          ++next) {
@@ -242,12 +249,12 @@ int branch(const BranchOptions& options) {
         files::output_target(what_if.output, "the trace");  // rather now than after a long way
     print_recording_build(trace);
     kernel::Kernel kernel(trace.recording());
-    There there{&kernel, nullptr, {}};
+    There there{&kernel, nullptr, {}, {}};
     Progress progress("going there", "ticks", tick);
     const auto divergence =
         kernel::follow(kernel, trace, tick, [&](const world::SealedTick& tick_there) {
             there.tick = &tick_there;  // of the last one it stays
-            there.drivers.hear(*tick_there.view().tick);
+            there.hear(*tick_there.view().tick, trace.recording().town);
             progress.update(tick_there.view().index());
         });
     progress.clear();

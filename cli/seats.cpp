@@ -51,7 +51,7 @@ void Seats::lose(const remote::Seat& seat, remote::Lost lost) {
 }
 
 /// Gives an actor the driver that was named for it, if one was.
-bool Seats::seat(const world::ExternalDrivers::Spawn& spawn) {
+bool Seats::seat(const world::ExternalDrivers::Spawn& spawn, const remote::Guide* guide) {
     const auto seat = std::find_if(free_.begin(), free_.end(), [&](const auto& one) {
         return one->actor() == spawn.command.text;
     });
@@ -59,7 +59,8 @@ bool Seats::seat(const world::ExternalDrivers::Spawn& spawn) {
         return false;
     const remote::Spawned spawned{&spawn.command,
                                   spawn.tick,
-                                  spawn.command.rig.empty() ? std::string() : render_program()};
+                                  spawn.command.rig.empty() ? std::string() : render_program(),
+                                  guide};
     const std::uint32_t actor = spawn.command.actor;
     if (auto lost = (*seat)->take(actor, *recording_, spawned))
         lose(**seat, std::move(*lost));
@@ -104,9 +105,12 @@ void Seats::go_on(const world::SealedTick& tick, const std::function<void()>& me
 }
 
 void Seats::take_over(const world::ExternalDrivers& there,
+                      const std::map<std::uint32_t, remote::Guide>& guides,
                       const world::SealedTick& tick) {
-    for (const auto& [actor, spawn] : there.spawns())
-        seat(spawn);
+    for (const auto& [actor, spawn] : there.spawns()) {
+        const auto told = guides.find(actor);
+        seat(spawn, told == guides.end() ? nullptr : &told->second);
+    }
     ask(tick, [] {});
 }
 

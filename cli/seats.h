@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "remote/guide.h"
 #include "remote/seat.h"
 #include "world/external_drivers.h"
 #include "world/recording.h"
@@ -41,7 +42,10 @@ class Seats {
 
     /// Likewise in the middle of a run: who is named here drives whoever is there from this tick
     /// on; nobody else needs a driver. Until its first answer acts, a vehicle keeps its control.
-    void take_over(const world::ExternalDrivers& there, const world::SealedTick& tick);
+    /// `guides`: what those vehicles were told until then, by actor.
+    void take_over(const world::ExternalDrivers& there,
+                   const std::map<std::uint32_t, remote::Guide>& guides,
+                   const world::SealedTick& tick);
 
     /// Behind the last tick: who appears in it has nothing left to be asked for, and its driver,
     /// should there be one, came for nothing.
@@ -83,7 +87,7 @@ class Seats {
 
   private:
     void welcome(const world::Tick& tick);
-    bool seat(const world::ExternalDrivers::Spawn& spawn);
+    bool seat(const world::ExternalDrivers::Spawn& spawn, const remote::Guide* guide = nullptr);
     void ask(const world::SealedTick& tick, const std::function<void()>& meanwhile);
     void lose(const remote::Seat& seat, remote::Lost lost);
 

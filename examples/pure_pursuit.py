@@ -16,6 +16,8 @@ way = None
 def decide(seen):
     global way
     ego = seen.ego
+    if way is None and seen.run.route:  # we take over, and it was said before
+        way = reprise.Way(seen.run.town, ego.lane, ego.lane_s, seen.run.route.lanes, seen.run.route.s)
     for command in seen.tick.commands:
         if command.kind == SET_ROUTE and command.actor == seen.run.actor:
             way = reprise.Way(seen.run.town, ego.lane, ego.lane_s, command.lanes, command.s)

@@ -81,6 +81,8 @@ struct Client::Parts {
         unpack<world::Town>(hello.town(), town, "town");
         unpack<world::Episode>(hello.episode(), episode, "episode");
         read_rig(hello);
+        if (hello.route() != nullptr)
+            unpack<world::Command>(hello.route(), route.emplace(), "route");
         if (hello.shared_bytes() > 0)
             memory.emplace(
                 std::move(frame.descriptor), hello.shared_bytes(), SharedMemory::Use::look);
@@ -116,6 +118,7 @@ struct Client::Parts {
     double step = 0;
     world::TownT town;
     world::EpisodeT episode;
+    std::optional<world::CommandT> route;
     world::Outcome outcome;
 };
 
@@ -150,6 +153,10 @@ const world::TownT& Client::town() const {
 
 const world::EpisodeT& Client::episode() const {
     return parts_->episode;
+}
+
+const std::optional<world::CommandT>& Client::route() const {
+    return parts_->route;
 }
 
 const world::Outcome& Client::outcome() const {

@@ -50,6 +50,10 @@ class Client {
     const world::TownT& town() const;
     const world::EpisodeT& episode() const;  ///< without the script's text
 
+    /// Of a driver that takes over: the scenario's set_route with the stops that are left. Later
+    /// ones are in the ticks.
+    const std::optional<world::CommandT>& route() const;
+
     /// The next tick; nothing when the run is over. It lives until the next call. Throws
     /// world::Error when the run is gone without a word, or says what went wrong.
     std::optional<world::TickView> next();

@@ -59,6 +59,17 @@ void Guide::pass_stops(std::uint32_t lane) {
     }
 }
 
+std::optional<world::CommandT> Guide::route_left() const {
+    if (stops_.empty())
+        return std::nullopt;
+    world::CommandT command;
+    command.kind = world::CommandKind::set_route;
+    command.actor = actor_;
+    command.s = goal_s_;
+    command.lanes.assign(stops_.begin() + static_cast<std::ptrdiff_t>(passed_), stops_.end());
+    return command;
+}
+
 /// Through the stops that are left, as one way.
 std::optional<world::Route> Guide::plan(world::LanePlace from) const {
     const world::Planner planner(*town_);

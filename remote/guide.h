@@ -29,6 +29,10 @@ class Guide {
     /// is planned, world::Planner's.
     Guidance look(const world::Tick& tick);
 
+    /// The way that is left, as if the scenario said it now: its set_route with the stops that were
+    /// not passed yet. Nothing where it said none.
+    std::optional<world::CommandT> route_left() const;
+
   private:
     void hear(const world::Tick& tick);
     void pass_stops(std::uint32_t lane);

@@ -90,7 +90,7 @@ LiveRig::LiveRig(const std::string& program,
     parts_ = std::make_unique<Parts>(rig, spawn.latency, ours);
     parts_->program.emplace(program, theirs, std::string(variable) + "=fd:%d");
     const Packed hello =
-        pack_hello({spawn.actor, spawn.text, &spawn, parts_->ring.bytes()}, recording);
+        pack_hello({spawn.actor, spawn.text, &spawn, nullptr, parts_->ring.bytes()}, recording);
     try {
         parts_->channel->send(Kind::hello, bytes_of(hello), {}, parts_->memory.descriptor());
     } catch (const ChannelFault&) {

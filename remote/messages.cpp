@@ -50,6 +50,9 @@ Packed pack_hello(const Greeting& greeting, const world::Recording& recording) {
     flatbuffers::Offset<flatbuffers::Vector<std::uint8_t>> spawn;
     if (greeting.spawn != nullptr)
         spawn = add(message, bytes_of(packed<world::Command>(*greeting.spawn, nullptr)));
+    flatbuffers::Offset<flatbuffers::Vector<std::uint8_t>> route;
+    if (greeting.route != nullptr)
+        route = add(message, bytes_of(packed<world::Command>(*greeting.route, nullptr)));
     message.Finish(CreateHello(message,
                                wire_version,
                                schema,
@@ -59,7 +62,8 @@ Packed pack_hello(const Greeting& greeting, const world::Recording& recording) {
                                episode,
                                town,
                                spawn,
-                               greeting.shared_bytes));
+                               greeting.shared_bytes,
+                               route));
     return message;
 }
 

@@ -18,6 +18,7 @@ struct Greeting {
     std::uint32_t actor = 0;
     std::string name;                        ///< the scenario's
     const world::CommandT* spawn = nullptr;  ///< null: not known
+    const world::CommandT* route = nullptr;  ///< to be driven already; null: none
     std::size_t shared_bytes = 0;            ///< of the memory whose descriptor goes with it
 };
 

@@ -259,7 +259,7 @@ std::optional<Lost> Seat::take(std::uint32_t id,
                                const Spawned& spawned) {
     Parts& parts = *parts_;
     parts.id = id;
-    parts.guide.emplace(recording.town, id);
+    parts.guide = spawned.guide != nullptr ? *spawned.guide : Guide(recording.town, id);
     if (spawned.command != nullptr) {
         parts.sees_sensors = spawned.command->sees_sensors;
         const world::Rig rig = world::rig_of(*spawned.command, spawned.tick);
@@ -276,9 +276,11 @@ std::optional<Lost> Seat::take(std::uint32_t id,
         }
     }
     const bool looks_itself = parts.rig && parts.channel->carries_descriptors();
+    const auto route = parts.sees_sensors ? std::nullopt : parts.guide->route_left();
     const Packed hello = pack_hello({id,
                                      parts.plan.actor,
                                      spawned.command,
+                                     route ? &*route : nullptr,
                                      looks_itself ? parts.rig->memory().bytes().size() : 0},
                                     recording);
     const Descriptor memory = looks_itself ? parts.rig->memory().for_looking() : Descriptor();

@@ -13,6 +13,8 @@
 
 namespace reprise::remote {
 
+class Guide;
+
 /// Who is to drive an actor, as the user says it: ego='python3 my_driver.py', which is started, or
 /// ego=socket:PATH or ego=tcp:PORT, where a driver that runs already comes to us.
 struct SeatPlan {
@@ -38,6 +40,7 @@ struct Spawned {
     const world::CommandT* command = nullptr;
     std::uint64_t tick = 0;        ///< in which it appeared
     std::string render_program;    ///< for the shell, see LiveRig
+    const Guide* guide = nullptr;  ///< of who takes over: what the vehicle was told until now
 };
 
 /// The place at the wheel that a driver in another program takes. The run goes tick by tick with

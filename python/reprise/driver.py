@@ -44,7 +44,8 @@ class Run:
 
     Attributes: `actor` id of the driven vehicle, `name` the scenario's word for it, `step` [s] between ticks, `town`
     and `episode` nouns (world/town.fbs, world/episode.fbs); `town.lanes[i].centre` is a centre line; `sensors.rig` what
-    the vehicle carries (Sensor of world/tick.fbs).
+    the vehicle carries (Sensor of world/tick.fbs), `route` the set_route in force, with the stops that are left, for who
+    takes over in the middle of a run (Command of world/tick.fbs; else None: routes are in the ticks).
     """
 
     def __init__(self, hello: Noun, memory: int | None = None) -> None:
@@ -53,6 +54,7 @@ class Run:
         self.step: float = hello.step_ns * 1e-9
         self.town = Noun(hello.town.data, "world.Town")
         self.episode = Noun(hello.episode.data, "world.Episode")
+        self.route: Noun | None = Noun(hello.route.data, "world.Command") if len(hello.route) else None
         self.sensors = Sensors.of(hello, memory)
 
 

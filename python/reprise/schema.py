@@ -1,6 +1,6 @@
 """Made by make_schema.py from world/*.fbs and remote/wire.fbs: change those."""
 
-DIGEST = "d603f1759219b5b4"
+DIGEST = "686afb8d49273d8d"
 
 # name: (type, values)
 ENUMS = {'remote.Kind': ('uint',
@@ -213,7 +213,8 @@ TABLES = {'remote.Hello': {'version': (0, 'uint'),
                   'episode': (5, '[ubyte]'),
                   'town': (6, '[ubyte]'),
                   'spawn': (7, '[ubyte]'),
-                  'shared_bytes': (8, 'ulong')},
+                  'shared_bytes': (8, 'ulong'),
+                  'route': (9, '[ubyte]')},
  'remote.Ready': {'version': (0, 'uint'), 'schema': (1, 'string')},
  'remote.Picture': {'sensor': (0, 'ushort'), 'tick': (1, 'ulong'), 'offset': (2, 'ulong'), 'data': (3, '[ubyte]')},
  'remote.Observation': {'tick': (0, '[ubyte]'),

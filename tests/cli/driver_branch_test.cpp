@@ -80,6 +80,37 @@ TEST_F(DriverBranch, TheSameDriverMakesTheSameTicks) {
     EXPECT_EQ(vehicles("b.mcap"), vehicles("parent.mcap"));
 }
 
+TEST_F(DriverBranch, WhoTakesOverIsToldTheWayThatIsLeft) {
+    write_file(folder_ / "guided.py",
+               "import reprise\n"
+               "file = open('seen.txt', 'w')\n"
+               "def decide(seen):\n"
+               "    if file.tell() == 0:\n"
+               "        route, lanes = seen.run.route, seen.run.town.lanes\n"
+               "        print([lanes[i].name for i in route.lanes] + [route.s] if route else None, "
+               "file=file)\n"
+               "    print(seen.index, seen.turning, seen.way_to_goal, file=file, flush=True)\n"
+               "    return reprise.Control(throttle=0.2)\n"
+               "reprise.drive(decide)\n");
+    const std::string driver = PYTHON " -B guided.py";
+    for (const std::string sees : {"all", "sensors"}) {
+        SCOPED_TRACE(sees);
+        write_scenario("way",
+                       spawn("ego", 75, ", speed_kmh = 40, sees = '" + sees + "'") +
+                           "ego:set_route{ 'am_1', 'mb_1' }\n");
+        drive("way", driver, "way.mcap");
+        const std::string whole = bytes("seen.txt");
+        const auto there = whole.find("\n50 ");
+        ASSERT_NE(there, std::string::npos) << whole;
+        EXPECT_THAT(whole, testing::StartsWith("None\n"));
+        branch({"--driver", "ego=" + driver}, "b.mcap", 0, "way.mcap");
+        // At the first stop, where it began, it has been.
+        EXPECT_EQ(bytes("seen.txt"),
+                  (sees == "all" ? "['mb_1', 52.8]" : "None") + whole.substr(there));
+        EXPECT_THAT(whole.substr(there), testing::StartsWith("\n50 follow_lane "));
+    }
+}
+
 TEST_F(DriverBranch, KeepsTheLatencyOfTheScenario) {
     write_scenario("late", spawn("ego", 20, ", latency = 3"));
     drive("late", steady, "late.mcap");
