@@ -20,7 +20,10 @@ run=$scratch/prefix/bin/reprise
 "$run" run examples/external.lua --for 20 --driver ego="$scratch/build/pid_driver" -o "$scratch/a.mcap" >"$scratch/run.log" ||
     [[ $? == 1 ]] || fail "$(cat "$scratch/run.log")"
 "$run" verify "$scratch/a.mcap"
+REPRISE=$run "$scratch/build/episodes" | tail -1
 for library in sumo Bullet lua; do
-    ldd "$scratch/build/pid_driver" | grep -qi "$library" && fail "the client library needs $library"
+    for client in pid_driver episodes; do
+        ldd "$scratch/build/$client" | grep -qi "$library" && fail "the client library needs $library"
+    done
 done
 rm -rf "$scratch"
