@@ -179,10 +179,10 @@ int tell_stopped(int signal, std::uint64_t ticks, const std::string& rest) {
     return exit_stopped + signal;
 }
 
-/// How a recorded run ended, when it was with a driver in another program, whose controls are in
-/// its trace only until then.
-std::optional<world::Outcome> recorded_loss(const std::optional<replay::TraceReader>& before) {
-    if (!before || before->outcome().verdict != "driver_lost")
+/// How a recorded run ended, when it was with a driver in another program or a client, whose
+/// controls are in its trace only until then.
+std::optional<world::Outcome> recorded_end(const std::optional<replay::TraceReader>& before) {
+    if (!before || !world::is_early_end(before->outcome()))
         return std::nullopt;
     return before->outcome();
 }
@@ -213,11 +213,11 @@ int run(const RunOptions& options) {
     Seats seats(
         options.drivers, {options.driver_timeout, [&] { return stop.signal() != 0; }}, recording);
     Progress progress("running", "ticks", world::tick_limit(recording.episode));
-    const std::optional<world::Outcome> lost_before = recorded_loss(before);
+    const std::optional<world::Outcome> ended_before = recorded_end(before);
     std::uint64_t index = 0;
     try {
         while (!kernel.finished() && stop.signal() == 0 && !seats.loss() &&
-               !(lost_before && index >= lost_before->ticks)) {
+               !(ended_before && index >= ended_before->ticks)) {
             const world::SealedTick& tick =
                 kernel.step(before ? inputs(*before, index + 1) : seats.controls());
             ++index;
@@ -241,8 +241,8 @@ int run(const RunOptions& options) {
         trace.reset();
         return tell_stopped(stop.signal(), index, rest);
     }
-    const bool lost_again = lost_before && !kernel.finished();
-    const world::Outcome outcome = lost_again ? *lost_before : seats.end(kernel.outcome());
+    const bool ended_again = ended_before && !kernel.finished();
+    const world::Outcome outcome = ended_again ? *ended_before : seats.end(kernel.outcome());
     trace->close(outcome);
     print_summary(recording, kernel, outcome, path, progress.seconds());
     if (nudge && nudge->tick > outcome.ticks)

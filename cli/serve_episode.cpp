@@ -24,6 +24,22 @@ remote::FrameChannel copy_of(const remote::FrameChannel& client) {
     return {descriptor, largest_in_place};
 }
 
+/// How the episode ended. A client that begins another one, or says goodbye, ends it; one that is
+/// gone, or breaks the rules, is a lost driver.
+world::Outcome outcome_of(const kernel::Kernel& kernel,
+                          const Seats& seats,
+                          const files::StopRequest& stop,
+                          std::uint64_t ticks) {
+    if (kernel.finished())
+        return kernel.outcome();
+    if (stop.signal() != 0)
+        return world::outcome_of_ended_by_server(ticks);
+    const auto& said = seats.loss()->said;
+    return said && (said->kind == remote::Kind::reset || said->kind == remote::Kind::goodbye)
+               ? world::outcome_of_ended_by_client(ticks)
+               : world::outcome_of_lost_driver(driven, ticks);
+}
+
 void play_on(kernel::Kernel& kernel,
              const world::Recording& recording,
              Seats& seats,
@@ -41,8 +57,7 @@ void play_on(kernel::Kernel& kernel,
         if (!kernel.finished())
             seats.go_on(tick, [&] { kernel.begin_step(); });
     }
-    const world::Outcome outcome =
-        kernel.finished() ? kernel.outcome() : world::outcome_of_lost_driver(driven, ticks);
+    const world::Outcome outcome = outcome_of(kernel, seats, stop, ticks);
     if (trace)
         trace->close(outcome);
     if (kernel.finished())

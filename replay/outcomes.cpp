@@ -35,7 +35,7 @@ std::optional<std::string> ToldOutcome::contradiction(const TraceReader& trace, 
     const bool goes_on =
         says == world::outcome_of_part(trace.ticks()) ||
         says == world::outcome_of_cut_off(trace.ticks()) ||
-        (all && trace.first() == 1 ? external_.explain(says) : says.verdict == "driver_lost");
+        (all && trace.first() == 1 ? external_.explain(says) : world::is_early_end(says));
     const auto differs = [&](const std::string& told) {
         return fmt::format("its outcome says '{}', its ticks '{}'", to_text(says), told);
     };

@@ -10,6 +10,20 @@ Outcome outcome_of_lost_driver(const std::string& actor, std::uint64_t ticks) {
     return {"driver_lost", "the driver of '" + actor + "' was lost", ticks};
 }
 
+Outcome outcome_of_ended_by_client(std::uint64_t ticks) {
+    return {"ended", "by its client", ticks};
+}
+
+Outcome outcome_of_ended_by_server(std::uint64_t ticks) {
+    return {"ended", "by its server", ticks};
+}
+
+bool is_early_end(const Outcome& outcome) {
+    return outcome.verdict == "driver_lost" ||
+           outcome == outcome_of_ended_by_client(outcome.ticks) ||
+           outcome == outcome_of_ended_by_server(outcome.ticks);
+}
+
 Outcome outcome_of_part(std::uint64_t ticks) {
     return {"part", "a slice without the run's end", ticks};
 }

@@ -19,7 +19,8 @@ struct Recording {
 /// How a run ended; written when the trace is closed.
 struct Outcome {
     std::string verdict;  ///< "passed", "failed", "completed" (no checks); "error": cut off;
-                          ///< "part": a slice that lacks the run's last tick; "driver_lost"
+                          ///< "part": a slice that lacks the run's last tick; "driver_lost";
+                          ///< "ended": from outside, while the scenario would go on
     std::string reason;   ///< as finish said it, "time limit", "scenario ended", "the trace was cut
                           ///< off", ...
     std::uint64_t ticks = 0;
@@ -32,6 +33,16 @@ Outcome outcome_of_cut_off(std::uint64_t ticks);
 
 /// Of a run that ended because a driver in another program did; the scenario would go on.
 Outcome outcome_of_lost_driver(const std::string& actor, std::uint64_t ticks);
+
+/// Of an episode that its client ended, by beginning another one or by leaving with a goodbye.
+Outcome outcome_of_ended_by_client(std::uint64_t ticks);
+
+/// Of an episode that ended with the server that played it.
+Outcome outcome_of_ended_by_server(std::uint64_t ticks);
+
+/// Whether an outcome says that the run was ended while the scenario would go on, by a driver or
+/// from outside: made again, it ends there as well.
+bool is_early_end(const Outcome& outcome);
 
 /// Of a slice without the run's last tick: how the run ended cannot be seen in it.
 Outcome outcome_of_part(std::uint64_t ticks);

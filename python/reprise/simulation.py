@@ -141,8 +141,7 @@ class Simulation:
         wire, self._wire = getattr(self, "_wire", None), None
         if wire:
             try:
-                if not self._seen:
-                    wire.say("goodbye", reason="closed")
+                wire.say("goodbye", reason="closed")
             except WireError:
                 pass  # it went first
             wire.close()

@@ -155,16 +155,59 @@ class Episodes(Case):
         code, said = reprise_program("verify", str(trace))
         self.assertEqual(code, 0, said)
 
-    def test_traces_of_episodes_that_were_left_are_whole_and_verify(self):
+    def assert_whole(self, name, outcome):
+        """The trace verifies, says how it ended, and ends so when it is made again."""
+        code, said = reprise_program("verify", str(self.folder / name))
+        self.assertEqual(code, 0, said)
+        self.assertIn(outcome, reprise_program("info", str(self.folder / name))[1])
+        again = self.folder / "again.mcap"
+        reprise_program("run", str(self.folder / name), "-o", str(again))
+        self.assertEqual(again.read_bytes(), (self.folder / name).read_bytes())
+
+    def test_traces_of_episodes_that_their_client_ended_say_so_and_verify(self):
         with reprise.Simulation(scenario="driven.lua", folder=self.folder) as sim:
             sim.reset(trace="left_by_reset.mcap")
             sim.step(throttle=1.0)
+            sim.reset(trace="left_at_once.mcap")
             sim.reset(trace="left_by_closing.mcap")
             sim.step(throttle=1.0)
-        for name in ("left_by_reset.mcap", "left_by_closing.mcap"):
-            code, said = reprise_program("verify", str(self.folder / name))
-            self.assertEqual(code, 0, said)
-            self.assertIn("driver_lost", reprise_program("info", str(self.folder / name))[1])
+        for name in ("left_by_reset.mcap", "left_at_once.mcap", "left_by_closing.mcap"):
+            self.assert_whole(name, "ended: by its client")
+
+    def test_a_client_that_is_gone_without_a_word_is_a_lost_driver(self):
+        with Server("--socket", str(self.folder / "s"), "--folder", str(self.folder)) as server:
+            sim = reprise.Simulation(scenario="driven.lua", server=server.place)
+            sim.reset(trace="gone.mcap")
+            sim.step(throttle=1.0)
+            wire, sim._wire = sim._wire, None
+            wire.close()
+            wait_until((self.folder / "gone.mcap").exists, "the trace is closed")
+        self.assert_whole("gone.mcap", "driver_lost: the driver of 'ego' was lost")
+
+    def test_an_episode_that_the_server_ends_says_so_also_before_its_driver_was_there(self):
+        nobody = "return scenario 'empty' {\n    town = 'town1', duration = 80000,\n    run = function() wait(80000) end,\n}\n"
+        with Server("--socket", str(self.folder / "s"), "--folder", str(self.folder)) as server:
+            driven = reprise.Simulation(scenario="driven.lua", server=server.place)
+            driven.reset(trace="driven.mcap")
+            driven.step(throttle=1.0)
+            empty = reprise.Simulation(scenario=nobody, server=server.place, trace="empty.mcap")
+            empty._say("reset", **empty._message())
+            wait_until((self.folder / "empty.mcap.partial").exists, "the episode runs")
+            wire, empty._wire = empty._wire, None
+            wire.close()  # nobody waits for it any more: the server ends it
+            wait_until((self.folder / "empty.mcap").exists, "the trace is closed")
+        self.assert_whole("driven.mcap", "ended: by its server")
+        self.assert_whole("empty.mcap", "ended: by its server")
+        driven.close()
+
+    def test_cpp_clients_have_episodes_as_python_does(self):
+        done = subprocess.run([os.environ["EPISODES"], "driven.lua", "cpp.mcap"], cwd=self.folder, capture_output=True,
+                              text=True, check=False, timeout=120)  # fmt: skip
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_whole("cpp.mcap", "completed: time limit")
+        with reprise.Simulation(scenario="driven.lua", folder=self.folder, trace="python.mcap", seed=3) as sim:
+            sim.run(lambda seen: reprise.Control(throttle=0.5 if seen.ego.speed < 8 else 0.0))
+        self.assertEqual((self.folder / "cpp.mcap").read_bytes(), (self.folder / "python.mcap").read_bytes())
 
     def test_a_scenarios_mistake_is_told_with_its_line_and_the_session_lives_on(self):
         broken = "return scenario 'broken' {\n    run = function()\n        spam()\n    end,\n}\n"
