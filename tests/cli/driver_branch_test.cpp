@@ -93,7 +93,7 @@ TEST_F(DriverBranch, WhoTakesOverIsToldTheWayThatIsLeft) {
                "    return reprise.Control(throttle=0.2)\n"
                "reprise.drive(decide)\n");
     const std::string driver = PYTHON " -B guided.py";
-    for (const std::string sees : {"all", "sensors"}) {
+    for (const std::string sees : {"everything", "sensors"}) {
         SCOPED_TRACE(sees);
         write_scenario("way",
                        spawn("ego", 75, ", speed_kmh = 40, sees = '" + sees + "'") +
@@ -106,7 +106,7 @@ TEST_F(DriverBranch, WhoTakesOverIsToldTheWayThatIsLeft) {
         branch({"--driver", "ego=" + driver}, "b.mcap", 0, "way.mcap");
         // At the first stop, where it began, it has been.
         EXPECT_EQ(bytes("seen.txt"),
-                  (sees == "all" ? "['mb_1', 52.8]" : "None") + whole.substr(there));
+                  (sees == "everything" ? "['mb_1', 52.8]" : "None") + whole.substr(there));
         EXPECT_THAT(whole.substr(there), testing::StartsWith("\n50 follow_lane "));
     }
 }
