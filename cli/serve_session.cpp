@@ -94,6 +94,7 @@ struct Session::Parts {
     const process::HeldSignals& signals;
     std::optional<Stage> stage;  ///< of town->recording
     bool stopped = false;
+    bool left = false;  ///< the client has said goodbye
 };
 
 /// The client's first word, and ours. Throws ChannelFault when it shall not stay.
@@ -183,6 +184,7 @@ std::optional<remote::Frame> Session::Parts::begin(const remote::Frame& frame) {
             file_in(options.folder, trace, ".mcap");
         Stage::End end = stage_for(episode_of(reset)).play(frame);
         stopped = stopped || end.stopped;
+        left = end.left;
         return std::move(end.next);
     } catch (const remote::ChannelFault&) {
         throw;
@@ -204,6 +206,7 @@ Session::Session(const ServeOptions& options,
                        std::move(client),
                        signals,
                        std::nullopt,
+                       false,
                        false}) {}
 
 Session::~Session() = default;
@@ -223,6 +226,8 @@ void Session::run() {
             if (word->kind == Kind::goodbye)
                 break;
             word = parts.begin(*word);
+            if (parts.left)
+                break;
         }
     } catch (const remote::ChannelFault&) {
         // It has left, or was to leave.

@@ -48,6 +48,14 @@ void send_text(remote::FrameChannel& line, Kind kind, const std::string& text) {
     line.send(kind, {builder.GetBufferPointer(), builder.GetSize()});
 }
 
+/// That the client said goodbye in the middle of an episode. On the line a goodbye is the host's
+/// own, at each episode's end; so it goes up as a word that no client says there.
+void send_left(remote::FrameChannel& line) {
+    flatbuffers::FlatBufferBuilder builder;
+    builder.Finish(remote::CreateReady(builder));
+    line.send(Kind::ready, {builder.GetBufferPointer(), builder.GetSize()});
+}
+
 /// In the copy of the host: one episode. What the client said in place of a control goes up the
 /// line.
 int be_episode(kernel::Kernel& kernel,
@@ -60,7 +68,9 @@ int be_episode(kernel::Kernel& kernel,
         const bool traced = name != nullptr && name->size() != 0;
         const auto next =
             play_episode(kernel, set.recording, set.client, traced ? set.folder / name->str() : "");
-        if (next)
+        if (next && next->kind == Kind::goodbye)
+            send_left(line);
+        else if (next)
             line.send(next->kind, body_of(*next));
     } catch (const std::exception& error) {
         std::fprintf(stderr, "reprise: %s\n", error.what());
@@ -166,6 +176,10 @@ Stage::End Stage::play(const remote::Frame& reset) {
             remote::Frame word = wait_for_word(end.stopped);
             if (word.kind == Kind::fault)
                 throw world::Error(word.as<remote::Fault>().text()->str());
+            if (word.kind == Kind::ready) {
+                end.left = true;
+                continue;
+            }
             if (word.kind != Kind::goodbye) {
                 end.next = std::move(word);
                 continue;

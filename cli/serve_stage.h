@@ -32,6 +32,7 @@ class Stage {
     struct End {
         std::optional<remote::Frame> next{};  ///< what the client said in place of a control
         bool stopped = false;                 ///< a signal ended us
+        bool left = false;                    ///< the client said goodbye
     };
 
     explicit Stage(const Set& set);

@@ -200,6 +200,41 @@ class Episodes(Case):
         self.assert_whole("empty.mcap", "ended: by its server")
         driven.close()
 
+    def test_a_client_that_breaks_the_rules_hears_so_and_may_begin_again(self):
+        def say_nan(wire, seen):
+            wire.control(seen.index, float("nan"), 0, 0, False, False, 0)
+
+        def answer_another_tick(wire, seen):
+            wire.control(seen.index + 7, 0, 0, 0, False, False, 0)
+
+        def be_ready(wire, seen):
+            wire.ready()
+
+        with reprise.Simulation(scenario="driven.lua", folder=self.folder, trace="bad.mcap") as sim:
+            for misbehave, why in ((say_nan, "throttle = nan"), (answer_another_tick, "answered tick 8 when tick 1"),
+                                   (be_ready, "something else than a control")):  # fmt: skip
+                misbehave(sim._wire, sim.reset())
+                with self.assertRaisesRegex(reprise.Fault, f"^the driver of 'ego' .*{why}"):
+                    sim._look()
+                self.assert_whole("bad.mcap", "driver_lost: the driver of 'ego' was lost")
+
+    def test_a_goodbye_in_an_episode_ends_the_session(self):
+        with Server("--socket", str(self.folder / "s"), "--folder", str(self.folder)) as server:
+            sim = reprise.Simulation(scenario="driven.lua", server=server.place)
+            sim.reset()
+            sim._wire.goodbye("enough")
+            with self.assertRaises(WireError):
+                sim._look()
+
+    def test_resets_that_are_said_at_once_are_played_one_after_the_other(self):
+        with reprise.Simulation(scenario="driven.lua", folder=self.folder) as sim:
+            for _ in range(4):
+                sim._say("reset", **sim._message())
+            for _ in range(4):
+                self.assertEqual(sim._hear(first=True)[0], "hello")
+            sim._wire.ready()
+            self.assertEqual(sim._hear()[0], "observation")
+
     def test_cpp_clients_have_episodes_as_python_does(self):
         done = subprocess.run([os.environ["EPISODES"], "driven.lua", "cpp.mcap"], cwd=self.folder, capture_output=True,
                               text=True, check=False, timeout=120)  # fmt: skip
