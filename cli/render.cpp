@@ -157,6 +157,13 @@ int render(const RenderOptions& options) {
     const Cameras cameras = find_cameras(options, trace, span.to);
     if (cameras.recorded && options.every.empty())
         span.every = 1;
+    if (options.recorded_rig && !cameras.recorded && trace.first() > 1)
+        say(stderr,
+            "reprise: {}: begins at tick {}: what a vehicle carries that was there before is not "
+            "in it, "
+            "only in the whole trace; rendered as without a rig\n",
+            options.trace,
+            trace.first());
     const std::list<NewFolder> folders = make_folders(cameras);
     render::Sensors sensors(trace.recording().town,
                             {.threads = options.threads, .portable = options.portable});

@@ -126,6 +126,32 @@ class Live : public testing::Test {
     Folder folder_;
 };
 
+TEST_F(Live, FramesThatCameThroughAPortAreThoseOfTheTrace) {
+    scenario("port", std::string("driver = 'external', ") + rig);
+    make_folder("frames");
+    const Result result = typed(
+        "reprise run port.lua --driver ego=tcp:0 -o port.mcap 2>said & run=$!; until "
+        "port=$(sed -n 's/.*may come to 127.0.0.1://p' said 2>/dev/null | grep .); do kill "
+        "-0 $run || exit 9; done; REPRISE_DRIVER=127.0.0.1:$port " REPRISE_LOOKING_DRIVER
+        " frames; wait $run",
+        folder_);
+    EXPECT_EQ(result.code, 0) << result.out;
+    expect_frames_of_trace("port", "frames");
+}
+
+TEST_F(Live, ASliceBehindTheSpawnSaysThatItDoesNotKnowTheRig) {
+    scenario("seen", std::string(rig) + "driver = 'external' ");
+    run("seen", compiled + make_folder("cpp"));
+    for (const auto& [name, ticks] : {std::pair("head", "1..6"), std::pair("tail", "5..6")}) {
+        const std::string trace = std::string(name) + ".mcap";
+        reprise({"slice", "seen.mcap", "--ticks", ticks, "-o", trace}, folder_.path());
+        const Result rendered = reprise({"render", trace, "-o", name}, folder_.path());
+        EXPECT_EQ(rendered.code, 0) << rendered.out;
+        EXPECT_EQ(rendered.out.find("what a vehicle carries") != std::string::npos,
+                  trace == "tail.mcap");
+    }
+}
+
 TEST_F(Live, FramesSeenAreThoseThatTheTraceGivesAfterwards) {
     scenario("seen", std::string(rig) + "driver = 'external' ");
     run("seen", compiled + make_folder("cpp"));

@@ -225,6 +225,7 @@ class Episodes(Case):
             sim._wire.goodbye("enough")
             with self.assertRaises(WireError):
                 sim._look()
+            sim.close()
 
     def test_resets_that_are_said_at_once_are_played_one_after_the_other(self):
         with reprise.Simulation(scenario="driven.lua", folder=self.folder) as sim:
