@@ -56,14 +56,16 @@ int Door::let_in(const Patience& patience) {
     }
 }
 
-void Door::turn_others_away() {
+void Door::turn_others_away(bool is_over) {
+    const std::string why =
+        is_over ? fmt::format("the run ended before '{}' was there", actor_)
+                : fmt::format("'{}' has a driver already: it was here first", actor_);
     for (int count = 0; count < most_at_once; ++count) {
         pollfd one{listener_.descriptor(), POLLIN, 0};
         if (poll(&one, 1, 0) <= 0)
             return;
         try {
-            refuse(listener_.accept_one({1.0}),
-                   fmt::format("'{}' has a driver already: it was here first", actor_));
+            refuse(listener_.accept_one({1.0}), why);
         } catch (const ChannelFault&) {
             return;  // it went as soon as it came
         }

@@ -22,8 +22,9 @@ class Door {
     /// Waits for the driver, a connected socket. Throws ChannelFault when none came in time.
     int let_in(const Patience& patience);
 
-    /// Turns away whoever has come meanwhile. Does not wait.
-    void turn_others_away();
+    /// Turns away whoever has come meanwhile. `is_over`: the run has ended before there was
+    /// somebody to drive; else because somebody drives already. Does not wait.
+    void turn_others_away(bool is_over = false);
 
   private:
     bool may_come(int descriptor) const;

@@ -383,8 +383,8 @@ void Seat::leave(const std::string& reason, const std::optional<world::Outcome>&
             ? CreateGoodbye(builder, why, builder.CreateString(outcome->verdict), outcome->ticks)
             : CreateGoodbye(builder, why));
     parts_->say_last(Kind::goodbye, builder);
-    if (parts_->door && parts_->id)
-        parts_->door->turn_others_away();
+    if (parts_->door)
+        parts_->door->turn_others_away(!parts_->id);
     parts_->door.reset();
 }
 

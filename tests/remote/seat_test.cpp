@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "remote/client.h"
+#include "remote/connection.h"
 #include "tests/support/places.h"
 #include "world/check.h"
 
@@ -191,6 +192,15 @@ TEST_P(Door, TheFirstDrivesAndEverybodyElseIsToldWhyNot) {
                 testing::ElementsAre("'ego' has a driver already: it was here first",
                                      "'ego' has a driver already: it was here first"));
     EXPECT_THAT(refusal(place), HasSubstr("nobody is there"));
+}
+
+TEST_P(Door, WhoWaitsForARunThatEndsBeforeHearsSo) {
+    Seat seat(plan(), {10.0});
+    FrameChannel early(open_connection(seat.place()), 1 << 20);
+    seat.leave("the run ended");
+    const Frame frame = early.receive({10.0});
+    ASSERT_EQ(frame.kind, Kind::fault);
+    EXPECT_EQ(frame.as<remote::Fault>().text()->str(), "the run ended before 'ego' was there");
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, Door, testing::Values("Socket", "Port"), [](const auto& info) {
