@@ -1,9 +1,12 @@
 """What a driver sees and says, and the loop that takes it through a run."""
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import functools
 import math
+import operator
+import os
 import struct
 from typing import Any, Callable
 
@@ -31,12 +34,25 @@ class Control:
     lamps: int = 0  #: bits of world/models/catalogue.h
 
     def __post_init__(self) -> None:
-        if 0 <= self.throttle <= 1 and 0 <= self.brake <= 1 and -1 <= self.steer <= 1:
-            return
+        try:
+            if (0 <= self.throttle <= 1 and 0 <= self.brake <= 1 and -1 <= self.steer <= 1
+                    and 0 <= operator.index(self.lamps) <= 0xFFFF):  # fmt: skip
+                return
+        except (TypeError, ValueError):  # a text, an array
+            pass
+        self._refuse()
+
+    def _refuse(self) -> None:
+        """Says which of the values cannot be."""
         for name, low in (("throttle", 0), ("brake", 0), ("steer", -1)):
             value = getattr(self, name)
-            if not low <= value <= 1:
-                raise ValueError(f"Control({name}={value}): expected a number in [{low}, 1]")
+            try:
+                is_possible = bool(low <= value <= 1)
+            except (TypeError, ValueError):
+                is_possible = False
+            if not is_possible:
+                raise ValueError(f"Control({name}={value!r}): expected a number in [{low}, 1]")
+        raise ValueError(f"Control(lamps={self.lamps!r}): expected the bits of lamps, an integer in [0, 65535]")
 
 
 class Run:
@@ -182,12 +198,13 @@ Driver = Callable[[Observation], Control]
 def drive(driver: Driver, address: str | None = None) -> int:
     """Drives until the run is over. Returns how many ticks were driven.
 
-    `driver` is asked once a tick. What it raises ends the run with the verdict driver_lost, and is raised here.
+    `driver` is asked once a tick. What it raises ends the run with the verdict driver_lost, and is raised here; the run
+    is told what it was, and in which tick.
     `address` is a socket's path or '127.0.0.1:PORT'; without it the program must have been started by `reprise run
     --driver`. Raises WireError where the place is taken.
     """
     wire = Wire(address)
-    ticks = 0
+    ticks, where = 0, "before its first tick"
     try:
         kind, hello = wire.receive_first()
         if kind == "fault":
@@ -205,6 +222,7 @@ def drive(driver: Driver, address: str | None = None) -> int:
             if kind != "observation":
                 return ticks
             seen = Observation(run, message)
+            where = f"in tick {seen.index}"
             control = values_of(driver(seen))
             try:
                 wire.control(seen.index, *control)
@@ -214,13 +232,30 @@ def drive(driver: Driver, address: str | None = None) -> int:
     except WireError:
         raise
     except BaseException as error:
-        wire.goodbye(f"{type(error).__name__}: {error}")
+        with contextlib.suppress(WireError):  # the run may have gone first
+            wire.goodbye(last_words(error, where))
         raise
     finally:
         wire.close()
 
 
+def last_words(error: BaseException, where: str) -> str:
+    """Why a driver gave up, for people who see one line of it: what, in which tick, and where in its code."""
+    if isinstance(error, KeyboardInterrupt):
+        return f"it was interrupted (Ctrl-C) {where}"
+    if isinstance(error, SystemExit):
+        return f"it called sys.exit({'' if error.code is None else repr(error.code)}) {where}"
+    line, step = "", error.__traceback__
+    while step is not None:
+        path = step.tb_frame.f_code.co_filename
+        if os.path.isfile(path) and os.path.dirname(path) != os.path.dirname(__file__) and "-packages" not in path:
+            line = f" ({os.path.basename(path)}:{step.tb_lineno})"
+        step = step.tb_next
+    return f"{type(error).__name__} {where}: {error}{line}"
+
+
 def values_of(control: Control) -> tuple[float, float, float, bool, bool, int]:
     if not isinstance(control, Control):
-        raise TypeError(f"a driver returns a reprise.Control, got {control!r}")
+        hint = {type(None): " (is a `return` missing?)", dict: " (reprise.Control(**values) makes one of it)"}
+        raise TypeError(f"a driver returns a reprise.Control, not {control!r}{hint.get(type(control), '')}")
     return (control.throttle, control.brake, control.steer, control.hand_brake, control.reverse, control.lamps)

@@ -1,0 +1,77 @@
+"""What a driver's author is told who made a mistake: the run's one line names it, the tick and the place in his code.
+
+usage: driver_test.py REPRISE WORK
+"""
+import pathlib
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+import reprise
+
+PROGRAM, WORK = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
+SOURCE = pathlib.Path(__file__).parents[2]
+SCENARIO = """return scenario 'one' { town = 'small.net.xml', cars = 0, seed = 11, duration = 1,
+    run = function() spawn{ name = 'ego', model = 'sedan', driver = 'external', lane = 'am_1', s = 20 } wait(60) end }
+"""
+# What stands in the driver's third line, asked in tick 5 -> what the run says; None: nothing, as it may be done.
+MISTAKES = {
+    "raise RuntimeError('my own')": r"RuntimeError in tick 5: my own \(driver.py:4\)",
+    "return None": r"TypeError in tick 5: a driver returns a reprise.Control, not None \(is a `return` missing\?\)",
+    "return {'throttle': 0.4}": r"TypeError in tick 5: a driver returns a reprise.Control, not \{.*\(reprise.Control\(\*\*values\)",
+    "return reprise.Control(throttle=2)": r"ValueError in tick 5: Control\(throttle=2\): expected a number in \[0, 1\] \(driver.py:4\)",
+    "return reprise.Control(throttle=seen.ego.sped)": r"AttributeError in tick 5: no 'sped': .*\(driver.py:4\)",
+    "sys.exit('no model')": r"it called sys.exit\('no model'\) in tick 5",
+    "sys.exit()": r"it called sys.exit\(\) in tick 5",
+    "os.kill(os.getpid(), signal.SIGINT); time.sleep(9)": r"it was interrupted \(Ctrl-C\) in tick 5",
+    "return reprise.Control(throttle=np.float32(0.4), steer=np.array([0.1])[0])": None,
+    "print('what I print', seen.index)": None,
+}
+
+
+class Mistakes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        WORK.mkdir(parents=True, exist_ok=True)
+        (WORK / "one.lua").write_text(SCENARIO)
+        (WORK / "small.net.xml").write_bytes((SOURCE / "tests/cli/crash/small.net.xml").read_bytes())
+
+    def drive(self, line):
+        (WORK / "driver.py").write_text(
+            "import os, signal, sys, time, numpy as np, reprise\n"
+            "def decide(seen):\n"
+            "    if seen.index == 5:\n"
+            f"        {line}\n"
+            "    return reprise.Control(throttle=0.3)\n"
+            "reprise.drive(decide)\n"
+        )
+        command = [PROGRAM, "run", "one.lua", "-o", "a.mcap", "--driver", f"ego={sys.executable} -B driver.py"]
+        return subprocess.run(command, cwd=WORK, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
+                              timeout=60)  # fmt: skip
+
+    def test_are_told_once_with_their_tick(self):
+        for line, told in MISTAKES.items():
+            with self.subTest(line):
+                done = self.drive(line)
+                self.assertEqual(done.returncode, 0 if told is None else 1, done.stdout)
+                ours = [one for one in done.stdout.splitlines() if one.startswith("reprise: ")]
+                if told is None:
+                    self.assertEqual(ours, [])
+                else:
+                    self.assertEqual(len(ours), 1, done.stdout)
+                    self.assertRegex(ours[0], f"^reprise: the driver of 'ego' left: {told}")
+
+    def test_what_a_driver_prints_is_seen(self):
+        self.assertIn("what I print 5\n", self.drive("print('what I print', seen.index)").stdout)
+
+    def test_in_a_control_are_told_when_it_is_made(self):
+        for wrong in (dict(throttle=-0.1), dict(brake=1.01), dict(steer=-1.5), dict(steer=float("nan")), dict(throttle="1"),
+                      dict(throttle=np.zeros(2)), dict(brake=None), dict(lamps=-1), dict(lamps=65536), dict(lamps=1.0)):  # fmt: skip
+            with self.assertRaisesRegex(ValueError, rf"^Control\({next(iter(wrong))}=.*expected .* in \["):
+                reprise.Control(**wrong)
+        reprise.Control(throttle=True, brake=np.float32(1), steer=-1, lamps=np.uint16(65535))
+
+
+if __name__ == "__main__":
+    unittest.main()
