@@ -1,18 +1,20 @@
 """Episodes that a program begins itself: steps, resets, at a server of its own or one that runs already."""
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import os
 import pathlib
 import shutil
 import socket
 import subprocess
-from typing import Any, Mapping, Sequence, Union
+from typing import Any, Mapping, Sequence, TypeVar, Union
 
 from .driver import Control, Driver, Observation, Run, values_of
 from .nouns import Noun
 from .wire import VERSION, Wire, WireError
 
+_Client = TypeVar("_Client", bound="Client")
 Place = Union[str, int, "tuple[str, float]", None]
 
 
@@ -82,43 +84,14 @@ class _Server:
 _SENSOR = dict(kind="rgb", width=800, height=600, fov_deg=90.0, x=1.0, y=0.0, z=1.4, yaw_deg=0.0, pitch_deg=0.0, every=1)
 
 
-class Simulation:
-    """Episodes in which this program drives the vehicle 'ego', in lockstep: nothing moves between two steps.
+class Client:
+    """A connection with a server of episodes, and the plan of the next one: what Simulation and MultiSimulation share."""
 
-        with reprise.Simulation('town1', cars=100, seed=7) as sim:
-            seen = sim.reset()
-            while seen is not None:
-                seen = sim.step(throttle=0.4)
-            print(sim.outcome)
-
-    `town`, `cars`, `weather`, `model`, `start` and `goal` make a task: a place is a lane ('b1_b2_1', or with metres
-    along it ('b1_b2_1', 30.0)), the number of a spawn point, or 'drawn' (by the seed). No `start` is drawn as well; no
-    `goal` is none. With a goal the episode ends on arrival ('passed'), or when the time is over that the way takes at
-    10 km/h ('failed'). `seconds` limits an episode; without it a task lasts two hours.
-
-    `scenario` takes the place of a task: a file's name in the server's folder, a path (read here), or Lua text, whose
-    parameters `settings` changes; it spawns 'ego' with driver = 'external'.
-
-    `rig` of a task: cameras of the vehicle, in the words of a scenario's rig, such as [dict(name='front', kind='rgb',
-    width=84, height=84)]; `seen.image('front')` is what one sees. A process that renders is started in each reset.
-
-    `trace` is a name in the folder, such as 'a.mcap'; each reset writes it anew. Equal arguments give equal ticks,
-    whatever was driven before, here or elsewhere.
-
-    `server` is the socket of a `reprise serve` that runs already, 'PATH' or 'HOST:PORT' (then with its `token`, if
-    it wants one); without it this starts one of its own, in `folder`, and ends it with close() or the `with`.
-    """
-
-    def __init__(self, town: str = "town1", *, cars: int = 0, seed: int | None = None, weather: str = "clear_noon",
-                 start: Place = None, goal: Place = None, model: str = "sedan", scenario: str | os.PathLike | None = None,
-                 settings: Mapping[str, Any] | None = None, seconds: float = 0.0, trace: str | None = None,
-                 rig: Sequence[Mapping[str, Any]] = (), server: str | None = None, token: str | None = None,
-                 folder: str | os.PathLike = ".") -> None:  # fmt: skip
-        self._plan = dict(town=town, cars=cars, seed=seed, weather=weather, start=start, goal=goal, model=model,
-                          scenario=scenario, settings=settings, seconds=seconds, trace=trace, rig=rig)  # fmt: skip
+    def __init__(self, plan: dict[str, Any], server: str | None, token: str | None, folder: str | os.PathLike) -> None:
         self.outcome: Outcome | None = None  #: of the last episode, once it has ended
-        self.run_info: Run | None = None  #: what stays the same in this episode; also `seen.run`
-        self._seen: Observation | None = None
+        self._plan = plan
+        self._check_plan()
+        self._wire: Wire | None = None
         self._server = None if server else _Server(os.fspath(folder))
         try:
             self._wire = Wire(self._server.channel if self._server else server)
@@ -130,20 +103,22 @@ class Simulation:
             self.close()
             raise
 
-    def __enter__(self) -> Simulation:
+    def __enter__(self: _Client) -> _Client:
         return self
 
     def __exit__(self, *_: Any) -> None:
         self.close()
 
+    def _leave_episode(self) -> None:
+        """Lets go of what belongs to the episode that runs."""
+
     def close(self) -> None:
         """Leaves; the episode that runs ends. May be called again."""
-        wire, self._wire = getattr(self, "_wire", None), None
+        wire, self._wire = self._wire, None
         if wire:
-            try:
+            self._leave_episode()
+            with contextlib.suppress(WireError):  # it went first
                 wire.say("goodbye", reason="closed")
-            except WireError:
-                pass  # it went first
             wire.close()
         elif self._server:
             self._server.channel.close()
@@ -151,41 +126,37 @@ class Simulation:
         if server:
             server.end()
 
-    def _say(self, kind: str, **values: Any) -> None:
+    def _open_wire(self) -> Wire:
         if self._wire is None:
             raise WireError("this simulation is closed")
-        self._wire.say(kind, **values)
+        return self._wire
+
+    def _say(self, kind: str, **values: Any) -> None:
+        self._open_wire().say(kind, **values)
 
     def _hear(self, first: bool = False) -> tuple[str, Noun]:
-        if self._wire is None:
-            raise WireError("this simulation is closed")
-        kind, message = self._wire.receive_first() if first else self._wire.receive()
+        wire = self._open_wire()
+        kind, message = wire.receive_first() if first else wire.receive()
         if kind == "fault":
-            self._seen = None
             raise Fault(message.text, message.line)
         return kind, message
 
-    def reset(self, **changes: Any) -> Observation:
-        """Begins an episode and returns what its first tick shows. `changes` to the arguments of the class, such as
-        seed=8, stay for the resets after it. Raises Fault for what cannot be, such as a mistake in a scenario."""
+    def _change_plan(self, changes: dict[str, Any]) -> None:
         for name in changes:
             if name not in self._plan:
                 raise TypeError(f"reset: no '{name}'; there are {', '.join(self._plan)}")
+        before = dict(self._plan)
         self._plan.update(changes)
-        self._seen, self.outcome = None, None
-        self._say("reset", **self._message())
-        kind, message = self._hear(first=True)
-        while kind == "observation":  # of the episode before, which with a latency goes on unanswered
-            kind, message = self._hear(first=True)
-        if kind == "goodbye":
-            self.outcome = Outcome(message.verdict, message.reason, message.ticks)
-            raise Fault("the episode ended before a vehicle 'ego' with driver = 'external' was there", 0)
-        self._wire.ready()
-        self.run_info = Run(message, self._wire.descriptor())
-        seen = self._look()
-        if seen is None:
-            raise Fault("the episode ended in the tick in which 'ego' appeared", 0)
-        return seen
+        try:
+            self._check_plan()
+        except BaseException:
+            self._plan = before
+            raise
+
+    def _check_plan(self) -> None:
+        if self._plan.get("pedestrians", 0) != 0:
+            raise ValueError(f"pedestrians={self._plan['pedestrians']!r}: only 0 so far: nobody walks by itself in a town yet; "
+                             "a scenario can spawn walkers")  # fmt: skip
 
     def _message(self) -> dict[str, Any]:
         plan = self._plan
@@ -209,9 +180,78 @@ class Simulation:
         message["settings"] = [dict(key=key, value=value) for key, value in texts.items()] or None
         return message
 
+
+class Simulation(Client):
+    """Episodes in which this program drives the vehicle 'ego', in lockstep: nothing moves between two steps.
+
+        with reprise.Simulation('town1', cars=100, seed=7) as sim:
+            seen = sim.reset()
+            while seen is not None:
+                seen = sim.step(throttle=0.4)
+            print(sim.outcome)
+
+    `town`, `cars`, `weather`, `model`, `start` and `goal` make a task: a place is a lane ('b1_b2_1', or with metres
+    along it ('b1_b2_1', 30.0)), the number of a spawn point, or 'drawn' (by the seed). No `start` is drawn as well; no
+    `goal` is none. With a goal the episode ends on arrival ('passed'), or when the time is over that the way takes at
+    10 km/h ('failed'). `seconds` limits an episode; without it a task lasts two hours.
+
+    `scenario` takes the place of a task: a file's name in the server's folder, a path (read here), or Lua text, whose
+    parameters `settings` changes; it spawns 'ego' with driver = 'external'.
+
+    `pedestrians` is 0: nobody walks by itself in a town yet.
+
+    `rig` of a task: cameras of the vehicle, in the words of a scenario's rig, such as [dict(name='front', kind='rgb',
+    width=84, height=84)]; `seen.image('front')` is what one sees. A process that renders is started in each reset.
+
+    `trace` is a name in the folder, such as 'a.mcap'; each reset writes it anew. Equal arguments give equal ticks,
+    whatever was driven before, here or elsewhere.
+
+    `server` is the socket of a `reprise serve` that runs already, 'PATH' or 'HOST:PORT' (then with its `token`, if
+    it wants one); without it this starts one of its own, in `folder`, and ends it with close() or the `with`.
+    """
+
+    def __init__(self, town: str = "town1", *, cars: int = 0, seed: int | None = None, weather: str = "clear_noon",
+                 start: Place = None, goal: Place = None, model: str = "sedan", scenario: str | os.PathLike | None = None,
+                 settings: Mapping[str, Any] | None = None, seconds: float = 0.0, trace: str | None = None,
+                 rig: Sequence[Mapping[str, Any]] = (), pedestrians: int = 0, server: str | None = None,
+                 token: str | None = None, folder: str | os.PathLike = ".") -> None:  # fmt: skip
+        self.run_info: Run | None = None  #: what stays the same in this episode; also `seen.run`
+        self._seen: Observation | None = None
+        super().__init__(
+            dict(town=town, cars=cars, pedestrians=pedestrians, seed=seed, weather=weather, start=start, goal=goal, model=model,
+                 scenario=scenario, settings=settings, seconds=seconds, trace=trace, rig=rig),
+            server, token, folder)  # fmt: skip
+
+    def _hear(self, first: bool = False) -> tuple[str, Noun]:
+        try:
+            return super()._hear(first)
+        except Fault:
+            self._seen = None
+            raise
+
+    def reset(self, **changes: Any) -> Observation:
+        """Begins an episode and returns what its first tick shows. `changes` to the arguments of the class, such as
+        seed=8, stay for the resets after it. Raises Fault for what cannot be, such as a mistake in a scenario."""
+        self._change_plan(changes)
+        self._seen, self.outcome = None, None
+        self._say("reset", **self._message())
+        kind, message = self._hear(first=True)
+        while kind == "observation":  # of the episode before, where Ctrl-C came while we waited for it
+            kind, message = self._hear(first=True)
+        if kind == "goodbye":
+            self.outcome = Outcome(message.verdict, message.reason, message.ticks)
+            raise Fault("the episode ended before a vehicle 'ego' with driver = 'external' was there", 0)
+        wire = self._open_wire()
+        wire.ready()
+        self.run_info = Run(message, wire.descriptor())
+        seen = self._look()
+        if seen is None:
+            raise Fault("the episode ended in the tick in which 'ego' appeared", 0)
+        return seen
+
     def _look(self) -> Observation | None:
         kind, message = self._hear()
-        if kind == "observation":
+        if kind == "observation" and self.run_info is not None:
             self._seen = Observation(self.run_info, message)
         else:
             self._seen, self.outcome = None, Outcome(message.verdict, message.reason, message.ticks)
@@ -222,14 +262,18 @@ class Simulation:
         Returns what the next tick shows; None when the episode is over, and `outcome` says how it ended."""
         if self._seen is None:
             raise RuntimeError("no episode runs: reset() begins one")
-        control = control if control is not None else Control(**values)
-        self._wire.control(self._seen.index, *values_of(control))
+        if control is not None and values:
+            raise TypeError(f"step: a control whole, or by its fields ({', '.join(values)}), not both")
+        return self._answer(self._seen, control if control is not None else Control(**values))
+
+    def _answer(self, seen: Observation, control: Control) -> Observation | None:
+        self._open_wire().control(seen.index, *values_of(control))
         return self._look()
 
     def run(self, driver: Driver, ticks: int | None = None) -> Outcome | None:
         """Lets a driver drive, from a reset where no episode runs, until the end or for so many ticks."""
         seen = self._seen or self.reset()
         while seen is not None and (ticks is None or ticks > 0):
-            seen = self.step(driver(seen))
+            seen = self._answer(seen, driver(seen))
             ticks = None if ticks is None else ticks - 1
         return self.outcome

@@ -297,6 +297,63 @@ class Episodes(Case):
                     sim.reset(rig=[sensor])
             self.assertEqual(sim.reset(rig=()).index, 1)
 
+    def test_each_meta_command_changes_what_it_says_and_nothing_else_is_needed(self):
+        rig = [dict(name="front", width=32, height=24)]
+        with reprise.Simulation("town1", cars=5, seed=3, rig=rig, start=("b1_b2_1", 20.0)) as sim:
+            noon = sim.reset()
+            picture = noon.image("front").copy()
+            rain = sim.reset(weather="hard_rain_sunset")
+            self.assertEqual((noon.run.episode.weather_name, rain.run.episode.weather_name), ("clear_noon", "hard_rain_sunset"))
+            self.assertFalse(np.array_equal(picture, rain.image("front")), "the same street looks otherwise")
+            other = sim.reset(rig=[dict(name="wide", kind="depth", width=16, height=8)])
+            self.assertEqual([sensor.name for sensor in other.run.sensors.rig], ["wide"])
+            self.assertEqual(other.image("wide").shape, (8, 16))
+            with self.assertRaisesRegex(KeyError, "carries wide"):
+                other.image("front")
+            again = sim.reset(weather="clear_noon", rig=rig)
+            np.testing.assert_array_equal(again.image("front"), picture)
+            blind = sim.reset(rig=(), cars=9, seed=4, start=("b1_b2_1", 60.0), model="van")
+            self.assertEqual((len(blind.run.sensors.rig), len(blind.images)), (0, 0))
+            self.assertEqual((blind.run.episode.cars, blind.run.episode.seed), (9, 4))
+            self.assertAlmostEqual(float(blind.ego.lane_s), 60.0, delta=0.5)
+            self.assertNotEqual(blind.vehicles["model"][0], again.vehicles["model"][0])
+            with_goal = sim.reset(goal=("b1_b2_1", 70.0))
+            self.assertAlmostEqual(sim.step().way_to_goal, 10.0, delta=0.5)
+            self.assertEqual(with_goal.run.town.name, "town1")
+            self.assertEqual(sim.reset(town="town2", start=None, goal=None).run.town.name, "town2")
+
+    def test_pedestrians_are_refused_in_one_line_and_nothing_changes(self):
+        with self.assertRaisesRegex(ValueError, "^pedestrians=50: only 0 so far: [^\n]*$"):
+            reprise.Simulation(pedestrians=50)
+        with reprise.Simulation("town1", pedestrians=0) as sim:
+            with self.assertRaisesRegex(ValueError, "pedestrians=3"):
+                sim.reset(pedestrians=3, town="town2")
+            self.assertEqual(sim.reset().run.town.name, "town1")
+
+    def test_a_control_that_cannot_be_is_refused_and_the_episode_goes_on(self):
+        with reprise.Simulation("town1") as sim:
+            sim.reset()
+            for wrong in (dict(throttle=2), dict(throttle="0.4"), dict(steer=float("nan")), dict(brake=None), dict(lamps=-1),
+                          dict(lamps=0.5), dict(steer=np.zeros(2))):  # fmt: skip
+                with self.assertRaisesRegex(ValueError, f"^Control\\({next(iter(wrong))}=.*expected"):
+                    sim.step(**wrong)
+            for wrong in ({"throttle": 0.4}, 0.4):
+                with self.assertRaisesRegex(TypeError, "a driver returns a reprise.Control, not"):
+                    sim.step(wrong)
+            with self.assertRaisesRegex(TypeError, "not both"):
+                sim.step(reprise.Control(), throttle=0.4)
+            with self.assertRaisesRegex(TypeError, "is a `return` missing"):
+                sim.run(lambda seen: None)
+            self.assertEqual(sim.step(throttle=np.float32(0.4)).index, 2)
+
+    def test_begins_anew_where_it_was_interrupted_while_it_waited(self):
+        with reprise.Simulation("town1", seed=3) as sim:
+            wanted = chains(sim, 5)
+            seen = sim.reset()
+            sim._wire.control(seen.index, 0.4, 0, 0, False, False, 0)  # and Ctrl-C: nobody reads the answer
+            wait_until(lambda: select.select([sim._wire], [], [], 0)[0], "the server answers")
+            self.assertEqual(chains(sim, 5), wanted)
+
     def test_fifty_resets_leave_no_process_and_no_descriptor(self):
         with reprise.Simulation("town1", seed=1) as sim:
             def state():
