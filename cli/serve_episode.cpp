@@ -4,8 +4,10 @@
 #include <charconv>
 #include <cstring>
 #include <fcntl.h>
+#include <functional>
 
 #include "cli/seats.h"
+#include "cli/serve_drivers.h"
 #include "files/ending.h"
 #include "replay/trace_writer.h"
 #include "world/check.h"
@@ -15,8 +17,7 @@ namespace reprise::cli {
 namespace {
 
 constexpr std::size_t largest_in_place = 2 << 20;  // [bytes] a reset in place of a control
-constexpr const char* driven = "ego";
-constexpr double patience = 1;  // [s] for a client to take our last word
+const std::string driven = "ego";
 
 remote::FrameChannel copy_of(const remote::FrameChannel& client) {
     const int descriptor = fcntl(client.descriptor(), F_DUPFD_CLOEXEC, 0);
@@ -25,51 +26,55 @@ remote::FrameChannel copy_of(const remote::FrameChannel& client) {
     return {descriptor, largest_in_place};
 }
 
-/// Whether the client ended the episode, and did not fail in it.
-bool is_ended_by_client(const Seats& seats) {
-    if (!seats.loss() || !seats.loss()->said)
-        return false;
-    const remote::Kind kind = seats.loss()->said->kind;
-    return kind == remote::Kind::reset || kind == remote::Kind::goodbye;
-}
+/// One episode: who drives in it, and what makes it end.
+struct Played {
+    kernel::Kernel& kernel;
+    const world::Recording& recording;
+    const std::vector<std::string>&
+        drivers;                  ///< over channels of their own; none: 'ego' over `client`
+    remote::FrameChannel client;  ///< a copy
+    const files::StopRequest stop{};
+    Seats seats;
 
-/// How the episode ended. A client that begins another one, or says goodbye, ends it; one that is
-/// gone, or breaks the rules, is a lost driver.
-world::Outcome outcome_of(const kernel::Kernel& kernel,
-                          const Seats& seats,
-                          const files::StopRequest& stop,
-                          std::uint64_t ticks) {
-    if (kernel.finished())
-        return kernel.outcome();
-    if (stop.signal() != 0)
-        return world::outcome_of_ended_by_server(ticks);
-    return is_ended_by_client(seats) ? world::outcome_of_ended_by_client(ticks)
-                                     : world::outcome_of_lost_driver(driven, ticks);
-}
+    /// Who drives several speaks on its own connection to end the episode; it is heard behind it.
+    bool is_left() const { return !drivers.empty() && cli::is_left(client); }
 
-/// Why there is no next tick, to a client that waits for one: it may be there still.
-void tell(const remote::FrameChannel& client, const std::string& reason) {
-    flatbuffers::FlatBufferBuilder builder;
-    builder.Finish(remote::CreateFault(builder, builder.CreateString(reason)));
-    try {
-        copy_of(client).send(
-            remote::Kind::fault, {builder.GetBufferPointer(), builder.GetSize()}, {patience});
-    } catch (const remote::ChannelFault&) {
-        // It has gone, or reads nothing.
+    /// Whether the client ended the episode, and did not fail in it.
+    bool is_ended_by_client() const {
+        if (!drivers.empty())
+            return !seats.loss() && cli::is_left(client) && !has_gone(client);
+        if (!seats.loss() || !seats.loss()->said)
+            return false;
+        const remote::Kind kind = seats.loss()->said->kind;
+        return kind == remote::Kind::reset || kind == remote::Kind::goodbye;
     }
-}
 
-void play_on(kernel::Kernel& kernel,
-             const world::Recording& recording,
-             Seats& seats,
-             const files::StopRequest& stop,
-             const remote::FrameChannel& client,
-             const std::filesystem::path& path) {
+    /// How the episode ended. A client that begins another one, or says goodbye, ends it; one that
+    /// is gone, or breaks the rules, is a lost driver.
+    world::Outcome outcome(std::uint64_t ticks) const {
+        if (kernel.finished())
+            return kernel.outcome();
+        if (stop.signal() != 0)
+            return world::outcome_of_ended_by_server(ticks);
+        if (is_ended_by_client())
+            return world::outcome_of_ended_by_client(ticks);
+        const std::string& first = drivers.empty() ? driven : drivers.front();
+        return world::outcome_of_lost_driver(seats.loss() ? seats.loss()->actor : first, ticks);
+    }
+
+    /// Until it is over. The trace is whole before anybody hears of the end.
+    world::Outcome play(const std::filesystem::path& path);
+
+    /// The last word to each driver, and to the client.
+    void tell(const world::Outcome& outcome);
+};
+
+world::Outcome Played::play(const std::filesystem::path& path) {
     std::optional<replay::TraceWriter> trace;
     if (!path.empty())
         trace.emplace(path, recording);
     std::uint64_t ticks = 0;
-    while (!kernel.finished() && stop.signal() == 0 && !seats.loss()) {
+    while (!kernel.finished() && stop.signal() == 0 && !is_left() && !seats.loss()) {
         const world::SealedTick& tick = kernel.step(seats.controls());
         ++ticks;
         if (trace)
@@ -77,17 +82,23 @@ void play_on(kernel::Kernel& kernel,
         if (!kernel.finished())
             seats.go_on(tick, [&] { kernel.begin_step(); });
     }
-    const world::Outcome outcome = outcome_of(kernel, seats, stop, ticks);
+    const world::Outcome ended = outcome(ticks);
     if (trace)
-        trace->close(outcome);
+        trace->close(ended);
+    return ended;
+}
+
+void Played::tell(const world::Outcome& outcome) {
     if (kernel.finished())
         seats.leave(outcome.reason, outcome);
     else if (stop.signal() != 0)
         seats.fail("the server ends", 0);
-    else if (is_ended_by_client(seats))
-        seats.abandon();  // it is answered by who hears what it said
+    else if (!drivers.empty() || is_ended_by_client())
+        seats.abandon();  // the client is answered by who hears what it said
     else
-        tell(client, seats.loss()->reason);
+        say_fault(client, seats.loss()->reason, 0);
+    if (!drivers.empty())
+        say_end(client, outcome);
 }
 
 }  // namespace
@@ -103,19 +114,27 @@ std::uint32_t line_named_in(const std::string& message) {
 std::optional<remote::Frame> play_episode(kernel::Kernel& kernel,
                                           const world::Recording& recording,
                                           const remote::FrameChannel& client,
+                                          const std::vector<std::string>& drivers,
                                           const std::filesystem::path& trace) {
-    const files::StopRequest stop;
-    Seats seats({}, {std::nullopt, [&] { return stop.signal() != 0; }}, recording);
-    seats.add(std::make_unique<remote::Seat>(
-        driven, copy_of(client), remote::Patience{std::nullopt, [&] {
-                                                      return stop.signal() != 0;
-                                                  }}));
+    Played played{.kernel = kernel,
+                  .recording = recording,
+                  .drivers = drivers,
+                  .client = copy_of(client),
+                  .seats = Seats({}, remote::Patience{}, recording)};
+    const remote::Patience patience{std::nullopt, [&] { return played.stop.signal() != 0; }};
     try {
-        play_on(kernel, recording, seats, stop, client, trace);
+        for (const std::string& name : drivers)
+            played.seats.add(
+                std::make_unique<remote::Seat>(name, channel_for(name, played.client), patience));
+        if (drivers.empty())
+            played.seats.add(std::make_unique<remote::Seat>(driven, copy_of(client), patience));
+        played.tell(played.play(trace));
     } catch (const std::exception& error) {  // whatever it was, the session lives on
-        seats.fail(error.what(), line_named_in(error.what()));
+        played.seats.fail(error.what(), line_named_in(error.what()));
+        if (!drivers.empty())
+            say_fault(played.client, error.what(), line_named_in(error.what()));
     }
-    return is_ended_by_client(seats) ? seats.take_said() : std::nullopt;
+    return drivers.empty() && played.is_ended_by_client() ? played.seats.take_said() : std::nullopt;
 }
 
 }  // namespace reprise::cli

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/fingerprint/this_build.h"
+#include "cli/serve_drivers.h"
 #include "cli/serve_episode.h"
 #include "cli/serve_folder.h"
 #include "cli/serve_stage.h"
@@ -182,6 +183,7 @@ std::optional<remote::Frame> Session::Parts::begin(const remote::Frame& frame) {
         const auto& reset = frame.as<remote::Reset>();
         if (const std::string trace = text_of(reset.trace()); !trace.empty())
             file_in(options.folder, trace, ".mcap");
+        drivers_of(reset, client);  // throws for what cannot be
         Stage::End end = stage_for(episode_of(reset)).play(frame);
         stopped = stopped || end.stopped;
         left = end.left;

@@ -9,6 +9,7 @@
 #include <sys/socket.h>
 #include <utility>
 
+#include "cli/serve_drivers.h"
 #include "cli/serve_episode.h"
 #include "kernel/kernel.h"
 #include "world/check.h"
@@ -64,10 +65,14 @@ int be_episode(kernel::Kernel& kernel,
                const remote::Frame& reset) {
     set.signals.release();
     try {
-        const auto* name = reset.as<remote::Reset>().trace();
+        const auto& asked = reset.as<remote::Reset>();
+        const auto* name = asked.trace();
         const bool traced = name != nullptr && name->size() != 0;
-        const auto next =
-            play_episode(kernel, set.recording, set.client, traced ? set.folder / name->str() : "");
+        const auto next = play_episode(kernel,
+                                       set.recording,
+                                       set.client,
+                                       drivers_of(asked, set.client),
+                                       traced ? set.folder / name->str() : "");
         if (next && next->kind == Kind::goodbye)
             send_left(line);
         else if (next)

@@ -87,6 +87,8 @@ bool is_message(Kind kind, std::span<const std::uint8_t> body) {
             return holds<Reset>(body);
         case Kind::fault:
             return holds<Fault>(body);
+        case Kind::channel:
+            return holds<Channel>(body);
     }
     return false;
 }

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .driver import Control, Driver, Ego, Observation, Run, drive
+    from .multi_simulation import MultiSimulation
     from .nouns import Noun, dtype, enum, points
     from .pictures import Images, Sensors
     from .simulation import Fault, Outcome, Simulation
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
 _PARTS = {
     "driver": ("Control", "Driver", "Ego", "Observation", "Run", "drive"),
+    "multi_simulation": ("MultiSimulation",),
     "nouns": ("Noun", "dtype", "enum", "points"),
     "pictures": ("Images", "Sensors"),
     "simulation": ("Fault", "Outcome", "Simulation"),
@@ -30,7 +32,7 @@ _PARTS = {
 _PART_OF = {name: part for part, names in _PARTS.items() for name in names}
 
 __all__ = [
-    "Control", "Driver", "Ego", "Fault", "Images", "Noun", "Observation", "Outcome", "Run", "Sensors", "Simulation",
+    "Control", "Driver", "Ego", "Fault", "Images", "MultiSimulation", "Noun", "Observation", "Outcome", "Run", "Sensors", "Simulation",
     "Trace", "TraceError", "Way", "WireError", "drive", "dtype", "enum", "points",
 ]  # fmt: skip
 

@@ -1,6 +1,6 @@
 """Made by make_schema.py from world/*.fbs and remote/wire.fbs: change those."""
 
-DIGEST = "686afb8d49273d8d"
+DIGEST = "0e7710654b8382c1"
 
 # name: (type, values)
 ENUMS = {'remote.Kind': ('uint',
@@ -11,7 +11,8 @@ ENUMS = {'remote.Kind': ('uint',
                   'goodbye': 5,
                   'open': 6,
                   'reset': 7,
-                  'fault': 8}),
+                  'fault': 8,
+                  'channel': 9}),
  'remote.Turning': ('ubyte', {'none': 0, 'follow_lane': 1, 'straight': 2, 'left': 3, 'right': 4}),
  'remote.PlaceKind': ('ubyte', {'drawn': 0, 'lane': 1, 'spawn_point': 2}),
  'world.SignalColor': ('ubyte',
@@ -259,7 +260,9 @@ TABLES = {'remote.Hello': {'version': (0, 'uint'),
                   'seed': (5, 'ulong'),
                   'seconds': (6, 'double'),
                   'settings': (7, '[Setting]'),
-                  'trace': (8, 'string')},
+                  'trace': (8, 'string'),
+                  'drivers': (9, '[string]')},
+ 'remote.Channel': {'name': (0, 'string')},
  'remote.Fault': {'text': (0, 'string'), 'line': (1, 'uint')},
  'world.Sensor': {'name': (0, 'string'),
                   'kind': (1, 'SensorKind'),

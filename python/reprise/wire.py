@@ -88,6 +88,10 @@ class Wire:
     def close(self) -> None:
         self._channel.close()
 
+    def fileno(self) -> int:
+        """For select(): whether something was said."""
+        return self._channel.fileno()
+
     def descriptor(self) -> int | None:
         """What was handed over with the first message, once: the caller's from then on."""
         descriptor, self._descriptor = self._descriptor, None

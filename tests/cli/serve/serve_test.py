@@ -370,6 +370,115 @@ class Episodes(Case):
         wait_until(lambda: not any(map(is_alive, there)), "children of a closed simulation end")
 
 
+SEVERAL = """return scenario 'several' {
+    town = 'town1', cars = 20, seed = 3, duration = 5,
+    run = function()
+        local a = spawn{ name = 'a', model = 'sedan', driver = 'external' }
+        wait(1)
+        spawn{ name = 'b', model = 'sedan', driver = 'external' }
+        wait(2)
+        a:despawn()
+        wait(3600)
+    end,
+}
+"""
+
+
+class Several(Case):
+    """One client that drives several vehicles."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "several.lua").write_text(SEVERAL)
+
+    def ways(self, sim, **changes):
+        """Who is there, with the chain that they are shown, tick by tick."""
+        seen, found = sim.reset(**changes), []
+        while seen:
+            found.append((list(seen), {one.tick.digests["chain"].tobytes() for one in seen.values()}))
+            self.assertEqual([one.run.name for one in seen.values()], list(seen))
+            seen = sim.step({name: drive(one) for name, one in seen.items()})
+        return found
+
+    def test_drive_what_as_many_programs_drive(self):
+        with reprise.MultiSimulation(("a", "b"), "several.lua", folder=self.folder) as sim:
+            ways = self.ways(sim, trace="one.mcap")
+            self.assertEqual((sim.outcome.verdict, sim.outcome.ticks), ("completed", 100))
+        self.assertEqual([names for names, _ in ways], 20 * [["a"]] + 40 * [["a", "b"]] + 39 * [["b"]])
+        self.assertEqual({len(chains) for _, chains in ways}, {1}, "all are shown the same tick")
+        script = f"import sys; sys.path[:0] = {[str(HERE)]!r}; import reprise, serve_test; reprise.drive(serve_test.drive)"
+        drivers = [word for name in "ab" for word in ("--driver", f'{name}={sys.executable} -B -c "{script}"')]
+        code, said = reprise_program("run", str(self.folder / "several.lua"), *drivers, "-o", str(self.folder / "two.mcap"))
+        self.assertEqual(code, 0, said)
+        self.assertEqual((self.folder / "one.mcap").read_bytes(), (self.folder / "two.mcap").read_bytes())
+        code, said = reprise_program("verify", str(self.folder / "one.mcap"))
+        self.assertEqual(code, 0, said)
+
+    def test_an_episode_that_is_left_leaves_a_whole_trace_and_nothing_for_the_next(self):
+        with reprise.MultiSimulation(("a", "b"), "several.lua", folder=self.folder) as sim:
+            wanted = self.ways(sim)
+            seen = sim.reset(trace="left_by_reset.mcap")
+            for _ in range(30):
+                seen = sim.step({name: reprise.Control(throttle=1.0) for name in seen})
+            self.assertEqual(self.ways(sim, trace=None), wanted)
+            sim.reset(trace="left_by_closing.mcap")
+            there = descendants(os.getpid())
+        self.assertFalse(any(map(is_alive, there)))
+        for name in ("left_by_reset.mcap", "left_by_closing.mcap"):
+            code, said = reprise_program("verify", str(self.folder / name))
+            self.assertEqual(code, 0, said)
+            self.assertIn("driver_lost", reprise_program("info", str(self.folder / name))[1])
+
+    def test_fifty_resets_leave_no_process_and_no_descriptor(self):
+        with reprise.MultiSimulation(("a", "b"), "several.lua", folder=self.folder) as sim:
+            def state():
+                below = [os.getpid(), *descendants(os.getpid())]
+                return len(below), sorted(len(os.listdir(f"/proc/{pid}/fd")) for pid in below)
+
+            sim.reset()
+            before = state()
+            for _ in range(50):
+                sim.step({"a": reprise.Control()})
+                sim.reset()
+            self.assertEqual(state(), before)
+
+    def test_mistakes_are_told_and_the_session_lives_on(self):
+        for names in ((), "ab", ("a", "a")):
+            with self.assertRaisesRegex(ValueError, "names of different vehicles"):
+                reprise.MultiSimulation(names, SEVERAL)
+        with reprise.MultiSimulation(("a", "b"), SEVERAL, folder=self.folder) as sim:
+            seen = sim.reset()
+            with self.assertRaisesRegex(ValueError, "a control for each of a, got none"):
+                sim.step({})
+            with self.assertRaisesRegex(ValueError, "a control for each of a, got a, c"):
+                sim.step({"a": reprise.Control(), "c": reprise.Control()})
+            with self.assertRaisesRegex(TypeError, "a driver returns a reprise.Control, not None"):
+                sim.step({"a": None})
+            with self.assertRaisesRegex(reprise.Fault, "scenario.lua:8: ") as caught:
+                seen = sim.reset(scenario=SEVERAL.replace("a:despawn()", "a:despan()"))
+                for _ in range(100):
+                    seen = sim.step({name: reprise.Control() for name in seen})
+            self.assertEqual(caught.exception.line, 8)
+            with self.assertRaisesRegex(reprise.Fault, "scenario.lua:4: .*'a' is driven by another program"):
+                sim.reset(scenario=SEVERAL, drivers=("b", "c"))
+            with self.assertRaisesRegex(reprise.Fault, "before a vehicle of a, b was there"):
+                sim.reset(scenario="return scenario 'empty' {\n    run = function() end,\n}\n", drivers=("a", "b"))
+            with self.assertRaisesRegex(reprise.Fault, "needs the name of another actor"):
+                sim.reset(scenario=SEVERAL, drivers=("a", ""))
+            self.assertEqual(list(sim.reset(drivers=("a", "b"))), ["a"])
+
+    def test_a_driver_that_says_nonsense_ends_the_run_for_all(self):
+        with reprise.MultiSimulation(("a", "b"), SEVERAL, trace="a.mcap", folder=self.folder) as sim:
+            seen = sim.reset()
+            while len(seen) < 2:
+                seen = sim.step({name: reprise.Control() for name in seen})
+            sim._wires["b"].control(seen["b"].index, 7.0, 0, 0, False, False, 0)
+            self.assertEqual(sim.step({name: reprise.Control() for name in seen}), {})
+            self.assertEqual((sim.outcome.verdict, sim.outcome.ticks), ("driver_lost", seen["a"].index))
+        code, said = reprise_program("verify", str(self.folder / "a.mcap"))
+        self.assertEqual(code, 0, said)
+
+
 class Servers(Case):
     def test_two_clients_at_once_disturb_each_other_in_nothing(self):
         with Server("--socket", str(self.folder / "s"), "--folder", str(self.folder)) as server:
@@ -485,6 +594,12 @@ class Ports(Case):
                 over_tcp = chains(sim, 10)
         with reprise.Simulation(cars=5, seed=2) as sim:
             self.assertEqual(over_tcp, chains(sim, 10))
+
+    def test_several_drivers_need_a_socket_that_can_hand_over_theirs(self):
+        with Server("--port", "0") as server:
+            with reprise.MultiSimulation(("a", "b"), SEVERAL, server=server.place) as sim:
+                with self.assertRaisesRegex(reprise.Fault, "Unix domain socket"):
+                    sim.reset()
 
     def test_another_address_is_refused_without_listen(self):
         with Server("--port", "0") as server:
