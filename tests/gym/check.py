@@ -1,15 +1,26 @@
 #!/usr/bin/env python3
-"""Holds the environments of reprise.gym against Gymnasium's own checker, and against what they promise: check.py
+"""Holds the environments of reprise.gym and reprise.zoo against the checkers of Gymnasium and PettingZoo, and against
+what they promise: check.py
 
 With Stable-Baselines3 installed also against its checker, and 2,000 steps of PPO. Called by `./dev gym`.
 """
+import contextlib
+import io
+import pathlib
+import subprocess
+import tempfile
+import time
 import warnings
 
 import gymnasium
 import numpy as np
 from gymnasium.utils.env_checker import check_env
+from pettingzoo.test import parallel_api_test, parallel_seed_test
 
+import reprise
 import reprise.gym
+import reprise.zoo
+from reprise.simulation import find_program
 
 NAME = "reprise/Navigation-v0"
 
@@ -91,16 +102,99 @@ def pictures_are_equal_for_equal_actions():
     assert np.array_equal(*seen) and 20 < seen[0].mean() < 235 and not np.array_equal(seen[0][0], seen[0][-1])
 
 
+def keep_the_lane(seen):
+    """An action that drives along the lane at about 8 m/s, from a 'state'."""
+    speed, left, sine = seen[0], seen[6], seen[7]
+    return np.array([np.clip(-0.15 * left - 1.5 * sine, -1, 1), 0.5 if speed < 8 else 0.0], np.float32)
+
+
+def pettingzoos_checkers():
+    for obs in ("state", "rgb84"):
+        env = reprise.zoo.navigation(agents=2, task="straight", cars=10, obs=obs)
+        with contextlib.redirect_stdout(io.StringIO()):
+            parallel_api_test(env, num_cycles=200 if obs == "state" else 20)
+        env.close()
+    parallel_seed_test(lambda: reprise.zoo.navigation(agents=2, task="one_turn", cars=20), num_cycles=50)
+
+
+def one_of_several_is_what_one_alone_is():
+    alone = gymnasium.make(NAME, task="straight")
+    several = reprise.zoo.navigation(agents=1, task="straight")
+    seen, _ = alone.reset(seed=1, options={"episode": 2})
+    seen_there, _ = several.reset(seed=1, options={"episodes": [2]})
+    total, total_there, over, there = 0.0, 0.0, False, {"car_0": seen_there["car_0"]}
+    while not over:
+        assert np.array_equal(seen, there["car_0"])
+        action = keep_the_lane(seen)
+        seen, reward, over, truncated, info = alone.step(action)
+        there, rewards, *_ = several.step({"car_0": action})
+        total, total_there = total + reward, total_there + rewards["car_0"]
+        assert not truncated
+    while several.agents:  # it is shown the tick in which it arrives, alone nobody is
+        _, rewards, terminations, _, infos = several.step({"car_0": keep_the_lane(there["car_0"])})
+        total_there += rewards["car_0"]
+        assert terminations["car_0"] == (not several.agents) == infos["car_0"].get("success", False)
+    alone.close()
+    several.close()
+    assert info["success"] and total > 50 and abs(total - total_there) < 0.1, (info, total, total_there)
+
+
+def several_arrive_leave_and_their_trace_verifies():
+    with tempfile.TemporaryDirectory() as folder:
+        env = reprise.zoo.navigation(agents=3, task="straight", folder=folder)
+        seen, infos = env.reset(seed=4, options={"trace": "a.mcap"})
+        gone, success = {}, {}
+        while env.agents:
+            # The last one waits until its time is over.
+            actions = {agent: np.array([0, -1], np.float32) if agent == "car_2" else keep_the_lane(seen[agent]) for agent in env.agents}
+            seen, _, terminations, truncations, infos = env.step(actions)
+            for agent in set(seen) - set(env.agents):
+                gone[agent], success[agent] = (terminations[agent], truncations[agent]), infos[agent]["success"]
+        env.close()
+        assert gone == {"car_0": (True, False), "car_1": (True, False), "car_2": (False, True)}, gone
+        assert success == {"car_0": True, "car_1": True, "car_2": False}, success
+        subprocess.run([find_program(), "verify", "a.mcap"], cwd=folder, check=True, capture_output=True)
+        trace = reprise.Trace(pathlib.Path(folder) / "a.mcap")
+        assert trace.outcome["verdict"] == "failed", trace.outcome
+        assert trace.table()["id"].max() == 3 and len(trace[trace.last].tick.vehicles) == 0
+
+
 def stable_baselines3():
     try:
+        import torch
         from stable_baselines3 import PPO
         from stable_baselines3.common.env_checker import check_env as check
+        from stable_baselines3.common.monitor import Monitor
     except ImportError:
-        return "SKIPPED: stable-baselines3 is not installed"
-    env = gymnasium.make(NAME, task="straight")
-    check(env.unwrapped)
-    PPO("MlpPolicy", env, n_steps=500, seed=1, device="cpu").learn(2000)
+        return "SKIPPED: stable-baselines3 is not installed: ./dev gym stable-baselines3"
+    torch.set_num_threads(1)  # so small a network only loses by more
+    for obs in ("state", "rgb84"):
+        env = gymnasium.make(NAME, task="straight", obs=obs)
+        check(env.unwrapped)
+        env.close()
+    env = Monitor(gymnasium.make(NAME, task="straight"))
+    learner = PPO("MlpPolicy", env, n_steps=500, batch_size=100, seed=1, device="cpu")
+    before = mean_reward(env, learner)
+    begin = time.monotonic()
+    learner.learn(2000)
+    rate = 2000 / (time.monotonic() - begin)
+    print(f"       2,000 steps of PPO: {rate:.0f} steps/s; mean reward of 400 steps {before:.1f} before, "
+          f"{mean_reward(env, learner):.1f} after")  # fmt: skip
     env.close()
+
+
+def mean_reward(env, learner):
+    """Of the first 400 steps of three episodes."""
+    total = 0.0
+    for number in range(3):
+        seen, _ = env.reset(seed=100 + number, options={"episode": number})
+        for _ in range(400):
+            seen, reward, terminated, truncated, _ = env.unwrapped.step(learner.predict(seen, deterministic=True)[0])
+            assert np.isfinite(seen).all()
+            total += reward / 3
+            if terminated or truncated:
+                break
+    return total
 
 
 if __name__ == "__main__":
@@ -111,6 +205,9 @@ if __name__ == "__main__":
         standing_still_is_truncated_when_the_time_is_over,
         two_at_once,
         pictures_are_equal_for_equal_actions,
+        pettingzoos_checkers,
+        one_of_several_is_what_one_alone_is,
+        several_arrive_leave_and_their_trace_verifies,
         stable_baselines3,
     ):
         skipped = check()
