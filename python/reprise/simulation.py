@@ -272,7 +272,7 @@ class Simulation(Client):
 
     def run(self, driver: Driver, ticks: int | None = None) -> Outcome | None:
         """Lets a driver drive, from a reset where no episode runs, until the end or for so many ticks."""
-        seen = self._seen or self.reset()
+        seen: Observation | None = self._seen or self.reset()
         while seen is not None and (ticks is None or ticks > 0):
             seen = self._answer(seen, driver(seen))
             ticks = None if ticks is None else ticks - 1

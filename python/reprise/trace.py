@@ -16,7 +16,7 @@ from .nouns import Noun
 try:
     import zstandard
 except ImportError:  # told where it is needed: drivers do without
-    zstandard = None
+    zstandard = None  # type: ignore[assignment]
 
 _MAGIC = b"\x89MCAP0\r\n"
 _CHUNK, _MESSAGE, _ATTACHMENT, _METADATA = 6, 5, 9, 12

@@ -56,7 +56,8 @@ class Way:
     def _search(self, lane: int, s: float, goal: int, goal_s: float) -> list[int]:
         """Dijkstra's. The lanes behind `lane` up to the goal."""
         start = (lane, s > goal_s or lane != goal)  # a goal behind us needs a way around
-        best, before = {start: 0.0}, {}
+        best = {start: 0.0}
+        before: dict[tuple[int, bool], tuple[int, bool]] = {}
         queue = [(0.0, start)]
         while queue:
             cost, node = heapq.heappop(queue)
