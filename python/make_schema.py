@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes reprise/schema.py from the FlatBuffers schemas: make_schema.py [--check]
+"""Writes reprise/schema.py from the FlatBuffers schemas and the vehicle catalogue: make_schema.py [--check]
 
 --check writes nothing, and exits with 1 where the file is not what the schemas say.
 """
@@ -12,6 +12,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 # In the order of remote/CMakeLists.txt: the digest depends on it.
 FILES = ["remote/wire.fbs"] + [f"world/{name}.fbs" for name in ("common", "tick", "traffic", "town", "episode")]
+VEHICLES = ROOT / "world/models/vehicle_models.cpp"
 TARGET = ROOT / "python/reprise/schema.py"
 
 
@@ -53,15 +54,27 @@ def read():
     return enums, structs, tables
 
 
+def vehicles():
+    """(name, length, width, rear overhang) of each model of the catalogue, in its order."""
+    rows = re.findall(r'^    \{"(\w+)",\s*\w+,\s*Livery::\w+,([^"]*)', VEHICLES.read_text(), re.MULTILINE)
+    found = []
+    for name, numbers in rows:
+        length, width, _, _, rear_overhang = (float(number) for number in numbers.split(",")[:5])
+        found.append((name, length, width, rear_overhang))
+    return found
+
+
 def text():
     enums, structs, tables = read()
     show = lambda noun: pprint.pformat(noun, width=116, sort_dicts=False)
     return (
-        '"""Made by make_schema.py from world/*.fbs and remote/wire.fbs: change those."""\n\n'
+        '"""Made by make_schema.py from world/*.fbs, remote/wire.fbs and world/models/vehicle_models.cpp: change those."""\n\n'
         f'DIGEST = "{digest()}"\n\n'
         f"# name: (type, values)\nENUMS = {show(enums)}\n\n"
         f"# name: fields in their order, without padding\nSTRUCTS = {show(structs)}\n\n"
-        f"# name: field: (id, type)\nTABLES = {show(tables)}\n"
+        f"# name: field: (id, type)\nTABLES = {show(tables)}\n\n"
+        "# Of the catalogue, which a tick's `model` is an index of: name, length, width, rear bumper to rear axle [m]\n"
+        f"VEHICLES = {show(vehicles())}\n"
     )
 
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .pictures import Images, Sensors
     from .simulation import Fault, Outcome, Simulation
     from .trace import Trace, TraceError
+    from .view import View
     from .way import Way
     from .wire import WireError
 
@@ -26,6 +27,7 @@ _PARTS = {
     "pictures": ("Images", "Sensors"),
     "simulation": ("Fault", "Outcome", "Simulation"),
     "trace": ("Trace", "TraceError"),
+    "view": ("View",),
     "way": ("Way",),
     "wire": ("WireError",),
 }
@@ -33,7 +35,7 @@ _PART_OF = {name: part for part, names in _PARTS.items() for name in names}
 
 __all__ = [
     "Control", "Driver", "Ego", "Fault", "Images", "MultiSimulation", "Noun", "Observation", "Outcome", "Run", "Sensors", "Simulation",
-    "Trace", "TraceError", "Way", "WireError", "drive", "dtype", "enum", "points",
+    "Trace", "TraceError", "View", "Way", "WireError", "drive", "dtype", "enum", "points",
 ]  # fmt: skip
 
 

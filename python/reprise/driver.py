@@ -8,13 +8,16 @@ import math
 import operator
 import os
 import struct
-from typing import Any, Callable
+from typing import TYPE_CHECKING, Any, Callable
 
 import numpy as np
 
 from .nouns import Noun, dtype, enum
 from .pictures import Images, Sensors
 from .wire import VERSION, Wire, WireError
+
+if TYPE_CHECKING:
+    from .view import View
 
 _NO_TRAFFIC = struct.pack("<IHHi", 8, 4, 4, 4)  # a table in which nothing is said: who sees sensors only has no other
 
@@ -170,6 +173,12 @@ class Observation:
     def ego(self) -> Ego:
         """The driven vehicle."""
         return Ego(self.tick, self.run.actor)
+
+    def show(self, radius: float | None = 60.0) -> View:
+        """From above, for a notebook or `.save('now.html')`: so many metres around the driven vehicle, in red; None: all."""
+        from .view import view_of_tick
+
+        return view_of_tick(self.run.town, self.tick, self.traffic, self.run.step, {self.run.actor}, radius)
 
     @property
     def vehicles(self) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Made by make_schema.py from world/*.fbs and remote/wire.fbs: change those."""
+"""Made by make_schema.py from world/*.fbs, remote/wire.fbs and world/models/vehicle_models.cpp: change those."""
 
 DIGEST = "0e7710654b8382c1"
 
@@ -390,3 +390,21 @@ TABLES = {'remote.Hello': {'version': (0, 'uint'),
                    'town_path': (15, 'string'),
                    'branches': (16, '[Branch]'),
                    'imported_from': (17, 'string')}}
+
+# Of the catalogue, which a tick's `model` is an index of: name, length, width, rear bumper to rear axle [m]
+VEHICLES = [('sedan', 4.7, 1.82, 1.0),
+ ('hatchback', 4.05, 1.75, 0.7),
+ ('suv', 4.6, 1.88, 0.98),
+ ('van', 5.3, 1.97, 1.1),
+ ('lorry', 8.0, 2.45, 2.2),
+ ('bus', 11.9, 2.52, 3.3),
+ ('city_car', 3.6, 1.64, 0.56),
+ ('wagon', 4.78, 1.84, 1.06),
+ ('coupe', 4.52, 1.86, 1.08),
+ ('pickup', 5.35, 1.9, 1.24),
+ ('taxi', 4.9, 1.85, 1.05),
+ ('police', 4.85, 1.85, 1.08),
+ ('ambulance', 5.95, 2.02, 1.22),
+ ('minibus', 6.95, 2.02, 1.62),
+ ('motorcycle', 2.12, 0.82, 0.34),
+ ('bicycle', 1.8, 0.62, 0.35)]

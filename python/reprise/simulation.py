@@ -8,11 +8,14 @@ import pathlib
 import shutil
 import socket
 import subprocess
-from typing import Any, Mapping, Sequence, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Mapping, Sequence, TypeVar, Union
 
 from .driver import Control, Driver, Observation, Run, values_of
 from .nouns import Noun
 from .wire import VERSION, Wire, WireError
+
+if TYPE_CHECKING:
+    from .view import View
 
 _Client = TypeVar("_Client", bound="Client")
 Place = Union[str, int, "tuple[str, float]", None]
@@ -269,6 +272,12 @@ class Simulation(Client):
     def _answer(self, seen: Observation, control: Control) -> Observation | None:
         self._open_wire().control(seen.index, *values_of(control))
         return self._look()
+
+    def show(self, radius: float | None = 60.0) -> View:
+        """What `seen.show()` of the last tick shows."""
+        if self._seen is None:
+            raise RuntimeError("no episode runs: reset() begins one")
+        return self._seen.show(radius)
 
     def run(self, driver: Driver, ticks: int | None = None) -> Outcome | None:
         """Lets a driver drive, from a reset where no episode runs, until the end or for so many ticks."""

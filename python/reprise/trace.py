@@ -2,11 +2,12 @@
 from __future__ import annotations
 
 import collections
+import functools
 import pathlib
 import struct
 import subprocess
 import tempfile
-from typing import Any, Iterator
+from typing import TYPE_CHECKING, Any, Iterator
 
 import numpy as np
 
@@ -17,6 +18,9 @@ try:
     import zstandard
 except ImportError:  # told where it is needed: drivers do without
     zstandard = None  # type: ignore[assignment]
+
+if TYPE_CHECKING:
+    from .view import View
 
 _MAGIC = b"\x89MCAP0\r\n"
 _CHUNK, _MESSAGE, _ATTACHMENT, _METADATA = 6, 5, 9, 12
@@ -35,7 +39,8 @@ class TraceError(Exception):
 class Tick:
     """A recorded tick: `tick` and `traffic` are nouns with all of it; a trace's level may leave traffic out (None)."""
 
-    def __init__(self, trace: "Trace", tick: bytes, traffic: bytes | None) -> None:
+    def __init__(self, trace: Trace, tick: bytes, traffic: bytes | None) -> None:
+        self._trace = trace
         self.tick = Noun(tick, "world.Tick")
         self.traffic = None if traffic is None else Noun(traffic, "world.Traffic")
         self.index: int = self.tick.index
@@ -43,6 +48,12 @@ class Tick:
 
     def __repr__(self) -> str:
         return f"<tick {self.index}, {self.time:.2f} s>"
+
+    def show(self, radius: float | None = None) -> View:
+        """From above, for a notebook or `.save('tick.html')`; so many metres [m] around the driven vehicle, or all."""
+        from .view import view_of_tick
+
+        return view_of_tick(self._trace.town, self.tick, self.traffic, self._trace.step, self._trace.egos, radius)
 
     def vehicle(self, actor: int) -> np.void:
         """The VehicleState (world/tick.fbs) of an actor. Raises KeyError."""
@@ -185,6 +196,23 @@ class Trace:
             if name == "tick":
                 columns["time [s]"] = table["tick"] * self.step
         return pandas.DataFrame(columns)
+
+    @functools.cached_property
+    def egos(self) -> set[int]:
+        """Ids of the vehicles that another program drove; without any, of the first vehicle that has mass."""
+        from .view import egos_of
+
+        return egos_of(self)
+
+    def show(self, first: int | None = None, last: int | None = None, every: int | None = None, radius: float = 60.0) -> View:
+        """From above, for a notebook or `.save('replay.html')`: town, cars, signals, with a slider over the ticks.
+
+        `first` to `last`, each `every`th (default: all of up to 600, else so many). `radius` [m] is seen around the
+        driven vehicle, in red, where it is followed. `trace[100].show()` shows one tick, without a script.
+        """
+        from .view import view_of_trace
+
+        return view_of_trace(self, first, last, every, radius)
 
     def render(self, tick: int, camera: str = "rgb", weather: str = "", reprise: str = "reprise", **options: Any) -> bytes:
         """A PNG of one tick, made by `reprise render`; options as its own: size='400x300', mount='1,0,1.4', actor=2."""
