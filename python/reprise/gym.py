@@ -44,7 +44,7 @@ class Navigation(gymnasium.Env):
     path of another tasks.json.
     """
 
-    metadata: dict[str, Any] = {"render_modes": []}
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 20}
 
     def __init__(self, town: str = "town1", task: str = "navigation", weather: str | list[str] = "clear_noon",
                  obs: str = "state", cars: int | None = None, server: str | None = None, token: str | None = None,
@@ -87,6 +87,14 @@ class Navigation(gymnasium.Env):
         if seen is None:
             info["success"] = success
         return journey.observation, float(sum(terms.values())), success, seen is None and not success, info
+
+    def render(self) -> np.ndarray | None:
+        """What the camera of 'rgb84' or 'rgb200x88' sees, uint8 (height, width, 3), with render_mode='rgb_array'."""
+        if self.render_mode != "rgb_array" or self._journey is None:
+            return None
+        if self._journey.observation.ndim != 3:
+            raise gymnasium.error.Error("render: obs='state' has no camera: make it with obs='rgb84', or look at a trace")
+        return self._journey.observation
 
     def close(self) -> None:
         self._sim.close()

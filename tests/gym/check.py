@@ -102,6 +102,15 @@ def pictures_are_equal_for_equal_actions():
     assert np.array_equal(*seen) and 20 < seen[0].mean() < 235 and not np.array_equal(seen[0][0], seen[0][-1])
 
 
+def what_it_sees_is_rendered():
+    env = gymnasium.make(NAME, task="straight", obs="rgb84", render_mode="rgb_array")
+    seen, _ = env.reset(seed=1)
+    assert np.array_equal(env.render(), seen)
+    seen, *_ = env.step(np.array([0, 1], np.float32))
+    assert np.array_equal(env.render(), seen)
+    env.close()
+
+
 def keep_the_lane(seen):
     """An action that drives along the lane at about 8 m/s, from a 'state'."""
     speed, left, sine = seen[0], seen[6], seen[7]
@@ -205,6 +214,7 @@ if __name__ == "__main__":
         standing_still_is_truncated_when_the_time_is_over,
         two_at_once,
         pictures_are_equal_for_equal_actions,
+        what_it_sees_is_rendered,
         pettingzoos_checkers,
         one_of_several_is_what_one_alone_is,
         several_arrive_leave_and_their_trace_verifies,
