@@ -251,8 +251,12 @@ int run(const RunOptions& options) {
                                        outcome.ticks));
     if (seats.loss() && seats.loss()->ours)
         return exit_our_fault;
+    const std::vector<Check> checks = kernel.checks();
+    const bool failed = std::any_of(checks.begin(), checks.end(), [](const Check& check) {
+        return check.status == Check::Status::fail;
+    });
     const bool good = outcome.verdict != "failed" && outcome.verdict != "driver_lost";
-    return good ? exit_good : exit_differs;
+    return good && !failed ? exit_good : exit_differs;
 }
 
 }  // namespace reprise::cli

@@ -47,7 +47,8 @@ Seats::Seats(const std::vector<std::string>& plans,
 
 void Seats::lose(const remote::Seat& seat, remote::Lost lost) {
     if (!loss_)
-        loss_ = Loss{seat.actor(), std::move(lost.reason), lost.ours, std::move(lost.said)};
+        loss_ =
+            Loss{seat.actor(), std::move(lost.reason), lost.ours, lost.left, std::move(lost.said)};
 }
 
 /// Gives an actor the driver that was named for it, if one was.
@@ -154,13 +155,14 @@ std::optional<remote::Frame> Seats::take_said() {
 }
 
 world::Outcome Seats::end(const world::Outcome& otherwise) {
-    const world::Outcome outcome =
-        loss_ ? world::outcome_of_lost_driver(loss_->actor, otherwise.ticks) : otherwise;
+    const auto end_of =
+        loss_ && loss_->left ? world::outcome_of_left_driver : world::outcome_of_lost_driver;
+    const world::Outcome outcome = loss_ ? end_of(loss_->actor, otherwise.ticks) : otherwise;
     for (const std::string& name : leave("the run ended", outcome))
         say(stderr,
             "reprise: --driver {}: nobody was spawned with that name and driver = 'external'\n",
             name);
-    if (loss_)
+    if (loss_ && !loss_->left)
         say(stderr,
             "reprise: {}{}\n",
             loss_->ours ? "this is our fault, please report it: " : "",

@@ -59,6 +59,7 @@ class Seats {
         std::string actor;                    ///< its name
         std::string reason;                   ///< for people
         bool ours = false;                    ///< not the driver failed, but we did
+        bool left = false;                    ///< nobody failed: it ends the run
         std::optional<remote::Frame> said{};  ///< in place of an answer
     };
 

@@ -221,6 +221,24 @@ std::optional<Client::Picture> Client::picture(std::string_view sensor) const {
     return std::nullopt;
 }
 
+Client::Way Client::way() const {
+    if (parts_->last.kind != Kind::observation)
+        return {};
+    const Observation& seen = parts_->last.as<Observation>();
+    return {seen.turning(), seen.way_to_goal()};
+}
+
+void Client::leave(const std::string& reason) {
+    flatbuffers::FlatBufferBuilder builder;
+    const auto why = builder.CreateString(reason);
+    builder.Finish(CreateGoodbye(builder, why, builder.CreateString("driver_left")));
+    try {
+        parts_->channel.send(Kind::goodbye, {builder.GetBufferPointer(), builder.GetSize()});
+    } catch (const ChannelFault&) {
+        // Who is gone needs no goodbye.
+    }
+}
+
 void Client::say(const Wheel& wheel) {
     flatbuffers::FlatBufferBuilder builder;
     builder.Finish(CreateControl(builder,

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "remote/wire_generated.h"
 #include "world/recording.h"
 #include "world/rig.h"
 #include "world/tick.h"
@@ -75,8 +76,20 @@ class Client {
     /// sensor that the vehicle does not carry.
     std::optional<Picture> picture(std::string_view sensor) const;
 
+    /// The way to the goal that the scenario gave, as the planner of the CARLA paper says it.
+    struct Way {
+        Turning turning = Turning::none;  ///< at the next junction; none: no goal was given
+        double to_goal = 0;               ///< [m] along the shortest way
+    };
+
+    /// At the last tick.
+    Way way() const;
+
     /// The answer to the last tick: from the next one on.
     void say(const Wheel& wheel);
+
+    /// In place of it: ends the run, which is nobody's failure (verdict driver_left).
+    void leave(const std::string& reason);
 
   private:
     struct Parts;

@@ -352,8 +352,12 @@ std::variant<world::Control, Lost> Seat::answer() {
         Frame frame = parts.channel->receive(parts.patience);
         if (frame.kind == Kind::goodbye) {
             const auto* reason = frame.as<Goodbye>().reason();
-            return parts.said_else(std::move(frame),
-                                   "left" + (reason == nullptr ? "" : ": " + shortened(*reason)));
+            const auto* verdict = frame.as<Goodbye>().verdict();
+            const bool left = verdict != nullptr && verdict->str() == "ended";
+            Lost gone = parts.said_else(
+                std::move(frame), "left" + (reason == nullptr ? "" : ": " + shortened(*reason)));
+            gone.left = left;
+            return gone;
         }
         if (frame.kind != Kind::control)
             return parts.said_else(std::move(frame), "said something else than a control");

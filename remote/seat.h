@@ -33,6 +33,7 @@ struct Lost {
     std::string reason;
     std::optional<Frame> said{};  ///< what it said in place of an answer, where that was a message
     bool ours = false;            ///< not the driver failed, but we did
+    bool left = false;            ///< nobody failed: it wants the run to end
 };
 
 /// How the scenario spawned a vehicle: what it carries, and what its driver is shown.

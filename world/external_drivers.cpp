@@ -24,7 +24,9 @@ bool ExternalDrivers::explain(const Outcome& outcome) const {
     if (outcome == outcome_of_ended_by_server(outcome.ticks))
         return true;
     return std::any_of(spawns_.begin(), spawns_.end(), [&](const auto& one) {
-        return outcome == outcome_of_lost_driver(one.second.command.text, outcome.ticks);
+        const std::string& name = one.second.command.text;
+        return outcome == outcome_of_lost_driver(name, outcome.ticks) ||
+               outcome == outcome_of_left_driver(name, outcome.ticks);
     });
 }
 

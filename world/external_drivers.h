@@ -22,8 +22,9 @@ class ExternalDrivers {
     /// By actor: how the scenario spawned it.
     const std::map<std::uint32_t, Spawn>& spawns() const { return spawns_; }
 
-    /// Whether an outcome says that the driver of one of them was lost, which one cannot be seen in
-    /// ticks, or that a client ended the episode, which is one of them; or the server, at any time.
+    /// Whether an outcome says that the driver of one of them was lost, or ended the run, which one
+    /// cannot be seen in ticks; or that a client ended the episode, which is one of them; or the
+    /// server, at any time.
     bool explain(const Outcome& outcome) const;
 
   private:

@@ -18,10 +18,15 @@ Outcome outcome_of_ended_by_server(std::uint64_t ticks) {
     return {"ended", "by its server", ticks};
 }
 
+Outcome outcome_of_left_driver(const std::string& actor, std::uint64_t ticks) {
+    return {"ended", "by the driver of '" + actor + "'", ticks};
+}
+
 bool is_early_end(const Outcome& outcome) {
     return outcome.verdict == "driver_lost" ||
            outcome == outcome_of_ended_by_client(outcome.ticks) ||
-           outcome == outcome_of_ended_by_server(outcome.ticks);
+           outcome == outcome_of_ended_by_server(outcome.ticks) ||
+           (outcome.verdict == "ended" && outcome.reason.starts_with("by the driver of '"));
 }
 
 Outcome outcome_of_part(std::uint64_t ticks) {

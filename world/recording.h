@@ -40,6 +40,10 @@ Outcome outcome_of_ended_by_client(std::uint64_t ticks);
 /// Of an episode that ended with the server that played it.
 Outcome outcome_of_ended_by_server(std::uint64_t ticks);
 
+/// Of a run that a driver in another program ended because it wanted to, such as a person who has
+/// driven enough.
+Outcome outcome_of_left_driver(const std::string& actor, std::uint64_t ticks);
+
 /// Whether an outcome says that the run was ended while the scenario would go on, by a driver or
 /// from outside: made again, it ends there as well.
 bool is_early_end(const Outcome& outcome);

@@ -182,6 +182,29 @@ TEST_F(Drivers, LostOnesCanBeDoneEverythingWith) {
     expect_equal("short.mcap", 20);
 }
 
+TEST_F(Drivers, WhoWantsTheRunToEndIsNotLost) {
+    write_scenario("one",
+                   spawn("ego", 20) +
+                       "check.never('no', function() return false end)\n"
+                       "check.min('fast', function() return 0 end, 1)\n");
+    const std::string failed = drive("one", odd_driver + " leaves", "f.mcap", 1);
+    EXPECT_THAT(failed, HasSubstr("driver_left: the driver of 'ego' ended the run"))
+        << "a check that had failed is told all the same";
+    write_scenario("one", spawn("ego", 20));
+    const std::string said = drive("one", odd_driver + " leaves", "a.mcap");
+    EXPECT_THAT(said, HasSubstr("driver_left: the driver of 'ego' ended the run"));
+    EXPECT_THAT(said, Not(HasSubstr("lost")));
+    for (const std::string trace : {"f.mcap", "a.mcap"})
+        expect_equal(trace, 3);
+    run({"run", "a.mcap", "-o", "again.mcap"}, 0);
+    EXPECT_TRUE(bytes("again.mcap") == bytes("a.mcap")) << "made again, it ends where it did";
+    run({"strip", "a.mcap", "-o", "s.mcap", "--level", "inputs"}, 0);
+    run({"expand", "s.mcap", "-o", "e.mcap"}, 0);
+    EXPECT_TRUE(bytes("e.mcap") == bytes("a.mcap"));
+    forge("a.mcap", 3, world::outcome_of_left_driver("other", 3));
+    EXPECT_THAT(run({"verify", "forged.mcap"}, 1), HasSubstr("driver_left"));
+}
+
 TEST_F(Drivers, LossThatIsForgedIsTold) {
     drive("one", odd_driver + " steady", "whole.mcap");
     drive("one", odd_driver + " killed 60", "lost.mcap", 1);

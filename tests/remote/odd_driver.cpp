@@ -72,6 +72,10 @@ void misbehave(const std::string& habit, Client& run) {
         kill(getppid(), SIGINT);
         std::this_thread::sleep_for(std::chrono::hours(1));
     }
+    if (habit == "leaves") {
+        run.leave("enough");
+        std::exit(0);
+    }
     if (habit == "cut") {
         const std::uint32_t header[] = {64, 4};
         say_raw(header, sizeof(header));
