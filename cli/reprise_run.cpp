@@ -1,6 +1,7 @@
-// `reprise run`, `serve`, `verify`, `expand`, `branch` and `import`: the program with SUMO, Bullet
+// `reprise run`, `drive`, `serve`, `verify`, `expand`, `branch` and `import`: the program with SUMO, Bullet
 // and Lua in it.
 #include "cli/branch.h"
+#include "cli/drive.h"
 #include "cli/expand.h"
 #include "cli/process/command_main.h"
 #include "cli/run.h"
@@ -13,6 +14,8 @@ int main(int argc, char** argv) {
     return command_main(argc, argv, [](const CommandLine& line) {
         if (line.command == "branch")
             return branch(line.branch);
+        if (line.command == "drive")
+            return drive(line.drive);
         if (line.command == "expand")
             return expand(line.expand);
         if (line.command == "import")

@@ -65,8 +65,12 @@ world::Recording prepare_again(const RunOptions& options, replay::TraceReader& t
 
 world::Recording prepare(const RunOptions& options) {
     world::Recording recording;
-    recording.episode = scripting::load_episode(
-        options.scenario, {options.town, options.seed, options.seconds, options.parameters});
+    const scripting::Overrides overrides{
+        options.town, options.seed, options.seconds, options.parameters};
+    recording.episode =
+        options.source.empty()
+            ? scripting::load_episode(options.scenario, overrides)
+            : scripting::episode_of_text(options.scenario, options.source, overrides);
     world::EpisodeT& episode = recording.episode;
     towns::Network network = load_town(episode.town, options.scenario);
     if (!network.notes.empty())

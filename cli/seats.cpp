@@ -8,6 +8,7 @@
 #include "cli/process/helper_program.h"
 #include "cli/process/reproduce.h"
 #include "cli/process/say.h"
+#include "cli/wheel_program.h"
 #include "world/check.h"
 #include "world/printable.h"
 
@@ -26,6 +27,8 @@ std::vector<remote::SeatPlan> parse_seats(const std::vector<std::string>& texts)
     std::vector<remote::SeatPlan> all;
     for (const std::string& text : texts) {
         all.push_back(remote::parse_seat(text));
+        if (all.back().command == keyboard_word)
+            all.back().command = wheel_command();
         for (std::size_t i = 0; i + 1 < all.size(); ++i)
             if (all[i].actor == all.back().actor)
                 throw world::Error(

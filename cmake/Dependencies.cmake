@@ -20,6 +20,11 @@ pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(sqlite3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
 pkg_check_modules(cli11 REQUIRED IMPORTED_TARGET CLI11)
+# The one that may be missing: then who drives by hand looks at a terminal.
+pkg_check_modules(sdl2 IMPORTED_TARGET sdl2)
+if(sdl2_FOUND)  # its -D_REENTRANT says nothing to this compiler, but that the compiled headers are others'
+  set_target_properties(PkgConfig::sdl2 PROPERTIES INTERFACE_COMPILE_OPTIONS "")
+endif()
 
 # libsumo, Recast, libosmium and the three OpenCV modules ship no CMake package in the small -dev packages we install.
 include(PlainLibrary)

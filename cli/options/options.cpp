@@ -49,6 +49,7 @@ struct CommandLine::App {
     std::vector<std::string> accept_assignments;
     std::vector<std::string> branch_assignments;
     RenderWords render_words;
+    std::string drive_size;
 };
 
 CommandLine::~CommandLine() = default;
@@ -61,6 +62,7 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     // The last word counts, as in every shell alias.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     add_run(app, run, app_->assignments);
+    add_drive(app, drive, app_->drive_size);
     add_verify(app, verify);
     add_info(app, info);
     add_diff(app, diff);
@@ -86,6 +88,7 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
             branch.parameters.push_back(split_assignment(assignment));
         for (const std::string& assignment : app_->accept_assignments)
             accept.start.parameters.push_back(split_assignment(assignment));
+        finish_drive(app_->drive_size, drive);
         finish_render(app, app_->render_words, render);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0)

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/options/drive_options.h"
 #include "cli/options/golden_options.h"
 #include "cli/options/render_options.h"
 #include "cli/options/run_options.h"
@@ -43,6 +44,7 @@ class CommandLine {
     ToolOptions tools;
     TownOptions town;
     ServeOptions serve;
+    DriveOptions drive;
 
   private:
     struct App;

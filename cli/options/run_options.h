@@ -20,6 +20,7 @@ struct DriverOptions {
 
 struct RunOptions : DriverOptions {
     std::string scenario;
+    std::string source;  ///< the scenario's text, where it is in no file; `scenario` is its name
     std::string output;  ///< empty: the scenario's name in the working directory
     std::optional<std::string> town;
     std::optional<std::uint64_t> seed;

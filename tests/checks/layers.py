@@ -27,7 +27,8 @@ ROOMS = {
     "exchange": "world files replay",
     "render": "world files ground",
     "kernel": "world ground scripting traffic drivers replay",
-    "cli": "world files process ground towns scripting traffic drivers remote replay exchange render kernel",
+    "wheel": "world remote",
+    "cli": "world files process ground towns scripting traffic drivers remote replay exchange render kernel wheel",
 }
 # Inner rooms from the lowest to the highest: each may include those before it. "." is the room's own folder.
 INNER = {
@@ -60,6 +61,7 @@ LIBRARIES = {
     r"recastnavigation/": "towns",
     r"(osmium/|expat\.h)": "towns/maps",
     r"CLI/": "cli",
+    r"SDL2/": "wheel",
     r"nlohmann/": "replay exchange cli towns/make",
     r"sqlite3\.h": "exchange",
     r"proj\.h": "exchange",
