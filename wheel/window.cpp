@@ -53,16 +53,18 @@ class Window : public View {
   public:
     explicit Window(const Clock& clock)
         : clock_(clock),
-          window_(SDL_CreateWindow("Reprise",
-                                   SDL_WINDOWPOS_UNDEFINED,
-                                   SDL_WINDOWPOS_UNDEFINED,
-                                   usual_width,
-                                   usual_height,
-                                   SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI)) {
+          window_(SDL_CreateWindow(
+              "Reprise",
+              SDL_WINDOWPOS_UNDEFINED,
+              SDL_WINDOWPOS_UNDEFINED,
+              usual_width,
+              usual_height,
+              SDL_WINDOW_HIDDEN | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI)) {
         if (window_ != nullptr)
             renderer_.reset(SDL_CreateRenderer(window_.get(), -1, 0));
         if (renderer_ == nullptr)
             throw world::Error(std::string("no window: ") + SDL_GetError());
+        SDL_ShowWindow(window_.get());  // now: SDL makes it anew for what draws in it
     }
 
     Wishes wait(double seconds) override {
