@@ -231,7 +231,7 @@ Client::Way Client::way() const {
 void Client::leave(const std::string& reason) {
     flatbuffers::FlatBufferBuilder builder;
     const auto why = builder.CreateString(reason);
-    builder.Finish(CreateGoodbye(builder, why, builder.CreateString("driver_left")));
+    builder.Finish(CreateGoodbye(builder, why, builder.CreateString("ended")));
     try {
         parts_->channel.send(Kind::goodbye, {builder.GetBufferPointer(), builder.GetSize()});
     } catch (const ChannelFault&) {

@@ -88,7 +88,7 @@ class Client {
     /// The answer to the last tick: from the next one on.
     void say(const Wheel& wheel);
 
-    /// In place of it: ends the run, which is nobody's failure (verdict driver_left).
+    /// In place of it: ends the run, which is nobody's failure (verdict ended).
     void leave(const std::string& reason);
 
   private:

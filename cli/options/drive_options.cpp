@@ -24,7 +24,7 @@ void add_camera(CLI::App& command, DriveOptions& drive, std::string& size) {
     command
         .add_option("--camera",
                     drive.camera,
-                    "What you see: rgb, or semantic or depth, which take a fifth of the time")
+                    "What you see: rgb, or semantic or depth, which take a sixth of the time")
         ->type_name("KIND")
         ->transform(one_of({"rgb", "semantic", "depth"}, "camera"))
         ->capture_default_str();

@@ -188,11 +188,11 @@ TEST_F(Drivers, WhoWantsTheRunToEndIsNotLost) {
                        "check.never('no', function() return false end)\n"
                        "check.min('fast', function() return 0 end, 1)\n");
     const std::string failed = drive("one", odd_driver + " leaves", "f.mcap", 1);
-    EXPECT_THAT(failed, HasSubstr("driver_left: the driver of 'ego' ended the run"))
+    EXPECT_THAT(failed, HasSubstr("ended: by the driver of 'ego'"))
         << "a check that had failed is told all the same";
     write_scenario("one", spawn("ego", 20));
     const std::string said = drive("one", odd_driver + " leaves", "a.mcap");
-    EXPECT_THAT(said, HasSubstr("driver_left: the driver of 'ego' ended the run"));
+    EXPECT_THAT(said, HasSubstr("ended: by the driver of 'ego'"));
     EXPECT_THAT(said, Not(HasSubstr("lost")));
     for (const std::string trace : {"f.mcap", "a.mcap"})
         expect_equal(trace, 3);
@@ -202,7 +202,7 @@ TEST_F(Drivers, WhoWantsTheRunToEndIsNotLost) {
     run({"expand", "s.mcap", "-o", "e.mcap"}, 0);
     EXPECT_TRUE(bytes("e.mcap") == bytes("a.mcap"));
     forge("a.mcap", 3, world::outcome_of_left_driver("other", 3));
-    EXPECT_THAT(run({"verify", "forged.mcap"}, 1), HasSubstr("driver_left"));
+    EXPECT_THAT(run({"verify", "forged.mcap"}, 1), HasSubstr("by the driver of 'other'"));
 }
 
 TEST_F(Drivers, LossThatIsForgedIsTold) {

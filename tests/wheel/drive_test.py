@@ -68,7 +68,7 @@ class Driven(unittest.TestCase):
         code, said = self.reprise("verify", trace)
         self.assertEqual(code, 0, said)
         self.assertIn("equal at every one of", said)
-        self.assertIn("driver_left: the driver of 'ego' ended the run", self.reprise("info", trace)[1])
+        self.assertIn("ended: by the driver of 'ego'", self.reprise("info", trace)[1])
 
     def expect_driven_ahead_and_left(self, trace):
         steer = self.recorded(trace, "controls.steer")
@@ -131,7 +131,7 @@ class Windows(Driven):
     def expect_good_end(self):
         said, _ = self.drive.communicate(timeout=WAITING)
         self.assertEqual(self.drive.returncode, 0, said)
-        self.assertIn("driver_left", said)
+        self.assertIn("ended: by the driver", said)
         return said
 
     def test_keys_drive_and_steer_and_escape_ends_it_whole(self):
@@ -228,7 +228,7 @@ class Terminals(Driven):
         _, status = os.waitpid(pid, 0)
         self.assertEqual(os.waitstatus_to_exitcode(status), 0, shown[-500:])
         self.assertIn("\u2580", shown, "a picture")
-        self.assertRegex(shown, r"(?s)\x1b\[\?1049h.*\x1b\[\?1049l.*driver_left", "the screen comes back")
+        self.assertRegex(shown, r"(?s)\x1b\[\?1049h.*\x1b\[\?1049l.*ended: by the driver", "the screen comes back")
         self.expect_whole("drive.mcap")
         self.expect_driven_ahead_and_left("drive.mcap")
 
