@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "kernel/nearest_ahead.h"
 #include "world/frames.h"
@@ -23,21 +25,22 @@ struct Under {
 };
 
 /// Opposite: a lane for cars is there that runs against the heading, and none that runs with it
-/// (lanes overlap inside junctions).
+/// (lanes overlap inside junctions). `near`: the lanes around.
 Under look_under(const world::TownT& town,
                  const world::LaneMap& lanes,
+                 std::span<const std::uint32_t> near,
                  const Eigen::Vector3d& p_world,
                  const Eigen::Vector3d& ahead) {
     bool with = false;
     bool against = false;
-    const auto found = lanes.at(p_world);
+    const auto found = lanes.at(p_world, near);
     for (const auto& [lane, at] : found) {
         const double yaw = world::point_at(town.lanes[lane], at.s).yaw;
         const bool same = ahead.x() * std::cos(yaw) + ahead.y() * std::sin(yaw) > 0;
         with = with || same;
         against = against || !same;
     }
-    return {against && !with, found.empty() && !lanes.walkable_at(p_world).empty()};
+    return {against && !with, found.empty() && !lanes.walkable_at(p_world, near).empty()};
 }
 
 /// Samples the footprint on a grid of 7 x 3 points; of a vehicle whose four corners are where they
@@ -49,26 +52,32 @@ FootprintShares footprint_shares(const world::TownT& town,
     constexpr int along = 7;
     constexpr int across = 3;
     const Eigen::Vector3d ahead = pose_world_vehicle.linear().col(0);
+    const Eigen::Vector3d middle(model.length / 2 - model.rear_overhang, 0, 0);
+    const std::vector<std::uint32_t> near =
+        lanes.near(pose_world_vehicle * middle, std::hypot(model.length, model.width) / 2);
     const auto under = [&](int i, int j) {
         const double x = -model.rear_overhang + model.length * (i + 0.5) / along;
         const double y = model.width * ((j + 0.5) / across - 0.5);
-        return look_under(town, lanes, pose_world_vehicle * Eigen::Vector3d(x, y, 0), ahead);
+        return look_under(town, lanes, near, pose_world_vehicle * Eigen::Vector3d(x, y, 0), ahead);
     };
-    bool in_place = true;
-    for (const int i : {0, along - 1})
-        for (const int j : {0, across - 1}) {
-            const Under corner = under(i, j);
-            in_place = in_place && !corner.opposite_lane && !corner.sidewalk;
-        }
+    const auto is_corner = [](int i, int j) {
+        return (i == 0 || i == along - 1) && (j == 0 || j == across - 1);
+    };
     FootprintShares shares;
-    if (in_place)
+    const auto add = [&](bool corners) {
+        for (int i = 0; i < along; ++i)
+            for (int j = 0; j < across; ++j) {
+                if (is_corner(i, j) != corners)
+                    continue;
+                const Under point = under(i, j);
+                shares.opposite_lane += point.opposite_lane ? 1 : 0;
+                shares.sidewalk += point.sidewalk ? 1 : 0;
+            }
+    };
+    add(true);
+    if (shares.opposite_lane == 0 && shares.sidewalk == 0)
         return shares;
-    for (int i = 0; i < along; ++i)
-        for (int j = 0; j < across; ++j) {
-            const Under point = under(i, j);
-            shares.opposite_lane += point.opposite_lane ? 1 : 0;
-            shares.sidewalk += point.sidewalk ? 1 : 0;
-        }
+    add(false);
     shares.opposite_lane /= along * across;
     shares.sidewalk /= along * across;
     return shares;

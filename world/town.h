@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -67,6 +68,16 @@ class LaneMap {
     /// As above for sidewalks, crossings and walking areas.
     std::vector<Found> walkable_at(const Eigen::Vector3d& p_world) const;
 
+    /// Lanes of any kind whose bounding box comes within `reach` of p, in plan. Ascending.
+    std::vector<std::uint32_t> near(const Eigen::Vector3d& p_world, double reach) const;
+
+    /// `at` and `walkable_at` for one of several points close together: `near` is what `near` found
+    /// for all of them.
+    std::vector<Found> at(const Eigen::Vector3d& p_world,
+                          std::span<const std::uint32_t> near) const;
+    std::vector<Found> walkable_at(const Eigen::Vector3d& p_world,
+                                   std::span<const std::uint32_t> near) const;
+
     /// The lane for cars that best fits a vehicle there: within `reach` metres of the centre line
     /// and heading within 90 degrees; least (distance + 4 m per rad of heading difference), ties to
     /// the lower index.
@@ -74,6 +85,11 @@ class LaneMap {
 
   private:
     struct Grid;
+
+    std::vector<Found> at(const Eigen::Vector3d& p_world,
+                          double margin,
+                          std::span<const std::uint32_t> near) const;
+
     const TownT* town_;
     std::unique_ptr<Grid> grid_;
 };

@@ -66,6 +66,11 @@ double ribbon_reach(const LaneT& lane, double margin) {
     return lane.width / 2 + margin + std::max(margin, seam) + rounding;
 }
 
+/// A lane whose box is farther away has no surface that gives way by `margin` under a point.
+double surface_reach(double margin) {
+    return 2 * std::max(margin, seam) + rounding;
+}
+
 bool is_near_in_height(const std::vector<Vec3>& outline, double z) {
     return std::any_of(outline.begin(), outline.end(), [&](const Vec3& p) {
         return std::abs(p.z() - z) <= level_clearance;
@@ -95,11 +100,16 @@ struct LaneMap::Grid {
     std::vector<std::uint32_t> near(const Eigen::Vector3d& p, double margin) const {
         if (!p.allFinite())
             return {};
-        Box box;
-        box.take(p.head<2>(), margin);
+        const Box box = box_at(p, margin);
         std::vector<std::uint32_t> found = lanes.near(box);
         std::erase_if(found, [&](std::uint32_t lane) { return !touch(around[lane], box); });
         return found;
+    }
+
+    static Box box_at(const Eigen::Vector3d& p, double margin) {
+        Box box;
+        box.take(p.head<2>(), margin);
+        return box;
     }
 };
 
@@ -118,11 +128,27 @@ LaneMap::~LaneMap() = default;
 LaneMap::LaneMap(LaneMap&&) noexcept = default;
 LaneMap& LaneMap::operator=(LaneMap&&) noexcept = default;
 
+std::vector<std::uint32_t> LaneMap::near(const Eigen::Vector3d& p_world, double reach) const {
+    return grid_->near(p_world, reach + surface_reach(0));
+}
+
 std::vector<LaneMap::Found> LaneMap::at(const Eigen::Vector3d& p_world, double margin) const {
+    return at(p_world, margin, grid_->near(p_world, surface_reach(margin)));
+}
+
+std::vector<LaneMap::Found> LaneMap::at(const Eigen::Vector3d& p_world,
+                                        std::span<const std::uint32_t> near) const {
+    return at(p_world, 0, near);
+}
+
+std::vector<LaneMap::Found> LaneMap::at(const Eigen::Vector3d& p_world,
+                                        double margin,
+                                        std::span<const std::uint32_t> near) const {
     std::vector<Found> found;
-    for (const std::uint32_t index : grid_->near(p_world, 2 * std::max(margin, seam) + rounding)) {
+    const Box box = Grid::box_at(p_world, surface_reach(margin));
+    for (const std::uint32_t index : near) {
         const LaneT& lane = town_->lanes[index];
-        if (!is_for_cars(lane) ||
+        if (!is_for_cars(lane) || !touch(grid_->around[index], box) ||
             !is_within_reach(lane, p_world.head<2>(), ribbon_reach(lane, margin)))
             continue;
         const LaneProjection projection = project(lane, p_world);
@@ -133,10 +159,16 @@ std::vector<LaneMap::Found> LaneMap::at(const Eigen::Vector3d& p_world, double m
 }
 
 std::vector<LaneMap::Found> LaneMap::walkable_at(const Eigen::Vector3d& p_world) const {
+    return walkable_at(p_world, grid_->near(p_world, surface_reach(0)));
+}
+
+std::vector<LaneMap::Found> LaneMap::walkable_at(const Eigen::Vector3d& p_world,
+                                                 std::span<const std::uint32_t> near) const {
     std::vector<Found> found;
-    for (const std::uint32_t index : grid_->near(p_world, 2 * seam + rounding)) {
+    const Box box = Grid::box_at(p_world, surface_reach(0));
+    for (const std::uint32_t index : near) {
         const LaneT& lane = town_->lanes[index];
-        if (!is_walkable(lane))
+        if (!is_walkable(lane) || !touch(grid_->around[index], box))
             continue;
         const bool may_hold = lane.outline.empty()
                                   ? is_within_reach(lane, p_world.head<2>(), ribbon_reach(lane, 0))

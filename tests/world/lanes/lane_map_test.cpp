@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -89,6 +91,31 @@ TEST(LaneMap, AgreesWithLookingAtEveryLane) {
             found.push_back(one.lane);
         ASSERT_EQ(found, expected) << p.transpose();
     }
+}
+
+TEST(LaneMap, AnswersTheSameAmongTheLanesNearSeveralPoints) {
+    const TownT town = test::t_junction();
+    const LaneMap map(town);
+    const auto lanes_of = [](const std::vector<LaneMap::Found>& found) {
+        std::vector<std::pair<std::uint32_t, double>> lanes;
+        for (const LaneMap::Found& one : found)
+            lanes.emplace_back(one.lane, one.at.s);
+        return lanes;
+    };
+    std::size_t found = 0;
+    for (std::uint64_t i = 0; i < 3000; ++i) {
+        const Eigen::Vector3d middle(uniform(4 * i, -5, 105), uniform(4 * i + 1, -65, 10), 0.1);
+        const double angle = uniform(4 * i + 2, 0, 6.3);
+        const double reach = uniform(4 * i + 3, 0, 6);
+        const Eigen::Vector3d p =
+            middle + reach * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+        const std::vector<std::uint32_t> near = map.near(middle, reach);
+        ASSERT_EQ(lanes_of(map.at(p, near)), lanes_of(map.at(p))) << p.transpose();
+        ASSERT_EQ(lanes_of(map.walkable_at(p, near)), lanes_of(map.walkable_at(p)))
+            << p.transpose();
+        found += map.at(p, near).size() + map.walkable_at(p, near).size();
+    }
+    EXPECT_GT(found, 500u);
 }
 
 TEST(LaneMap, PrefersTheLaneThatHeadsTheSameWay) {
