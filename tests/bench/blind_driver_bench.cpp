@@ -15,11 +15,11 @@ namespace {
 
 using namespace reprise;
 
-constexpr int ticks = 1000;  // of a run
-constexpr std::array<std::uint64_t, 4> seeds = {1, 2, 3, 4};
+constexpr int ticks = 1500;                                               // of a run
+constexpr std::array<std::uint64_t, 8> seeds = {1, 2, 3, 4, 5, 6, 7, 8};  // and places to start
 constexpr std::uint64_t held = 10;  // [ticks] a random control
 
-enum Manner { flat_out, backwards, at_random };
+enum Manner { straight_on, left, right, backwards, flat_out, at_random };
 
 world::Control braked(std::uint32_t actor) {
     return {0, 1, 0, actor, 0, false, false};
@@ -30,6 +30,10 @@ world::Control blind(Manner manner, std::uint64_t seed, std::uint64_t tick, std:
         return world::draw(seed, tick / held, world::Purpose::scenario, item);
     };
     const double steer = 2 * draw(0) - 1;
+    if (manner == straight_on)
+        return {1, 0, 0, actor, 0, false, false};
+    if (manner == left || manner == right)
+        return {1, 0, manner == left ? 1.0 : -1.0, actor, 0, false, false};
     if (manner == flat_out)
         return {1, 0, steer, actor, 0, false, false};
     if (manner == backwards)
@@ -79,6 +83,18 @@ void BlindDriver(benchmark::State& state, Manner manner) {
     }
 }
 
+BENCHMARK_CAPTURE(BlindDriver, straight_on, straight_on)
+    ->UseManualTime()
+    ->Iterations(3)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(BlindDriver, left, left)
+    ->UseManualTime()
+    ->Iterations(3)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(BlindDriver, right, right)
+    ->UseManualTime()
+    ->Iterations(3)
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(BlindDriver, flat_out, flat_out)
     ->UseManualTime()
     ->Iterations(3)
