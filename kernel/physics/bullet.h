@@ -3,6 +3,7 @@
 // Private to the room: Bullet, and what turns its vectors into ours. Nothing that another room
 // includes may include this.
 #include <BulletCollision/CollisionDispatch/btConvexConcaveCollisionAlgorithm.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletDynamics/Vehicle/btRaycastVehicle.h>
 #include <Eigen/Geometry>
 #include <btBulletDynamicsCommon.h>

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
-
 #include "kernel/physics/bullet.h"
 
 namespace reprise::kernel {
 
-/// Bullet's algorithm for two convex shapes, with its contacts bit for bit, at a third of the
+/// Bullet's algorithm for two convex shapes, with its contacts bit for bit, at half the
 /// price.
 ///
 /// MUST    add the contact points that btConvexConvexAlgorithm adds.
