@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Writes the two maps that tests import and drive on: make_maps.py FOLDER
+"""Writes the maps that tests import and drive on: make_maps.py FOLDER
 
 bridge.xodr: OpenDRIVE as an editor would write it. A crossing with traffic lights; a road that leaves it,
   loops over itself on a bridge and comes back; a T-junction whose side road has a stop sign and ends in a
   curve of spiral and arc. Limits of whole roads, a limit sign, a crosswalk, sidewalks.
 quarter.net.xml: a SUMO network by netconvert from plain nodes and edges. Nine junctions with and without
   lights, a road of two lanes each way, streets on a slope, and a road that crosses another on a bridge.
+lanes.net.xml: likewise. `main`, a straight road of 1500 m with three lanes each way for 130 km/h, at whose ends
+  one can only turn around, and `hill`, one of two lanes each way that climbs 8 % over 600 m.
 
 The maps are our own. Metres, radians, east and north. Same script and netconvert, same bytes.
 """
@@ -203,8 +205,19 @@ def quarter_sources():
     return f"<nodes>\n{nodes}</nodes>\n", f"<edges>\n{edges}</edges>\n"
 
 
-def quarter_map():
-    nodes, edges = quarter_sources()
+def lanes_sources():
+    """Nodes and edges of two straight roads that meet nobody."""
+    nodes, edges = "", ""
+    for name, y, length, rise_to, lanes in (("main", 0, 1500, 0, 3), ("hill", -300, 600, 48, 2)):
+        for end, x, z in (("west", 0, 0), ("east", length, rise_to)):
+            nodes += f'<node id="{name}_{end}" x="{x}" y="{y}" z="{z}" type="priority"/>\n'
+        for edge, source, target in ((name, "west", "east"), (f"{name}_back", "east", "west")):
+            edges += (f'<edge id="{edge}" from="{name}_{source}" to="{name}_{target}" numLanes="{lanes}" '
+                      'speed="36.11" priority="9"/>\n')
+    return f"<nodes>\n{nodes}</nodes>\n", f"<edges>\n{edges}</edges>\n"
+
+
+def sumo_map(nodes, edges):
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         (folder / "in.nod.xml").write_text(nodes)
@@ -226,7 +239,8 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "bridge.xodr").write_text(bridge_map())
-    (folder / "quarter.net.xml").write_text(quarter_map())
+    (folder / "quarter.net.xml").write_text(sumo_map(*quarter_sources()))
+    (folder / "lanes.net.xml").write_text(sumo_map(*lanes_sources()))
 
 
 if __name__ == "__main__":
