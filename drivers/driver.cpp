@@ -100,6 +100,10 @@ void Autopilot::change_lane(std::uint32_t lane) {
     state_->navigator.change_lane(lane);
 }
 
+void Autopilot::keep_lane(bool keep) {
+    state_->navigator.keep_lane(keep);
+}
+
 void Autopilot::set_speed(double speed) {
     state_->speed_cap = std::max(speed, 0.0);
 }

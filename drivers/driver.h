@@ -13,7 +13,8 @@ namespace reprise::drivers {
 /// The built-in driver: follows lanes with Stanley steering, holds speed by feed-forward with
 /// proportional and integral terms, keeps its distance (IDM), stops at red and at stop signs, gives
 /// way. It sees what any driver sees: the last tick. Without a route it wanders: at every junction
-/// it draws one of the ways that go on.
+/// it draws one of the ways that go on. It leaves its lane where its route needs it, or where the
+/// lane leads nowhere and another one does.
 class Autopilot {
   public:
     /// `map` must outlive the driver; it copies what it needs of `episode`.
@@ -33,6 +34,11 @@ class Autopilot {
     /// To a lane beside the one that it is on, and then on through what is left of its route. Where
     /// it is too late for that, nothing happens.
     void change_lane(std::uint32_t lane);
+
+    /// From now on it stays on its lane, whatever comes, but for change_lane: goes on as the lane
+    /// does, and stops where that ends. What is left of its route must be possible so; the next
+    /// decide throws world::Error where it is not. Or again as it likes.
+    void keep_lane(bool keep);
 
     /// [m/s]; a cap below the limits of the lanes.
     void set_speed(double speed);

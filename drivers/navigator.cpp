@@ -40,8 +40,14 @@ void Navigator::change_lane(std::uint32_t lane) {
     new_lane_ = lane;
 }
 
+void Navigator::keep_lane(bool keep) {
+    new_keeping_ = keep;
+}
+
 Navigator::Found Navigator::follow(Ego& ego) {
     Found found = Found::same;
+    if (new_keeping_)
+        way_.keep_lane(*new_keeping_);
     if (on_way_) {
         const double reach = 2 + 2 * std::abs(ego.speed) * step_;
         rear_axle_s_ = way_.path().project(ego.position, rear_axle_s_, reach);
@@ -55,6 +61,8 @@ Navigator::Found Navigator::follow(Ego& ego) {
         found = Found::another;
         start_over(ego, {*lane}, 10);
     }
+    if (new_keeping_)
+        take_keeping(ego);
     if (new_route_)
         take_route(ego);
     if (new_lane_)
@@ -110,14 +118,18 @@ void Navigator::start_over(Ego& ego,
 }
 
 /// Lanes that we can no longer choose: those under the car, and what lies behind a junction that is
-/// so near that we could not brake for another way_.
+/// so near that we could not brake for another way_. A change of lanes that has not begun need not
+/// be.
 std::vector<std::uint32_t> Navigator::committed_lanes(const Ego& ego) const {
     const double braking = ego.speed * ego.speed / (2 * comfortable_braking_);
-    const double until = ego.front_s() + braking;
+    double until = ego.front_s() + braking;
     double from = ego.rear_axle_s;
     for (const LaneChange& change : way_.changes())
         if (change.start < from && from < change.end)
             from = change.end;  // half across: go on to the new lane
+    for (const LaneChange& change : way_.changes())
+        if (change.start >= from)
+            until = std::min(until, change.start);
     std::vector<std::uint32_t> lanes_on;
     bool inside = false;
     for (const PathPiece& piece : way_.pieces()) {
@@ -132,17 +144,37 @@ std::vector<std::uint32_t> Navigator::committed_lanes(const Ego& ego) const {
     return lanes_on;
 }
 
+/// Throws naming the stop that no way from this lane leads to.
+void Navigator::require_way(std::uint32_t from,
+                            std::span<const std::uint32_t> stops,
+                            double last_s) const {
+    const auto changes = way_.keeps_lane() ? world::LaneChanges::none : world::LaneChanges::allowed;
+    const Plan plan = map_->graph.plan({from, 0}, stops, last_s, changes);
+    if (plan.unreachable != world::none)
+        throw world::Error("route: no way leads from lane '" + map_->town.lanes[from].name +
+                           "' to lane '" + map_->town.lanes[plan.unreachable].name + "'" +
+                           (way_.keeps_lane() ? " without a change of lanes" : ""));
+}
+
+/// What is left of the route is planned anew from the lanes that we cannot leave any more.
+void Navigator::take_keeping(Ego& ego) {
+    new_keeping_.reset();
+    const std::vector<std::uint32_t> lanes_ahead = committed_lanes(ego);
+    std::span<const std::uint32_t> stops = way_.stops();
+    for (const std::uint32_t lane : lanes_ahead)
+        if (!stops.empty() && stops.front() == lane)
+            stops = stops.subspan(1);
+    require_way(lanes_ahead.back(), stops, way_.last_s());
+    start_over(ego, lanes_ahead, ego.model->length + 0.5 * ego.speed);
+}
+
 void Navigator::take_route(Ego& ego) {
     const std::vector<std::uint32_t> lanes_ahead = committed_lanes(ego);
     std::span<const std::uint32_t> stops = new_route_->stops;
     for (const std::uint32_t lane : lanes_ahead)
         if (!stops.empty() && stops.front() == lane)
             stops = stops.subspan(1);
-    const Plan plan = map_->graph.plan({lanes_ahead.back(), 0}, stops, new_route_->last_s);
-    if (plan.unreachable != world::none)
-        throw world::Error("route: no way leads from lane '" +
-                           map_->town.lanes[lanes_ahead.back()].name + "' to lane '" +
-                           map_->town.lanes[plan.unreachable].name + "'");
+    require_way(lanes_ahead.back(), stops, new_route_->last_s);
     way_.set_stops(std::move(new_route_->stops), new_route_->last_s);
     new_route_.reset();
     start_over(ego, lanes_ahead, ego.model->length + 0.5 * ego.speed);
@@ -184,6 +216,8 @@ void Navigator::add_to(world::Hasher& hasher) const {
         hasher.add(new_route_->last_s);
     }
     hasher.add(new_lane_.value_or(world::none));
+    if (new_keeping_)
+        hasher.add(*new_keeping_);
     hasher.add(rear_axle_s_);
     hasher.add(on_way_);
 }

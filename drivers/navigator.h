@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "drivers/ego.h"
@@ -39,6 +40,9 @@ class Navigator {
     /// To a lane beside the one that the car is on, by the next follow.
     void change_lane(std::uint32_t lane);
 
+    /// Stays on its lane from the next follow on, but for change_lane; or again as it likes.
+    void keep_lane(bool keep);
+
     /// Brings the place on the way (and ego.rear_axle_s) up to date, and the way as far ahead as
     /// the car needs to brake, and more. Throws world::Error naming a lane that cannot be reached.
     Found follow(Ego& ego);
@@ -64,6 +68,8 @@ class Navigator {
     bool is_lost(const Ego& ego) const;
     void start_over(Ego& ego, const std::vector<std::uint32_t>& lanes_ahead, double change_room);
     std::vector<std::uint32_t> committed_lanes(const Ego& ego) const;
+    void require_way(std::uint32_t from, std::span<const std::uint32_t> stops, double last_s) const;
+    void take_keeping(Ego& ego);
     void take_route(Ego& ego);
     void take_change(Ego& ego);
 
@@ -73,6 +79,7 @@ class Navigator {
     double comfortable_braking_;
     std::optional<NewRoute> new_route_;
     std::optional<std::uint32_t> new_lane_;
+    std::optional<bool> new_keeping_;
     double rear_axle_s_ = 0;  ///< only grows while the way stays
     bool on_way_ = false;
 };

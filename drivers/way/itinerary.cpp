@@ -8,12 +8,22 @@ void Itinerary::set_stops(std::vector<std::uint32_t> stops, double last_s) {
     stops_ = std::move(stops);
     last_s_ = last_s;
     entered_ = 0;
+    drop_plan();
+}
+
+void Itinerary::keep_lane(bool keep) {
+    changes_ = keep ? world::LaneChanges::none : world::LaneChanges::allowed;
+}
+
+void Itinerary::drop_plan() {
     lanes_.clear();
+    given_ = 0;
 }
 
 /// The last stop may lie behind us on this very lane, any other one is passed.
 void Itinerary::restart(std::uint32_t lane, std::span<const std::uint32_t> lanes) {
     lanes_.assign(lanes.begin(), lanes.end());
+    given_ = lanes.size();
     entered_ = 0;
     if (stops_.size() > 1)
         pass(lane);
@@ -21,7 +31,7 @@ void Itinerary::restart(std::uint32_t lane, std::span<const std::uint32_t> lanes
 
 std::optional<std::uint32_t> Itinerary::next(world::LanePlace here) {
     if (lanes_.empty() && !to_come().empty()) {
-        const Plan plan = graph_->plan(here, to_come(), last_s_);
+        const Plan plan = graph_->plan(here, to_come(), last_s_, changes_);
         lanes_.assign(plan.lanes.begin(), plan.lanes.end());
         if (plan.unreachable != world::none)
             give_up();
@@ -34,8 +44,10 @@ std::optional<std::uint32_t> Itinerary::next(world::LanePlace here) {
 }
 
 void Itinerary::enter(std::uint32_t lane) {
-    if (!lanes_.empty() && lanes_.front() == lane)
+    if (!lanes_.empty() && lanes_.front() == lane) {
         lanes_.pop_front();
+        given_ -= given_ > 0 ? 1 : 0;
+    }
     if (entered_ < stops_.size() && stops_[entered_] == lane)
         ++entered_;
 }
@@ -48,10 +60,10 @@ void Itinerary::pass(std::uint32_t lane) {
 }
 
 std::optional<std::uint32_t> Itinerary::go_another_way(std::uint32_t lane) {
-    lanes_.clear();
+    drop_plan();
     if (to_come().empty())
         return std::nullopt;
-    const std::optional<Detour> detour = graph_->detour(lane, to_come(), last_s_);
+    const std::optional<Detour> detour = graph_->detour(lane, to_come(), last_s_, changes_);
     if (!detour) {
         give_up();
         return std::nullopt;
@@ -83,7 +95,7 @@ std::optional<double> Itinerary::goal_on(std::uint32_t lane) const {
 
 void Itinerary::give_up() {
     stops_.resize(entered_);
-    lanes_.clear();
+    drop_plan();
 }
 
 void Itinerary::add_to(world::Hasher& hasher) const {
@@ -95,6 +107,8 @@ void Itinerary::add_to(world::Hasher& hasher) const {
         hasher.add(lane);
     hasher.add(std::uint64_t{entered_});
     hasher.add(last_s_);
+    if (keeps_lane())
+        hasher.add(std::uint64_t{given_});
 }
 
 }  // namespace reprise::drivers

@@ -28,6 +28,15 @@ class Itinerary {
     /// Lanes to pass in this order, the last one at `last_s` [m].
     void set_stops(std::vector<std::uint32_t> stops, double last_s);
 
+    /// Plans without changes of lanes from now on, or with them again. `lanes` of a restart may
+    /// hold some.
+    void keep_lane(bool keep);
+
+    bool keeps_lane() const { return changes_ == world::LaneChanges::none; }
+
+    /// Is the next lane one of those that the restart was given?
+    bool next_is_given() const { return given_ > 0; }
+
     /// Starts anew on a lane; `lanes` are the next ones, whatever the stops want.
     void restart(std::uint32_t lane, std::span<const std::uint32_t> lanes);
 
@@ -41,7 +50,7 @@ class Itinerary {
     /// The car is on this lane now.
     void pass(std::uint32_t lane);
 
-    void drop_plan() { lanes_.clear(); }
+    void drop_plan();
 
     /// Drops the plan and takes the link of `lane` from where the stops are reached soonest; none:
     /// there is no stop to come, or it is given up.
@@ -55,6 +64,12 @@ class Itinerary {
 
     const std::deque<std::uint32_t>& lanes() const { return lanes_; }
 
+    /// Not passed by the car.
+    std::span<const std::uint32_t> stops() const { return stops_; }
+
+    /// [m] of the last stop.
+    double last_s() const { return last_s_; }
+
     void add_to(world::Hasher& hasher) const;
 
   private:
@@ -67,6 +82,8 @@ class Itinerary {
     std::vector<std::uint32_t> stops_;  ///< not passed by the car
     std::size_t entered_ = 0;           ///< of these, by the path
     double last_s_ = 0;
+    std::size_t given_ = 0;  ///< of `lanes_`, the first ones: by the restart
+    world::LaneChanges changes_ = world::LaneChanges::allowed;
 };
 
 }  // namespace reprise::drivers

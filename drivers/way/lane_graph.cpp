@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "world/check.h"
-#include "world/lanes/planner.h"
 
 namespace reprise::drivers {
 
@@ -106,20 +105,22 @@ std::vector<std::uint32_t> LaneGraph::reachable_sideways(std::uint32_t lane) con
     return found;
 }
 
-std::uint32_t LaneGraph::better_neighbour(std::uint32_t lane) const {
+std::optional<LaneGraph::Better> LaneGraph::better_lane(std::uint32_t lane) const {
     const Continuation here = straight_continuation(lane);
     const std::vector<std::uint32_t> sideways = reachable_sideways(lane);
     const auto better = std::find_if(sideways.begin(), sideways.end(), [&](std::uint32_t to) {
         return straight_continuation(to) > here;
     });
     if (better == sideways.end())
-        return world::none;
-    // The first step towards it.
-    for (std::uint32_t to = town_->lanes[lane].right; to != world::none;
-         to = town_->lanes[to].right)
-        if (to == *better)
-            return town_->lanes[lane].right;
-    return town_->lanes[lane].left;
+        return std::nullopt;
+    for (const auto side : {&LaneT::right, &LaneT::left}) {
+        int changes = 1;
+        for (std::uint32_t to = town_->lanes[lane].*side; to != world::none;
+             to = town_->lanes[to].*side, ++changes)
+            if (to == *better)
+                return Better{town_->lanes[lane].*side, changes};
+    }
+    return std::nullopt;
 }
 
 std::vector<std::uint32_t> LaneGraph::inside(const Link& link) const {
@@ -149,17 +150,18 @@ std::span<const std::uint32_t> LaneGraph::incoming(std::uint32_t junction) const
 
 Plan LaneGraph::plan(world::LanePlace from,
                      std::span<const std::uint32_t> stops,
-                     double last_s) const {
+                     double last_s,
+                     world::LaneChanges changes) const {
+    const world::Planner planner(*town_, changes);
     Plan plan;
     for (std::size_t i = 0; i < stops.size(); ++i) {
         const std::uint32_t stop = stops[i];
         REPRISE_CHECK(stop < town_->lanes.size(), "lane " + std::to_string(stop));
         const LaneT& goal = town_->lanes[stop];
         const bool last = i + 1 == stops.size();
-        const auto route =
-            goal.kind == LaneKind::driving
-                ? world::Planner(*town_).plan(from, {stop, last ? last_s : goal.length})
-                : std::nullopt;
+        const auto route = goal.kind == LaneKind::driving
+                               ? planner.plan(from, {stop, last ? last_s : goal.length})
+                               : std::nullopt;
         if (!route) {
             plan.unreachable = stop;
             return plan;
@@ -176,13 +178,14 @@ Plan LaneGraph::plan(world::LanePlace from,
 
 std::optional<Detour> LaneGraph::detour(std::uint32_t lane,
                                         std::span<const std::uint32_t> stops,
-                                        double last_s) const {
+                                        double last_s,
+                                        world::LaneChanges changes) const {
     std::optional<Detour> best;
     const std::vector<Link>& links = town_->lanes[lane].links;
     for (std::uint32_t i = 0; i < links.size(); ++i) {
         if (links[i].to() >= town_->lanes.size())
             continue;
-        Plan way = plan({links[i].to(), 0}, stops, last_s);
+        Plan way = plan({links[i].to(), 0}, stops, last_s, changes);
         if (way.unreachable == world::none && (!best || way.length < best->plan.length))
             best = Detour{i, std::move(way)};
     }

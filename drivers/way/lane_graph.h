@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "world/lanes/route.h"
+#include "world/lanes/planner.h"
 #include "world/tick.h"
 #include "world/town.h"
 
@@ -43,9 +43,15 @@ class LaneGraph {
     /// around only where nothing else is left. Indices in lane.links.
     std::vector<std::uint32_t> choices(std::uint32_t lane) const;
 
-    /// The neighbour towards the nearest lane in the same direction whose own links have a better
-    /// continuation; none when there is no such lane. Ties go to the right.
-    std::uint32_t better_neighbour(std::uint32_t lane) const;
+    /// A lane in the same direction that leads on better.
+    struct Better {
+        std::uint32_t neighbour = world::none;  ///< the first step towards it
+        int changes = 0;                        ///< of lanes, to get there
+    };
+
+    /// The nearest lane in the same direction whose own links have a better continuation; none
+    /// when there is no such lane. Ties go to the right.
+    std::optional<Better> better_lane(std::uint32_t lane) const;
 
     /// The internal lanes of a link, in driving order.
     std::vector<std::uint32_t> inside(const world::Link& link) const;
@@ -58,13 +64,17 @@ class LaneGraph {
 
     /// world::Planner's way from a place through all of `stops` in their order, the last one at
     /// `last_s` of its lane, the others anywhere on theirs.
-    Plan plan(world::LanePlace from, std::span<const std::uint32_t> stops, double last_s) const;
+    Plan plan(world::LanePlace from,
+              std::span<const std::uint32_t> stops,
+              double last_s,
+              world::LaneChanges changes = world::LaneChanges::allowed) const;
 
     /// Of the links of a lane the one behind which the shortest way through the stops begins, and
     /// that way; none: no link leads there. Ties go to the first.
     std::optional<Detour> detour(std::uint32_t lane,
                                  std::span<const std::uint32_t> stops,
-                                 double last_s) const;
+                                 double last_s,
+                                 world::LaneChanges changes = world::LaneChanges::allowed) const;
 
   private:
     Continuation continuation(const world::Link& link) const;

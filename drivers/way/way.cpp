@@ -24,6 +24,10 @@ constexpr double between_changes = 5;   // [m]
 constexpr double shortest_change = 10;  // [m]
 constexpr double shortest_time = 2.3;   // [s]
 constexpr double firm_braking = 2;      // [m/s^2] that the path's envelope of speeds counts on
+// Who goes nowhere in particular leaves a lane that leads nowhere so long before its end.
+constexpr double wander_time = 12;    // [s] at the lane's limit
+constexpr double least_wander = 100;  // [m] for each change
+constexpr double most_wander = 300;   // [m]
 
 bool to_the_left(const LaneT& from, std::uint32_t to) {
     return from.left == to;
@@ -124,7 +128,9 @@ bool Way::follow_itinerary() {
         return false;
     std::optional<std::uint32_t> link;
     if (wanted == lane.left || wanted == lane.right) {
-        const std::optional<ChangeRoom> room = room_for_change(itinerary_.changes_on(next_lane_));
+        const bool may = !itinerary_.keeps_lane() || itinerary_.next_is_given();
+        const std::optional<ChangeRoom> room =
+            may ? room_for_change(itinerary_.changes_on(next_lane_)) : std::nullopt;
         if (room) {
             append_change(*wanted, *room);
             return true;
@@ -144,14 +150,19 @@ bool Way::follow_itinerary() {
     return link.has_value();
 }
 
-/// The next choice of one who goes nowhere in particular.
+/// The next choice of one who goes nowhere in particular. It stays on its lane for as long as that
+/// leads anywhere.
 void Way::wander() {
-    const std::uint32_t neighbour = graph_->better_neighbour(next_lane_);
-    if (neighbour != world::none)
-        if (const std::optional<ChangeRoom> room = room_for_change({1, std::nullopt})) {
-            append_change(neighbour, *room);
+    const auto better = itinerary_.keeps_lane() ? std::nullopt : graph_->better_lane(next_lane_);
+    if (better) {
+        const LaneT& here = graph_->town().lanes[next_lane_];
+        const double each = std::clamp(wander_time * here.speed_limit, least_wander, most_wander);
+        const double earliest = here.length - better->changes * each - next_s_;
+        if (const auto room = room_for_change({better->changes, std::nullopt}, earliest)) {
+            append_change(better->neighbour, *room);
             return;
         }
+    }
     const std::vector<std::uint32_t> choices = graph_->choices(next_lane_);
     ended_ = choices.empty();
     if (ended_)
@@ -177,12 +188,14 @@ double Way::share_of_room(double from, const Itinerary::Changes& changes) const 
     return share;
 }
 
-/// For the first of them; none: the car could not do it.
-std::optional<Way::ChangeRoom> Way::room_for_change(const Itinerary::Changes& changes) const {
+/// For the first of them, not before `earliest` [m] ahead of next_s_; none: the car could not do
+/// it.
+std::optional<Way::ChangeRoom> Way::room_for_change(const Itinerary::Changes& changes,
+                                                    double earliest) const {
     const LaneT& here = graph_->town().lanes[next_lane_];
     // Nor before the last stop, where that lies on this lane.
     const double goal = itinerary_.goal_on(next_lane_).value_or(next_s_);
-    const double wait = std::max({changes_from_ - path_.end(), goal - next_s_, 0.0});
+    const double wait = std::max({changes_from_ - path_.end(), goal - next_s_, earliest, 0.0});
     const double room = share_of_room(next_s_ + wait, changes);
     // As fast as it must still be there when it brakes from now on.
     const double ahead = path_.end() + wait - car_path_s_;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "drivers/way/conflicts.h"
@@ -67,6 +68,18 @@ class Way {
     /// next restart end.
     void set_stops(std::vector<std::uint32_t> stops, double last_s);
 
+    /// Never changes lanes from now on but where a restart says so; goes on as its lane does, and
+    /// ends where that ends. Or again as it likes.
+    void keep_lane(bool keep) { itinerary_.keep_lane(keep); }
+
+    bool keeps_lane() const { return itinerary_.keeps_lane(); }
+
+    /// Not passed yet.
+    std::span<const std::uint32_t> stops() const { return itinerary_.stops(); }
+
+    /// [m] of the last stop.
+    double last_s() const { return itinerary_.last_s(); }
+
     /// Makes at least `ahead` metres of path beyond s, unless the way ends.
     void extend(double s, double ahead);
 
@@ -111,7 +124,8 @@ class Way {
     void append_inside();
     bool follow_itinerary();
     void wander();
-    std::optional<ChangeRoom> room_for_change(const Itinerary::Changes& changes) const;
+    std::optional<ChangeRoom> room_for_change(const Itinerary::Changes& changes,
+                                              double earliest = 0) const;
     double share_of_room(double from, const Itinerary::Changes& changes) const;
     void append_straight(std::uint32_t lane, double from);
     void append_change(std::uint32_t to, const ChangeRoom& room);

@@ -34,8 +34,9 @@ using Node = std::uint32_t;
 
 class Search {
   public:
-    Search(const TownT& town, LanePlace from, LanePlace to)
+    Search(const TownT& town, LanePlace from, LanePlace to, LaneChanges allowed)
         : town_(town),
+          most_(allowed == LaneChanges::none ? 0 : most_changes),
           count_(static_cast<Node>(town.lanes.size())),
           goal_(to),
           goal_point_(point_at(town.lanes[to.lane], to.s).position),
@@ -136,7 +137,7 @@ class Search {
             const double extra = link.turn() == Turn::around ? turn_around_cost : 0;
             reach(next, node, cost_[node] + std::max(left, (place(next) - here).norm()) + extra);
         }
-        if (changes(node) == most_changes)
+        if (changes(node) == most_)
             return;
         const double change = change_cost(left / (changes(node) + 1));
         for (const std::uint32_t side : {lane.right, lane.left})
@@ -147,6 +148,7 @@ class Search {
     }
 
     const TownT& town_;
+    std::uint32_t most_;  ///< changes of lanes on one street
     Node count_;
     LanePlace goal_;
     Eigen::Vector3d goal_point_;
@@ -169,7 +171,7 @@ LanePlace clamped(const TownT& town, LanePlace place) {
 std::optional<Route> Planner::plan(LanePlace from, LanePlace to) const {
     from = clamped(*town_, from);
     to = clamped(*town_, to);
-    Search search(*town_, from, to);
+    Search search(*town_, from, to, changes_);
     const std::optional<Node> arrival = search.run();
     if (!arrival)
         return std::nullopt;
@@ -177,7 +179,7 @@ std::optional<Route> Planner::plan(LanePlace from, LanePlace to) const {
 }
 
 std::optional<double> Planner::cost(LanePlace from, LanePlace to) const {
-    Search search(*town_, clamped(*town_, from), clamped(*town_, to));
+    Search search(*town_, clamped(*town_, from), clamped(*town_, to), changes_);
     if (!search.run())
         return std::nullopt;
     return search.total();

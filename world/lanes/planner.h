@@ -9,6 +9,9 @@
 
 namespace reprise::world {
 
+/// May a way change lanes?
+enum class LaneChanges : std::uint8_t { allowed, none };
+
 /// Shortest ways over the lanes of a town, by A*. A pure function of the town: equal questions give
 /// equal answers.
 ///
@@ -23,8 +26,11 @@ namespace reprise::world {
 /// KEEPS   nothing but the town.
 class Planner {
   public:
-    /// Looks into `town`, which must outlive the planner.
-    explicit Planner(const TownT& town) : town_(&town) {}
+    /// Looks into `town`, which must outlive the planner. Without changes of lanes a way follows
+    /// the links only.
+    explicit Planner(const TownT& town, LaneChanges changes = LaneChanges::allowed)
+        : town_(&town),
+          changes_(changes) {}
 
     /// The way from one place to another; none where no way leads. A goal behind the start on the
     /// same lane is reached around a block. Poses become places by LaneMap::best. Both lanes must
@@ -36,6 +42,7 @@ class Planner {
 
   private:
     const TownT* town_;
+    LaneChanges changes_;
 };
 
 }  // namespace reprise::world
