@@ -128,6 +128,8 @@ void print_events(const world::TickView& tick, std::uint64_t step_ns, Progress& 
                 text = fmt::format("{} is blocked {}", event->actor(), text);
                 break;
             case world::EventKind::check_failed:
+                if (world::tells_worst(*event))
+                    continue;  // the summary says so
                 text = "check failed: " + text;
                 break;
             default:
@@ -156,11 +158,17 @@ void print_summary(const world::Recording& recording,
                    const fs::path& path,
                    double wall_seconds) {
     const double simulated = world::seconds(outcome.ticks, recording.episode.step_ns);
-    for (const Check& check : kernel.checks())
-        say("  {:<14}{}{}\n",
+    for (const Check& check : kernel.checks()) {
+        const bool failed = check.status == Check::Status::fail;
+        say("  {:<14}{}{}{}{}\n",
             word(check.status),
             check.name,
-            check.detail.empty() ? "" : ": " + check.detail);
+            check.detail.empty() ? "" : ": " + check.detail,
+            failed
+                ? fmt::format(" at {:.2f} s", world::seconds(check.tick, recording.episode.step_ns))
+                : "",
+            check.worst.empty() ? "" : "; " + check.worst);
+    }
     say("{}: {} ({:.2f} s simulated in {:.2f} s, {:.0f} times real time)\n",
         outcome.verdict,
         outcome.reason,

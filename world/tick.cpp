@@ -130,6 +130,11 @@ std::string to_line(const Event& event) {
     return joined(text(event.text()), text(event.detail()));
 }
 
+bool tells_worst(const Event& event) {
+    return event.kind() == EventKind::check_failed && event.detail() != nullptr &&
+           event.detail()->string_view().starts_with(worst_prefix);
+}
+
 std::string to_line(const EventT& event) {
     return joined(event.text, event.detail);
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "world/common_generated.h"
 #include "world/tick_generated.h"
@@ -75,6 +76,12 @@ SealedTick seal(TickDraft& draft, const Digest128& previous);
 std::string to_line(const Event& event);
 std::string to_line(const EventT& event);
 
+/// How the detail of an event begins that says at the end of a run how bad a failed check became.
+/// Its kind, check_failed, and its name are those of the failure.
+inline constexpr std::string_view worst_prefix = "worst ";
+
+bool tells_worst(const Event& event);
+
 /// The state with this id, or null. The range must be sorted by id. O(log n).
 const VehicleState* find(std::span<const VehicleState> vehicles, std::uint32_t id);
 const CarState* find(std::span<const CarState> cars, std::uint32_t id);
@@ -94,6 +101,12 @@ inline bool takes_controls(Driver driver) {
 }
 
 /// To the record's grid of `per_unit` steps a unit (see traffic.fbs), ties to the even step.
+/// A command to change lanes names one lane; that to keep the lane names `none`; that which lifts
+/// it nothing at all.
+inline bool names_lane(const CommandT& change_lane) {
+    return !change_lane.lanes.empty() && change_lane.lanes.front() != none;
+}
+
 inline double rounded(double value, double per_unit) {
     return std::nearbyint(value * per_unit) / per_unit;
 }

@@ -30,7 +30,7 @@ class Teller {
                 story.checks.push_back({"passed", world::to_line(event), tick});
                 return;
             case world::EventKind::check_failed:
-                story.checks.push_back({"failed", world::to_line(event), tick});
+                hear_failure(event, tick);
                 return;
             case world::EventKind::not_evaluated:
                 story.checks.push_back({"not evaluated", world::to_line(event), tick});
@@ -41,6 +41,18 @@ class Teller {
     }
 
   private:
+    /// What tells how bad it became belongs to the failure, where that was read.
+    void hear_failure(const world::Event& event, std::uint64_t tick) {
+        if (world::tells_worst(event))
+            for (std::size_t i = 0; i < failed_.size(); ++i)
+                if (failed_[i].name == event.text()->str()) {
+                    story.checks[failed_[i].index].text += "; " + event.detail()->str();
+                    return;
+                }
+        failed_.push_back({event.text()->str(), story.checks.size()});
+        story.checks.push_back({"failed", world::to_line(event), tick});
+    }
+
     void count(const world::Event& event, std::uint64_t tick) {
         const std::string name = world::EnumNameEventKind(event.kind());
         auto kind = std::find_if(story.kinds.begin(), story.kinds.end(), [&](const auto& known) {
@@ -70,6 +82,13 @@ class Teller {
                 return fmt::format("{} ({})", known.name, actor);
         return fmt::format("actor {}", actor);
     }
+
+    struct Failed {
+        std::string name;
+        std::size_t index = 0;  ///< in story.checks
+    };
+
+    std::vector<Failed> failed_;
 };
 
 }  // namespace

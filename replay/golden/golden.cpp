@@ -138,10 +138,22 @@ class Maker {
             if (event->kind() == world::EventKind::spawned && event->text() != nullptr)
                 names_[event->actor()] = event->text()->str();
             if (is_check(event->kind()))
-                golden_.checks.push_back(check_of(*event, tick.index()));
+                add_check(check_of(*event, tick.index()), world::tells_worst(*event));
             else
                 golden_.events.push_back(event_of(*event, tick.index()));
         }
+    }
+
+    /// How bad a failed check became belongs to its failure.
+    void add_check(GoldenCheck check, bool tells_worst) {
+        const auto failed = std::find_if(
+            golden_.checks.begin(), golden_.checks.end(), [&](const GoldenCheck& before) {
+                return before.name == check.name && before.status == check.status;
+            });
+        if (tells_worst && failed != golden_.checks.end())
+            failed->detail += "; " + check.detail;
+        else
+            golden_.checks.push_back(std::move(check));
     }
 
     GoldenEvent event_of(const world::Event& event, std::uint64_t tick) const {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <lua.hpp>
@@ -26,6 +28,11 @@ constexpr const char* blocked = "blocked";  // check.never knows by itself what 
 
 constexpr const char* names[] = {
     "check.never", "check.always", "check.max", "check.min", "check.eventually", "check.at_end"};
+
+/// A failure of one of these may become worse.
+bool may_get_worse(Kind kind) {
+    return kind != Kind::eventually && kind != Kind::at_end;
+}
 
 bool has_limit(Kind kind) {
     return kind == Kind::max || kind == Kind::min;
@@ -70,6 +77,12 @@ void Checks::add(StepContext& context, lua_State* L, Kind kind) {
         keys.emplace_back("within");
     const Fields options(L, options_index, who, keys, true);
     entry.stop = options.flag("stop").value_or(false);
+    const bool at_the_end =
+        kind == Kind::at_end || (kind == Kind::eventually && !options.has("within"));
+    if (entry.stop && at_the_end)
+        refuse(who,
+               "'stop' has no effect: this check fails at the end, when the run stops anyway" +
+                   std::string(kind == Kind::eventually ? "; give it 'within'" : ""));
     entry.optional = options.flag("optional").value_or(false);
     entry.since = context.now();
     if (kind == Kind::eventually && options.has("within")) {
@@ -88,8 +101,14 @@ void Checks::add(StepContext& context, lua_State* L, Kind kind) {
 
 void Checks::evaluate(StepContext& context) {
     for (Entry& entry : entries_)
-        if (!entry.decided && entry.since < context.now() && entry.kind != Kind::at_end)
+        if (is_open(entry) && entry.since < context.now() && entry.kind != Kind::at_end)
             look(context, entry);
+}
+
+/// Not decided, or failed and watched on.
+bool Checks::is_open(const Entry& entry) {
+    return !entry.decided ||
+           (entry.status == Status::fail && entry.reference != 0 && may_get_worse(entry.kind));
 }
 
 /// Is a vehicle with mass blocked in context.last? A state, not the event: also of those who were
@@ -139,14 +158,15 @@ void Checks::look(StepContext& context, Entry& entry) {
 }
 
 void Checks::judge(StepContext& context, Entry& entry, bool holds) {
+    const bool never = entry.kind == Kind::never;
     switch (entry.kind) {
         case Kind::never:
-            if (holds)
-                fail(context, entry, 1, "it happened");
-            break;
         case Kind::always:
-            if (!holds)
-                fail(context, entry, 0, "it did not hold");
+            if (holds != never)
+                break;
+            ++entry.bad_ticks;
+            entry.last_bad_tick = context.now();
+            fail(context, entry, never ? 1 : 0, never ? "it happened" : "it did not hold");
             break;
         case Kind::at_end:
             if (!holds)
@@ -165,7 +185,7 @@ void Checks::judge(StepContext& context, Entry& entry, bool holds) {
 void Checks::judge(StepContext& context, Entry& entry, double value) {
     const bool max = entry.kind == Kind::max;
     if (!entry.extreme || (max ? value > *entry.extreme : value < *entry.extreme))
-        entry.extreme = value;
+        std::tie(entry.extreme, entry.extreme_tick) = std::pair(value, context.now());
     if (max ? value > entry.limit : value < entry.limit)
         fail(context,
              entry,
@@ -173,7 +193,10 @@ void Checks::judge(StepContext& context, Entry& entry, double value) {
              fmt::format("{:.6g} is {} than {}", value, max ? "more" : "less", entry.limit));
 }
 
+/// The first time; from then on it is only counted.
 void Checks::fail(StepContext& context, Entry& entry, double value, const std::string& detail) {
+    if (entry.decided)
+        return;
     entry.decided = true;
     entry.status = Status::fail;
     entry.tick = context.now();
@@ -189,7 +212,7 @@ void Checks::conclude(StepContext& context) {
         return;
     concluded_ = true;
     for (Entry& entry : entries_) {
-        if (!entry.decided)
+        if (is_open(entry))
             look(context, entry);
         settle(context, entry);
     }
@@ -197,8 +220,10 @@ void Checks::conclude(StepContext& context) {
 
 /// Turns what is left open into a verdict and says it as an event.
 void Checks::settle(StepContext& context, Entry& entry) {
-    if (entry.status == Status::fail)
+    if (entry.status == Status::fail) {
+        tell_worst(context, entry);
         return;
+    }
     if (!entry.decided && entry.evaluated && entry.kind == Kind::eventually) {
         fail(context, entry, 0, "not until the end");
         return;
@@ -209,9 +234,10 @@ void Checks::settle(StepContext& context, Entry& entry) {
     if (!entry.evaluated)
         entry.detail = "nothing to look at";
     else if (entry.extreme)
-        entry.detail = fmt::format("{} {:.6g}, allowed {}",
+        entry.detail = fmt::format("{} {:.6g} at {:.2f} s, allowed {}",
                                    entry.kind == Kind::max ? "at most" : "at least",
                                    *entry.extreme,
+                                   world::seconds(entry.extreme_tick, context.episode.step_ns),
                                    entry.limit);
     const auto kind = entry.status == Status::pass ? world::EventKind::check_passed
                                                    : world::EventKind::not_evaluated;
@@ -219,10 +245,34 @@ void Checks::settle(StepContext& context, Entry& entry) {
         event(kind, entry.name, entry.detail, entry.extreme.value_or(0), entry.line));
 }
 
+/// An event, where it became worse than it was when it failed.
+void Checks::tell_worst(StepContext& context, Entry& entry) {
+    const auto time = [&](std::uint64_t tick) {
+        return world::seconds(tick, context.episode.step_ns);
+    };
+    double value = 0;
+    if (has_limit(entry.kind) && entry.extreme_tick > entry.tick) {
+        value = *entry.extreme;
+        entry.worst = fmt::format(
+            "{}{:.6g} at {:.2f} s", world::worst_prefix, value, time(entry.extreme_tick));
+    } else if (entry.bad_ticks > 1) {
+        value = time(entry.bad_ticks);
+        entry.worst = fmt::format("{}{:.2f} s in all, until {:.2f} s",
+                                  world::worst_prefix,
+                                  value,
+                                  time(entry.last_bad_tick));
+    } else {
+        return;
+    }
+    context.next->tick.events.push_back(
+        event(world::EventKind::check_failed, entry.name, entry.worst, value, entry.line));
+}
+
 std::vector<world::CheckResult> Checks::results() const {
     std::vector<world::CheckResult> results;
     for (const Entry& entry : entries_)
-        results.push_back({entry.name, entry.status, entry.tick, entry.detail, entry.line});
+        results.push_back(
+            {entry.name, entry.status, entry.tick, entry.detail, entry.worst, entry.line});
     return results;
 }
 
@@ -242,6 +292,9 @@ void Checks::digest(world::Hasher& hasher) const {
         add_flag(entry.evaluated);
         add_flag(entry.extreme.has_value());
         hasher.add(entry.extreme.value_or(0));
+        hasher.add(entry.extreme_tick);
+        hasher.add(entry.bad_ticks);
+        hasher.add(entry.last_bad_tick);
         add_flag(entry.decided);
         hasher.add(entry.status);
         hasher.add(entry.tick);

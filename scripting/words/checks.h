@@ -19,7 +19,8 @@ struct StepContext;
 
 /// What a scenario promises. Three-valued: a check that never had anything to look at did not pass.
 /// Evaluated once a tick, starting with the tick after it was registered; a tick in which an actor
-/// that the predicate asks about is not on the road does not count.
+/// that the predicate asks about is not on the road does not count. One that has failed is watched
+/// on, to say at the end how bad it became.
 class Checks {
   public:
     enum class Kind : std::uint8_t { never, always, max, min, eventually, at_end };
@@ -51,12 +52,18 @@ class Checks {
         bool optional = false;                  ///< never evaluated is no fault
         std::uint32_t line = 0;
         bool evaluated = false;
-        std::optional<double> extreme;  ///< max, min: the nearest to failing so far
+        std::optional<double> extreme;  ///< max, min: the worst value so far
+        std::uint64_t extreme_tick = 0;
+        std::uint64_t bad_ticks = 0;      ///< never, always: in which it failed
+        std::uint64_t last_bad_tick = 0;  ///< of them
         bool decided = false;
         world::CheckResult::Status status = world::CheckResult::Status::not_evaluated;
         std::uint64_t tick = 0;  ///< of the failure
         std::string detail;
+        std::string worst;  ///< said at the end
     };
+
+    static bool is_open(const Entry& entry);
 
     void look(StepContext& context, Entry& entry);
     void look_for_blocked(StepContext& context, Entry& entry);
@@ -64,6 +71,7 @@ class Checks {
     void judge(StepContext& context, Entry& entry, double value);
     void fail(StepContext& context, Entry& entry, double value, const std::string& detail);
     void settle(StepContext& context, Entry& entry);
+    void tell_worst(StepContext& context, Entry& entry);
 
     std::vector<Entry> entries_;
     bool concluded_ = false;

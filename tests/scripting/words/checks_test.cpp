@@ -158,9 +158,42 @@ TEST(Checks, AreRecordedAsEvents) {
                        std::to_string(event.line) + " " + event.text + "|" + event.detail);
     EXPECT_THAT(seen,
                 ElementsAre("check_failed 1 ego: speed|7 is more than 6",
-                            "check_passed 2 tick|at least 1, allowed 0",
+                            "check_failed 1 ego: speed|worst 21 at 1.05 s",
+                            "check_passed 2 tick|at least 1 at 0.05 s, allowed 0",
                             "not_evaluated 2 no value|nothing to look at"));
     EXPECT_EQ(stage.events[0].value, 7);
+}
+
+TEST(Checks, SayTheirWorstValueAndWhenNotOnlyTheFirst) {
+    // 4, 5, ... 9 in tick 9, then down again.
+    const std::string hill = "function() local t = tick() return t <= 9 and t or 18 - t end";
+    Check check = concluded("check.max('a', " + hill + ", 6) wait(1)").at(0);
+    EXPECT_EQ(check.tick, 7U);
+    EXPECT_EQ(check.detail, "7 is more than 6");
+    EXPECT_EQ(check.worst, "worst 9 at 0.45 s");
+    check = concluded("check.max('a', " + hill + ", 9) wait(1)").at(0);
+    EXPECT_EQ(check.detail, "at most 9 at 0.45 s, allowed 9");
+    EXPECT_EQ(check.worst, "");
+    check = concluded("check.min('a', " + hill + ", 1.5) wait(1)").at(0);
+    EXPECT_EQ(check.detail, "1 is less than 1.5");
+    EXPECT_EQ(check.worst, "worst -3 at 1.05 s");
+}
+
+TEST(Checks, SayForHowLongWhatMustNotBeWasSo) {
+    const std::string some = "function() local t = tick() return t == 4 or t >= 8 and t < 12 end";
+    Check check = concluded("check.never('a', " + some + ") wait(1)").at(0);
+    EXPECT_EQ(check.tick, 4U);
+    EXPECT_EQ(check.detail, "it happened");
+    EXPECT_EQ(check.worst, "worst 0.25 s in all, until 0.55 s");
+    check = concluded("check.always('a', function() return tick() ~= 5 end) wait(1)").at(0);
+    EXPECT_EQ(check.worst, "") << "once: that was all";
+}
+
+TEST(Checks, StopWhereTheRunEndsAnywayIsAMistake) {
+    EXPECT_THAT(test::mistake("check.at_end('a', print, { stop = true })"),
+                testing::HasSubstr("'stop' has no effect"));
+    EXPECT_THAT(test::mistake("check.eventually('a', print, { stop = true })"),
+                testing::HasSubstr("give it 'within'"));
 }
 
 TEST(Checks, ConcludingTwiceSaysNothingTwice) {
