@@ -89,6 +89,12 @@ Pedals::Position Pedals::press(
     return pedals;
 }
 
+world::Control rolling_control(
+    std::uint32_t actor, const world::CarModel& car, double speed, double climb, double step) {
+    const Pedals::Position pedals = Pedals().press(0, speed, climb, car, step);
+    return {pedals.throttle, pedals.brake, 0, actor, 0, false, false};
+}
+
 void Pedals::add_to(world::Hasher& hasher) const {
     hasher.add(asked_);
     hasher.add(correction_);

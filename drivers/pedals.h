@@ -2,6 +2,7 @@
 
 #include "world/digest.h"
 #include "world/models/car_model.h"
+#include "world/tick_generated.h"
 
 namespace reprise::drivers {
 
@@ -28,6 +29,11 @@ double follow_acceleration(double gap,
                            double speed,
                            double leader_speed,
                            const DrivingStyle& style);
+
+/// The control of one who is to go on as fast as it is, of whom nothing is known but its speed and
+/// the road's climb (see Pedals::press).
+world::Control rolling_control(
+    std::uint32_t actor, const world::CarModel& car, double speed, double climb, double step);
 
 /// Time to cover `distance` from `speed` with a constant acceleration up to `top_speed`. [s]
 double travel_time(double distance, double speed, double acceleration, double top_speed);

@@ -1,10 +1,13 @@
 #include "kernel/roster.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "drivers/pedals.h"
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/frames.h"
+#include "world/models/car_model.h"
 #include "world/models/catalogue.h"
 #include "world/random.h"
 
@@ -19,6 +22,14 @@ bool has_mass(world::Driver driver) {
 /// Stands still until its driver says something: nobody at the wheel, foot on the brake.
 world::Control parked_control(std::uint32_t actor) {
     return {0, 1, 0, actor, 0, false, false};
+}
+
+/// Without a target: is it to keep its lane from now on, or free to change?
+void change_lane(drivers::Autopilot& autopilot, const world::CommandT& command) {
+    if (world::names_lane(command))
+        autopilot.change_lane(command.lanes.front());
+    else
+        autopilot.keep_lane(!command.lanes.empty());
 }
 
 world::EventT event(world::EventKind kind, std::uint32_t actor, const world::CommandT& command) {
@@ -70,7 +81,7 @@ void Roster::apply_commands(const world::TickView& last, world::TickDraft& next,
                 break;
             case world::CommandKind::change_lane:
                 if (entry.autopilot)
-                    entry.autopilot->change_lane(command.lanes.front());
+                    change_lane(*entry.autopilot, command);
                 entry.route_line = command.line;
                 break;
             case world::CommandKind::control:
@@ -110,10 +121,25 @@ void Roster::spawn(const world::TickView& last,
         if (!command.lanes.empty())
             entry.autopilot->set_route(command.lanes, town_->lanes.at(command.lanes.back()).length);
     }
+    if (command.speed > 0)
+        roll(entry, command, std::sin(place.pitch), next.tick.index);
     entries_.insert_or_assign(command.actor, std::move(entry));
     world::EventT spawned = event(world::EventKind::spawned, command.actor, command);
     spawned.position = world::to_vec3(pose_world_vehicle.translation());
     next.tick.events.push_back(spawned);
+}
+
+/// Until its driver has seen the tick of its spawn, and could answer, it goes on as fast as it is.
+void Roster::roll(Entry& entry,
+                  const world::CommandT& spawn,
+                  double climb,
+                  std::uint64_t tick) const {
+    entry.control = drivers::rolling_control(spawn.actor,
+                                             world::car_model(world::vehicle_models()[spawn.model]),
+                                             spawn.speed,
+                                             climb,
+                                             static_cast<double>(episode_->step_ns) * 1e-9);
+    entry.rolls_until = tick + spawn.latency;
 }
 
 void Roster::choose_place(const world::TickView& last,
@@ -186,13 +212,17 @@ void Roster::apply_controls(std::span<const world::Control> controls,
                             world::TickDraft& next) {
     for (const world::Control& control : controls) {
         const auto found = entries_.find(control.actor());
-        if (found != entries_.end() && !found->second.autopilot && !found->second.scripted)
-            found->second.control = control;
+        if (found == entries_.end() || found->second.autopilot || found->second.scripted)
+            continue;
+        found->second.control = control;
+        found->second.rolls_until = 0;
     }
     for (auto& [id, entry] : entries_) {
         const bool in_last_tick = find(last.vehicles(), id) != nullptr;
         if (entry.autopilot && in_last_tick)
             entry.control = decide(entry, last);
+        else if (!entry.scripted && entry.rolls_until > 0 && next.tick.index > entry.rolls_until)
+            entry.control = parked_control(id);  // nobody took the wheel
         entry.control.mutate_actor(id);
         next.tick.controls.push_back(entry.control);
     }

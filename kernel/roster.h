@@ -49,9 +49,12 @@ class Roster {
         std::optional<drivers::Autopilot> autopilot;  ///< none: manual
         world::Control control;                       ///< the newest
         bool scripted = false;                        ///< the scenario gave one: it drives
+        /// Tick until which it holds the speed of its spawn, unless somebody drives before; 0: no.
+        std::uint64_t rolls_until = 0;
         std::uint32_t route_line = 0;  ///< of the scenario, that last asked for a route
     };
 
+    void roll(Entry& entry, const world::CommandT& spawn, double climb, std::uint64_t tick) const;
     world::Control decide(Entry& entry, const world::TickView& last) const;
     void despawn(const world::CommandT& command, world::TickDraft& next, Physics& physics);
     void spawn(const world::TickView& last,
