@@ -92,6 +92,8 @@ void Background::Parts::carry_out(const world::TickView& last, world::TickDraft&
         if (command.kind == CommandKind::spawn) {
             if (command.driver == world::Driver::traffic || command.driver == world::Driver::parked)
                 spawns.spawn(command, cars, last, next);
+            else if (command.driver != world::Driver::walker)
+                spawns.make_room_for(command, cars, next);
             continue;
         }
         Car* car = cars.find(command.actor);

@@ -56,6 +56,7 @@ struct Car {
     std::uint32_t last_lane = world::none;
     std::uint32_t draws = 0;  ///< made for its route so far
     bool dead_end = false;    ///< nothing goes on from last_lane
+    bool keeps_lane = false;  ///< changes lanes where it is ordered to only
 
     std::optional<SpeedOrder> speed_order;
     std::optional<LaneOrder> lane_order;

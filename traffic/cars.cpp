@@ -26,7 +26,8 @@ std::uint32_t flags_of(const Car& car) {
     return static_cast<std::uint32_t>(car.origin) + (std::uint32_t{car.dead_end} << 2U) +
            (std::uint32_t{car.sumo.empty()} << 3U) +
            (std::uint32_t{car.speed_order.has_value()} << 4U) +
-           (std::uint32_t{car.lane_order.has_value()} << 5U) + (std::uint32_t{car.model} << 8U) +
+           (std::uint32_t{car.lane_order.has_value()} << 5U) +
+           (std::uint32_t{car.keeps_lane} << 6U) + (std::uint32_t{car.model} << 8U) +
            (std::uint32_t{car.lamps} << 16U);
 }
 

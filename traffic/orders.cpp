@@ -7,6 +7,7 @@
 #include <libsumo/libsumo.h>
 
 #include "world/check.h"
+#include "world/lanes/planner.h"
 
 namespace reprise::traffic {
 
@@ -69,14 +70,26 @@ void Orders::take_speed(const world::CommandT& command, Car& car, std::uint64_t 
 
 void Orders::take_lane(const world::CommandT& command, Car& car, std::uint64_t tick) const {
     constexpr double patience = 15;  // [s] to find a gap
-    if (command.lanes.empty())
+    if (!world::names_lane(command)) {
+        keep_lane(car, !command.lanes.empty());
         return;
+    }
     const auto wait = static_cast<std::uint64_t>((patience + command.duration) / step_);
     car.lane_order = LaneOrder{command.lanes.front(), command.duration, tick + wait};
 }
 
-/// From here through all of the lanes, and on from the last one.
-void Orders::take_route(const world::CommandT& command, Car& car) const {
+/// Its route may need another lane: then it goes another way.
+void Orders::keep_lane(Car& car, bool keep) const {
+    car.keeps_lane = keep;
+    Vehicle::setLaneChangeMode(car.sumo, keep ? carries_orders_out : changes_as_told);
+    if (car.lane == none || graph_->edge_of(car.lane) == none)
+        return;
+    routes_->start(car.lane, car);
+    routes_->send(car);
+}
+
+/// Edges from here through all of the lanes. The last of them becomes last_lane.
+std::vector<std::uint32_t> Orders::way_to(const world::CommandT& command, Car& car) const {
     std::vector<std::uint32_t> route{car.route.front()};
     for (const std::uint32_t lane : command.lanes) {
         const std::uint32_t edge = graph_->edge_of(lane);
@@ -91,6 +104,37 @@ void Orders::take_route(const world::CommandT& command, Car& car) const {
         route.insert(route.end(), way.begin() + 1, way.end());
         car.last_lane = lane;
     }
+    return route;
+}
+
+/// Likewise for one who keeps its lane.
+std::vector<std::uint32_t> Orders::way_on_lane(const world::CommandT& command, Car& car) const {
+    const world::Planner planner(*town_, world::LaneChanges::none);
+    std::vector<std::uint32_t> route{car.route.front()};
+    world::LanePlace from{car.lane, 0};
+    for (const std::uint32_t lane : command.lanes) {
+        const auto way = planner.plan(from, {lane, town_->lanes[lane].length});
+        if (!way)
+            throw world::Error(
+                fmt::format("{}:{}: set_route: no way leads from lane '{}' to lane '{}' without a "
+                            "change of lanes",
+                            episode_->scenario_path,
+                            command.line,
+                            town_->lanes[from.lane].name,
+                            town_->lanes[lane].name));
+        for (const std::uint32_t next : world::driving_lanes(*town_, *way))
+            if (graph_->edge_of(next) != route.back())
+                route.push_back(graph_->edge_of(next));
+        from = {lane, 0};
+        car.last_lane = lane;
+    }
+    return route;
+}
+
+/// From here through all of the lanes, and on from the last one.
+void Orders::take_route(const world::CommandT& command, Car& car) const {
+    const std::vector<std::uint32_t> route =
+        car.keeps_lane && car.lane != none ? way_on_lane(command, car) : way_to(command, car);
     if (route.size() < 2)
         return;
     car.route = route;
@@ -118,6 +162,14 @@ void Orders::follow_lane_order(Car& car, std::uint64_t tick) const {
     Vehicle::changeLane(car.sumo, target.index, 1.0);
 }
 
+/// On a lane that does not lead to the next edge?
+bool Orders::is_off_its_route(const Car& car) const {
+    return car.lane != none && car.route.size() > 1 &&
+           town_->lanes[car.lane].kind == world::LaneKind::driving &&
+           graph_->edge_of(car.lane) == car.route.front() &&
+           !graph_->leads_to(car.lane, car.route[1]);
+}
+
 void Orders::follow(Cars& cars, std::uint64_t tick) const {
     for (Car& car : cars.all()) {
         if (car.speed_order) {
@@ -129,6 +181,10 @@ void Orders::follow(Cars& cars, std::uint64_t tick) const {
         }
         if (car.lane_order && car.lane != none)
             follow_lane_order(car, tick);
+        else if (car.keeps_lane && is_off_its_route(car)) {
+            routes_->start(car.lane, car);
+            routes_->send(car);
+        }
     }
 }
 

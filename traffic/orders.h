@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "traffic/cars.h"
 #include "traffic/road_graph.h"
@@ -10,6 +11,12 @@
 #include "world/town.h"
 
 namespace reprise::traffic {
+
+// SUMO's lane change mode of scripted cars: 1 changes lanes where the route asks for it and no
+// order speaks against it; 256 carries an order out as soon as nobody is hit by it. No changes for
+// speed, courtesy or the keep-right rule: a scenario's car stays where it was put.
+inline constexpr int carries_orders_out = 256;
+inline constexpr int changes_as_told = 1 + carries_orders_out;
 
 /// What a scenario tells cars that SUMO drives: speeds, lane changes, routes.
 class Orders {
@@ -30,8 +37,12 @@ class Orders {
   private:
     void take_speed(const world::CommandT& command, Car& car, std::uint64_t tick) const;
     void take_lane(const world::CommandT& command, Car& car, std::uint64_t tick) const;
+    void keep_lane(Car& car, bool keep) const;
     void take_route(const world::CommandT& command, Car& car) const;
+    std::vector<std::uint32_t> way_to(const world::CommandT& command, Car& car) const;
+    std::vector<std::uint32_t> way_on_lane(const world::CommandT& command, Car& car) const;
     void follow_lane_order(Car& car, std::uint64_t tick) const;
+    bool is_off_its_route(const Car& car) const;
 
     const world::EpisodeT* episode_;
     const world::TownT* town_;

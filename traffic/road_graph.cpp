@@ -57,7 +57,16 @@ RoadGraph::RoadGraph(const world::TownT& town, std::vector<world::ClassSet> clas
     }
 }
 
-std::vector<std::uint32_t> RoadGraph::ways_on(std::uint32_t lane, world::ClassSet car) const {
+bool RoadGraph::leads_to(std::uint32_t lane, std::uint32_t edge) const {
+    const auto& links = town_->lanes[lane].links;
+    return std::any_of(links.begin(), links.end(), [&](const world::Link& link) {
+        return link.to() != none && edge_of_lane_[link.to()] == edge;
+    });
+}
+
+std::vector<std::uint32_t> RoadGraph::ways_on(std::uint32_t lane,
+                                              world::ClassSet car,
+                                              bool keeps_lane) const {
     auto ways = [&](std::uint32_t from, bool around) {
         std::vector<std::uint32_t> found;
         for (const world::Link& link : town_->lanes[from].links)
@@ -70,6 +79,8 @@ std::vector<std::uint32_t> RoadGraph::ways_on(std::uint32_t lane, world::ClassSe
         std::vector<std::uint32_t> found = ways(lane, around);
         if (!found.empty())
             return found;
+        if (keeps_lane)
+            continue;
         // From another lane of the road: SUMO changes lanes in time.
         for (const std::uint32_t other : edges_[edge_of_lane_[lane]].lanes) {
             if (!may_use(other, car))

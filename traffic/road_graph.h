@@ -37,8 +37,14 @@ class RoadGraph {
     }
 
     /// The lanes that a car of this class can go to from the end of `lane`, without a lane change
-    /// where possible; turning around is the last resort. Ascending; empty at a dead end.
-    std::vector<std::uint32_t> ways_on(std::uint32_t lane, world::ClassSet car) const;
+    /// where possible, or without one at all; turning around is the last resort. Ascending; empty
+    /// at a dead end.
+    std::vector<std::uint32_t> ways_on(std::uint32_t lane,
+                                       world::ClassSet car,
+                                       bool keeps_lane) const;
+
+    /// Does a link of this driving lane lead to that edge?
+    bool leads_to(std::uint32_t lane, std::uint32_t edge) const;
 
     /// Edges of the shortest way from one edge to another, both included; empty when there is none.
     std::vector<std::uint32_t> shortest(std::uint32_t from, std::uint32_t to) const;

@@ -35,7 +35,8 @@ void RoutePlanner::extend(Car& car) const {
     const world::ClassSet classes = classes_of(car);
     double planned = 0;
     while (planned < length) {
-        const std::vector<std::uint32_t> ways = graph_->ways_on(car.last_lane, classes);
+        const std::vector<std::uint32_t> ways =
+            graph_->ways_on(car.last_lane, classes, car.keeps_lane);
         car.dead_end = ways.empty();
         if (car.dead_end)
             return;

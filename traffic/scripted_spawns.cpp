@@ -7,6 +7,7 @@
 #include <libsumo/libsumo.h>
 
 #include "traffic/fleet.h"
+#include "traffic/orders.h"
 #include "world/check.h"
 #include "world/models/vehicle_classes.h"
 
@@ -15,11 +16,6 @@ namespace reprise::traffic {
 namespace {
 
 using world::none;
-
-// SUMO's lane change mode of scripted cars: 1 changes lanes where the route asks for it and no
-// order speaks against it; 256 carries an order out as soon as nobody is hit by it. No changes for
-// speed, courtesy or the keep-right rule: a scenario's car stays where it was put.
-constexpr int changes_as_told = 1 + 256;
 
 [[noreturn]] void fail_spawn(const world::EpisodeT& episode,
                              const world::CommandT& command,
@@ -77,6 +73,17 @@ void ScriptedSpawns::make_room(const InsertionPoint& point,
             !points_->is_free(point, car_length, std::span(&other, 1), 2, 0))
             cars.remove_from_sumo(i, next);
     }
+}
+
+void ScriptedSpawns::make_room_for(const world::CommandT& command,
+                                   Cars& cars,
+                                   world::TickDraft& next) const {
+    const world::VehicleModel& model = world::vehicle_models()[command.model];
+    const double front = command.s + origin_to_front(command.model);
+    make_room({command.lane, std::min(front, town_->lanes[command.lane].length)},
+              model.length,
+              cars,
+              next);
 }
 
 /// Stands the car there, `offset` [m] left of the middle of the lane.

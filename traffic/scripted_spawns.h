@@ -33,6 +33,10 @@ class ScriptedSpawns {
                const world::TickView& last,
                world::TickDraft& next) const;
 
+    /// For a vehicle with mass, which a command spawns on a lane: takes out background cars that
+    /// stand there.
+    void make_room_for(const world::CommandT& command, Cars& cars, world::TickDraft& next) const;
+
   private:
     InsertionPoint point_of(const world::CommandT& command,
                             const Cars& cars,
