@@ -68,6 +68,10 @@ Eigen::Vector3d Body::centre() const {
     return position + ahead() * ((front - rear) / 2);
 }
 
+Footprint Body::footprint() const {
+    return {centre(), yaw, (front + rear) / 2, half_width};
+}
+
 std::optional<Body> body_of(const world::TickView& tick, const Actor& actor) {
     if (actor.is_walker()) {
         const auto* walker = world::find(tick.walkers(), actor.id);
@@ -86,6 +90,22 @@ Actor& Actors::add(Actor actor) {
     present_.driven += actor.is_driven() ? 1 : 0;
     actors_.push_back(std::move(actor));
     return actors_.back();
+}
+
+Actors::Obstructor Actors::obstructor(const world::TickView& tick, const Footprint& wanted) const {
+    constexpr double far_away = 50;  // [m] no two models are that long
+    for (const Actor& actor : actors_) {
+        const bool here = actor.presence == Actor::Presence::here;
+        if (actor.presence == Actor::Presence::gone || actor.is_leaving ||
+            !(here || actor.p_world_asked) ||
+            ((here ? actor.position : *actor.p_world_asked) - wanted.centre).norm() > far_away)
+            continue;
+        const std::optional<Body> body = here ? body_of(tick, actor) : std::nullopt;
+        const double depth = overlap(wanted, body ? body->footprint() : actor.asked);
+        if (depth > 0)
+            return {&actor, depth};
+    }
+    return {};
 }
 
 std::size_t Actors::vehicles_near(const Eigen::Vector3d& p_world, double radius) const {
@@ -177,6 +197,8 @@ void Actors::digest(world::Hasher& hasher) const {
         hasher.add(actor.gone_at);
         hasher.add(actor.travelled);
         hasher.add(world::to_vec3(actor.position));
+        hasher.add(
+            static_cast<std::uint8_t>(actor.is_leaving + 2 * actor.keeps_lane + 4 * actor.walks));
         hasher.add(static_cast<std::uint8_t>(actor.contacts.vehicle));
         hasher.add(static_cast<std::uint8_t>(actor.contacts.walker));
         hasher.add(static_cast<std::uint8_t>(actor.contacts.fixed));

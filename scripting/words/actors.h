@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "scripting/words/footprint.h"
 #include "world/tick.h"
 
 namespace reprise::world {
@@ -41,6 +42,10 @@ struct Actor {
     double travelled = 0;                            ///< [m] since spawn
     Eigen::Vector3d position{0, 0, 0};               ///< where it was last seen, world
     std::optional<Eigen::Vector3d> p_world_asked{};  ///< where it is to come, if that was said
+    Footprint asked{};                               ///< and what it will cover there
+    bool is_leaving = false;                         ///< a despawn was said
+    bool keeps_lane = false;                         ///< changes lanes when it is told to only
+    bool walks = false;                              ///< was told to
     Contacts contacts;
 
     bool is_walker() const { return driver == world::Driver::walker; }
@@ -67,6 +72,7 @@ struct Body {
     Eigen::Vector3d ahead() const;
     /// Of the bounding box, on the ground.
     Eigen::Vector3d centre() const;
+    Footprint footprint() const;
 };
 
 /// None when the actor is not in the tick. O(log n).
@@ -91,6 +97,15 @@ class Actors {
 
     /// Vehicles that are, or are about to come, within so many metres. O(actors).
     std::size_t vehicles_near(const Eigen::Vector3d& p_world, double radius) const;
+
+    /// Who stands in the way of one who is to cover this, in the tick or spawned since.
+    struct Obstructor {
+        const Actor* actor = nullptr;  ///< null: nobody
+        double depth = 0;              ///< [m] see overlap()
+    };
+
+    /// The first of them. O(actors).
+    Obstructor obstructor(const world::TickView& tick, const Footprint& wanted) const;
 
     /// Null when nobody has that name.
     const Actor* find(const std::string& name) const;

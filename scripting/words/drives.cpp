@@ -47,20 +47,39 @@ Actor& sent_car(Run& run, lua_State* L, const char* who) {
     return actor.driver == Driver::external ? actor : driver_of_car(run, L, who);
 }
 
-double over(lua_State* L, int index, const char* who) {
+double over(lua_State* L, int index, const Actor& actor, const char* who) {
     const Fields options(L, index, who, {"over"}, true);
     const double duration = options.number("over").value_or(0);
     if (duration < 0 || duration > 3600)
         refuse(who, "'over' must be in [0, 3600] s");
+    if (duration > 0 && actor.driver != Driver::traffic)
+        refuse(who,
+               fmt::format("'over' has no effect on '{}': {}; leave it out, or take driver = "
+                           "'traffic'",
+                           actor.name,
+                           actor.is_walker() ? "a walker changes its speed by 2 m/s^2"
+                                             : "an autopilot takes the time that it needs"));
     return duration;
 }
 
+/// A walker's speed counts while it walks.
+Actor& with_a_speed(Run& run, lua_State* L, const char* who) {
+    Actor& actor = driven(run, L, who);
+    if (actor.is_walker() && !actor.walks)
+        refuse(who,
+               fmt::format("has no effect on '{}', which stands until it is told where to go: "
+                           "{}:walk{{ to = {{ x, y }}, speed = 2 }}",
+                           actor.name,
+                           actor.name));
+    return actor;
+}
+
 int change_speed(Run& run, lua_State* L, const char* who, double unit) {
-    const Actor& actor = driven(run, L, who);
+    const Actor& actor = with_a_speed(run, L, who);
     const double speed = number_at(L, 2, who, "the speed") * unit;
     if (speed < 0 || speed > 150)
         refuse(who, fmt::format("the speed must be in [0, 150] m/s, got {}", number_text(speed)));
-    const double duration = over(L, 3, who);
+    const double duration = over(L, 3, actor, who);
     world::CommandT& command = run.say(L, CommandKind::set_speed, actor.id);
     command.speed = speed;
     command.duration = duration;
@@ -76,7 +95,7 @@ int set_speed_kmh(Run& run, lua_State* L) {
 }
 
 int free_speed(Run& run, lua_State* L) {
-    run.say(L, CommandKind::free_speed, driven(run, L, "free_speed").id);
+    run.say(L, CommandKind::free_speed, with_a_speed(run, L, "free_speed").id);
     return 0;
 }
 
@@ -101,11 +120,23 @@ std::uint32_t target_lane(Run& run, lua_State* L, const Actor& actor, const std:
 int change_lane(Run& run, lua_State* L) {
     const Actor& actor = driver_of_car(run, L, "change_lane");
     const std::string target = text_at(L, 2, "change_lane", "the target");
-    const double duration = over(L, 3, "change_lane");
+    const double duration = over(L, 3, actor, "change_lane");
     const std::uint32_t lane = target_lane(run, L, actor, target);
     world::CommandT& command = run.say(L, CommandKind::change_lane, actor.id);
     command.lanes.push_back(lane);
     command.duration = duration;
+    return 0;
+}
+
+/// A change of lanes to no lane; to leave it open again, one that says nothing.
+int keep_lane(Run& run, lua_State* L) {
+    Actor& actor = driver_of_car(run, L, "keep_lane");
+    if (!lua_isnoneornil(L, 2) && !lua_isboolean(L, 2))
+        refuse("keep_lane", "takes true or false, true where it is left out");
+    actor.keeps_lane = lua_isnoneornil(L, 2) || lua_toboolean(L, 2) != 0;
+    world::CommandT& command = run.say(L, CommandKind::change_lane, actor.id);
+    if (actor.keeps_lane)
+        command.lanes.push_back(world::none);
     return 0;
 }
 
@@ -156,10 +187,15 @@ int route_to(Run& run, lua_State* L) {
         refuse("route_to", "'" + actor.name + "' is on no lane");
     run.vm.charge(L, run.town.lanes.size() * 20);
     const world::LaneT& here = run.town.lanes[body.lane];
-    const auto route = world::Planner(run.town).plan(
-        {body.lane, world::project(here, body.position).s}, {lane, s});
+    const auto changes = actor.keeps_lane ? world::LaneChanges::none : world::LaneChanges::allowed;
+    const auto route = world::Planner(run.town, changes)
+                           .plan({body.lane, world::project(here, body.position).s}, {lane, s});
     if (!route)
-        refuse("route_to", fmt::format("no way leads from '{}' to '{}'", here.name, goal.name));
+        refuse("route_to",
+               fmt::format("no way leads from '{}' to '{}'{}",
+                           here.name,
+                           goal.name,
+                           actor.keeps_lane ? " without a change of lanes" : ""));
     world::CommandT& command = run.say(L, CommandKind::set_route, actor.id);
     command.lanes = {lane};
     command.s = s;
@@ -184,17 +220,15 @@ Eigen::Vector3d point_at_top(lua_State* L, const char* who) {
     return point;
 }
 
-void say_walk(Run& run,
-              lua_State* L,
-              const Actor& actor,
-              const Eigen::Vector3d& target,
-              const Fields& fields) {
+void say_walk(
+    Run& run, lua_State* L, Actor& actor, const Eigen::Vector3d& target, const Fields& fields) {
     const double speed = fields.speed().value_or(0);  // 0: the model's own
     if (speed > 12)
         refuse(fields.who(), "nobody runs faster than 12 m/s");
     world::CommandT& command = run.say(L, CommandKind::walk, actor.id);
     command.target = world::to_vec3(target);
     command.speed = speed;
+    actor.walks = true;
 }
 
 Actor& walking(Run& run, lua_State* L, const char* who) {
@@ -205,7 +239,7 @@ Actor& walking(Run& run, lua_State* L, const char* who) {
 }
 
 int walk(Run& run, lua_State* L) {
-    const Actor& actor = walking(run, L, "walk");
+    Actor& actor = walking(run, L, "walk");
     const Fields fields(L, 2, "walk", {"to", "speed", "speed_kmh"});
     fields.push("to");
     const Eigen::Vector3d target = point_at_top(L, "walk");
@@ -214,15 +248,17 @@ int walk(Run& run, lua_State* L) {
 }
 
 int walk_to(Run& run, lua_State* L) {
-    const Actor& actor = walking(run, L, "walk_to");
+    Actor& actor = walking(run, L, "walk_to");
     const Fields fields(
         L, 2, "walk_to", {"x", "y", "lane", "s", "offset", "across", "speed", "speed_kmh"});
     const auto across = fields.text("across");
     const auto lane = fields.text("lane");
     const auto x = fields.number("x");
     const auto y = fields.number("y");
-    if ((across ? 1 : 0) + (lane ? 1 : 0) + (x && y ? 1 : 0) != 1)
+    if ((across ? 1 : 0) + (lane ? 1 : 0) + (x && y ? 1 : 0) != 1 || x.has_value() != y.has_value())
         refuse("walk_to", "needs { x, y }, { lane, s, offset } or { across = lane }");
+    if (!lane && (fields.has("s") || fields.has("offset")))
+        refuse("walk_to", "'s' and 'offset' need a 'lane'");
     const Body body = *body_of(run.last, actor);
     Eigen::Vector3d target(x.value_or(0), y.value_or(0), body.position.z());
     if (across)
@@ -261,7 +297,9 @@ int control(Run& run, lua_State* L) {
 }
 
 int despawn(Run& run, lua_State* L) {
-    run.say(L, CommandKind::despawn, actor_at(run, L, 1, "despawn").id);
+    Actor& actor = actor_at(run, L, 1, "despawn");
+    run.say(L, CommandKind::despawn, actor.id);
+    actor.is_leaving = true;
     return 0;
 }
 
@@ -272,6 +310,7 @@ void add_drive_words(lua_State* L) {
     add_function(L, "set_speed_kmh", commanding<set_speed_kmh>);
     add_function(L, "free_speed", commanding<free_speed>);
     add_function(L, "change_lane", commanding<change_lane>);
+    add_function(L, "keep_lane", commanding<keep_lane>);
     add_function(L, "set_route", commanding<set_route>);
     add_function(L, "route_to", commanding<route_to>);
     add_function(L, "walk", commanding<walk>);

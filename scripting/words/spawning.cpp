@@ -83,6 +83,42 @@ Eigen::Vector3d place_of(const world::LaneT& lane, const world::CommandT& comman
     return at.position + command.offset * Eigen::Vector3d(-std::sin(at.yaw), std::cos(at.yaw), 0);
 }
 
+/// What it will cover there.
+Footprint footprint_of(const Actor& actor,
+                       const world::LaneT& lane,
+                       const world::CommandT& command) {
+    const double yaw = world::point_at(lane, command.s).yaw;
+    const Eigen::Vector3d p_world = place_of(lane, command);
+    if (actor.is_walker()) {
+        const double half = world::walker_models()[actor.model].shoulder_width / 2;
+        return {p_world, yaw, half, half};
+    }
+    const world::VehicleModel& model = world::vehicle_models()[actor.model];
+    const double middle = model.length / 2 - model.rear_overhang;
+    return {p_world + middle * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0),
+            yaw,
+            model.length / 2,
+            model.width / 2};
+}
+
+void want_free_place(const Run& run, const Actor& actor) {
+    if (!actor.is_walker() &&
+        run.actors.vehicles_near(*actor.p_world_asked, place_radius) >= most_in_a_place)
+        refuse("spawn",
+               fmt::format("more than {} vehicles within {:.0f} m: they would stand in each other",
+                           most_in_a_place,
+                           place_radius));
+    const auto [other, depth] = run.actors.obstructor(run.last, actor.asked);
+    if (other != nullptr)
+        refuse("spawn",
+               fmt::format("'{}' would stand in '{}', which line {} spawned: they reach {:.2f} m "
+                           "into each other; move one of them by 's' or 'offset'",
+                           actor.name,
+                           other->name,
+                           other->line,
+                           depth));
+}
+
 /// Lane, s and offset into the command, the place into the actor.
 void read_place(
     Run& run, lua_State* L, const Fields& fields, Actor& actor, world::CommandT& command) {
@@ -112,6 +148,11 @@ void read_place(
                            *name,
                            number_text(command.s)));
     command.offset = fields.number("offset").value_or(0);
+    if (command.offset != 0 && actor.driver == world::Driver::traffic)
+        refuse("spawn",
+               fmt::format("'offset' has no effect on '{}': driver = 'traffic' keeps to the middle "
+                           "of its lane; leave it out, or take driver = 'autopilot'",
+                           actor.name));
     // Who drives begins on its lane; who is put down may stand beside it.
     const double farthest = drives ? lane.width / 2 : farthest_beside;
     if (std::abs(command.offset) > farthest)
@@ -122,12 +163,22 @@ void read_place(
                            drives ? ", half the width of '" + *name + "'" : "",
                            number_text(command.offset)));
     actor.p_world_asked = place_of(lane, command);
-    if (!actor.is_walker() &&
-        run.actors.vehicles_near(*actor.p_world_asked, place_radius) >= most_in_a_place)
+    actor.asked = footprint_of(actor, lane, command);
+    run.vm.charge(L, run.actors.next_id());
+    want_free_place(run, actor);
+}
+
+/// Is it to keep its lane?
+bool read_keeps_lane(const Fields& fields, const Actor& actor) {
+    if (!fields.mentions("lane_changes"))
+        return false;
+    const bool free = fields.flag("lane_changes").value_or(true);
+    if (actor.driver != world::Driver::autopilot && actor.driver != world::Driver::traffic)
         refuse("spawn",
-               fmt::format("more than {} vehicles within {:.0f} m: they would stand in each other",
-                           most_in_a_place,
-                           place_radius));
+               fmt::format("'lane_changes' is for driver = 'autopilot' and 'traffic': whoever else "
+                           "moves '{}' changes lanes by itself",
+                           actor.name));
+    return !free;
 }
 
 /// [ticks]
@@ -159,7 +210,8 @@ int spawn(Run& run, lua_State* L) {
                          "speed",
                          "speed_kmh",
                          "rig",
-                         "sees"});
+                         "sees",
+                         "lane_changes"});
     Actor actor;
     actor.id = run.actors.next_id();
     actor.line = run.vm.line(L);
@@ -180,6 +232,7 @@ int spawn(Run& run, lua_State* L) {
     const std::uint8_t latency = read_latency(fields, actor);
     auto rig = read_rig(L, fields, actor, latency);
     const bool sees_sensors = read_sees_sensors(fields, actor);
+    actor.keeps_lane = read_keeps_lane(fields, actor);
 
     world::CommandT& said = run.say(L, world::CommandKind::spawn, actor.id);
     said.driver = actor.driver;
@@ -192,6 +245,8 @@ int spawn(Run& run, lua_State* L) {
     said.latency = latency;
     said.rig = std::move(rig);
     said.sees_sensors = sees_sensors;
+    if (actor.keeps_lane)
+        run.say(L, world::CommandKind::change_lane, actor.id).lanes = {world::none};
     push_handle(L, run.actors.add(std::move(actor)).id);
     return 1;
 }

@@ -216,28 +216,28 @@ std::vector<Hostile> hostile_texts() {
 
 std::vector<Hostile> hostile_asks() {
     const std::string parked =
-        "spawn{ model = 'sedan', driver = 'parked', lane = 'east_1', s = i % 40 * 10, offset = i % "
-        "7 * 6 }";
+        "spawn{ model = 'bicycle', driver = 'parked', lane = 'east_1', s = i % 40 * 10, offset = i "
+        "// 40 % 25 * 4 - 48 }";
     std::vector<Hostile> all{
         {"ParkedCars",
          "for i = 1, 100000 do " + parked + " if i % 900 == 0 then wait_ticks(1) end end",
          "spawn: more than 1000 actors at a time"},
         {"Autopilots",
-         "for i = 1, 1e6 do spawn{ model = 'sedan', lane = 'east_1', s = i % 40 * 10 } end",
+         "for i = 1, 1e6 do spawn{ model = 'sedan' } end",
          "spawn: more than 300 actors with the driver 'autopilot', 'manual' or 'external' at a "
          "time"},
         {"ActorsOfOtherPrograms",
-         "for i = 1, 1e6 do spawn{ model = 'sedan', driver = 'external', lane = 'east_1', s = i % "
-         "40 * 10 } end",
+         "for i = 1, 1e6 do spawn{ model = 'sedan', driver = 'external' } end",
          "spawn: more than 300 actors with the driver 'autopilot', 'manual' or 'external' at a "
          "time"},
         {"ActorsInOnePlace",
-         "for i = 1, 999 do spawn{ model = 'sedan', lane = 'east_1', s = 20 + i / 999 } end",
+         "for i = 0, 999 do spawn{ model = 'bicycle', driver = 'parked', lane = 'east_1', "
+         "s = 20 + i // 8 * 2, offset = i % 8 } end",
          "spawn: more than 12 vehicles within 5 m: they would stand in each other"},
         {"ActorsInOnePlaceOverTime",
          "while true do spawn{ model = 'sedan', driver = 'parked', lane = 'east_1', s = 20 } "
          "wait_ticks(3) end",
-         "spawn: more than 12 vehicles within 5 m: they would stand in each other"},
+         "spawn: 'sedan_2' would stand in 'sedan', which line 1 spawned"},
         {"ActorsThatComeAndGo",
          "while true do local all = {} for i = 1, 500 do all[i] = " + parked +
              " end wait_ticks(2) for i = 1, 500 do all[i]:despawn() end wait_ticks(2) end",

@@ -1,7 +1,9 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/scripting/stage.h"
 #include "world/check.h"
+#include "world/models/catalogue.h"
 
 // Every mistake of a scenario's author is one line that names the place and a way out.
 namespace reprise::scripting {
@@ -75,6 +77,67 @@ TEST(Mistakes, OfSpawn) {
             {"spawn{ name = 'a', model = 'sedan' } spawn{ name = 'a', model = 'sedan' }",
              "spawn: the name 'a' is taken"},
         });
+}
+
+TEST(Mistakes, OfWhatHasNoEffect) {
+    expect(
+        "\n",
+        {
+            {"spawn{ model = 'sedan', driver = 'traffic', lane = 'east_1', offset = 1 }",
+             "spawn: 'offset' has no effect on 'sedan': driver = 'traffic' keeps to the middle of "
+             "its lane; leave it out, or take driver = 'autopilot'"},
+            {"spawn{ model = 'sedan', driver = 'manual', lane = 'east_1', lane_changes = false }",
+             "spawn: 'lane_changes' is for driver = 'autopilot' and 'traffic': whoever else moves "
+             "'sedan' changes lanes by itself"},
+        });
+    expect(
+        ego,
+        {
+            {"ego:set_speed(3, { over = 2 })",
+             "set_speed: 'over' has no effect on 'ego': an autopilot takes the time that it "
+             "needs; leave it out, or take driver = 'traffic'"},
+            {"ego:change_lane('left', { over = 2 })",
+             "change_lane: 'over' has no effect on 'ego': an autopilot takes the time that it "
+             "needs; leave it out, or take driver = 'traffic'"},
+            {"ego:keep_lane('yes')", "keep_lane: takes true or false, true where it is left out"},
+        });
+    expect(child,
+           {
+               {"child:set_speed(2)",
+                "set_speed: has no effect on 'child', which stands until it is told where to go: "
+                "child:walk{ to = { x, y }, speed = 2 }"},
+               {"child:free_speed()",
+                "free_speed: has no effect on 'child', which stands until it is told where to go: "
+                "child:walk{ to = { x, y }, speed = 2 }"},
+               {"child:walk{ to = { 1, 2 } } child:set_speed(2, { over = 1 })",
+                "set_speed: 'over' has no effect on 'child': a walker changes its speed by 2 "
+                "m/s^2; leave it out, or take driver = 'traffic'"},
+               {"child:keep_lane()", "keep_lane: 'child' is a walker"},
+               {"child:walk_to{ x = 1, y = 2, s = 3 }", "walk_to: 's' and 'offset' need a 'lane'"},
+               {"child:walk_to{ across = 'east_1', x = 3 }",
+                "walk_to: needs { x, y }, { lane, s, offset } or { across = lane }"},
+           });
+}
+
+TEST(Mistakes, OfActorsThatWouldStandInEachOther) {
+    const std::string first =
+        "local first = spawn{ name = 'first', model = 'sedan', lane = 'east_1', s = 50 } ";
+    const double length = world::vehicle_models()[*world::find_vehicle_model("sedan")].length;
+    for (const char* driver : {"autopilot", "manual", "traffic", "parked"})
+        EXPECT_EQ(test::mistake(first + "\nspawn{ name = 'second', model = 'sedan', " +
+                                "lane = 'east_1', s = " + std::to_string(50 + length - 0.5) +
+                                ", driver = '" + driver + "' }"),
+                  "test.lua:2: spawn: 'second' would stand in 'first', which line 1 spawned: they "
+                  "reach 0.50 m into each other; move one of them by 's' or 'offset'");
+    EXPECT_THAT(test::mistake(first + "wait_ticks(3)\n" +
+                              "spawn{ name = 'kid', model = 'child', lane = 'east_1', s = 52 }"),
+                testing::StartsWith("test.lua:2: spawn: 'kid' would stand in 'first'"));
+    // Beside it, bumper to bumper, and where somebody has just left.
+    EXPECT_THAT(test::printed(first + "spawn{ model = 'sedan', lane = 'east_2', s = 50 } " +
+                              "spawn{ model = 'sedan', lane = 'east_1', s = " +
+                              std::to_string(50 + length) + " } wait_ticks(2) first:despawn() " +
+                              "spawn{ model = 'city_car', lane = 'east_1', s = 50 } print 'fine'"),
+                testing::ElementsAre("fine"));
 }
 
 TEST(Mistakes, OfHandles) {
@@ -222,7 +285,7 @@ TEST(Mistakes, CanBeCaughtByTheScript) {
         "false test.lua:1: spawn: unknown key 'colour' (known: name, model, driver, latency, lane, "
         "s, "
         "offset, speed, "
-        "speed_kmh, rig, sees)");
+        "speed_kmh, rig, sees, lane_changes)");
 }
 
 TEST(Mistakes, AnActorThatNeverComesIsNamedWithTheLineOfItsSpawn) {

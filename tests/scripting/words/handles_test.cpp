@@ -16,9 +16,11 @@ using world::CommandKind;
 TEST(Spawn, SaysOneCommandWithEverythingResolved) {
     test::Stage stage(
         test::running("\nspawn{ name = 'ego', model = 'suv', driver = 'traffic', lane = 'east_2', "
-                      "s = 20, offset = 0.5, speed_kmh = 36 } wait(1)"));
+                      "s = 20, speed_kmh = 36, lane_changes = false } wait(1)"));
     const world::TickDraft& draft = stage.step();
-    ASSERT_EQ(draft.tick.commands.size(), 1U);
+    ASSERT_EQ(draft.tick.commands.size(), 2U);
+    EXPECT_EQ(draft.tick.commands[1].kind, CommandKind::change_lane);
+    EXPECT_THAT(draft.tick.commands[1].lanes, ElementsAre(world::none)) << "to none";
     const world::CommandT& command = draft.tick.commands[0];
     EXPECT_EQ(command.kind, CommandKind::spawn);
     EXPECT_EQ(command.actor, 1U);
@@ -26,7 +28,6 @@ TEST(Spawn, SaysOneCommandWithEverythingResolved) {
     EXPECT_EQ(command.model, world::find_vehicle_model("suv"));
     EXPECT_EQ(command.lane, world::find_lane(stage.town, "east_2"));
     EXPECT_EQ(command.s, 20);
-    EXPECT_EQ(command.offset, 0.5);
     EXPECT_DOUBLE_EQ(command.speed, 10);
     EXPECT_EQ(command.text, "ego");
     EXPECT_EQ(command.line, 2U);
@@ -49,7 +50,7 @@ TEST(Handle, ReadsTheActorsState) {
     EXPECT_THAT(
         printed(R"(
         local ego = spawn{ model = 'sedan', lane = 'east_1', s = 20, speed = 10 }
-        local other = spawn{ model = 'sedan', driver = 'traffic', lane = 'west_2', s = 100, offset = 0.5 }
+        local other = spawn{ model = 'sedan', driver = 'manual', lane = 'west_2', s = 100, offset = 0.5 }
         print(ego:lane(), ego:s(), ego:offset(), ego:x(), ego:y(), ego:speed_kmh())
         print(other:lane(), other:s(), string.format('%.3f %.3f', other:offset(), other:heading_deg()))
         wait_ticks(3)
@@ -141,7 +142,7 @@ TEST(Handle, GivesADriverInAnotherProgramAGoalAndNothingElse) {
 
 TEST(Handle, SaysWhatAnActorIsTold) {
     test::Stage stage(test::running(R"(
-        local ego = spawn{ model = 'sedan', lane = 'east_1', s = 50 }
+        local ego = spawn{ model = 'sedan', driver = 'traffic', lane = 'east_1', s = 50 }
         local child = spawn{ model = 'child', lane = 'east_0', s = 50 }
         local hand = spawn{ model = 'van', driver = 'manual', lane = 'west_1', s = 50 }
         wait_ticks(1)
