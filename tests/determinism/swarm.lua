@@ -50,21 +50,30 @@ return scenario 'swarm' {
                 if driver == 'parked' or driver == 'walker' then seat.offset = between(-4, 4) end
             end
             if driver ~= 'parked' and driver ~= 'walker' then seat.speed = chance(0.5) and between(0, 20) or 0 end
-            actors[#actors + 1] = { handle = spawn(seat), driver = driver }
+            local free, handle = pcall(spawn, seat)  -- somebody may stand there
+            if not free then return false end
+            actors[#actors + 1] = { handle = handle, driver = driver }
         end
 
         local deeds = {
             spawn_vehicle = function() return add(one_of(drivers), one_of(vehicles)) end,
             spawn_manual = function() return add('manual', one_of(vehicles)) end,
             spawn_walker = function() return add('walker', one_of(people)) end,
-            -- Two in one place, in one tick: a crash from the first substep on.
+            -- A hand's breadth behind another, and far faster: a crash from the first ticks on.
             spawn_into_each_other = function()
                 local lane = pick_lane{ length = 20, optional = true }
                 if not lane or #actors + 1 >= p.limit then return false end
-                for i = 0, 1 do
-                    local handle = spawn{ model = one_of(vehicles), driver = 'manual', lane = lane, s = 8 + 1.5 * i }
-                    actors[#actors + 1] = { handle = handle, driver = 'manual' }
+                local there, s = 0, 4
+                while there < 2 and s < 20 do
+                    local free, handle = pcall(spawn, { model = one_of(vehicles), driver = 'manual', lane = lane, s = s,
+                                                        speed = 20 * (1 - there) })
+                    if free then
+                        actors[#actors + 1] = { handle = handle, driver = 'manual' }
+                        there = there + 1
+                    end
+                    s = s + 0.3
                 end
+                return there > 0
             end,
             despawn = function()
                 local actor = some{ autopilot = true, manual = true, traffic = true, parked = true, walker = true }
@@ -74,7 +83,8 @@ return scenario 'swarm' {
             set_speed = function()
                 local actor = some_driver()
                 if not actor then return false end
-                actor.handle:set_speed(between(0, 30), { over = chance(0.5) and between(0, 4) or 0 })
+                local over = actor.driver == 'traffic' and chance(0.5) and between(0, 4) or 0
+                actor.handle:set_speed(between(0, 30), { over = over })
             end,
             free_speed = function()
                 local actor = some_driver()
@@ -86,13 +96,20 @@ return scenario 'swarm' {
                 local lane = actor and actor.handle:lane()
                 local target = lane and (chance(0.5) and lane_left_of(lane) or lane_right_of(lane))
                 if not target then return false end
-                actor.handle:change_lane(target, { over = between(0, 3) })
+                actor.handle:change_lane(target, { over = actor.driver == 'traffic' and between(0, 3) or 0 })
+            end,
+            keep_lane = function()
+                local actor = some_driver()
+                if not actor or actor.routed then return false end  -- its route might need another lane
+                actor.kept = true
+                actor.handle:keep_lane(chance(0.7))
             end,
             -- Anywhere where every way leads; elsewhere to the lane it is on, which any town has.
             set_route = function()
                 local actor = some_driver()
                 local lane = actor and actor.handle:lane()
-                if not lane or lane:sub(1, 1) == ':' then return false end
+                if not lane or lane:sub(1, 1) == ':' or actor.kept then return false end
+                actor.routed = true
                 if p.connected == 0 and actor.handle:s() > lane_length(lane) - 20 then return false end
                 actor.handle:set_route{ p.connected == 0 and lane or pick_lane{} }
             end,

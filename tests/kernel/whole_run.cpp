@@ -10,9 +10,12 @@
 
 namespace reprise::test {
 
-world::Recording in_town1(const std::string& body, unsigned cars, double seconds) {
-    static const towns::Network network =
-        towns::load_network(std::string(REPRISE_SOURCE) + "/scenarios/towns/town1/town1.net.xml");
+namespace {
+
+world::Recording recording_of(const towns::Network& network,
+                              const std::string& body,
+                              unsigned cars,
+                              double seconds) {
     const auto path = std::filesystem::temp_directory_path() /
                       ("reprise_whole_run_" + std::to_string(getpid()) + ".lua");
     std::ofstream(path) << "return scenario 'test' { town = 'town1', seed = 7, cars = " << cars
@@ -26,6 +29,20 @@ world::Recording in_town1(const std::string& body, unsigned cars, double seconds
     recording.network = network.xml;
     recording.episode.town_digest = world::digest128(recording.network);
     return recording;
+}
+
+}  // namespace
+
+world::Recording in_town1(const std::string& body, unsigned cars, double seconds) {
+    static const towns::Network network =
+        towns::load_network(std::string(REPRISE_SOURCE) + "/scenarios/towns/town1/town1.net.xml");
+    return recording_of(network, body, cars, seconds);
+}
+
+world::Recording on_straight_lanes(const std::string& body, double seconds) {
+    static const towns::Network network =
+        towns::load_network(std::string(REPRISE_SOURCE) + "/tests/maps/lanes.net.xml");
+    return recording_of(network, body, 0, seconds);
 }
 
 KeptTick::KeptTick(const world::SealedTick& tick)

@@ -10,11 +10,14 @@
 #include "tests/replay/synthetic_run.h"
 #include "world/recording.h"
 
-/// Whole runs in Town 1, from a scenario's text.
+/// Whole runs, from a scenario's text.
 namespace reprise::test {
 
 /// Town 1 with this scenario; `body` is what its run function does.
 world::Recording in_town1(const std::string& body, unsigned cars, double seconds);
+
+/// Likewise on tests/maps/lanes.net.xml, without background cars.
+world::Recording on_straight_lanes(const std::string& body, double seconds);
 
 /// A tick's bytes, kept.
 class KeptTick {
