@@ -78,6 +78,24 @@ def ticks(v):
         f"loop of its own takes {v.text('Tick/100.sumo_alone_us', digits=3)} us.")
 
 
+def drivers(v):
+    """Who drives among 100 cars: ticks/s, and what that adds to a tick in which nobody is asked."""
+    rows = [["nobody is asked: the same controls from inside", v.text("Driver.ticks/s_alone"), ""],
+            ["the built-in driver", v.text("Driver.ticks/s_built_in"), ""]]
+    for name, words in (("cpp", "another program, in C++"), ("python", "in Python")):
+        rows.append([words, v.text(f"Driver.ticks/s_{name}"), v.text(f"Driver.{name}_us", digits=2) + " us"])
+    for name, words in (("rgb84", "84x84"), ("rgb200x88", "200x88"),
+                        ("three800x600", "800x600, with depth and semantic classes")):
+        rows.append([f"in Python, with colour {words}", v.text(f"Cameras.ticks/s_{name}", digits=2), ""])
+    return table(["who drives, among 100 cars", "ticks/s", "adds to a tick"], rows) + (
+        f"\n\nA bare round trip of the same bytes in each tick adds {v.text('Driver.bare_us', digits=2)} us; one after the other they take "
+        f"{v.text('RoundTrip/7300.real_ms', 1e3, digits=2)} us, 1 kB {v.text('RoundTrip/1000.real_ms', 1e3, digits=2)} us.\n"
+        f"From Python {v.text('Resets.resets/s', digits=2)} episodes a second begin with the seed of the last one, "
+        f"{v.text('Resets.resets/s_other_seed', digits=2)} with another; two environments in\n"
+        f"two processes make {v.text('Vector.two_of_one', decimals=2)} times the ticks of one, which has a core for its driver then, and "
+        f"{v.text('Vector.two_of_one_on_a_core', decimals=2)} times those of one on one core.")
+
+
 def pictures(v):
     rows = [["bare Embree primary rays on the ground alone, one core",
              v.text("BareEmbreePrimaryRays.real_ms", digits=2) + " ms", ""]]
@@ -123,7 +141,7 @@ def levels(v):
                  rows)
 
 
-BLOCKS = {"machine": machine, "ticks": ticks, "pictures": pictures, "traces": traces,
+BLOCKS = {"machine": machine, "ticks": ticks, "drivers": drivers, "pictures": pictures, "traces": traces,
           "recording": recording, "levels": levels, "commands": commands}
 END = "<!-- /figures -->"
 A_BLOCK = re.compile(r"<!-- figures: (\w+) -->\n(.*?)\n" + re.escape(END), re.DOTALL)

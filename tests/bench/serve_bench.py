@@ -53,8 +53,9 @@ def measure_resets():
             "resets/s": 1 / same, "resets/s_other_seed": 1 / other}  # fmt: skip
 
 
-def environment(pipe, seed):
-    """A process that steps an episode of its own as often as it is asked to."""
+def environment(pipe, seed, cores):
+    """A process that steps an episode of its own as often as it is asked to, with what it starts on these cores."""
+    os.sched_setaffinity(0, cores)
     control = reprise.Control(brake=1.0)
     with reprise.Simulation("town1", cars=100, seed=seed) as sim:
         sim.reset()
@@ -63,9 +64,12 @@ def environment(pipe, seed):
 
 
 def measure_vector(steps=400, turns=9):
-    """Ticks a second of two environments at once, and of one, in turns."""
-    pipes, workers = zip(*(multiprocessing.Pipe() for _ in range(2)))
-    children = [multiprocessing.Process(target=environment, args=(end, seed)) for seed, end in enumerate(workers)]
+    """Ticks a second of two environments at once, of one, and of one that has a core only, in turns. One with two cores
+    uses both: the next tick is begun while its driver thinks."""
+    cores = os.sched_getaffinity(0)
+    pipes, workers = zip(*(multiprocessing.Pipe() for _ in range(3)))
+    places = (cores, cores, {min(cores)})
+    children = [multiprocessing.Process(target=environment, args=each) for each in zip(workers, range(3), places)]
     for child in children:
         child.start()
 
@@ -75,12 +79,14 @@ def measure_vector(steps=400, turns=9):
         return len(these) * steps / max(pipe.recv() for pipe in these)
 
     rate(pipes)  # until queues have formed
-    pairs = [(rate(pipes[turn % 2 :][:1]), rate(pipes)) for turn in range(turns)]
+    turns = [(rate(pipes[:2]), rate(pipes[turn % 2 :][:1]), rate(pipes[2:])) for turn in range(turns)]
     for pipe, child in zip(pipes, children):
         pipe.send(0)
         child.join()
-    one, two = (median(column) for column in zip(*pairs))
-    return {"ticks/s_one": one, "ticks/s_two": two, "two_of_one": median([both / alone for alone, both in pairs])}
+    two, one, on_a_core = (median(column) for column in zip(*turns))
+    return {"ticks/s_two": two, "ticks/s_one": one, "ticks/s_one_on_a_core": on_a_core,
+            "two_of_one": median([both / alone for both, alone, _ in turns]),
+            "two_of_one_on_a_core": median([both / alone for both, _, alone in turns])}  # fmt: skip
 
 
 def measure_steps():
@@ -110,7 +116,7 @@ def main():
             continue
         begin = time.perf_counter()
         counters = measure()
-        print(f"{name:10}", *(f"{counter}={value:.1f}" for counter, value in counters.items()), flush=True)
+        print(f"{name:10}", *(f"{counter}={value:.4g}" for counter, value in counters.items()), flush=True)
         found.append(dict(run_name=name, run_type="iteration", real_time=time.perf_counter() - begin, cpu_time=0.0,
                           time_unit="s", **counters))  # fmt: skip
     if options.benchmark_out:

@@ -21,6 +21,8 @@ ROOT = Path(__file__).resolve().parents[2]
 # Program and which of its benchmarks the tables need.
 BENCHMARKS = {
     "tick_bench": "Tick",
+    "driver_bench": ".",
+    "serve_bench.py": "Resets|Vector",
     "trace_bench": "Encode|Write|Play|Verify",
     "recording_bench": "Recording",
     "render_bench": ".",
@@ -53,11 +55,13 @@ def benchmarks(build, work, repetitions, min_time):
     for program, wanted in BENCHMARKS.items():
         say(f"{program}")
         out = work / f"{program}.json"
-        command = [build / "bench" / program, f"--benchmark_filter={wanted}",
+        in_python = ["/usr/bin/python3", "-B", ROOT / "tests/bench" / program]
+        command = [*(in_python if program.endswith(".py") else [build / "bench" / program]), f"--benchmark_filter={wanted}",
                    f"--benchmark_repetitions={repetitions}", f"--benchmark_min_time={min_time}",
                    f"--benchmark_out={out}", "--benchmark_out_format=json"]
         result = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                text=True, env=dict(os.environ, TMPDIR=str(work)))
+                                text=True, env=dict(os.environ, TMPDIR=str(work), PYTHONPATH=str(ROOT / "python"),
+                                                    REPRISE=str(build / "bin" / "reprise")))
         if result.returncode != 0:
             say(f"{program} failed ({result.returncode}):\n{result.stdout[-2000:]}")
             continue

@@ -69,14 +69,14 @@ class Benchmarks(unittest.TestCase):
         self.assertAlmostEqual(values["Tick/100.real_ms"], 0.2)
 
     def test_have_the_names_that_the_figures_ask_for(self):
-        sources = [path.read_text() for path in Path(__file__).parent.glob("*_bench.cpp")]
+        sources = [path.read_text() for path in Path(__file__).parent.glob("*_bench.*")]
         for name in names_asked_for():
             benchmark, _, counter = name.rpartition(".")
             if re.match(r"reprise |level |ten minutes", benchmark):
                 continue  # measured by tables.py itself
             with self.subTest(value=name):
                 kind, _, case = benchmark.partition("/")
-                registered = rf"BENCHMARK\({kind}\)|BENCHMARK_CAPTURE\({kind}, {case},"
+                registered = rf"BENCHMARK\({kind}\)|\"{kind}\": |BENCHMARK_CAPTURE\({kind}, {case},"
                 source = next((text for text in sources if re.search(registered, text)), None)
                 self.assertIsNotNone(source)
                 if counter not in ("real_ms", "cpu_ms", "of_normal"):
