@@ -23,7 +23,7 @@ bool is_left(const remote::FrameChannel& client);
 /// Whether that is that it has hung up.
 bool has_gone(const remote::FrameChannel& client);
 
-/// The last word of their episode, on the client's own connection. It may have gone.
+/// The last word of their episode, on the client's own connection, which may be gone.
 /// `line` of the scenario, or 0.
 void say_end(remote::FrameChannel& client, const world::Outcome& outcome);
 void say_fault(remote::FrameChannel& client, const std::string& text, std::uint32_t line);

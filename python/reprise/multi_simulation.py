@@ -46,9 +46,8 @@ class MultiSimulation(Client):
         if self._plan["scenario"] is None:
             raise ValueError("scenario=None: expected a scenario that spawns " + ", ".join(names))
 
-    def _leave_episode(self) -> bool:
+    def _leave_episode(self) -> None:
         self._let_go()
-        return True
 
     def _let_go(self) -> None:
         for wire in self._wires.values():
