@@ -16,7 +16,7 @@ remote::Client::Wheel decide(const world::TickView& tick, std::uint32_t actor) {
     return {.throttle = own != nullptr && own->speed() < 8 ? 0.5 : 0.0};
 }
 
-int main(int count, char** words) try {
+void play(int count, char** words) {
     remote::Simulation sim;
     remote::EpisodePlan plan{.town = "town1", .cars = 20, .goal = remote::Drawn{}, .seconds = 10};
     if (count > 2)
@@ -32,9 +32,14 @@ int main(int count, char** words) try {
                    sim.outcome().ticks,
                    sim.outcome().reason);
     }
-    return 0;
+}
 
-} catch (const world::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
+int main(int count, char** words) {
+    try {
+        play(count, words);
+    } catch (const world::Error& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return 2;
+    }
+    return 0;
 }
