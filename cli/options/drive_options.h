@@ -26,7 +26,7 @@ struct DriveOptions {
     std::string place = "driver";  ///< of the camera; or chase
     unsigned width = 256;          ///< [px]
     unsigned height = 144;
-    unsigned every = 1;  ///< [ticks] a picture
+    unsigned every = 2;  ///< [ticks] a picture: 10 a second
     unsigned cars = 40;
     std::optional<std::uint64_t> seed;
     double seconds = 3600;  ///< simulated, at most
