@@ -237,7 +237,7 @@ std::vector<Hostile> hostile_asks() {
         {"ActorsInOnePlaceOverTime",
          "while true do spawn{ model = 'sedan', driver = 'parked', lane = 'east_1', s = 20 } "
          "wait_ticks(3) end",
-         "spawn: 'sedan_2' would stand in 'sedan', which line 1 spawned"},
+         "spawn: 'sedan_2' would stand in 'sedan', which line 2 spawned"},
         {"ActorsThatComeAndGo",
          "while true do local all = {} for i = 1, 500 do all[i] = " + parked +
              " end wait_ticks(2) for i = 1, 500 do all[i]:despawn() end wait_ticks(2) end",
