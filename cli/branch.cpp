@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/external/seats.h"
 #include "cli/fingerprint/self_test.h"
 #include "cli/fingerprint/this_build.h"
 #include "cli/options/tick_option.h"
@@ -21,7 +22,6 @@
 #include "cli/process/progress.h"
 #include "cli/process/say.h"
 #include "cli/run_again.h"
-#include "cli/seats.h"
 #include "files/output_place.h"
 #include "kernel/verify.h"
 #include "process/copy.h"

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/external/wheel_program.h"
 #include "cli/run.h"
-#include "cli/wheel_program.h"
 #include "world/check.h"
 #include "world/models/catalogue.h"
 

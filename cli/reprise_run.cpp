@@ -1,11 +1,11 @@
-// `reprise run`, `drive`, `serve`, `verify`, `expand`, `branch` and `import`: the program with SUMO, Bullet
-// and Lua in it.
+// `reprise run`, `drive`, `serve`, `verify`, `expand`, `branch` and `import`: the program with
+// SUMO, Bullet and Lua in it.
 #include "cli/branch.h"
 #include "cli/drive.h"
 #include "cli/expand.h"
+#include "cli/external/serve.h"
 #include "cli/process/command_main.h"
 #include "cli/run.h"
-#include "cli/serve.h"
 #include "cli/trace/import.h"
 #include "cli/verify.h"
 

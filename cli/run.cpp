@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "cli/external/seats.h"
 #include "cli/fingerprint/self_test.h"
 #include "cli/fingerprint/this_build.h"
 #include "cli/process/guard.h"
 #include "cli/process/progress.h"
 #include "cli/process/reproduce.h"
 #include "cli/process/say.h"
-#include "cli/seats.h"
 #include "cli/town/towns.h"
 #include "files/ending.h"
 #include "files/output_place.h"

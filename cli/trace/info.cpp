@@ -132,7 +132,8 @@ struct Screen {
                         fmt::format("{}  {}{}",
                                     paint(check.status == "passed" ? green : red, check.status),
                                     world::printable(check.text),
-                                    check.status == "failed" ? ", at " + time(check.tick) : ""));
+                                    check.status == "failed" ? ", at " + time(check.tick) : "") +
+                            (check.worst.empty() ? "" : "; " + world::printable(check.worst)));
     }
 
     void print_events() const {
@@ -235,8 +236,10 @@ Json json_of(const TraceStory& story) {
              {"cars", story.cars},
              {"walkers", story.walkers}};
     for (const TraceStory::Check& check : story.checks)
-        out["checks"].push_back(
-            {{"status", check.status}, {"text", check.text}, {"tick", std::to_string(check.tick)}});
+        out["checks"].push_back({{"status", check.status},
+                                 {"text", check.text},
+                                 {"tick", std::to_string(check.tick)},
+                                 {"worst", check.worst}});
     for (const TraceStory::Kind& kind : story.kinds)
         out["kinds"].push_back({{"kind", kind.name},
                                 {"count", std::to_string(kind.count)},

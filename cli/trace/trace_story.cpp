@@ -46,7 +46,7 @@ class Teller {
         if (world::tells_worst(event))
             for (std::size_t i = 0; i < failed_.size(); ++i)
                 if (failed_[i].name == event.text()->str()) {
-                    story.checks[failed_[i].index].text += "; " + event.detail()->str();
+                    story.checks[failed_[i].index].worst = event.detail()->str();
                     return;
                 }
         failed_.push_back({event.text()->str(), story.checks.size()});

@@ -25,6 +25,7 @@ struct TraceStory {
         std::string status;  ///< passed, failed, not evaluated
         std::string text;    ///< its name, and why
         std::uint64_t tick = 0;
+        std::string worst{};  ///< how bad a failed one became, and when
     };
 
     struct Actor {

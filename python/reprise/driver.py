@@ -260,7 +260,9 @@ def last_words(error: BaseException, where: str) -> str:
         if os.path.isfile(path) and os.path.dirname(path) != os.path.dirname(__file__) and "-packages" not in path:
             line = f" ({os.path.basename(path)}:{step.tb_lineno})"
         step = step.tb_next
-    return f"{type(error).__name__} {where}: {error}{line}"
+    told = str(error)  # the run takes 300 bytes; the place shall be among them
+    told = told if len(told) <= 160 else told[:160] + " ..."
+    return f"{type(error).__name__} {where}: {told}{line}"
 
 
 def values_of(control: Control) -> tuple[float, float, float, bool, bool, int]:

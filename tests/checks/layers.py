@@ -41,7 +41,7 @@ INNER = {
     "scripting": "lua words .",
     "replay": "mcap . table compare golden",
     "exchange": ". carla",
-    "cli": "options process fingerprint town trace golden .",
+    "cli": "options process fingerprint town trace golden external .",
 }
 # Where a header may stand: in the .cpp files and private headers of a room, or, with "+", in all its headers.
 LIBRARIES = {

@@ -179,7 +179,7 @@ class Windows(Driven):
         self.title_with("0:0[1-9]")
         self.xdo("key", "Escape")
         self.expect_good_end()
-        self.start("branch", "drive.mcap", "--at", "10", "--driver", "ego=keyboard", "-o", "branched.mcap")
+        self.start("branch", "drive.mcap", "--at", "10t", "--driver", "ego=keyboard", "-o", "branched.mcap")
         self.title_with("0:0[1-9]")
         self.xdo("key", "Escape")
         self.drive.communicate(timeout=WAITING)

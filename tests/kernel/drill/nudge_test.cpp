@@ -45,7 +45,7 @@ const world::Recording& street() {
         local child = spawn{ name = 'child', model = 'child', lane = lane, s = 70, offset = -5 }
         child:walk_to{ across = lane, speed = 2 }
         wait(0.9)
-        ego:set_speed_kmh(20)
+        ego:set_speed_kmh(55)
         wait(60))",
                                                        10,
                                                        2);

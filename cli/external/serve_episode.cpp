@@ -1,4 +1,4 @@
-#include "cli/serve_episode.h"
+#include "cli/external/serve_episode.h"
 
 #include <cerrno>
 #include <charconv>
@@ -6,8 +6,8 @@
 #include <fcntl.h>
 #include <functional>
 
-#include "cli/seats.h"
-#include "cli/serve_drivers.h"
+#include "cli/external/seats.h"
+#include "cli/external/serve_drivers.h"
 #include "files/ending.h"
 #include "replay/trace_writer.h"
 #include "world/check.h"

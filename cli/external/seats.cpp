@@ -1,14 +1,14 @@
-#include "cli/seats.h"
+#include "cli/external/seats.h"
 
 #include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/external/wheel_program.h"
 #include "cli/process/helper_program.h"
 #include "cli/process/reproduce.h"
 #include "cli/process/say.h"
-#include "cli/wheel_program.h"
 #include "world/check.h"
 #include "world/printable.h"
 

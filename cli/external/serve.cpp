@@ -1,4 +1,4 @@
-#include "cli/serve.h"
+#include "cli/external/serve.h"
 
 #include <array>
 #include <charconv>
@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "cli/external/serve_session.h"
 #include "cli/fingerprint/self_test.h"
 #include "cli/process/guard.h"
 #include "cli/process/say.h"
-#include "cli/serve_session.h"
 #include "process/held_signals.h"
 #include "process/offshoot.h"
 #include "remote/listener.h"

@@ -1,4 +1,4 @@
-#include "cli/wheel_program.h"
+#include "cli/external/wheel_program.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/serve_stage.h"
+#include "cli/external/serve_stage.h"
 
 #include <array>
 #include <cerrno>
@@ -9,8 +9,8 @@
 #include <sys/socket.h>
 #include <utility>
 
-#include "cli/serve_drivers.h"
-#include "cli/serve_episode.h"
+#include "cli/external/serve_drivers.h"
+#include "cli/external/serve_episode.h"
 #include "kernel/kernel.h"
 #include "world/check.h"
 

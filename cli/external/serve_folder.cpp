@@ -1,4 +1,4 @@
-#include "cli/serve_folder.h"
+#include "cli/external/serve_folder.h"
 
 #include <algorithm>
 

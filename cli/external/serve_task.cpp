@@ -1,4 +1,4 @@
-#include "cli/serve_task.h"
+#include "cli/external/serve_task.h"
 
 #include <cmath>
 #include <string_view>

@@ -1,16 +1,16 @@
-#include "cli/serve_session.h"
+#include "cli/external/serve_session.h"
 
 #include <csignal>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/external/serve_drivers.h"
+#include "cli/external/serve_episode.h"
+#include "cli/external/serve_folder.h"
+#include "cli/external/serve_stage.h"
+#include "cli/external/serve_task.h"
 #include "cli/fingerprint/this_build.h"
-#include "cli/serve_drivers.h"
-#include "cli/serve_episode.h"
-#include "cli/serve_folder.h"
-#include "cli/serve_stage.h"
-#include "cli/serve_task.h"
 #include "cli/town/towns.h"
 #include "ground/mesh/build_ground.h"
 #include "remote/schema.h"

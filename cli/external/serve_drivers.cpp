@@ -1,4 +1,4 @@
-#include "cli/serve_drivers.h"
+#include "cli/external/serve_drivers.h"
 
 #include <algorithm>
 #include <array>
