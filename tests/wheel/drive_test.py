@@ -89,7 +89,8 @@ class Windows(Driven):
             if shutil.which(program) is None:
                 self.skipTest(f"{program} is missing: packages.txt, [tests]")
         reading, writing = os.pipe()
-        screen = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24", "-nolisten", "tcp"],
+        screen = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24", "-nolisten", "tcp",
+                                   "-noreset"],
                                   pass_fds=[writing], stderr=subprocess.DEVNULL)
         self.addCleanup(screen.wait)
         self.addCleanup(screen.kill)
@@ -117,7 +118,8 @@ class Windows(Driven):
         found = ""
         while not found and self.drive.poll() is None:  # a search fails when a window goes that it looks at
             found = self.xdo("search", "--onlyvisible", "--name", "km/h")
-        self.assertTrue(found, "no window")
+        if not found:
+            self.fail("no window: " + self.drive.stdout.read())
         self.window = found.splitlines()[0]
         self.xdo("windowfocus", "--sync", self.window)
 
