@@ -52,7 +52,8 @@ std::string filled_in(std::string variable, int descriptor) {
 /// because a copy of us would hold our memory and our sockets.
 [[noreturn]] void be_guardian(pid_t group, int pipe_end) noexcept {
     static constexpr const char* word = "read nothing; kill -s KILL 0";
-    setpgid(0, group);
+    if (setpgid(0, group) != 0)
+        _exit(no_such_program);  // in the group of our owner it would end that
     sigset_t all;
     sigfillset(&all);
     sigprocmask(SIG_SETMASK, &all, nullptr);  // what the group is sent is not meant for it
@@ -97,6 +98,9 @@ Companion::Companion(const std::string& command, int descriptor, const std::stri
         guardian_ = fork();
         if (guardian_ == 0)
             be_guardian(pid_, ends[0]);
+        // Here as well, before anybody waits for the program: when that has ended and is waited
+        // for, its group is gone, and there is none to join.
+        setpgid(guardian_, pid_);
     }
     const int reason = errno;
     close(ends[0]);

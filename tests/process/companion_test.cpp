@@ -49,5 +49,24 @@ TEST(Companion, AndItsOwnEndWhenItsOwnerIsKilled) {
     EXPECT_FALSE(held.hear()) << "nobody holds the pipe any more";
 }
 
+/// Where the guardian of one that has ended already stayed in our own group, it would end that.
+TEST(Companion, WhoEndsAtOnceTakesNobodyAlong) {
+    constexpr int programs = 300;
+    constexpr int good = 7;
+    const pid_t owner = fork();
+    if (owner == 0) {
+        setpgid(0, 0);  // what would be lost
+        for (int i = 0; i < programs; ++i) {
+            Companion companion("exit 0", STDERR_FILENO, "END=fd:%d");
+            companion.wait(10);
+        }
+        _exit(good);
+    }
+    int status = 0;
+    waitpid(owner, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
+    EXPECT_EQ(WEXITSTATUS(status), good);
+}
+
 }  // namespace
 }  // namespace reprise::process
