@@ -120,7 +120,8 @@ TEST_F(InfoOfACrash, TellsARunOnOneScreen) {
     for (const char* row : {"  town      small, 1 cars of traffic\n",
                             "  seed      11\n",
                             "  outcome   failed: time limit\n",
-                            "            failed  hit the van: it happened, at 2.25 s; worst 1.15 s in all, until 3.30 s\n",
+                            "            failed  hit the van: it happened, at 2.25 s; worst 1.15 s "
+                            "in all, until 3.30 s\n",
                             "            passed  hit the child\n",
                             " collision\n",
                             "  actors    ego (1), van (2), other (4), child (3), ",
