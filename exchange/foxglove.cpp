@@ -30,6 +30,7 @@ LogLevel level_of(world::EventKind kind) {
         case world::EventKind::despawned:
             return LogLevel::debug;
         case world::EventKind::collision:
+        case world::EventKind::collision_ended:
         case world::EventKind::blocked:
         case world::EventKind::not_evaluated:
             return LogLevel::warning;

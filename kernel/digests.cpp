@@ -19,6 +19,27 @@ void add(world::Hasher& hasher, const world::SensorT& sensor) {
     hasher.add(sensor.every);
 }
 
+/// Of words that most commands do without: each is told apart by its key, and costs nothing where
+/// it is not said.
+void add_rarer_words(world::Hasher& hasher, const world::CommandT& command) {
+    const auto add_said = [&](char key, const auto& value, bool said) {
+        if (!said)
+            return;
+        hasher.add(key);
+        hasher.add(value);
+    };
+    add_said('s', command.shape, command.shape != world::Shape::sinusoidal);
+    add_said('o', command.on, command.on);
+    add_said('d', command.deceleration, command.deceleration != 0);
+    add_said('h', command.heading, command.has_pose);
+    add_said('p', std::span<const world::PathPoint>(command.path), !command.path.empty());
+    add_said('i', std::span<const std::uint32_t>(command.signals), !command.signals.empty());
+    add_said('c', command.color, command.color != world::SignalColor::off);
+    add_said('l', command.lamps, command.lamps != 0);
+    add_said('m', command.lamps_mask, command.lamps_mask != 0);
+    add_said('r', command.doors, command.doors != 0);
+}
+
 }  // namespace
 
 std::uint64_t digest_of(const scripting::Scenario& scenario, const world::TickDraft& next) {
@@ -46,6 +67,7 @@ std::uint64_t digest_of(const scripting::Scenario& scenario, const world::TickDr
             add(hasher, *sensor);
         if (command.sees_sensors)
             hasher.add(command.sees_sensors);
+        add_rarer_words(hasher, command);
     }
     return hasher.digest64();
 }
@@ -79,6 +101,10 @@ std::uint64_t digest_of(const Physics& physics, const world::TickDraft& next) {
     hasher.add(std::span<const world::VehicleState>(next.tick.vehicles));
     hasher.add(std::span<const world::WheelState>(next.tick.wheels));
     hasher.add(std::span<const world::Look>(next.tick.looks));
+    if (!next.tick.props.empty())
+        hasher.add(std::span<const world::PropState>(next.tick.props));
+    if (!next.tick.doors.empty())
+        hasher.add(std::span<const world::Door>(next.tick.doors));
     return hasher.digest64();
 }
 
@@ -92,6 +118,8 @@ std::uint64_t digest_of_measurements(const world::TickDraft& next) {
         hasher.add(event.position);
         hasher.add(event.value);
         hasher.add_text(world::to_line(event));  // of a check also its detail
+        if (event.duration != 0)
+            hasher.add(event.duration);
     }
     return hasher.digest64();
 }

@@ -1,5 +1,6 @@
 #include "replay/noun_check.h"
 
+#include <algorithm>
 #include <span>
 #include <tuple>
 
@@ -30,20 +31,29 @@ constexpr auto actor_of = [](const auto& item) { return item.actor(); };
 bool vectors_are_sound(const world::Tick& tick) {
     return tick.commands() != nullptr && tick.events() != nullptr && tick.signals() != nullptr &&
            is_aligned(tick.controls()) && is_aligned(tick.vehicles()) &&
-           is_aligned(tick.wheels()) && is_aligned(tick.measurements()) && is_aligned(tick.looks());
+           is_aligned(tick.wheels()) && is_aligned(tick.measurements()) &&
+           is_aligned(tick.looks()) && is_aligned(tick.props()) && is_aligned(tick.doors()) &&
+           std::all_of(tick.commands()->begin(), tick.commands()->end(), [](const auto* command) {
+               return is_aligned(command->path());
+           });
 }
 
 bool sorted(const world::TickView& view) {
     return ascending(view.controls(), actor_of) && ascending(view.vehicles(), id_of) &&
            ascending(view.measurements(), actor_of) && ascending(view.vehicle_looks(), actor_of) &&
-           ascending(view.wheels(), [](const world::WheelState& wheel) {
-               return std::tuple(wheel.vehicle(), wheel.index());
+           ascending(view.wheels(),
+                     [](const world::WheelState& wheel) {
+                         return std::tuple(wheel.vehicle(), wheel.index());
+                     }) &&
+           ascending(view.props(), id_of) && ascending(view.doors(), [](const world::Door& door) {
+               return std::tuple(door.actor(), door.door());
            });
 }
 
 bool known_enumerators(const world::Tick& tick) {
     for (const auto* command : *tick.commands()) {
-        if (command->kind() > world::CommandKind::MAX || command->driver() > world::Driver::MAX)
+        if (command->kind() > world::CommandKind::MAX || command->driver() > world::Driver::MAX ||
+            command->shape() > world::Shape::MAX || command->color() > world::SignalColor::MAX)
             return false;
     }
     for (const auto* event : *tick.events()) {
@@ -107,7 +117,8 @@ std::optional<std::string> fault_of_inputs(mcap::View bytes, std::uint64_t index
         return "a part of the tick is missing or misplaced";
     if (tick.weather() != nullptr || tick.commands() != nullptr || tick.vehicles() != nullptr ||
         tick.wheels() != nullptr || tick.signals() != nullptr || tick.measurements() != nullptr ||
-        tick.events() != nullptr || tick.looks() != nullptr)
+        tick.events() != nullptr || tick.looks() != nullptr || tick.props() != nullptr ||
+        tick.doors() != nullptr)
         return "it holds more than inputs";
     if (!ascending(world::TickView{&tick, nullptr}.controls(), actor_of))
         return "ids are out of order";

@@ -39,6 +39,14 @@ std::span<const WheelState> TickView::wheels() const {
     return structs(tick->wheels());
 }
 
+std::span<const PropState> TickView::props() const {
+    return structs(tick->props());
+}
+
+std::span<const Door> TickView::doors() const {
+    return structs(tick->doors());
+}
+
 std::span<const Control> TickView::controls() const {
     return structs(tick->controls());
 }
@@ -121,6 +129,10 @@ const Control* find(std::span<const Control> controls, std::uint32_t actor) {
 
 const Look* find(std::span<const Look> looks, std::uint32_t actor) {
     return find_sorted(looks, actor, [](const Look& item) { return item.actor(); });
+}
+
+const PropState* find(std::span<const PropState> props, std::uint32_t id) {
+    return find_sorted(props, id, [](const PropState& item) { return item.id(); });
 }
 
 std::string to_line(const Event& event) {

@@ -38,6 +38,8 @@ struct TickView {
 
     std::span<const VehicleState> vehicles() const;
     std::span<const WheelState> wheels() const;
+    std::span<const PropState> props() const;
+    std::span<const Door> doors() const;
     std::span<const Control> controls() const;
     std::span<const Measurement> measurements() const;
     std::span<const SignalColor> signals() const;
@@ -89,6 +91,7 @@ const WalkerState* find(std::span<const WalkerState> walkers, std::uint32_t id);
 const Measurement* find(std::span<const Measurement> measurements, std::uint32_t actor);
 const Control* find(std::span<const Control> controls, std::uint32_t actor);
 const Look* find(std::span<const Look> looks, std::uint32_t actor);
+const PropState* find(std::span<const PropState> props, std::uint32_t id);
 
 /// Paint or outfit of an actor: drawn once, from the seed and the id alone. Never 0, which stands
 /// for "not recorded".
@@ -100,13 +103,13 @@ inline bool takes_controls(Driver driver) {
     return driver == Driver::manual || driver == Driver::external;
 }
 
-/// To the record's grid of `per_unit` steps a unit (see traffic.fbs), ties to the even step.
 /// A command to change lanes names one lane; that to keep the lane names `none`; that which lifts
 /// it nothing at all.
 inline bool names_lane(const CommandT& change_lane) {
     return !change_lane.lanes.empty() && change_lane.lanes.front() != none;
 }
 
+/// To the record's grid of `per_unit` steps a unit (see traffic.fbs), ties to the even step.
 inline double rounded(double value, double per_unit) {
     return std::nearbyint(value * per_unit) / per_unit;
 }

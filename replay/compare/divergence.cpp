@@ -31,7 +31,10 @@ const std::array<Stage, 6>& stages() {
         {"controls", &world::Digests::controls, {"controls"}, {}},
         {"traffic", &world::Digests::traffic, {"signals"}, {"cars", "looks"}},
         {"pedestrians", &world::Digests::pedestrians, {}, {"walkers"}},
-        {"physics", &world::Digests::physics, {"vehicles", "wheels", "looks"}, {}},
+        {"physics",
+         &world::Digests::physics,
+         {"vehicles", "wheels", "looks", "props", "doors"},
+         {}},
         {"measurements", &world::Digests::measurements, {"measurements"}, {}},
     }};
     return all;
@@ -42,9 +45,11 @@ const std::array<Stage, 6>& stages() {
 std::size_t stage_of(const world::Event& event) {
     if (event.kind() == world::EventKind::blocked)
         return 5;
-    if (event.actor() >= world::first_background_id && event.kind() != world::EventKind::collision)
+    const bool of_a_crash = event.kind() == world::EventKind::collision ||
+                            event.kind() == world::EventKind::collision_ended;
+    if (event.actor() >= world::first_background_id && !of_a_crash)
         return 2;
-    return event.kind() == world::EventKind::collision ? 4 : 0;
+    return of_a_crash ? 4 : 0;
 }
 
 /// "events[3]" of "events[3].text".

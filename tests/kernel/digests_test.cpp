@@ -113,6 +113,42 @@ TEST(Digests, TheScenariosCoversWeatherFrictionAndCommands) {
                      {"command", [](Tick& next) { next.tick.commands.emplace_back(); }}});
 }
 
+TEST(Digests, TheScenariosTellsApartTheWordsThatFewCommandsSay) {
+    const world::Recording recording = test::in_town1("wait(1)", 0, 1);
+    const world::LaneMap lanes(recording.town);
+    const scripting::Scenario scenario(recording.episode, recording.town, lanes);
+    const std::vector<std::function<void(world::CommandT&)>> changes{
+        [](world::CommandT&) {},
+        [](world::CommandT& one) { one.shape = world::Shape::linear; },
+        [](world::CommandT& one) { one.on = true; },
+        [](world::CommandT& one) { one.deceleration = 1; },
+        [](world::CommandT& one) { one.has_pose = true; },
+        [](world::CommandT& one) {
+            one.has_pose = true;
+            one.heading = 1;
+        },
+        [](world::CommandT& one) {
+            one.path = {world::PathPoint({1, 0, 0}, 0, 0)};
+        },
+        [](world::CommandT& one) {
+            one.path = {world::PathPoint({1, 0, 0}, 0, 1)};
+        },
+        [](world::CommandT& one) { one.signals = {1}; },
+        [](world::CommandT& one) { one.color = world::SignalColor::red; },
+        [](world::CommandT& one) { one.lamps = 1; },
+        [](world::CommandT& one) { one.lamps_mask = 1; },
+        [](world::CommandT& one) { one.doors = 1; },
+    };
+    std::vector<std::uint64_t> digests;
+    for (const auto& change : changes) {
+        world::TickDraft next = some_tick();
+        change(next.tick.commands.emplace_back());
+        digests.push_back(digest_of(scenario, next));
+    }
+    std::sort(digests.begin(), digests.end());
+    EXPECT_EQ(std::adjacent_find(digests.begin(), digests.end()), digests.end());
+}
+
 TEST(Digests, TheScenariosCoversAllThatARigSays) {
     const world::Recording recording = test::in_town1("wait(1)", 0, 1);
     const world::LaneMap lanes(recording.town);
