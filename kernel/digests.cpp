@@ -72,9 +72,12 @@ std::uint64_t digest_of(const scripting::Scenario& scenario, const world::TickDr
     return hasher.digest64();
 }
 
-std::uint64_t digest_of(const Roster& roster, const world::TickDraft& next) {
+std::uint64_t digest_of(const Roster& roster,
+                        const LampOrders& lamps,
+                        const world::TickDraft& next) {
     world::Hasher hasher;
     hasher.add(roster.digest());
+    lamps.add_to(hasher);
     hasher.add(std::span<const world::Control>(next.tick.controls));
     return hasher.digest64();
 }

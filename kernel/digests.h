@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "kernel/lamp_orders.h"
 #include "kernel/pedestrians.h"
 #include "kernel/physics/physics.h"
 #include "kernel/roster.h"
@@ -16,7 +17,9 @@ namespace reprise::kernel {
 /// of the scenario that said something is left out, because it decides nothing. 5 us a tick with
 /// 100 cars.
 std::uint64_t digest_of(const scripting::Scenario& scenario, const world::TickDraft& next);
-std::uint64_t digest_of(const Roster& roster, const world::TickDraft& next);
+std::uint64_t digest_of(const Roster& roster,
+                        const LampOrders& lamps,
+                        const world::TickDraft& next);
 std::uint64_t digest_of(const traffic::Background& background, const world::TickDraft& next);
 std::uint64_t digest_of(const Pedestrians& pedestrians, const world::TickDraft& next);
 std::uint64_t digest_of(const Physics& physics, const world::TickDraft& next);

@@ -9,6 +9,7 @@
 #include "ground/obstacles.h"
 #include "kernel/blockages.h"
 #include "kernel/digests.h"
+#include "kernel/lamp_orders.h"
 #include "kernel/measurements.h"
 #include "kernel/nudger.h"
 #include "kernel/pedestrians.h"
@@ -72,6 +73,7 @@ struct Kernel::Parts {
     traffic::Background background;
     Pedestrians pedestrians;
     Physics physics;
+    LampOrders lamps;
     world::Digest128 continued;  ///< the chain that the next tick goes on with
     world::SealedTick last;
     Nudger nudger;
@@ -104,6 +106,7 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
 
     // 5. physics: everything with mass, in equal substeps
     parts.physics.advance(last, next);
+    parts.lamps.light_vehicles(next);
     close(Stage::physics, next);
 
     // 6. measurements: lanes, gaps, footprints, impulses, who is blocked; in the last tick the
@@ -135,11 +138,13 @@ void Kernel::begin() {
     // 1. scenario: what should happen
     parts.scenario.advance(last, next);
     parts.roster.apply_commands(last, next, parts.physics);
+    parts.lamps.apply_commands(next);
     note_outcome(next);
     close(Stage::scenario, next);
 
     // 2. traffic: background cars and signals
     parts.background.advance(last, next);
+    parts.lamps.light_cars(next);
     close(Stage::traffic, next);
 
     // 3. pedestrians
@@ -169,7 +174,7 @@ void Kernel::close(Stage stage, world::TickDraft& next) {
         case Stage::scenario:
             return digests.mutate_scenario(digest_of(parts.scenario, next));
         case Stage::controls:
-            return digests.mutate_controls(digest_of(parts.roster, next));
+            return digests.mutate_controls(digest_of(parts.roster, parts.lamps, next));
         case Stage::traffic:
             return digests.mutate_traffic(digest_of(parts.background, next));
         case Stage::pedestrians:

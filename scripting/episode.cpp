@@ -11,7 +11,6 @@
 #include "scripting/words/header.h"
 #include "scripting/words/tasks.h"
 #include "world/check.h"
-#include "world/weather.h"
 
 namespace reprise::scripting {
 
@@ -149,7 +148,6 @@ world::EpisodeT episode_of_text(const std::string& name,
     const double duration = overrides.duration.value_or(header.duration);
     if (!(duration > 0) || duration > 86'400)
         throw world::Error(fmt::format("--for {}: must be in (0, 86400] s", duration));
-    const world::WeatherPreset& weather = *world::find_weather(header.weather);
     episode.name = header.name;
     episode.town = overrides.town.value_or(header.town);
     episode.seed = overrides.seed.value_or(header.seed);
@@ -157,9 +155,9 @@ world::EpisodeT episode_of_text(const std::string& name,
     episode.substeps = substeps;
     episode.max_ticks = std::max<std::uint64_t>(1, ticks_of(duration, step_ns));
     episode.cars = header.cars;
-    episode.road_friction = weather.road_friction;
-    episode.weather = weather.weather;
-    episode.weather_name = weather.name;
+    episode.road_friction = header.weather.friction;
+    episode.weather = header.weather.weather;
+    episode.weather_name = header.weather.name;
     episode.parameters = recorded(header.parameters);
     return episode;
 }

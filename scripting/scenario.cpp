@@ -55,6 +55,7 @@ struct Scenario::Machine {
     void start() {
         const Header header = read_header(vm, run.episode.scenario);
         vm.run = &run;
+        run.weathers.plan(header.timeline, header.friction);
         lua_State* L = vm.main();
         push_parameters(L, run.episode);  // stays at `parameters_at`
         lua_rawgeti(L, LUA_REGISTRYINDEX, header.run);
@@ -124,6 +125,7 @@ void Scenario::advance(const world::TickView& last, world::TickDraft& next) {
     run.speak_into(&next);
     run.vm.refill();
     run.actors.observe(last, run.step);
+    run.weathers.advance(last, next, run.episode.step_ns);
     run.tasks.advance(run, last.index());
     run.checks.evaluate(run);
     run.speak_into(nullptr);
@@ -153,6 +155,7 @@ std::uint64_t Scenario::digest() const {
     run.tasks.digest(hasher);
     run.checks.digest(hasher);
     run.streams.digest(hasher);
+    run.weathers.digest(hasher);
     if (machine_->taken_over != 0)
         hasher.add(machine_->taken_over);
     return hasher.digest64();

@@ -24,6 +24,7 @@
 #include "traffic/road_graph.h"
 #include "traffic/route_planner.h"
 #include "traffic/scripted_spawns.h"
+#include "traffic/signal_orders.h"
 #include "traffic/signal_programs.h"
 #include "traffic/sumo.h"
 #include "world/digest.h"
@@ -66,7 +67,9 @@ struct Background::Parts {
           orders(episode, town, graph, routes),
           mirrors(town, lanes, graph, world::seconds(1, episode.step_ns)),
           reader(town, graph, world::seconds(1, episode.step_ns), episode.seed),
-          signals(town) {}
+          signal_orders(town),
+          signals(town),
+          step_ns(episode.step_ns) {}
 
     void carry_out(const world::TickView& last, world::TickDraft& next);
     void drop_arrived(world::TickDraft& next);
@@ -81,8 +84,10 @@ struct Background::Parts {
     Orders orders;
     Mirrors mirrors;
     CarReader reader;
+    SignalOrders signal_orders;
     SignalPrograms signals;
     Cars cars;
+    std::uint64_t step_ns;
 };
 
 /// The scenario's commands for cars that traffic owns.
@@ -94,6 +99,10 @@ void Background::Parts::carry_out(const world::TickView& last, world::TickDraft&
                 spawns.spawn(command, cars, last, next);
             else if (command.driver != world::Driver::walker)
                 spawns.make_room_for(command, cars, next);
+            continue;
+        }
+        if (command.kind == CommandKind::set_signal) {
+            signal_orders.give(command, step_ns, next.tick.index);
             continue;
         }
         Car* car = cars.find(command.actor);
@@ -140,6 +149,7 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     parts.routes.keep_ahead(parts.cars);
     parts.orders.follow(parts.cars, next.tick.index);
     parts.mirrors.advance(last, parts.cars.all());
+    parts.signal_orders.follow(next.tick.index);
 
     libsumo::Simulation::step();
 
@@ -155,6 +165,7 @@ std::uint64_t Background::digest() const {
     parts_->cars.add_to(hasher);
     parts_->demand.add_to(hasher);
     parts_->signals.add_to(hasher);
+    parts_->signal_orders.add_to(hasher);
     parts_->mirrors.add_to(hasher);
     return hasher.digest64();
 }

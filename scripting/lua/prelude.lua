@@ -16,6 +16,18 @@ function wait_until(condition, options)
     return true
 end
 
+local wish_for_green = _wish_for_green
+_wish_for_green = nil
+
+--- Until the light at the lane's end is green; true, or false after `timeout` seconds.
+function wait_until_green(lane, options)
+    local turn, limit = wish_for_green(lane, options)
+    return wait_until(function()
+        local color = signal(lane, turn)
+        return color == 'green' or color == 'green_minor'
+    end, limit)
+end
+
 local actor = _actor
 _actor = nil
 

@@ -4,8 +4,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scripting/lua/literals.h"
+#include "scripting/words/weathers.h"
 
 namespace reprise::scripting {
 
@@ -15,8 +17,10 @@ class Vm;
 struct Header {
     std::string name;
     std::string town = "town1";
-    std::string weather = "clear_noon";
-    double duration = 60;  ///< [s]
+    SaidWeather weather;                 ///< at the start
+    std::vector<WeatherEntry> timeline;  ///< behind the start, by time
+    std::optional<double> friction;      ///< of the whole run, whatever the weather
+    double duration = 60;                ///< [s]
     bool has_duration = false;
     std::string of_world;  ///< a key that decides the world at the start, or ""
     std::uint64_t seed = 0;

@@ -14,7 +14,6 @@
 #include "scripting/words/header.h"
 #include "scripting/words/vocabulary.h"
 #include "world/check.h"
-#include "world/weather.h"
 
 namespace reprise::scripting {
 
@@ -55,25 +54,65 @@ std::map<std::string, Value> read_parameters(lua_State* L) {
     return parameters;
 }
 
+/// A list of entries, each { at =, over =, ... }; the first is the weather at the start.
+void read_timeline(lua_State* L, Header& header) {
+    constexpr lua_Unsigned most_entries = 1000;
+    const lua_Unsigned count = lua_rawlen(L, -1);
+    if (count > most_entries)
+        refuse("scenario", fmt::format("a weather of more than {} entries", most_entries));
+    SaidWeather before = header.weather;
+    for (lua_Unsigned i = 1; i <= count; ++i) {
+        lua_rawgeti(L, -1, static_cast<lua_Integer>(i));
+        const std::string who = fmt::format("scenario: weather, entry {}", i);
+        WeatherEntry entry = weather_entry_at_top(L, who, before);
+        lua_pop(L, 1);
+        entry.line = header.line;
+        before = entry.said;
+        if (i == 1 && (entry.at != 0 || entry.over != 0))
+            refuse(who, "the first one is the weather at the start: at = 0, without 'over'");
+        if (i == 1) {
+            header.weather = entry.said;
+            continue;
+        }
+        if (entry.at <= (header.timeline.empty() ? 0 : header.timeline.back().at))
+            refuse(who, "comes before the one above it: entries are in the order of 'at'");
+        header.timeline.push_back(std::move(entry));
+    }
+}
+
+void read_weather(lua_State* L, const Fields& fields, Header& header) {
+    header.weather = preset_weather("scenario", "clear_noon");
+    fields.push("weather");
+    if (lua_type(L, -1) == LUA_TTABLE && lua_rawlen(L, -1) > 0)
+        read_timeline(L, header);
+    else if (!lua_isnil(L, -1))
+        header.weather = weather_at_top(
+            L, lua_type(L, -1) == LUA_TSTRING ? "scenario" : "scenario: weather", header.weather);
+    lua_pop(L, 1);
+    if (const auto friction = fields.number("friction")) {
+        header.friction = check_friction("scenario", *friction);
+        if (!header.weather.names_friction)
+            header.weather.friction = *friction;
+    }
+}
+
 /// The call with the table. Upvalue 1: the name. Returns the table as the mark of a scenario.
 int take_table(lua_State* L) {
     Vm& vm = Vm::of(L);
     const Fields fields(
-        L, 1, "scenario", {"town", "duration", "seed", "cars", "weather", "params", "run"});
+        L,
+        1,
+        "scenario",
+        {"town", "duration", "seed", "cars", "weather", "friction", "params", "run"});
     if (vm.header == nullptr || vm.header->run != 0)
         refuse("scenario", "a file holds one scenario");
     Header header;
     header.line = vm.line(L);
     header.name = text_of(L, lua_upvalueindex(1));
     header.town = fields.text("town").value_or(header.town);
-    header.weather = fields.text("weather").value_or(header.weather);
-    if (world::find_weather(header.weather) == nullptr)
-        refuse("scenario",
-               fmt::format("no weather '{}'{}",
-                           header.weather,
-                           world::did_you_mean(header.weather, world::weather_names())));
+    read_weather(L, fields, header);
     header.has_duration = fields.has("duration");
-    for (const char* key : {"town", "seed", "cars", "weather"})
+    for (const char* key : {"town", "seed", "cars", "weather", "friction"})
         if (fields.has(key))
             header.of_world = key;
     header.duration = fields.number("duration").value_or(header.duration);

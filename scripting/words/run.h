@@ -5,6 +5,7 @@
 #include "scripting/words/step_context.h"
 #include "scripting/words/streams.h"
 #include "scripting/words/tasks.h"
+#include "scripting/words/weathers.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"
 #include "world/town.h"
@@ -26,6 +27,7 @@ struct Run : StepContext {
     Tasks tasks;
     Checks checks;
     Streams streams;
+    Weathers weathers;
 
     /// The lane of this name, or throws with a hint; a search for the hint is charged.
     std::uint32_t lane_named(lua_State* L, const std::string& name);

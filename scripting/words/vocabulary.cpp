@@ -11,7 +11,6 @@
 #include "scripting/lua/text.h"
 #include "scripting/words/caps.h"
 #include "scripting/words/run.h"
-#include "world/weather.h"
 
 namespace reprise::scripting {
 
@@ -74,20 +73,6 @@ int random_int(Run& run, lua_State* L) {
     return 1;
 }
 
-int set_weather(Run& run, lua_State* L) {
-    const std::string name = text_at(L, 1, "set_weather", "the name");
-    const world::WeatherPreset* preset = world::find_weather(name);
-    if (preset == nullptr)
-        refuse("set_weather",
-               fmt::format(
-                   "no weather '{}'{}", name, world::did_you_mean(name, world::weather_names())));
-    world::CommandT& command = run.say(L, world::CommandKind::set_weather, 0);
-    command.weather = preset->weather;
-    command.road_friction = preset->road_friction;
-    command.text = name;
-    return 0;
-}
-
 }  // namespace
 
 void add_vocabulary(lua_State* L) {
@@ -99,7 +84,7 @@ void add_vocabulary(lua_State* L) {
     add_function(L, "print", bound<print>);
     add_function(L, "random", acting<random>);
     add_function(L, "random_int", acting<random_int>);
-    add_function(L, "set_weather", acting<set_weather>);
+    add_surroundings_words(L);
 }
 
 }  // namespace reprise::scripting

@@ -1,0 +1,77 @@
+#include <array>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "scripting/lua/arguments.h"
+#include "scripting/words/handles.h"
+#include "scripting/words/vocabulary.h"
+#include "world/models/catalogue.h"
+
+// What an actor carries, and is told to use: its lamps.
+namespace reprise::scripting {
+
+namespace {
+
+struct LampWord {
+    const char* key;
+    std::uint16_t bits;
+};
+
+constexpr std::array<LampWord, 6> lamp_words{{{"left", world::lamp_left},
+                                              {"right", world::lamp_right},
+                                              {"hazard", world::lamp_left | world::lamp_right},
+                                              {"low_beam", world::lamp_low_beam},
+                                              {"brake", world::lamp_brake},
+                                              {"reverse", world::lamp_reverse}}};
+
+Actor& with_lamps(Run& run, lua_State* L) {
+    Actor& actor = actor_at(run, L, 1, "set_lamps");
+    if (actor.is_walker())
+        refuse("set_lamps", "'" + actor.name + "' is a walker");
+    if (actor.driver == world::Driver::parked)
+        refuse("set_lamps",
+               "'" + actor.name + "' is parked: its lamps are off (take driver = 'manual')");
+    return actor;
+}
+
+/// What is named is the scenario's from now on; with nothing all are the driver's again.
+int set_lamps(Run& run, lua_State* L) {
+    const Actor& actor = with_lamps(run, L);
+    std::uint16_t lamps = 0;
+    std::uint16_t mask = 0;
+    if (!lua_isnoneornil(L, 2)) {
+        std::vector<std::string> keys;
+        for (const LampWord& word : lamp_words)
+            keys.emplace_back(word.key);
+        const Fields fields(L, 2, "set_lamps", keys);
+        for (const LampWord& word : lamp_words) {
+            const auto on = fields.flag(word.key);
+            if (!on)
+                continue;
+            if ((mask & word.bits) != 0)
+                refuse("set_lamps", "'hazard' is both indicators: give it, or 'left' and 'right'");
+            mask |= word.bits;
+            if (*on)
+                lamps |= word.bits;
+        }
+        if (mask == 0)
+            refuse("set_lamps",
+                   fmt::format("names no lamp: {}:set_lamps{{ hazard = true }}, or {}:set_lamps() "
+                               "to leave them all to the driver",
+                               actor.name,
+                               actor.name));
+    }
+    world::CommandT& command = run.say(L, world::CommandKind::set_lamps, actor.id);
+    command.lamps = lamps;
+    command.lamps_mask = mask;
+    return 0;
+}
+
+}  // namespace
+
+void add_equipment_words(lua_State* L) {
+    add_function(L, "set_lamps", commanding<set_lamps>);
+}
+
+}  // namespace reprise::scripting

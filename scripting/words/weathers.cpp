@@ -1,0 +1,226 @@
+#include "scripting/words/weathers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "scripting/lua/arguments.h"
+#include "scripting/lua/text.h"
+#include "scripting/lua/vm.h"
+#include "scripting/words/tasks.h"
+#include "world/check.h"
+#include "world/weather.h"
+
+namespace reprise::scripting {
+
+namespace {
+
+using world::Weather;
+
+constexpr double to_radians = std::numbers::pi / 180;
+/// Of meteorological range: what is left of contrast there is 5 %, and ln 20 is nearly 3.
+constexpr double range_by_extinction = 3;
+
+float in_range(const Fields& fields, const char* key, double low, double high, float before) {
+    const auto value = fields.number(key);
+    if (value && (*value < low || *value > high))
+        refuse(fields.who(),
+               fmt::format("'{}' must be in [{}, {}], got {}",
+                           key,
+                           number_text(low),
+                           number_text(high),
+                           number_text(*value)));
+    return value ? static_cast<float>(*value) : before;
+}
+
+float angle_in_range(const Fields& fields, const char* key, double low, double high, float before) {
+    if (!fields.has(key))
+        return before;
+    return static_cast<float>(static_cast<double>(in_range(fields, key, low, high, 0)) *
+                              to_radians);
+}
+
+Weather numbers(const Fields& fields, const Weather& before) {
+    const float visibility = in_range(fields, "visibility", 10, 100'000, 0);
+    return {angle_in_range(fields, "sun_azimuth_deg", -360, 360, before.sun_azimuth()),
+            angle_in_range(fields, "sun_altitude_deg", 0, 90, before.sun_altitude()),
+            in_range(fields, "cloud_cover", 0, 1, before.cloud_cover()),
+            in_range(fields, "rain_mm_h", 0, 200, before.rain()),
+            visibility > 0 ? static_cast<float>(range_by_extinction) / visibility
+                           : before.fog_extinction(),
+            in_range(fields, "wetness", 0, 1, before.wetness()),
+            in_range(fields, "puddles", 0, 1, before.puddles()),
+            in_range(fields, "wind_speed", 0, 60, before.wind_speed()),
+            angle_in_range(fields, "wind_to_deg", -360, 360, before.wind_azimuth()),
+            in_range(fields, "turbidity", 1.7, 10, before.turbidity())};
+}
+
+SaidWeather said_by(const Fields& fields, const SaidWeather& before) {
+    SaidWeather said = before;
+    said.names_friction = false;
+    if (const auto preset = fields.text("preset"))
+        said = preset_weather(fields.who(), *preset);
+    const Weather base = said.weather;
+    said.weather = numbers(fields, base);
+    if (const auto friction = fields.number("friction")) {
+        said.friction = check_friction(fields.who(), *friction);
+        said.names_friction = true;
+    }
+    constexpr std::string_view mark = ", changed";
+    const bool changed = !(said.weather == base) || said.names_friction;
+    if (changed && !std::string_view(said.name).ends_with(mark))
+        said.name += mark;
+    return said;
+}
+
+std::vector<std::string> keys(bool timed) {
+    std::vector<std::string> all{"preset",
+                                 "sun_azimuth_deg",
+                                 "sun_altitude_deg",
+                                 "cloud_cover",
+                                 "rain_mm_h",
+                                 "visibility",
+                                 "wetness",
+                                 "puddles",
+                                 "wind_speed",
+                                 "wind_to_deg",
+                                 "turbidity",
+                                 "friction"};
+    if (timed)
+        all.insert(all.end(), {"at", "over"});
+    return all;
+}
+
+float mixed(float from, float to, double share) {
+    if (share >= 1)
+        return to;
+    const auto start = static_cast<double>(from);
+    return static_cast<float>(start + share * (static_cast<double>(to) - start));
+}
+
+/// The shorter way round.
+float mixed_angle(float from, float to, double share) {
+    const double way =
+        std::remainder(static_cast<double>(to) - static_cast<double>(from), 2 * std::numbers::pi);
+    return share >= 1 ? to : static_cast<float>(static_cast<double>(from) + share * way);
+}
+
+Weather mixed(const Weather& from, const Weather& to, double share) {
+    return {mixed_angle(from.sun_azimuth(), to.sun_azimuth(), share),
+            mixed(from.sun_altitude(), to.sun_altitude(), share),
+            mixed(from.cloud_cover(), to.cloud_cover(), share),
+            mixed(from.rain(), to.rain(), share),
+            mixed(from.fog_extinction(), to.fog_extinction(), share),
+            mixed(from.wetness(), to.wetness(), share),
+            mixed(from.puddles(), to.puddles(), share),
+            mixed(from.wind_speed(), to.wind_speed(), share),
+            mixed_angle(from.wind_azimuth(), to.wind_azimuth(), share),
+            mixed(from.turbidity(), to.turbidity(), share)};
+}
+
+}  // namespace
+
+double check_friction(const std::string& who, double friction) {
+    if (!(friction > 0 && friction <= 2))
+        refuse(
+            who,
+            fmt::format("'friction' must be in (0, 2], as a factor on dry asphalt's grip, got {}",
+                        number_text(friction)));
+    return friction;
+}
+
+SaidWeather preset_weather(const std::string& who, const std::string& name) {
+    const world::WeatherPreset* preset = world::find_weather(name);
+    if (preset == nullptr)
+        refuse(who,
+               fmt::format(
+                   "no weather '{}'{}", name, world::did_you_mean(name, world::weather_names())));
+    return {preset->weather, preset->road_friction, false, preset->name};
+}
+
+SaidWeather weather_at_top(lua_State* L, const std::string& who, const SaidWeather& before) {
+    if (lua_type(L, -1) == LUA_TSTRING)
+        return preset_weather(who, text_of(L, -1));
+    return said_by(Fields(L, -1, who, keys(false)), before);
+}
+
+WeatherEntry weather_entry_at_top(lua_State* L, const std::string& who, const SaidWeather& before) {
+    const Fields fields(L, -1, who, keys(true));
+    WeatherEntry entry;
+    const auto at = fields.number("at");
+    if (!at)
+        refuse(who, "an entry of a timeline needs its time: { at = 10, rain_mm_h = 5 }");
+    entry.at = *at;
+    entry.over = fields.number("over").value_or(0);
+    for (const double time : {entry.at, entry.over})
+        if (time < 0 || time > 86'400)
+            refuse(who, "'at' and 'over' must be in [0, 86400] s");
+    entry.said = said_by(fields, before);
+    return entry;
+}
+
+void Weathers::plan(std::vector<WeatherEntry> timeline, std::optional<double> fixed_friction) {
+    timeline_ = std::move(timeline);
+    fixed_friction_ = fixed_friction;
+}
+
+void Weathers::begin(const WeatherEntry& to, const world::TickView& last, std::uint64_t step_ns) {
+    Change change{*last.tick->weather(),
+                  last.tick->road_friction(),
+                  to.said,
+                  last.index(),
+                  std::max<std::uint64_t>(1, ticks_of(to.over, step_ns)),
+                  to.line};
+    if (fixed_friction_ && !to.said.names_friction)
+        change.to.friction = change.friction_from;
+    change_ = std::move(change);
+}
+
+void Weathers::change(const WeatherEntry& to,
+                      const world::TickView& last,
+                      std::uint64_t step_ns,
+                      world::CommandT& command) {
+    begin(to, last, step_ns);
+    fill(command, last);
+}
+
+/// What the change under way makes of the weather in the next tick; done with its last one.
+void Weathers::fill(world::CommandT& command, const world::TickView& last) {
+    const Change& change = *change_;
+    const std::uint64_t passed = last.index() + 1 - change.start;
+    const double share = static_cast<double>(passed) / static_cast<double>(change.ticks);
+    const double way = change.to.friction - change.friction_from;
+    command.kind = world::CommandKind::set_weather;
+    command.lane = world::none;
+    command.line = change.line;
+    command.text = change.to.name;
+    command.weather = mixed(change.from, change.to.weather, share);
+    command.road_friction = share >= 1 ? change.to.friction : change.friction_from + share * way;
+    if (passed >= change.ticks)
+        change_.reset();
+}
+
+void Weathers::advance(const world::TickView& last, world::TickDraft& next, std::uint64_t step_ns) {
+    for (; next_entry_ < timeline_.size() &&
+           ticks_of(timeline_[next_entry_].at, step_ns) <= last.index();
+         ++next_entry_)
+        begin(timeline_[next_entry_], last, step_ns);
+    if (change_)
+        fill(next.tick.commands.emplace_back(), last);
+}
+
+void Weathers::digest(world::Hasher& hasher) const {
+    if (next_entry_ > 0)
+        hasher.add(std::uint64_t{next_entry_});
+    if (change_) {
+        hasher.add(change_->start);
+        hasher.add(change_->ticks);
+        hasher.add(change_->to.weather);
+        hasher.add(change_->to.friction);
+    }
+}
+
+}  // namespace reprise::scripting
