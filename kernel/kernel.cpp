@@ -14,6 +14,7 @@
 #include "kernel/nudger.h"
 #include "kernel/pedestrians.h"
 #include "kernel/physics/physics.h"
+#include "kernel/prop_orders.h"
 #include "kernel/roster.h"
 #include "replay/chain_seed.h"
 #include "scripting/scenario.h"
@@ -138,6 +139,7 @@ void Kernel::begin() {
     // 1. scenario: what should happen
     parts.scenario.advance(last, next);
     parts.roster.apply_commands(last, next, parts.physics);
+    place_props(parts.town, next, parts.physics);
     parts.lamps.apply_commands(next);
     note_outcome(next);
     close(Stage::scenario, next);

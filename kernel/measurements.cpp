@@ -102,7 +102,12 @@ Impulses impulses_of(std::uint32_t actor,
             std::any_of(next.traffic.walkers.begin(),
                         next.traffic.walkers.end(),
                         [&](const world::WalkerState& state) { return state.id() == event.other; });
-        (event.other == 0 ? sum.fixed : walker ? sum.walkers : sum.vehicles) += event.value;
+        const bool prop = std::any_of(
+            next.tick.props.begin(), next.tick.props.end(), [&](const world::PropState& state) {
+                return state.id() == event.other;
+            });
+        const bool fixed = event.other == 0 || prop;
+        (fixed ? sum.fixed : walker ? sum.walkers : sum.vehicles) += event.value;
     }
     return sum;
 }

@@ -9,6 +9,7 @@
 #include "replay/struct_vector.h"
 #include "world/episode_generated.h"
 #include "world/models/catalogue.h"
+#include "world/models/prop_models.h"
 #include "world/tick.h"
 
 namespace reprise::replay {
@@ -101,6 +102,10 @@ std::optional<std::string> fault_of_tick(mcap::View bytes, std::uint64_t index) 
     for (const world::VehicleState& vehicle : view.vehicles()) {
         if (vehicle.model() >= world::vehicle_models().size())
             return fmt::format("unknown model {} of vehicle {}", vehicle.model(), vehicle.id());
+    }
+    for (const world::PropState& prop : view.props()) {
+        if (prop.model() >= world::prop_models().size())
+            return fmt::format("unknown model {} of prop {}", prop.model(), prop.id());
     }
     return std::nullopt;
 }

@@ -17,7 +17,7 @@ static_assert(sizeof(btScalar) == sizeof(double),
               "build with the flags of pkg-config bullet-float64");
 
 /// What a Bullet body stands for (its user index); user index 2 is the actor's id.
-enum BodyKind : int { ground_body, obstacle_body, car_body, vehicle_body };
+enum BodyKind : int { ground_body, obstacle_body, car_body, vehicle_body, prop_body };
 
 inline void tag(btCollisionObject& object, BodyKind kind, std::uint32_t actor) {
     object.setUserIndex(kind);

@@ -12,10 +12,12 @@
 #include "kernel/physics/ground_shape.h"
 #include "kernel/physics/near_cars.h"
 #include "kernel/physics/near_obstacles.h"
+#include "kernel/physics/props.h"
 #include "kernel/physics/vehicle.h"
 #include "kernel/physics/walker_hits.h"
 #include "world/check.h"
 #include "world/digest.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::kernel {
 
@@ -110,7 +112,8 @@ struct Physics::World {
           substep(step / substeps),
           ground(mesh, bullet.world),
           obstacles(standing, bullet.world),
-          cars(bullet.world) {
+          cars(bullet.world),
+          props(bullet.world) {
         REPRISE_CHECK(substeps >= 1, std::to_string(substeps) + " substeps");
     }
 
@@ -122,6 +125,7 @@ struct Physics::World {
     }
 
     void choose_neighbours(const world::TickView& last, const world::TickDraft& next);
+    void wake_props(const world::TickView& last, const world::TickDraft& next);
     void make_substep(int index, double road_friction);
     void write(world::TickT& tick);
 
@@ -134,6 +138,7 @@ struct Physics::World {
     NearObstacles obstacles;
     NearCars cars;
     WalkerHits walkers;
+    Props props;
     Collisions collisions;
     std::vector<std::unique_ptr<Vehicle>> vehicles;  ///< sorted by id
     std::vector<btVector3> centres;                  ///< of the vehicles, at the start of the tick
@@ -169,6 +174,20 @@ world::Vec3 Physics::remove_vehicle(std::uint32_t id) {
     return position;
 }
 
+void Physics::add_prop(std::uint32_t id,
+                       std::uint16_t model,
+                       const Eigen::Isometry3d& pose_world_prop) {
+    world_->props.add(id, model, pose_world_prop);
+}
+
+bool Physics::has_prop(std::uint32_t id) const {
+    return world_->props.has(id);
+}
+
+world::Vec3 Physics::remove_prop(std::uint32_t id) {
+    return world_->props.remove(id);
+}
+
 void Physics::advance(const world::TickView& last, world::TickDraft& next) {
     World& w = *world_;
     w.collisions.clear();
@@ -176,8 +195,9 @@ void Physics::advance(const world::TickView& last, world::TickDraft& next) {
     for (const auto& vehicle : w.vehicles)
         if (const world::Control* control = world::find(next.tick.controls, vehicle->id()))
             vehicle->set_control(*control);
-    // Without a vehicle nothing has mass, and nothing can happen.
-    if (!w.vehicles.empty())
+    w.props.set_road_friction(next.tick.road_friction);
+    // Without a vehicle or a prop that moves nothing can happen.
+    if (!w.vehicles.empty() || w.props.any_awake())
         for (int i = 1; i <= w.substeps; ++i)
             w.make_substep(i, next.tick.road_friction);
     w.write(next.tick);
@@ -187,9 +207,32 @@ void Physics::World::choose_neighbours(const world::TickView& last, const world:
     centres.clear();
     for (const auto& vehicle : vehicles)
         centres.push_back(vehicle->body().getCenterOfMassPosition());
+    walkers.choose(last.walkers(), next.traffic.walkers, centres, step);
+    wake_props(last, next);
+    props.add_centres(centres);
     obstacles.choose(centres);
     cars.choose(last.cars(), next.traffic.cars, centres);
-    walkers.choose(last.walkers(), next.traffic.walkers, centres, step);
+}
+
+/// Props that a vehicle or a car may reach in this tick are in Bullet's world.
+void Physics::World::wake_props(const world::TickView& last, const world::TickDraft& next) {
+    if (props.empty())
+        return;
+    std::vector<Props::Mover> movers;
+    for (const auto& vehicle : vehicles) {
+        const double speed = vehicle->body().getLinearVelocity().length();
+        movers.push_back({vehicle->body().getCenterOfMassPosition(),
+                          vehicle->model().catalogue->length / 2 + speed * step});
+    }
+    for (const world::CarState& car : next.traffic.cars) {
+        const world::CarState* before = world::find(last.cars(), car.id());
+        const world::VehicleModel& model = world::vehicle_models()[car.model()];
+        const btVector3 here = to_bullet(car.position());
+        const double way = before == nullptr ? 0 : (here - to_bullet(before->position())).length();
+        if (way > 0)
+            movers.push_back({here, model.length + way});
+    }
+    props.wake(movers);
 }
 
 void Physics::World::make_substep(int index, double road_friction) {
@@ -216,6 +259,8 @@ void Physics::World::write(world::TickT& tick) {
         for (int i = 0; i < 4; ++i)
             tick.wheels.push_back(vehicle->wheel(i));
     }
+    tick.props.clear();
+    props.write(tick.props);
     collisions.write(tick.events);
 }
 
@@ -235,6 +280,7 @@ std::uint64_t Physics::digest() const {
     w.obstacles.add_to(hasher);
     w.cars.add_to(hasher);
     w.walkers.add_to(hasher);
+    w.props.add_to(hasher);
     add_order(hasher, w.bullet.world);
     add_manifolds(hasher, w.bullet.dispatcher);
     return hasher.digest64();

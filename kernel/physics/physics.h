@@ -18,7 +18,8 @@ namespace reprise::kernel {
 /// Everything with mass: Bullet in double precision, one world, single-threaded, no sleeping,
 /// bodies in id order. Ground, kerbs, buildings, trees are static; SUMO's and parked cars are
 /// kinematic boxes near physics vehicles (kernel/physics/near_cars.h); walkers are upright
-/// cylinders that vehicles run into (kernel/physics/walker_hits.h). What becomes an event:
+/// cylinders that vehicles run into (kernel/physics/walker_hits.h); props are boxes that may be
+/// pushed around (kernel/physics/props.h). What becomes an event:
 /// kernel/physics/collisions.h. The car model is documented in kernel/physics/vehicle.h. Costs for
 /// a tick of 10 substeps and one vehicle: 20 us; 28 us beside 10 near cars, 50 us beside 50.
 class Physics {
@@ -41,8 +42,13 @@ class Physics {
     /// Takes it out again; returns where it was.
     world::Vec3 remove_vehicle(std::uint32_t id);
 
+    /// Puts a prop on the ground with its foot at this pose, and takes it out again.
+    void add_prop(std::uint32_t id, std::uint16_t model, const Eigen::Isometry3d& pose_world_prop);
+    bool has_prop(std::uint32_t id) const;
+    world::Vec3 remove_prop(std::uint32_t id);
+
     /// Stage 5. Applies next.tick.controls, moves the kinematic bodies from `last` to `next` in
-    /// equal substeps, steps Bullet, and writes next.tick.vehicles and wheels (sorted) and
+    /// equal substeps, steps Bullet, and writes next.tick.vehicles, wheels and props (sorted) and
     /// collision events (sorted by actor, other; one a pair and tick, with the summed impulse).
     void advance(const world::TickView& last, world::TickDraft& next);
 

@@ -6,6 +6,7 @@
 #include "world/digest.h"
 #include "world/frames.h"
 #include "world/models/catalogue.h"
+#include "world/models/prop_models.h"
 
 namespace reprise::scripting {
 
@@ -48,6 +49,18 @@ Body body_of_car(const world::CarState& car) {
     return body;
 }
 
+Body body_of_prop(const world::PropState& prop) {
+    const world::PropModel& model = world::prop_models()[prop.model()];
+    const Eigen::Vector3d ahead = to_eigen(prop.orientation()) * Eigen::Vector3d::UnitX();
+    Body body;
+    body.position = to_eigen(prop.position());
+    body.yaw = std::atan2(ahead.y(), ahead.x());
+    body.speed = to_eigen(prop.velocity()).norm();
+    body.half_width = model.width / 2;
+    body.front = body.rear = model.length / 2;
+    return body;
+}
+
 Body body_of_walker(const world::WalkerState& walker) {
     Body body;
     body.position = to_eigen(walker.position());
@@ -76,6 +89,10 @@ std::optional<Body> body_of(const world::TickView& tick, const Actor& actor) {
     if (actor.is_walker()) {
         const auto* walker = world::find(tick.walkers(), actor.id);
         return walker == nullptr ? std::nullopt : std::optional(body_of_walker(*walker));
+    }
+    if (actor.is_prop()) {
+        const auto* prop = world::find(tick.props(), actor.id);
+        return prop == nullptr ? std::nullopt : std::optional(body_of_prop(*prop));
     }
     if (const auto* vehicle = world::find(tick.vehicles(), actor.id))
         return body_of_vehicle(tick, *vehicle);
@@ -108,9 +125,10 @@ Actors::Obstructor Actors::obstructor(const world::TickView& tick, const Footpri
     return {};
 }
 
-std::size_t Actors::vehicles_near(const Eigen::Vector3d& p_world, double radius) const {
+std::size_t Actors::count_near(const Eigen::Vector3d& p_world, double radius, bool props) const {
     const auto near = [&](const Actor& actor) {
-        if (actor.is_walker() || actor.presence == Actor::Presence::gone)
+        if (actor.is_walker() || actor.is_prop() != props ||
+            actor.presence == Actor::Presence::gone)
             return false;
         const bool here = actor.presence == Actor::Presence::here;
         return (here || actor.p_world_asked) &&
@@ -182,7 +200,8 @@ void Actors::touch(const world::TickView& tick, std::uint32_t actor, std::uint32
     }
     const bool walker = other <= actors_.size() ? at(other).is_walker()
                                                 : world::find(tick.walkers(), other) != nullptr;
-    (walker ? contacts.walker : contacts.vehicle) = true;
+    const bool prop = other <= actors_.size() && at(other).is_prop();
+    (walker ? contacts.walker : prop ? contacts.prop : contacts.vehicle) = true;
     contacts.others.insert(other);
 }
 
@@ -202,6 +221,8 @@ void Actors::digest(world::Hasher& hasher) const {
         hasher.add(static_cast<std::uint8_t>(actor.contacts.vehicle));
         hasher.add(static_cast<std::uint8_t>(actor.contacts.walker));
         hasher.add(static_cast<std::uint8_t>(actor.contacts.fixed));
+        if (actor.contacts.prop)
+            hasher.add(actor.contacts.prop);
         hasher.add(static_cast<std::uint64_t>(actor.contacts.others.size()));
         for (const std::uint32_t other : actor.contacts.others)
             hasher.add(other);

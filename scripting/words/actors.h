@@ -23,7 +23,8 @@ namespace reprise::scripting {
 struct Contacts {
     bool vehicle = false;
     bool walker = false;
-    bool fixed = false;              ///< the static world
+    bool fixed = false;  ///< the static world
+    bool prop = false;
     std::set<std::uint32_t> others;  ///< ids of the actors among them
 };
 
@@ -49,6 +50,8 @@ struct Actor {
     Contacts contacts;
 
     bool is_walker() const { return driver == world::Driver::walker; }
+
+    bool is_prop() const { return driver == world::Driver::prop; }
 
     /// Has a body of its own in physics.
     bool is_driven() const {
@@ -95,8 +98,8 @@ class Actors {
 
     Count present() const { return present_; }
 
-    /// Vehicles that are, or are about to come, within so many metres. O(actors).
-    std::size_t vehicles_near(const Eigen::Vector3d& p_world, double radius) const;
+    /// Vehicles, or props, that are or are about to come within so many metres. O(actors).
+    std::size_t count_near(const Eigen::Vector3d& p_world, double radius, bool props) const;
 
     /// Who stands in the way of one who is to cover this, in the tick or spawned since.
     struct Obstructor {

@@ -10,8 +10,9 @@ inline constexpr std::size_t most_present_actors = 1'000;  ///< there, or about 
 inline constexpr std::size_t most_driven_actors =
     300;  ///< of them with a body of their own in physics
 // Bodies that stand in each other: a tick of 1,000 in one place takes 7 s and 1.2 GB.
-inline constexpr double place_radius = 5;            ///< [m] of a place
-inline constexpr std::size_t most_in_a_place = 12;   ///< vehicles; twice what fits
+inline constexpr double place_radius = 5;           ///< [m] of a place
+inline constexpr std::size_t most_in_a_place = 12;  ///< vehicles; twice what fits
+inline constexpr std::size_t most_props_in_a_place = 30;
 inline constexpr std::size_t most_actors = 10'000;   ///< spawned in a run
 inline constexpr std::size_t most_commands = 2'000;  ///< in a tick
 inline constexpr std::size_t most_events = 1'000;    ///< in a tick: printed lines, failed checks

@@ -25,6 +25,7 @@ Actor& driven(Run& run, lua_State* L, const char* who) {
     const char* why_not = actor.driver == Driver::parked     ? "parked"
                           : actor.driver == Driver::manual   ? "driven by hand"
                           : actor.driver == Driver::external ? "driven by another program"
+                          : actor.driver == Driver::prop     ? "a prop"
                                                              : nullptr;
     if (why_not != nullptr)
         refuse(

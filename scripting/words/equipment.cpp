@@ -27,8 +27,8 @@ constexpr std::array<LampWord, 6> lamp_words{{{"left", world::lamp_left},
 
 Actor& with_lamps(Run& run, lua_State* L) {
     Actor& actor = actor_at(run, L, 1, "set_lamps");
-    if (actor.is_walker())
-        refuse("set_lamps", "'" + actor.name + "' is a walker");
+    if (actor.is_walker() || actor.is_prop())
+        refuse("set_lamps", "'" + actor.name + "' is a " + (actor.is_prop() ? "prop" : "walker"));
     if (actor.driver == world::Driver::parked)
         refuse("set_lamps",
                "'" + actor.name + "' is parked: its lamps are off (take driver = 'manual')");

@@ -62,8 +62,11 @@ int speed(Run& run, lua_State* L) {
 
 int acceleration(Run& run, lua_State* L) {
     const Actor& actor = self(run, L);
-    if (actor.is_walker())
-        refuse("acceleration", "'" + actor.name + "' is a walker: only vehicles have one");
+    if (actor.is_walker() || actor.is_prop())
+        refuse("acceleration",
+               fmt::format("'{}' is a {}: only vehicles have one",
+                           actor.name,
+                           actor.is_prop() ? "prop" : "walker"));
     lua_pushnumber(L, body_of(run.last, actor)->acceleration);
     return 1;
 }
@@ -97,7 +100,7 @@ int on_lane(Run& run, lua_State* L) {
 
 int collided(Run& run, lua_State* L) {
     const Contacts& contacts = self(run, L).contacts;
-    bool did = contacts.vehicle || contacts.walker || contacts.fixed;
+    bool did = contacts.vehicle || contacts.walker || contacts.fixed || contacts.prop;
     if (const std::uint32_t other = handle_id(L, 2)) {
         did = contacts.others.count(other) != 0;
     } else if (!lua_isnoneornil(L, 2)) {
@@ -108,11 +111,13 @@ int collided(Run& run, lua_State* L) {
             did = contacts.walker;
         else if (kind == "static")
             did = contacts.fixed;
+        else if (kind == "prop")
+            did = contacts.prop;
         else
             refuse("collided",
-                   fmt::format("no kind '{}'{}: 'vehicle', 'walker', 'static' or an actor",
+                   fmt::format("no kind '{}'{}: 'vehicle', 'walker', 'prop', 'static' or an actor",
                                kind,
-                               world::did_you_mean(kind, {"vehicle", "walker", "static"})));
+                               world::did_you_mean(kind, {"vehicle", "walker", "prop", "static"})));
     }
     lua_pushboolean(L, did ? 1 : 0);
     return 1;

@@ -13,6 +13,7 @@
 #include "scripting/words/rig.h"
 #include "scripting/words/vocabulary.h"
 #include "world/models/catalogue.h"
+#include "world/models/prop_models.h"
 
 // Who is there, and where: spawn, and the words about places.
 namespace reprise::scripting {
@@ -24,7 +25,7 @@ constexpr double fastest = 150;                // [m/s]
 constexpr std::int64_t longest_latency = 100;  // [ticks]
 
 const std::vector<std::string> drivers{
-    "autopilot", "manual", "traffic", "parked", "walker", "external"};
+    "autopilot", "manual", "traffic", "parked", "walker", "external", "prop"};
 
 void read_model(const Fields& fields, Actor& actor) {
     const auto model = fields.text("model");
@@ -32,27 +33,34 @@ void read_model(const Fields& fields, Actor& actor) {
         std::string known;
         for (const world::VehicleModel& each : world::vehicle_models())
             known += std::string(each.name) + ", ";
-        refuse("spawn",
-               fmt::format("'model' is missing: one of {}or one of {} walkers such as {}",
-                           known,
-                           world::walker_models().size(),
-                           world::walker_models().front().name));
+        refuse(
+            "spawn",
+            fmt::format("'model' is missing: one of {}one of {} walkers such as {}, or one of {} "
+                        "props such as {}",
+                        known,
+                        world::walker_models().size(),
+                        world::walker_models().front().name,
+                        world::prop_models().size(),
+                        world::prop_models().front().name));
     }
     const auto vehicle = world::find_vehicle_model(*model);
     const auto walker = world::find_walker_model(*model);
-    if (!vehicle && !walker)
+    const auto prop = world::find_prop_model(*model);
+    if (!vehicle && !walker && !prop)
         refuse("spawn",
                fmt::format(
                    "no model '{}'{}", *model, world::did_you_mean(*model, world::model_names())));
-    actor.model = vehicle ? *vehicle : *walker;
+    actor.model = vehicle ? *vehicle : walker ? *walker : *prop;
 
-    const std::string driver = fields.text("driver").value_or(vehicle ? "autopilot" : "walker");
+    const std::string driver = fields.text("driver").value_or(vehicle  ? "autopilot"
+                                                              : walker ? "walker"
+                                                                       : "prop");
     const auto known = std::find(drivers.begin(), drivers.end(), driver);
     if (known == drivers.end())
         refuse("spawn",
                fmt::format("no driver '{}'{}", driver, world::did_you_mean(driver, drivers)));
     actor.driver = static_cast<world::Driver>(known - drivers.begin());
-    if (actor.is_walker() != walker.has_value())
+    if (actor.is_walker() != walker.has_value() || actor.is_prop() != prop.has_value())
         refuse("spawn", fmt::format("a {} cannot have the driver '{}'", *model, driver));
 }
 
@@ -93,6 +101,10 @@ Footprint footprint_of(const Actor& actor,
         const double half = world::walker_models()[actor.model].shoulder_width / 2;
         return {p_world, yaw, half, half};
     }
+    if (actor.is_prop()) {
+        const world::PropModel& prop = world::prop_models()[actor.model];
+        return {p_world, yaw, prop.length / 2, prop.width / 2};
+    }
     const world::VehicleModel& model = world::vehicle_models()[actor.model];
     const double middle = model.length / 2 - model.rear_overhang;
     return {p_world + middle * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0),
@@ -102,11 +114,13 @@ Footprint footprint_of(const Actor& actor,
 }
 
 void want_free_place(const Run& run, const Actor& actor) {
+    const std::size_t most = actor.is_prop() ? most_props_in_a_place : most_in_a_place;
     if (!actor.is_walker() &&
-        run.actors.vehicles_near(*actor.p_world_asked, place_radius) >= most_in_a_place)
+        run.actors.count_near(*actor.p_world_asked, place_radius, actor.is_prop()) >= most)
         refuse("spawn",
-               fmt::format("more than {} vehicles within {:.0f} m: they would stand in each other",
-                           most_in_a_place,
+               fmt::format("more than {} {} within {:.0f} m: they would stand in each other",
+                           most,
+                           actor.is_prop() ? "props" : "vehicles",
                            place_radius));
     const auto [other, depth] = run.actors.obstructor(run.last, actor.asked);
     if (other != nullptr)
@@ -119,12 +133,16 @@ void want_free_place(const Run& run, const Actor& actor) {
                            depth));
 }
 
+bool drives(const Actor& actor) {
+    return !actor.is_walker() && !actor.is_prop() && actor.driver != world::Driver::parked;
+}
+
 /// Lane, s and offset into the command, the place into the actor.
 void read_place(
     Run& run, lua_State* L, const Fields& fields, Actor& actor, world::CommandT& command) {
     const auto name = fields.text("lane");
     if (!name) {
-        if (actor.is_walker() || actor.driver == world::Driver::parked)
+        if (!drives(actor))
             refuse("spawn", "'lane' is missing: only who drives is given a free place");
         if (fields.has("s") || fields.has("offset"))
             refuse("spawn", "'s' and 'offset' need a 'lane'");
@@ -137,8 +155,8 @@ void read_place(
         refuse("spawn", error.what());
     }
     const world::LaneT& lane = run.town.lanes[command.lane];
-    const bool drives = !actor.is_walker() && actor.driver != world::Driver::parked;
-    if (drives && !world::is_for_cars(lane))
+    const bool on_its_lane = drives(actor);
+    if (on_its_lane && !world::is_for_cars(lane))
         refuse("spawn", fmt::format("'{}' is not a lane for cars", *name));
     command.s = fields.number("s").value_or(0);
     if (command.s < 0 || command.s > lane.length)
@@ -154,13 +172,13 @@ void read_place(
                            "of its lane; leave it out, or take driver = 'autopilot'",
                            actor.name));
     // Who drives begins on its lane; who is put down may stand beside it.
-    const double farthest = drives ? lane.width / 2 : farthest_beside;
+    const double farthest = on_its_lane ? lane.width / 2 : farthest_beside;
     if (std::abs(command.offset) > farthest)
         refuse("spawn",
                fmt::format("'offset' must be in [-{:.2f}, {:.2f}]{}, got {}",
                            farthest,
                            farthest,
-                           drives ? ", half the width of '" + *name + "'" : "",
+                           on_its_lane ? ", half the width of '" + *name + "'" : "",
                            number_text(command.offset)));
     actor.p_world_asked = place_of(lane, command);
     actor.asked = footprint_of(actor, lane, command);
@@ -226,7 +244,7 @@ int spawn(Run& run, lua_State* L) {
         refuse(
             "spawn",
             fmt::format("the speed must be in [0, {}] m/s, got {}", fastest, number_text(speed)));
-    if (speed > 0 && (actor.is_walker() || actor.driver == world::Driver::parked))
+    if (speed > 0 && !drives(actor))
         refuse("spawn", fmt::format("'{}' starts at rest", actor.name));
 
     const std::uint8_t latency = read_latency(fields, actor);

@@ -37,8 +37,8 @@ TEST(Mistakes, OfSpawn) {
             {"spawn 'sedan'", "spawn: the argument must be a table { key = value }, got 'sedan'"},
             {"spawn{}",
              "spawn: 'model' is missing: one of sedan, hatchback, suv, van, lorry, bus, city_car, "
-             "wagon, coupe, pickup, taxi, police, ambulance, minibus, motorcycle, bicycle, or one "
-             "of 50 walkers such as adult"},
+             "wagon, coupe, pickup, taxi, police, ambulance, minibus, motorcycle, bicycle, one of "
+             "50 walkers such as adult, or one of 9 props such as cone"},
             {"spawn{ model = 'sedna' }", "spawn: no model 'sedna' (did you mean 'sedan'?)"},
             {"spawn{ model = 'sedan', driver = 'autopilt' }",
              "spawn: no driver 'autopilt' (did you mean 'autopilot'?)"},

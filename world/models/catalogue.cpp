@@ -1,5 +1,7 @@
 #include "world/models/catalogue.h"
 
+#include "world/models/prop_models.h"
+
 namespace reprise::world {
 
 namespace {
@@ -27,6 +29,8 @@ std::vector<std::string> model_names() {
     for (const VehicleModel& model : vehicle_models())
         names.emplace_back(model.name);
     for (const WalkerModel& model : walker_models())
+        names.emplace_back(model.name);
+    for (const PropModel& model : prop_models())
         names.emplace_back(model.name);
     return names;
 }

@@ -105,7 +105,7 @@ std::span<const WalkerModel> walker_models();
 /// Index in walker_models().
 std::optional<std::uint16_t> find_walker_model(std::string_view name);
 
-/// All names of both catalogues, for messages.
+/// All names of these catalogues and of the props', for messages.
 std::vector<std::string> model_names();
 
 }  // namespace reprise::world

@@ -1,0 +1,119 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "kernel/kernel.h"
+#include "tests/kernel/whole_run.h"
+#include "world/frames.h"
+#include "world/models/prop_models.h"
+
+// Cones, boxes and what else lies on the road.
+namespace reprise::kernel {
+namespace {
+
+using test::KeptTick;
+
+std::vector<KeptTick> play(const std::string& body, double seconds) {
+    return test::run(test::on_straight_lanes(body, seconds));
+}
+
+const world::PropState& prop(const KeptTick& tick, std::uint32_t id) {
+    return *world::find(tick.recorded().view.props(), id);
+}
+
+double upright(const world::PropState& state) {
+    return (world::to_eigen(state.orientation()) * Eigen::Vector3d::UnitZ()).z();
+}
+
+/// One of each, 5 m apart, on lane 'main_1' from s = 20 on: actors 1, 2, ...
+std::string one_of_each() {
+    std::string body;
+    for (std::size_t i = 0; i < world::prop_models().size(); ++i)
+        body += "spawn{ model = '" + std::string(world::prop_models()[i].name) +
+                "', lane = 'main_1', s = " + std::to_string(20 + 5 * i) + " } ";
+    return body;
+}
+
+TEST(Props, StandWhereTheyArePutAndNeverCreep) {
+    const auto ticks = play(one_of_each() + "wait(60)", 60);
+    for (std::uint32_t id = 1; id <= world::prop_models().size(); ++id) {
+        const world::PropState& early = prop(ticks[60], id);
+        const world::PropState& late = prop(ticks.back(), id);
+        const world::PropModel& model = world::prop_models()[late.model()];
+        EXPECT_GT(upright(late), 0.999) << model.name;
+        EXPECT_NEAR(late.position().z(), early.position().z(), 0) << model.name;
+        EXPECT_NEAR(late.position().z(), 0, 0.03) << model.name;
+        EXPECT_EQ(late, early) << model.name << " moved though nobody touched it";
+    }
+}
+
+TEST(Props, StandStillWhileACarWaitsBesideThem) {
+    const auto ticks =
+        play(one_of_each() +
+                 "spawn{ model = 'sedan', driver = 'manual', lane = 'main_2', s = 35 }"
+                 " wait(60)",
+             60);
+    for (std::uint32_t id = 1; id <= world::prop_models().size(); ++id) {
+        const auto before = world::to_eigen(prop(ticks[60], id).position());
+        const auto after = world::to_eigen(prop(ticks.back(), id).position());
+        EXPECT_LT((after - before).norm(), 1e-3)
+            << world::prop_models()[prop(ticks[0], id).model()].name;
+    }
+}
+
+TEST(Props, FlyWhenACarHitsThemAndComeToRest) {
+    const auto ticks = play(
+        "local cone = spawn{ model = 'cone', lane = 'main_1', s = 60 } "
+        "local car = spawn{ name = 'car', model = 'sedan', driver = 'manual', lane = 'main_1', "
+        "s = 20, speed = 14 } "
+        "start(function() while true do car:control{ throttle = 0.3 } wait_ticks(1) end end) "
+        "check.eventually('hit', function() return car:collided(cone) and car:collided 'prop' end) "
+        "check.never('no car', function() return car:collided 'vehicle' end) "
+        "wait(12)",
+        12);
+    const world::PropState& before = prop(ticks[20], 1);
+    const world::PropState& after = prop(ticks.back(), 1);
+    const double flown =
+        (world::to_eigen(after.position()) - world::to_eigen(before.position())).norm();
+    EXPECT_GT(flown, 3);
+    EXPECT_LT(world::to_eigen(after.velocity()).norm(), 0.05) << "at rest";
+    EXPECT_GT(after.position().z(), -0.05) << "on the ground";
+    EXPECT_LT(after.position().z(), 0.6);
+    // A cone is no obstacle to 1.4 ton.
+    const auto measured = ticks.back().recorded().view.measurements();
+    ASSERT_EQ(measured.size(), 1U);
+    EXPECT_GT(measured[0].speed(), 10);
+    EXPECT_GT(measured[0].impulse_static(), 20);
+    EXPECT_EQ(measured[0].impulse_vehicles(), 0);
+}
+
+TEST(Props, AConcreteBarrierStopsACar) {
+    const auto ticks = play(
+        "spawn{ model = 'barrier', lane = 'main_1', s = 50 } "
+        "local car = spawn{ name = 'car', model = 'sedan', driver = 'manual', lane = 'main_1', "
+        "s = 20, speed = 10 } "
+        "start(function() while true do car:control{} wait_ticks(1) end end) wait(8)",
+        8);
+    const auto measured = ticks.back().recorded().view.measurements();
+    EXPECT_LT(measured[0].speed(), 5) << "it pushed a ton of concrete";
+    // Momentum of both together is no more than the car brought.
+    double worst = 0;
+    for (const KeptTick& tick : ticks)
+        for (const world::Event* event : *tick.recorded().view.tick->events())
+            if (event->kind() == world::EventKind::collision)
+                worst += event->value();
+    EXPECT_GT(worst, 3000);
+    EXPECT_LT(worst, 1.5 * 1400 * 10);
+}
+
+TEST(Props, AreTakenAwayAgain) {
+    const auto ticks = play(
+        "local box = spawn{ model = 'box', lane = 'main_1', s = 50 } wait(1) print(box:exists(), "
+        "box:speed(), box:lane()) box:despawn() wait_ticks(2) print(box:exists())",
+        3);
+    EXPECT_EQ(ticks[10].recorded().view.props().size(), 1U);
+    EXPECT_TRUE(ticks.back().recorded().view.props().empty());
+}
+
+}  // namespace
+}  // namespace reprise::kernel
