@@ -65,7 +65,7 @@ enum class SemanticClass : std::uint8_t {
     motorcycle = 18,
     bicycle = 19,
     static_object = 20,   ///< benches, bus stops, hydrants
-    dynamic_object = 21,  ///< what could be carried away, such as bins
+    dynamic_object = 21,  ///< what could be carried away, such as bins, and props
     water = 23,
     road_line = 24,
     ground = 25  ///< squares, paths, car parks

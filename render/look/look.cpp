@@ -83,6 +83,22 @@ Look parked_look(const ShadingInput& input, const Surface& at) {
     return look;
 }
 
+/// As screens show a colour, to what a surface of it reflects.
+float linear(std::uint32_t byte) {
+    const float value = static_cast<float>(byte & 0xffU) / 255;
+    return value * value * (0.7F + 0.3F * value);  // within 0.02 of sRGB's curve
+}
+
+Look thing_look(const Surface& at) {
+    Look look;
+    look.albedo = 0.85F * Color(linear(at.tag >> 16U), linear(at.tag >> 8U), linear(at.tag));
+    const float grain = value_noise(at.local.x() * 23 + at.local.z() * 31, at.local.y() * 27);
+    look.albedo *= 1 + 0.12F * (grain - 0.5F) * detail(at, 0.05F);
+    look.roughness = 0.6F;
+    look.f0 = 0.03F;
+    return look;
+}
+
 Look metal_look(const Surface& at) {
     Look look;
     look.albedo =
@@ -159,6 +175,9 @@ Look shade_surface(const ShadingInput& input, const Surface& at) {
             return prop_look(input, at);
         case Material::plot:
             return plot_look(input, at);
+        case Material::thing:
+            look = thing_look(at);
+            break;
         case Material::car_part:
             look = car_part_look(input, at);
             break;
@@ -196,6 +215,8 @@ world::SemanticClass semantic_class(const Scene& scene, const Hit& hit) {
             return SemanticClass::pedestrian;
         case Kind::rider:
             return SemanticClass::rider;
+        case Kind::thing:
+            return SemanticClass::dynamic_object;
         case Kind::marking:
             return SemanticClass::road_line;
         case Kind::car_body:

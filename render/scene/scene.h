@@ -108,6 +108,7 @@ class Scene {
                            double rolled);
     void place_vehicles(const world::TickView& tick);
     void place_cars(const world::TickView& tick);
+    void place_things(const world::TickView& tick);
     void place_walker(const world::WalkerState& walker, bool rains);
     void place_figure(std::span<const FigurePart> figure,
                       std::size_t person,
@@ -124,6 +125,7 @@ class Scene {
     std::deque<Prototype> prototypes_;  // a deque keeps their addresses
     std::vector<CarShape> car_shapes_;
     std::vector<const Prototype*> car_bodies_;
+    std::vector<const Prototype*> things_;  // by model of a scenario's props
     std::vector<const Prototype*> wheels_;
     std::vector<const Prototype*> forks_;   // of two-wheelers, else none
     std::vector<const Prototype*> cranks_;  // of bicycles, else none

@@ -6,6 +6,7 @@
 #include "render/shapes/cars/two_wheeler.h"
 #include "render/shapes/noise.h"
 #include "render/shapes/paint.h"
+#include "render/shapes/street/thing_mesh.h"
 #include "world/check.h"
 #include "world/frames.h"
 
@@ -34,6 +35,8 @@ void Scene::build_models() {
         forks_.push_back(thin ? add_prototype(fork_mesh(shape)) : nullptr);
         cranks_.push_back(pedalled ? add_prototype(crank_mesh(shape)) : nullptr);
     }
+    for (const world::PropModel& model : world::prop_models())
+        things_.push_back(add_prototype(thing_mesh(model)));
     build_people();
 }
 
@@ -131,6 +134,17 @@ void Scene::place_cars(const world::TickView& tick) {
     }
 }
 
+void Scene::place_things(const world::TickView& tick) {
+    for (const world::PropState& prop : tick.props()) {
+        REPRISE_CHECK(prop.model() < things_.size(), "prop " + std::to_string(prop.id()));
+        Instance instance;
+        instance.kind = Kind::thing;
+        instance.prototype = things_[prop.model()];
+        instance.actor = prop.id();
+        add_instance(instance, Eigen::Affine3d(world::pose(prop.position(), prop.orientation())));
+    }
+}
+
 void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mounts) {
     mounts_.assign(mounts.begin(), mounts.end());
     signals_.assign(tick.signals().begin(), tick.signals().end());
@@ -138,6 +152,7 @@ void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mo
     outfits_.clear();
     place_vehicles(tick);
     place_cars(tick);
+    place_things(tick);
     const world::Weather* weather = tick.tick->weather();
     const bool rains = weather != nullptr && weather->rain() > 0;
     for (const world::WalkerState& walker : tick.walkers())
@@ -152,6 +167,8 @@ std::optional<Eigen::Isometry3d> Scene::find_actor(const world::TickView& tick,
     if (const world::CarState* car = world::find(tick.cars(), actor))
         return world::pose(
             car->position(), static_cast<double>(car->yaw()), static_cast<double>(car->pitch()));
+    if (const world::PropState* prop = world::find(tick.props(), actor))
+        return world::pose(prop->position(), prop->orientation());
     if (const world::WalkerState* walker = world::find(tick.walkers(), actor))
         return world::pose(walker->position(), static_cast<double>(walker->yaw()), 0);
     return std::nullopt;

@@ -25,7 +25,8 @@ enum class Kind : std::uint8_t {
     car_body,
     wheel,
     pedestrian,
-    rider
+    rider,
+    thing  ///< a scenario's prop
 };
 
 /// A mesh with a tree over it, Embree's or our own, placed by any number of instances.
