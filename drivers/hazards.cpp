@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/frames.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
+#include "world/models/doors.h"
+#include "world/models/prop_models.h"
 #include "world/units.h"
 
 namespace reprise::drivers {
@@ -12,6 +15,7 @@ namespace reprise::drivers {
 namespace {
 
 constexpr double side_margin = 0.3;     // [m] between our side and theirs
+constexpr double least_prop = 0.2;      // [m] high: what is lower passes below the car
 constexpr double horizon = 1.5;         // [s] of foresight
 constexpr double look_step = 0.25;      // [s]
 constexpr std::size_t coarse_step = 8;  // [samples] = 4 m
@@ -171,6 +175,54 @@ void Hazards::look(const world::TickView& last,
         body.z = walker.position().z();
         body.id = walker.id();
         body.lane = world::none;
+        consider(body, scene);
+    }
+    for (const world::PropState& prop : last.props()) {
+        const world::PropModel& model = world::prop_models()[prop.model()];
+        const Eigen::Vector2d velocity(prop.velocity().x(), prop.velocity().y());
+        if (model.height < least_prop || far(prop.position(), velocity.norm()))
+            continue;
+        const Eigen::Vector3d ahead =
+            world::to_eigen(prop.orientation()) * Eigen::Vector3d::UnitX();
+        body.direction =
+            ahead.head<2>().norm() > 0.1 ? ahead.head<2>().normalized() : Eigen::Vector2d::UnitX();
+        body.centre = {prop.position().x(), prop.position().y()};
+        body.half_length = model.length / 2;
+        body.half_width = model.width / 2;
+        body.velocity = velocity;
+        body.speed = velocity.norm();
+        body.z = prop.position().z();
+        body.id = prop.id();
+        body.lane = world::none;
+        consider(body, scene);
+    }
+    look_at_doors(last, scene);
+}
+
+/// An open door is part of what stands there.
+void Hazards::look_at_doors(const world::TickView& last, const Scene& scene) {
+    for (const world::Door& door : last.doors()) {
+        const world::VehicleState* vehicle = world::find(last.vehicles(), door.actor());
+        const world::CarState* car = world::find(last.cars(), door.actor());
+        if (door.actor() == scene.ego.id || (vehicle == nullptr && car == nullptr))
+            continue;
+        const std::uint16_t model = vehicle != nullptr ? vehicle->model() : car->model();
+        const Eigen::Isometry3d pose =
+            vehicle != nullptr ? world::pose(vehicle->position(), vehicle->orientation())
+                               : world::pose(car->position(),
+                                             static_cast<double>(car->yaw()),
+                                             static_cast<double>(car->pitch()));
+        const world::DoorLeaf leaf =
+            world::door_leaf(world::vehicle_models()[model], pose, door.door(), door.angle());
+        const Eigen::Vector3d along = leaf.pose.linear().col(0);
+        Body body;
+        body.centre = leaf.pose.translation().head<2>();
+        body.direction = along.head<2>().normalized();
+        body.half_length = leaf.half.x();
+        body.half_width = leaf.half.y();
+        body.velocity.setZero();
+        body.z = pose.translation().z();
+        body.id = door.actor();
         consider(body, scene);
     }
 }

@@ -55,6 +55,7 @@ class Hazards {
     void make_corridor(const Ego& ego, const Path& path);
     SweptWidth corridor_at(std::size_t sample) const;
     void consider(const Body& body, const Scene& scene);
+    void look_at_doors(const world::TickView& last, const Scene& scene);
     void foresee(const Body& body, const Scene& scene, double distance);
     bool place_after(const Body& body, double time, Body& moved) const;
     double first_contact(const Body& body, const Path& path) const;

@@ -74,10 +74,12 @@ std::uint64_t digest_of(const scripting::Scenario& scenario, const world::TickDr
 
 std::uint64_t digest_of(const Roster& roster,
                         const LampOrders& lamps,
+                        const Doors& doors,
                         const world::TickDraft& next) {
     world::Hasher hasher;
     hasher.add(roster.digest());
     lamps.add_to(hasher);
+    doors.add_to(hasher);
     hasher.add(std::span<const world::Control>(next.tick.controls));
     return hasher.digest64();
 }

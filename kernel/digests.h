@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "kernel/doors.h"
 #include "kernel/lamp_orders.h"
 #include "kernel/pedestrians.h"
 #include "kernel/physics/physics.h"
@@ -19,6 +20,7 @@ namespace reprise::kernel {
 std::uint64_t digest_of(const scripting::Scenario& scenario, const world::TickDraft& next);
 std::uint64_t digest_of(const Roster& roster,
                         const LampOrders& lamps,
+                        const Doors& doors,
                         const world::TickDraft& next);
 std::uint64_t digest_of(const traffic::Background& background, const world::TickDraft& next);
 std::uint64_t digest_of(const Pedestrians& pedestrians, const world::TickDraft& next);

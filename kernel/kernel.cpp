@@ -9,6 +9,7 @@
 #include "ground/obstacles.h"
 #include "kernel/blockages.h"
 #include "kernel/digests.h"
+#include "kernel/doors.h"
 #include "kernel/lamp_orders.h"
 #include "kernel/measurements.h"
 #include "kernel/nudger.h"
@@ -75,6 +76,7 @@ struct Kernel::Parts {
     Pedestrians pedestrians;
     Physics physics;
     LampOrders lamps;
+    Doors doors;
     world::Digest128 continued;  ///< the chain that the next tick goes on with
     world::SealedTick last;
     Nudger nudger;
@@ -106,6 +108,7 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     close(Stage::controls, next);
 
     // 5. physics: everything with mass, in equal substeps
+    parts.doors.swing(world::seconds(1, parts.episode.step_ns), next);
     parts.physics.advance(last, next);
     parts.lamps.light_vehicles(next);
     close(Stage::physics, next);
@@ -141,6 +144,7 @@ void Kernel::begin() {
     parts.roster.apply_commands(last, next, parts.physics);
     place_props(parts.town, next, parts.physics);
     parts.lamps.apply_commands(next);
+    parts.doors.apply_commands(next);
     note_outcome(next);
     close(Stage::scenario, next);
 
@@ -176,7 +180,7 @@ void Kernel::close(Stage stage, world::TickDraft& next) {
         case Stage::scenario:
             return digests.mutate_scenario(digest_of(parts.scenario, next));
         case Stage::controls:
-            return digests.mutate_controls(digest_of(parts.roster, parts.lamps, next));
+            return digests.mutate_controls(digest_of(parts.roster, parts.lamps, parts.doors, next));
         case Stage::traffic:
             return digests.mutate_traffic(digest_of(parts.background, next));
         case Stage::pedestrians:

@@ -8,6 +8,7 @@
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/collisions.h"
 #include "kernel/physics/convex_pair.h"
+#include "kernel/physics/door_boxes.h"
 #include "kernel/physics/ground.h"
 #include "kernel/physics/ground_shape.h"
 #include "kernel/physics/near_cars.h"
@@ -113,7 +114,8 @@ struct Physics::World {
           ground(mesh, bullet.world),
           obstacles(standing, bullet.world),
           cars(bullet.world),
-          props(bullet.world) {
+          props(bullet.world),
+          doors(bullet.world) {
         REPRISE_CHECK(substeps >= 1, std::to_string(substeps) + " substeps");
     }
 
@@ -141,7 +143,8 @@ struct Physics::World {
     Props props;
     Collisions collisions;
     std::vector<std::unique_ptr<Vehicle>> vehicles;  ///< sorted by id
-    std::vector<btVector3> centres;                  ///< of the vehicles, at the start of the tick
+    DoorBoxes doors;
+    std::vector<btVector3> centres;  ///< of the vehicles, at the start of the tick
 };
 
 Physics::Physics(const world::EpisodeT& episode,
@@ -212,6 +215,7 @@ void Physics::World::choose_neighbours(const world::TickView& last, const world:
     props.add_centres(centres);
     obstacles.choose(centres);
     cars.choose(last.cars(), next.traffic.cars, centres);
+    doors.choose(next, vehicles, centres);
 }
 
 /// Props that a vehicle or a car may reach in this tick are in Bullet's world.
@@ -241,6 +245,7 @@ void Physics::World::make_substep(int index, double road_friction) {
         vehicle->drive(road_friction, substep);
     walkers.test(share, vehicles, collisions);
     cars.move(share);
+    doors.move(vehicles);
     bullet.world.stepSimulation(substep, 0);  // 0: exactly one step of this length, no accumulator
     collisions.gather(bullet.dispatcher);
 }
@@ -281,6 +286,7 @@ std::uint64_t Physics::digest() const {
     w.cars.add_to(hasher);
     w.walkers.add_to(hasher);
     w.props.add_to(hasher);
+    w.doors.add_to(hasher);
     add_order(hasher, w.bullet.world);
     add_manifolds(hasher, w.bullet.dispatcher);
     return hasher.digest64();

@@ -62,6 +62,8 @@ class Vehicle {
 
     const world::CarModel& model() const { return model_; }
 
+    std::uint16_t model_index() const { return model_index_; }
+
     btRigidBody& body() const;
 
     /// World, of the origin, after the last tick.

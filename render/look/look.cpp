@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "render/shapes/noise.h"
+#include "render/shapes/street/thing_mesh.h"
 
 namespace reprise::render {
 
@@ -91,6 +92,12 @@ float linear(std::uint32_t byte) {
 
 Look thing_look(const Surface& at) {
     Look look;
+    if (at.tag == instance_paint) {
+        look.albedo = at.instance->color;
+        look.roughness = 0.3F;
+        look.f0 = 0.04F;
+        return look;
+    }
     look.albedo = 0.85F * Color(linear(at.tag >> 16U), linear(at.tag >> 8U), linear(at.tag));
     const float grain = value_noise(at.local.x() * 23 + at.local.z() * 31, at.local.y() * 27);
     look.albedo *= 1 + 0.12F * (grain - 0.5F) * detail(at, 0.05F);

@@ -109,6 +109,7 @@ class Scene {
     void place_vehicles(const world::TickView& tick);
     void place_cars(const world::TickView& tick);
     void place_things(const world::TickView& tick);
+    void place_doors(const world::TickView& tick);
     void place_walker(const world::WalkerState& walker, bool rains);
     void place_figure(std::span<const FigurePart> figure,
                       std::size_t person,
@@ -125,6 +126,7 @@ class Scene {
     std::deque<Prototype> prototypes_;  // a deque keeps their addresses
     std::vector<CarShape> car_shapes_;
     std::vector<const Prototype*> car_bodies_;
+    const Prototype* door_ = nullptr;
     std::vector<const Prototype*> things_;  // by model of a scenario's props
     std::vector<const Prototype*> wheels_;
     std::vector<const Prototype*> forks_;   // of two-wheelers, else none

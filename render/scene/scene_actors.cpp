@@ -9,6 +9,7 @@
 #include "render/shapes/street/thing_mesh.h"
 #include "world/check.h"
 #include "world/frames.h"
+#include "world/models/doors.h"
 
 namespace reprise::render {
 
@@ -37,6 +38,7 @@ void Scene::build_models() {
     }
     for (const world::PropModel& model : world::prop_models())
         things_.push_back(add_prototype(thing_mesh(model)));
+    door_ = add_prototype(door_mesh());
     build_people();
 }
 
@@ -145,6 +147,27 @@ void Scene::place_things(const world::TickView& tick) {
     }
 }
 
+/// Beside the shut ones, which are painted onto the body.
+void Scene::place_doors(const world::TickView& tick) {
+    for (const world::Door& door : tick.doors()) {
+        const world::VehicleState* vehicle = world::find(tick.vehicles(), door.actor());
+        const world::CarState* car = world::find(tick.cars(), door.actor());
+        const auto pose = find_actor(tick, door.actor());
+        if (!pose || (vehicle == nullptr && car == nullptr))
+            continue;
+        Instance part = vehicle != nullptr
+                            ? body_of(vehicle->id(), vehicle->model(), 0, tick.vehicle_looks())
+                            : body_of(car->id(), car->model(), 0, tick.car_looks());
+        const world::DoorLeaf leaf =
+            world::door_leaf(world::vehicle_models()[part.model], *pose, door.door(), door.angle());
+        part.kind = Kind::car_body;
+        part.prototype = door_;
+        Eigen::Affine3d stretched(leaf.pose);
+        stretched.scale(2 * leaf.half);
+        add_instance(part, stretched);
+    }
+}
+
 void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mounts) {
     mounts_.assign(mounts.begin(), mounts.end());
     signals_.assign(tick.signals().begin(), tick.signals().end());
@@ -153,6 +176,7 @@ void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mo
     place_vehicles(tick);
     place_cars(tick);
     place_things(tick);
+    place_doors(tick);
     const world::Weather* weather = tick.tick->weather();
     const bool rains = weather != nullptr && weather->rain() > 0;
     for (const world::WalkerState& walker : tick.walkers())

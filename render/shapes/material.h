@@ -19,7 +19,7 @@ enum class Material : std::uint8_t {
     wall,      ///< of a building with a model; tag: index in Facades.walls
     building,  ///< its other parts; tag: see BuildingFinish
     prop,      ///< tag: see PropTag
-    thing,     ///< of a scenario's prop; tag: its paint, 0xRRGGBB
+    thing,     ///< of a scenario's prop; tag: its paint, 0xRRGGBB, or instance_paint
     plot,      ///< tag: index in Town.plots
     bark,
     leaf,  ///< tag: hash of the leaf

@@ -47,6 +47,7 @@ struct Actor {
     bool is_leaving = false;                         ///< a despawn was said
     bool keeps_lane = false;                         ///< changes lanes when it is told to only
     bool walks = false;                              ///< was told to
+    std::uint8_t open_doors = 0;                     ///< as told last: bit i, see world::Door
     Contacts contacts;
 
     bool is_walker() const { return driver == world::Driver::walker; }

@@ -7,8 +7,9 @@
 #include "scripting/words/handles.h"
 #include "scripting/words/vocabulary.h"
 #include "world/models/catalogue.h"
+#include "world/models/doors.h"
 
-// What an actor carries, and is told to use: its lamps.
+// What an actor carries, and is told to use: its lamps and doors.
 namespace reprise::scripting {
 
 namespace {
@@ -24,6 +25,37 @@ constexpr std::array<LampWord, 6> lamp_words{{{"left", world::lamp_left},
                                               {"low_beam", world::lamp_low_beam},
                                               {"brake", world::lamp_brake},
                                               {"reverse", world::lamp_reverse}}};
+
+constexpr std::array<const char*, world::door_count> door_words{
+    "front_left", "front_right", "rear_left", "rear_right"};
+
+/// What is named is opened or shut; the others stay as they were told last.
+int set_doors(Run& run, lua_State* L) {
+    Actor& actor = actor_at(run, L, 1, "set_doors");
+    if (actor.is_walker() || actor.is_prop())
+        refuse("set_doors", "'" + actor.name + "' is a " + (actor.is_prop() ? "prop" : "walker"));
+    const world::VehicleModel& model = world::vehicle_models()[actor.model];
+    const Fields fields(
+        L, 2, "set_doors", std::vector<std::string>(door_words.begin(), door_words.end()));
+    std::uint8_t doors = actor.open_doors;
+    bool any = false;
+    for (std::uint8_t door = 0; door < world::door_count; ++door) {
+        const auto open = fields.flag(door_words[door]);
+        if (!open)
+            continue;
+        any = true;
+        if (!world::has_door(model, door))
+            refuse("set_doors", fmt::format("a {} has no door '{}'", model.name, door_words[door]));
+        const auto bit = static_cast<std::uint8_t>(1U << door);
+        doors = static_cast<std::uint8_t>(*open ? doors | bit : doors & ~bit);
+    }
+    if (!any)
+        refuse("set_doors",
+               fmt::format("names no door: {}:set_doors{{ front_left = true }}", actor.name));
+    actor.open_doors = doors;
+    run.say(L, world::CommandKind::set_doors, actor.id).doors = doors;
+    return 0;
+}
 
 Actor& with_lamps(Run& run, lua_State* L) {
     Actor& actor = actor_at(run, L, 1, "set_lamps");
@@ -71,6 +103,7 @@ int set_lamps(Run& run, lua_State* L) {
 }  // namespace
 
 void add_equipment_words(lua_State* L) {
+    add_function(L, "set_doors", commanding<set_doors>);
     add_function(L, "set_lamps", commanding<set_lamps>);
 }
 

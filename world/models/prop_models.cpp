@@ -6,9 +6,9 @@ namespace reprise::world {
 
 namespace {
 
-// Sizes and masses of usual ones: cone of 75 cm as on motorways (EN 13422, 5.5 kg); warning triangle
-// (ECE R27: sides of 0.45 to 0.55 m); concrete barrier of 2 m (New Jersey profile, 80 cm high);
-// EUR-pallet (EN 13698: 1.2 by 0.8 by 0.144 m, 25 kg); tyre 205/55 R16 on its rim.
+// Sizes and masses of usual ones: cone of 75 cm as on motorways (EN 13422, 5.5 kg); warning
+// triangle (ECE R27: sides of 0.45 to 0.55 m); concrete barrier of 2 m (New Jersey profile, 80 cm
+// high); EUR-pallet (EN 13698: 1.2 by 0.8 by 0.144 m, 25 kg); tyre 205/55 R16 on its rim.
 // clang-format off
 constexpr std::array<PropModel, 9> props{{
     // name                form                length width height  mass  grip  paint

@@ -168,6 +168,14 @@ void add_box_form(Builder& build, const world::PropModel& model) {
 
 }  // namespace
 
+Mesh door_mesh() {
+    Mesh mesh;
+    Builder build(mesh, Eigen::Isometry3f::Identity());
+    build.box({-.5F, -.5F, -.5F}, {.5F, .5F, .08F}, painted(instance_paint));
+    build.box({-.5F, -.2F, .08F}, {.3F, .2F, .5F}, painted(0x30383c));  // the pane
+    return mesh;
+}
+
 Mesh thing_mesh(const world::PropModel& model) {
     Mesh mesh;
     Builder build(mesh, Eigen::Isometry3f::Identity());

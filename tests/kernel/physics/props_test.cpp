@@ -106,6 +106,19 @@ TEST(Props, AConcreteBarrierStopsACar) {
     EXPECT_LT(worst, 1.5 * 1400 * 10);
 }
 
+TEST(Props, StopAnAutopilotWhereTheyAreTallEnough) {
+    const std::string before =
+        "local car = spawn{ name = 'car', model = 'sedan', lane = 'main_1', s = 20, speed = 10, "
+        "lane_changes = false } ";
+    const auto stopped =
+        play(before + "spawn{ model = 'box', lane = 'main_1', s = 80 } wait(15)", 15);
+    const auto drove =
+        play(before + "spawn{ model = 'plank', lane = 'main_1', s = 80 } wait(15)", 15);
+    EXPECT_LT(stopped.back().recorded().view.measurements()[0].speed(), 0.1);
+    EXPECT_EQ(stopped.back().recorded().view.measurements()[0].impulse_static(), 0);
+    EXPECT_GT(drove.back().recorded().view.measurements()[0].lane_s(), 100);
+}
+
 TEST(Props, AreTakenAwayAgain) {
     const auto ticks = play(
         "local box = spawn{ model = 'box', lane = 'main_1', s = 50 } wait(1) print(box:exists(), "
