@@ -1,11 +1,14 @@
 #include "cli/drive.h"
 
+#include <numbers>
+
 #include <fmt/format.h>
 
 #include "cli/external/wheel_program.h"
 #include "cli/run.h"
 #include "world/check.h"
 #include "world/models/catalogue.h"
+#include "world/models/viewpoint.h"
 
 namespace reprise::cli {
 
@@ -23,7 +26,7 @@ return scenario 'drive' {{
     run = function(p)
         local ego = spawn{{ name = 'ego', model = '{model}', driver = 'external', latency = {latency}, rig = {{
             {{ name = 'view', kind = '{camera}', width = {width}, height = {height}, every = {every},
-              x = {x:.2f}, z = {z:.2f}, pitch_deg = {pitch} }},
+              x = {x:.2f}, z = {z:.2f}, pitch_deg = {pitch:.0f} }},
         }} }}
         if not p.goal then wait(86400) end
 
@@ -38,24 +41,17 @@ return scenario 'drive' {{
 }}
 )lua";
 
-/// In the vehicle's frame.
-struct Mount {
-    double x;      ///< [m]
-    double z;      ///< [m]
-    double pitch;  ///< [deg] up positive
-};
-
-Mount mount_of(const DriveOptions& options) {
+/// Of the camera.
+world::Viewpoint viewpoint_of(const DriveOptions& options) {
     const auto index = world::find_vehicle_model(options.model);
     REPRISE_CHECK(index.has_value(), options.model);
     const world::VehicleModel& model = world::vehicle_models()[*index];
-    if (options.place == "driver")
-        return {0.55 * model.wheelbase, 0.85 * model.height, -2};
-    return {-model.rear_overhang - 5.5, model.height + 1.6, -12};
+    return options.place == "driver" ? world::drivers_eye(model)
+                                     : world::chase(world::extent_of(model));
 }
 
 std::string scenario_text(const DriveOptions& options) {
-    const Mount mount = mount_of(options);
+    const world::Viewpoint view = viewpoint_of(options);
     // Words were looked up; the town's name, which is anything, goes in beside the text.
     return fmt::format(drive_text,
                        fmt::arg("cars", options.cars),
@@ -67,9 +63,9 @@ std::string scenario_text(const DriveOptions& options) {
                        fmt::arg("width", options.width),
                        fmt::arg("height", options.height),
                        fmt::arg("every", options.every),
-                       fmt::arg("x", mount.x),
-                       fmt::arg("z", mount.z),
-                       fmt::arg("pitch", mount.pitch));
+                       fmt::arg("x", view.place.x()),
+                       fmt::arg("z", view.place.z()),
+                       fmt::arg("pitch", view.pitch * 180 / std::numbers::pi));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "render/shade/frame.h"
 #include "render/trace/default_float_mode.h"
 #include "world/check.h"
+#include "world/models/viewpoint.h"
 
 namespace reprise::render {
 
@@ -62,7 +63,7 @@ Camera camera_of(const world::TickView& tick,
                            "': size, field of view or place is not possible");
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     if (spec.actor != 0) {
-        const std::optional<Eigen::Isometry3d> found = Scene::find_actor(tick, spec.actor);
+        const std::optional<Eigen::Isometry3d> found = world::find_pose(tick, spec.actor);
         if (!found)
             throw world::Error("sensor '" + spec.name + "': there is no actor " +
                                std::to_string(spec.actor) + " at tick " +
@@ -71,6 +72,12 @@ Camera camera_of(const world::TickView& tick,
     }
     pose.translation() -= origin;
     return {spec, pose};
+}
+
+/// Who is out of sight for a camera: the actor that it is fixed to. 0: nobody.
+std::uint32_t hidden_from(const world::TickView& tick, const world::SensorSpec& spec) {
+    const std::optional<world::Extent> extent = world::find_extent(tick, spec.actor);
+    return extent && world::is_carried_at(*extent, spec.position) ? spec.actor : 0;
 }
 
 world::SensorFrame empty_frame(const world::TickView& tick, const world::SensorSpec& spec) {
@@ -121,13 +128,14 @@ std::vector<world::SensorFrame> Sensors::Scene::observe(const world::TickView& t
                                                         const world::Weather& weather) {
     const DefaultFloatMode plain;
     render::Scene& placed = *scene;
-    // Who carries cameras, and from where they look.
+    // From where cameras look, and who carries them out of their sight.
     std::vector<std::uint32_t> mounts;
     std::vector<Camera> cameras;
     for (const world::SensorSpec& spec : rig) {
         cameras.push_back(camera_of(tick, spec, placed.origin()));
-        if (spec.actor != 0 && std::find(mounts.begin(), mounts.end(), spec.actor) == mounts.end())
-            mounts.push_back(spec.actor);
+        const std::uint32_t hidden = hidden_from(tick, spec);
+        if (hidden != 0 && std::find(mounts.begin(), mounts.end(), hidden) == mounts.end())
+            mounts.push_back(hidden);
     }
     placed.place(tick, mounts);
 
@@ -138,7 +146,7 @@ std::vector<world::SensorFrame> Sensors::Scene::observe(const world::TickView& t
     for (std::size_t first = 0; first < rig.size(); ++first) {
         if (done[first])
             continue;
-        const std::uint32_t mask = placed.mask_hiding(rig[first].actor);
+        const std::uint32_t mask = placed.mask_hiding(hidden_from(tick, rig[first]));
         trace_primary(placed, cameras[first], mask, hits);
         for (std::size_t i = first; i < rig.size(); ++i) {
             if (done[i] || rig[i].actor != rig[first].actor || !(cameras[i] == cameras[first]))

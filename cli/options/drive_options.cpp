@@ -29,10 +29,8 @@ void add_camera(CLI::App& command, DriveOptions& drive, std::string& size) {
         ->transform(one_of({"rgb", "semantic", "depth"}, "camera"))
         ->capture_default_str();
     command
-        .add_option("--place",
-                    drive.place,
-                    "Of the camera: at the wheel, or behind and above; your own car is not in its "
-                    "pictures")
+        .add_option(
+            "--place", drive.place, "Of the camera: at the wheel, or behind and above your own car")
         ->type_name("driver|chase")
         ->transform(one_of({"driver", "chase"}, "place"))
         ->capture_default_str();

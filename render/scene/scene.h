@@ -79,10 +79,6 @@ class Scene {
 
     const Eigen::Vector3d& origin() const { return origin_; }
 
-    /// Pose of an actor in the scene's frame; nothing when it is not in the tick.
-    static std::optional<Eigen::Isometry3d> find_actor(const world::TickView& tick,
-                                                       std::uint32_t actor);
-
   private:
     struct Device;
 

@@ -9,6 +9,7 @@
 #include "render/shapes/street/thing_mesh.h"
 #include "world/check.h"
 #include "world/frames.h"
+#include "world/models/actors.h"
 #include "world/models/doors.h"
 
 namespace reprise::render {
@@ -152,7 +153,7 @@ void Scene::place_doors(const world::TickView& tick) {
     for (const world::Door& door : tick.doors()) {
         const world::VehicleState* vehicle = world::find(tick.vehicles(), door.actor());
         const world::CarState* car = world::find(tick.cars(), door.actor());
-        const auto pose = find_actor(tick, door.actor());
+        const auto pose = world::find_pose(tick, door.actor());
         if (!pose || (vehicle == nullptr && car == nullptr))
             continue;
         Instance part = vehicle != nullptr
@@ -182,20 +183,6 @@ void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mo
     for (const world::WalkerState& walker : tick.walkers())
         place_walker(walker, rains);
     commit();
-}
-
-std::optional<Eigen::Isometry3d> Scene::find_actor(const world::TickView& tick,
-                                                   std::uint32_t actor) {
-    if (const world::VehicleState* vehicle = world::find(tick.vehicles(), actor))
-        return world::pose(vehicle->position(), vehicle->orientation());
-    if (const world::CarState* car = world::find(tick.cars(), actor))
-        return world::pose(
-            car->position(), static_cast<double>(car->yaw()), static_cast<double>(car->pitch()));
-    if (const world::PropState* prop = world::find(tick.props(), actor))
-        return world::pose(prop->position(), prop->orientation());
-    if (const world::WalkerState* walker = world::find(tick.walkers(), actor))
-        return world::pose(walker->position(), static_cast<double>(walker->yaw()), 0);
-    return std::nullopt;
 }
 
 }  // namespace reprise::render

@@ -1,5 +1,6 @@
 #include "render/sensors.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -107,6 +108,44 @@ TEST(Sensors, DoesNotSeeTheCarThatCarriesIt) {
     EXPECT_EQ(class_at(frames[0], 80, 118), SemanticClass::road)
         << "the floor and hood are in the way";
     EXPECT_EQ(class_at(frames[1], 80, 70), SemanticClass::car) << "others still see the car";
+}
+
+TEST(Sensors, SeesTheCarThatItIsMountedOnFromOutsideOfIt) {
+    render::Sensors sensors(test::straight_road(400));
+    const world::SealedTick tick = tick_with({test::vehicle_at(1, 100, -1.75)});
+    // Where the middle of the car is in the picture: 4 m up, looking ahead; a sedan's is 0.7 m up.
+    const auto seen_from = [&](double ahead, double up) {
+        world::SensorSpec spec = camera(SensorKind::semantic, {ahead, 0, up});
+        spec.actor = 1;
+        const auto frames = sensors.observe(tick.view(), {spec}, test::noon());
+        const double away = 1.35 - ahead;
+        const int row = 60 + static_cast<int>(80 * (up - 0.7) / away);
+        return class_at(frames[0], 80, std::min(row, 119));
+    };
+    EXPECT_EQ(seen_from(-8, 4), SemanticClass::car) << "behind and above";
+    EXPECT_EQ(seen_from(-12, 2), SemanticClass::car);
+    for (const double ahead : {-0.5, 0.0, 1.0})
+        for (const double up : {1.0, 1.4, 1.8})
+            EXPECT_NE(seen_from(ahead, up), SemanticClass::car)
+                << "in it, or on its roof: " << ahead << ' ' << up;
+}
+
+TEST(Sensors, OneThatIsCarriedDoesNotHideTheCarFromOneThatLooksOn) {
+    render::Sensors sensors(test::straight_road(400));
+    const world::SealedTick tick = tick_with({test::vehicle_at(1, 100, -1.75)});
+    world::SensorRig rig{camera(SensorKind::semantic, {1, 0, 1.4}),
+                         camera(SensorKind::semantic, {-8, 0, 4})};
+    for (world::SensorSpec& spec : rig)
+        spec.actor = 1;
+    const auto frames = sensors.observe(tick.view(), rig, test::noon());
+    for (std::size_t i = 0; i < rig.size(); ++i) {
+        const auto alone = sensors.observe(tick.view(), {rig[i]}, test::noon());
+        EXPECT_TRUE(alone[0].data == frames[i].data) << i;
+        const auto cars = std::count(frames[i].data.begin(),
+                                     frames[i].data.end(),
+                                     static_cast<std::uint8_t>(SemanticClass::car));
+        EXPECT_EQ(cars > 0, i == 1) << cars;
+    }
 }
 
 TEST(Sensors, DepthAndClassesAreTheSameUnderEveryWeather) {
