@@ -37,7 +37,7 @@ INNER = {
     "towns": "check network maps furnish buildings . bridges import make",
     "drivers": "way .",
     "kernel": "drill physics .",
-    "render": "shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look shade map views .",
+    "render": "shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look shade map views overlay .",
     "scripting": "lua words .",
     "replay": "mcap . table compare golden",
     "exchange": ". carla",
