@@ -26,7 +26,7 @@ if(sdl2_FOUND)  # its -D_REENTRANT says nothing to this compiler, but that the c
   set_target_properties(PkgConfig::sdl2 PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 endif()
 
-# libsumo, Recast, libosmium and the three OpenCV modules ship no CMake package in the small -dev packages we install.
+# libsumo, Recast, libosmium and the OpenCV modules ship no CMake package in the small -dev packages we install.
 include(PlainLibrary)
 
 # Headers only; those that read XML need expat and threads.
@@ -36,6 +36,7 @@ reprise_plain_library(recast recastnavigation/Recast.h NAMES Detour Recast)
 reprise_plain_library(sumo libsumo/libsumo.h NAMES sumocpp)
 reprise_plain_library(opencv opencv2/core.hpp PATHS opencv4
                       NAMES opencv_core opencv_imgproc opencv_imgcodecs)
+reprise_plain_library(opencv_video opencv2/videoio.hpp PATHS opencv4 NAMES opencv_core opencv_videoio)
 
 # ./dev demo builds the program only, from packages.txt's first list.
 option(REPRISE_TESTS "Build tests and benchmarks, which need packages.txt's second list" ON)

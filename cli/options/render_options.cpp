@@ -1,8 +1,11 @@
 #include "cli/options/render_options.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -39,6 +42,14 @@ void check_cameras(const std::vector<std::string>& cameras) {
             throw CLI::ValidationError("--camera", "'" + *camera + "' is there twice");
 }
 
+std::string lower_case_ending(const std::string& path) {
+    std::string ending = std::filesystem::path(path).extension();
+    for (char& letter : ending)
+        if (letter >= 'A' && letter <= 'Z')
+            letter = static_cast<char>(letter - 'A' + 'a');
+    return ending;
+}
+
 void read_mount(const std::string& text, RenderOptions& render) {
     int used = 0;
     std::vector<double>& at = render.mount;
@@ -47,14 +58,97 @@ void read_mount(const std::string& text, RenderOptions& render) {
         throw CLI::ValidationError("--mount", "expected X,Y,Z such as 1,0,1.4, got '" + text + "'");
 }
 
+/// Whom to look at, from where, and what is written on it.
+void add_views(CLI::App& command, RenderOptions& render, RenderWords& words) {
+    command
+        .add_option("--actor",
+                    render.actor,
+                    "Who carries the cameras, or is followed: a name or an id (default: the first "
+                    "vehicle with a rig, or the first)")
+        ->type_name("NAME");
+    command
+        .add_option("--preset",
+                    render.preset,
+                    "A camera that follows the actor: chase, from behind and above; top, from "
+                    "above; driver, from its eye; orbit, around it")
+        ->type_name("NAME")
+        ->check(one_of({"chase", "top", "driver", "orbit"}, "preset"));
+    command
+        .add_option("--distance",
+                    render.distance,
+                    "Of the camera of chase, top or orbit (default: 5.5 behind; 55 above; by the "
+                    "actor's size)")
+        ->type_name("METRES")
+        ->check(CLI::Range(1.0, 1000.0));
+    command.add_option("--up", words.up, "What is up in pictures from above (default north)")
+        ->type_name("north|heading")
+        ->check(one_of({"north", "heading"}, "direction"));
+    command.add_flag("--overlay",
+                     render.overlay,
+                     "Write onto the pictures who is where and how fast, what happens, and when");
+}
+
+/// A preset says itself where the camera is.
+void check_preset(const CLI::App& command, const RenderOptions& render) {
+    const auto refuse = [&](const char* option, const std::string& why) {
+        if (command.count(option) > 0)
+            throw CLI::ValidationError(option, why);
+    };
+    if (render.preset != "top")
+        refuse("--up", "only of --preset top");
+    if (render.preset.empty() || render.preset == "driver")
+        refuse("--distance", "only of --preset chase, top or orbit");
+    if (!render.preset.empty())
+        for (const char* option : {"--mount", "--pitch", "--yaw"})
+            refuse(option, "--preset " + render.preset + " says itself where the camera is");
+}
+
+/// Of a name that somebody means as a file and that we would make a folder of.
+void check_output(const std::string& output) {
+    constexpr std::array<std::string_view, 16> others{".apng",
+                                                      ".bmp",
+                                                      ".flv",
+                                                      ".gif",
+                                                      ".jpeg",
+                                                      ".jpg",
+                                                      ".m4v",
+                                                      ".mov",
+                                                      ".mpeg",
+                                                      ".mpg",
+                                                      ".ogg",
+                                                      ".ogv",
+                                                      ".png",
+                                                      ".ts",
+                                                      ".webp",
+                                                      ".wmv"};
+    const std::string ending = lower_case_ending(output);
+    if (std::find(others.begin(), others.end(), ending) != others.end() &&
+        !std::filesystem::is_directory(output))
+        throw CLI::ValidationError(
+            "--output",
+            "expected a folder, or a film that ends in .mp4, .mkv, .webm or .avi, got '" + output +
+                "'");
+}
+
 }  // namespace
+
+std::string film_ending(const std::string& output) {
+    constexpr std::array<std::string_view, 4> films{".avi", ".mkv", ".mp4", ".webm"};
+    const std::string ending = lower_case_ending(output);
+    const bool is_film = std::find(films.begin(), films.end(), ending) != films.end();
+    return is_film && !std::filesystem::is_directory(output) ? ending : "";
+}
 
 void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
     CLI::App& command = *app.add_subcommand("render", "Render what cameras saw, from a trace");
     command.add_option("trace", render.trace, "The trace")->required()->type_name("T.mcap");
-    command.add_option("-o,--output", render.directory, "Folder for the pictures")
+    command
+        .add_option("-o,--output",
+                    render.output,
+                    "Folder for the pictures, or a film: a name that ends in .mp4, .mkv, .webm or "
+                    ".avi")
         ->required()
-        ->type_name("DIR");
+        ->type_name("DIR|FILM");
     command
         .add_option("--weather",
                     render.weather,
@@ -69,8 +163,11 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->delimiter(',')
         ->check(one_of({"rgb", "depth", "semantic"}, "camera"));
+    add_views(command, render, words);
     command.add_option("--size", words.size, "Of the pictures (default 800x600)")->type_name("WxH");
-    command.add_option("--fov", render.fov_deg, "Horizontal field of view (default 90)")
+    command
+        .add_option(
+            "--fov", render.fov_deg, "Horizontal field of view (default 90; of a preset its own)")
         ->type_name("DEGREES")
         ->check(CLI::Range(1.0, 170.0));
     command.add_option("--from", render.from, "First tick, or time such as 2.5s")
@@ -79,14 +176,9 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
     command
         .add_option("--every",
                     render.every,
-                    "Every so many ticks, or time (default: as the rig does, else 1s)")
+                    "Every so many ticks, or time (default: as the rig does; else 1s, of a film "
+                    "each tick)")
         ->type_name("N");
-    command
-        .add_option(
-            "--actor",
-            render.actor,
-            "The vehicle that carries the cameras (default: the first with a rig, or the first)")
-        ->type_name("ID");
     command
         .add_option("--mount",
                     words.mount,
@@ -110,20 +202,28 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
         "Pictures are named by tick: DIR/000120.png. depth: 16-bit, millimetres; semantic: 8-bit\n"
         "class ids (CARLA 0.9.14); DIR/view/ holds versions of these two for people to look at.\n"
         "A vehicle that carries a rig is rendered with it, DIR/SENSOR/000120.png, at the ticks at\n"
-        "which it saw, unless --camera, --size, --fov, --mount, --pitch or --yaw say other "
-        "cameras.\n"
-        "Example: reprise render a.mcap -o rain --weather hard_rain_sunset --every 20");
+        "which it saw, unless --camera, --size, --fov, --mount, --pitch, --yaw or --preset say "
+        "other\n"
+        "cameras. A film shows one camera, as fast as it was: --every says how many ticks a "
+        "picture.\n"
+        "Example: reprise render a.mcap -o rain --weather hard_rain_sunset --every 20\n"
+        "         reprise render a.mcap -o run.mp4 --preset chase --overlay --weather wet_sunset");
 }
 
 void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions& render) {
+    const CLI::App& command = *app.get_subcommand("render");
     read_size(words.size, render);
     if (!words.mount.empty())
         read_mount(words.mount, render);
-    if (app.get_subcommand("render")->count("--threads") > 0)
+    if (command.count("--threads") > 0)
         read_threads(words.threads, render);
     check_cameras(render.cameras);
-    for (const char* option : {"--camera", "--size", "--fov", "--mount", "--pitch", "--yaw"})
-        if (app.get_subcommand("render")->count(option) > 0)
+    check_preset(command, render);
+    check_output(render.output);
+    render.heading_up = words.up == "heading";
+    for (const char* option :
+         {"--camera", "--size", "--fov", "--mount", "--pitch", "--yaw", "--preset"})
+        if (command.count(option) > 0)
             render.recorded_rig = false;
     if (render.cameras.empty())
         render.cameras = {"rgb"};

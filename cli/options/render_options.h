@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,20 +13,24 @@ namespace reprise::cli {
 
 struct RenderOptions {
     std::string trace;
-    std::string directory;
+    std::string output;                ///< a folder, or a film by its ending
     std::string weather;               ///< empty: as recorded
     std::vector<std::string> cameras;  ///< rgb, depth, semantic
     bool recorded_rig = true;          ///< where there is one: no option says other cameras
     int width = 800;
     int height = 600;
-    double fov_deg = 90;
-    std::string from;         ///< tick, or seconds with an s behind; empty: the first
-    std::string to;           ///< likewise; empty: the last
-    std::string every;        ///< empty: as the rig does; without one 1s
-    std::uint32_t actor = 0;  ///< 0: the first physics vehicle
+    std::optional<double> fov_deg;
+    std::string from;   ///< tick, or seconds with an s behind; empty: the first
+    std::string to;     ///< likewise; empty: the last
+    std::string every;  ///< empty: as the rig does; without one 1s, of a film each tick
+    std::string actor;  ///< its name or its id; empty: the first physics vehicle
     std::vector<double> mount{1.0, 0.0, 1.4};
     double pitch_deg = 0;
     double yaw_deg = 0;
+    std::string preset;              ///< chase, top, driver, orbit; empty: mount, pitch and yaw
+    std::optional<double> distance;  ///< [m] of a preset's camera; none: as the preset has it
+    bool heading_up = false;         ///< of the preset top
+    bool overlay = false;
     int threads = 0;  ///< 0: one a core
     bool portable = false;
 };
@@ -35,10 +40,14 @@ struct RenderWords {
     std::string size = "800x600";
     std::string mount;
     std::string threads;
+    std::string up = "north";
 };
 
 /// Adds `render`.
 void add_render(CLI::App& app, RenderOptions& render, RenderWords& words);
+
+/// What a film's name ends in, with the dot: .mp4, .mkv, .webm, .avi. Empty for a folder.
+std::string film_ending(const std::string& output);
 
 /// After parsing. Throws CLI::ValidationError.
 void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions& render);

@@ -37,11 +37,11 @@ INNER = {
     "towns": "check network maps furnish buildings . bridges import make",
     "drivers": "way .",
     "kernel": "drill physics .",
-    "render": "shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look shade map views overlay .",
+    "render": "shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look shade map views overlay film .",
     "scripting": "lua words .",
     "replay": "mcap . table compare golden",
     "exchange": ". carla",
-    "cli": "options process fingerprint town trace golden external .",
+    "cli": "options process fingerprint town trace golden external pictures .",
 }
 # Where a header may stand: in the .cpp files and private headers of a room, or, with "+", in all its headers.
 LIBRARIES = {

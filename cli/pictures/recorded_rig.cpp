@@ -1,4 +1,4 @@
-#include "cli/recorded_rig.h"
+#include "cli/pictures/recorded_rig.h"
 
 namespace reprise::cli {
 
