@@ -127,7 +127,8 @@ void write_stem(cv::Mat& picture, const Area& area, const Tag& tag, std::vector<
     stems.push_back({stem.x, stem.y, stem.x + stem.width, stem.y + stem.height});
 }
 
-/// Over its point, higher where others are in the way already; nowhere beyond the picture's top.
+/// Over its point, higher where others are in the way already, and nowhere beyond the picture's
+/// top. Who has no name gives way: in a jam not every car says how fast it is.
 Area write_tag(Pen& pen, const cv::Mat& picture, const Tag& tag, std::vector<Area>& taken) {
     const std::string text = pen.cut(plain_letters(tag.text), picture.cols);
     const cv::Size size = pen.size_of(text);
@@ -143,6 +144,8 @@ Area write_tag(Pen& pen, const cv::Mat& picture, const Tag& tag, std::vector<Are
         moved = false;
         for (const Area& other : taken)
             if (touch(area, other)) {
+                if (!tag.named)
+                    return {};
                 area.top = other.top - size.height;
                 area.bottom = other.top;
                 moved = true;
@@ -178,12 +181,17 @@ Written write_overlay(world::SensorFrame& picture,
     }
     if (text.verdict) {
         Pen large(pixels, 3 * capital_for(pixels) / 2);
-        const int width = large.size_of(plain_letters(text.verdict->text)).width;
-        write_line(large, *text.verdict, std::max(gap, (pixels.cols - width) / 2), top + gap);
+        const std::string verdict = plain_letters(text.verdict->text);
+        Pen& fitting = large.size_of(verdict).width + 2 * gap <= pixels.cols ? large : pen;
+        const int width = fitting.size_of(verdict).width;
+        write_line(fitting, *text.verdict, std::max(gap, (pixels.cols - width) / 2), top + gap);
     }
+    // The latest ones, as far as they leave the middle of the picture free.
     int bottom = pixels.rows - gap;
     for (auto line = text.events.rbegin(); line != text.events.rend(); ++line) {
         bottom -= pen.line();
+        if (line != text.events.rbegin() && bottom < pixels.rows * 2 / 3)
+            break;
         write_line(pen, *line, gap, bottom);
     }
 

@@ -21,7 +21,7 @@ constexpr double over_actor = 0.25;    // [m]
 constexpr double nearest_point = 0.3;  // [m] before the camera
 constexpr double demand_reach = 70;    // [m] farther away cars of the demand have no tag
 constexpr double seen_share = 0.12;    // of an actor's sides that makes it seen
-constexpr double smallest = 0.012;     // of the picture's width; smaller ones of the demand: none
+constexpr double smallest = 0.03;      // of the picture's width; smaller ones of the demand: none
 
 /// One point of an actor's box, as the camera sees it.
 struct Look {

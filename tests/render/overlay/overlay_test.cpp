@@ -167,6 +167,19 @@ TEST(Overlay, TagsStandOverTheirPointsAndNotOnEachOther) {
     EXPECT_EQ(written.stems.size(), 1U) << "down to the point of the one that had to rise";
 }
 
+TEST(Overlay, InAJamWhoHasNoNameGivesWay) {
+    world::SensorFrame picture = noise(800, 600);
+    std::vector<Tag> tags;
+    for (int i = 0; i < 20; ++i)
+        tags.push_back({1'000'001U + static_cast<unsigned>(i), "8 km/h", 400.0 + i, 300, 40.0 - i});
+    tags.push_back(tag_at(380, 300));
+    const render::Written written = render::write_overlay(picture, tags, {});
+    const auto shown = std::count_if(
+        written.tags.begin(), written.tags.end(), [](const Area& area) { return area.bottom > 0; });
+    EXPECT_EQ(shown, 1);
+    EXPECT_EQ(written.tags.back().bottom, 300) << "who has one stays in its place";
+}
+
 TEST(Overlay, LettersStandOutOnAnyPicture) {
     for (const std::uint8_t ground : {std::uint8_t{0}, std::uint8_t{128}, std::uint8_t{255}}) {
         world::SensorFrame picture = noise(320, 240);
