@@ -1,5 +1,6 @@
 #!/bin/sh
-# Makes the gallery of docs/towns.md again: maps of the towns and what stands at eight spots of each, at clear noon.
+# Makes the gallery of docs/towns.md again: maps of the towns and what stands at eight spots of each, at clear noon;
+# and the presets of docs/rendering.md.
 #     docs/pictures/make.sh [FOLDER WITH Town07.xodr]
 # Needs a release build and ImageMagick. The maps of CARLA are not ours to ship: without the folder theirs is left as it is.
 set -eu
@@ -57,6 +58,13 @@ montage town1_roundabout.jpg town1_bend.jpg town1_old_street.jpg town1_crossing.
     town2_park.jpg town2_side_street.jpg town2_bend.jpg town2_square.jpg \
     -tile 4x -geometry 300x169+2+2 -background white -strip -quality 85 towns.jpg
 cd "$here/../.."
+
+$reprise run scenarios/child_runs_out.lua -o "$work/child.mcap"
+for preset in chase top driver orbit; do
+    $reprise render "$work/child.mcap" -o "$work/$preset" --preset $preset --overlay --size 480x360 --from 106t --to 106t
+done
+montage "$work"/chase/*.png "$work"/top/*.png "$work"/driver/*.png "$work"/orbit/*.png \
+    -tile 2x -geometry 480x360 -strip -quality 80 "$here/presets.jpg"
 
 map tests/towns/village.osm village 600
 [ $# -eq 0 ] || map "$1/Town07.xodr" Town07 900
