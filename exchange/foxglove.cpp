@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "exchange/base64.h"
 #include "exchange/foxglove_scene.h"
 #include "exchange/geo_origin.h"
 #include "foxglove_schemas.h"
@@ -65,22 +66,6 @@ std::string text_of(const world::Event& event, const Names& names) {
     }
 }
 
-/// RFC 4648: how JSON messages carry bytes.
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-    constexpr const char* digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            three = three << 8 | (k < count ? bytes[i + k] : 0U);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += k <= count ? digits[three >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
-
 /// Pictures of one camera, by tick.
 struct Camera {
     std::string topic;
@@ -123,7 +108,7 @@ std::vector<Camera> cameras_in(const fs::path& folder) {
     return cameras;
 }
 
-std::vector<std::uint8_t> read_bytes(const fs::path& path) {
+std::string read_bytes(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file)
         throw world::Error(path.string() + ": cannot be read");
