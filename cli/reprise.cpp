@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
             return stats(line.tools.stats);
         if (line.command == "town")
             become("reprise-town", argv);
-        if (line.command == "query" || line.command == "export")
+        if (line.command == "query" || line.command == "export" || line.command == "show")
             become("reprise-exchange", argv);
         become(line.command == "render" ? "reprise-render" : "reprise-run", argv);
     });

@@ -144,6 +144,25 @@ void add_export(CLI::App& app, ExportOptions& options) {
         "         reprise export a.mcap --to foxglove -o a.foxglove.mcap --images noon");
 }
 
+void add_show(CLI::App& app, ShowOptions& options) {
+    CLI::App& command =
+        add_command(app, "show", "Make a page of a trace, to watch it in a browser", options.trace);
+    command
+        .add_option("-o,--output", options.output, "The page to write (default: beside the trace)")
+        ->type_name("PAGE.html");
+    add_ticks(command, options.ticks);
+    command
+        .add_option("--every",
+                    options.every,
+                    "Where everybody is, every so many ticks, or time; between, it is interpolated "
+                    "(default all, fewer of runs that would make the page larger than 10 MB)")
+        ->type_name("N");
+    command.footer(
+        "One file that needs no network: the town from above, a time slider, events, checks and "
+        "plots.\n"
+        "Example: reprise show a.mcap -o replay.html");
+}
+
 void add_log_import(CLI::App& app, ImportOptions& options) {
     CLI::App& command =
         *app.add_subcommand("import", "Make a trace of a recording of CARLA's recorder");
@@ -177,6 +196,7 @@ void add_tool_commands(CLI::App& app, ToolOptions& tools) {
     add_merge(app, tools.merge);
     add_query(app, tools.query);
     add_export(app, tools.export_to);
+    add_show(app, tools.show);
     add_log_import(app, tools.import_from);
 }
 

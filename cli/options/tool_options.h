@@ -55,6 +55,13 @@ struct ExportOptions {
     std::string images;  ///< foxglove only
 };
 
+struct ShowOptions {
+    std::string trace;
+    std::string output;  ///< empty: beside the trace
+    std::string ticks;
+    std::string every;  ///< empty: all, or of long runs so many that the page stays small
+};
+
 struct ImportOptions {
     std::string log;
     std::string output;
@@ -71,10 +78,11 @@ struct ToolOptions {
     MergeOptions merge;
     QueryOptions query;
     ExportOptions export_to;
+    ShowOptions show;
     ImportOptions import_from;
 };
 
-/// Adds cat, get, stats, slice, merge, query, export and import.
+/// Adds cat, get, stats, slice, merge, query, export, show and import.
 void add_tool_commands(CLI::App& app, ToolOptions& tools);
 
 }  // namespace reprise::cli

@@ -40,7 +40,7 @@ INNER = {
     "render": "shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look shade map views overlay film .",
     "scripting": "lua words .",
     "replay": "mcap . table compare golden",
-    "exchange": ". carla",
+    "exchange": ". carla page",
     "cli": "options process fingerprint town trace golden external pictures .",
 }
 # Where a header may stand: in the .cpp files and private headers of a room, or, with "+", in all its headers.

@@ -56,6 +56,7 @@ TEST_F(Printed, TracesDoNothingToATerminal) {
           {"diff", "h.mcap", "h.mcap"},
           {"diff", "h.mcap", "h.mcap", "--json"},
           {"export", "h.mcap", "--to", "jsonl", "-o", "-"},
+          {"show", "h.mcap", "-o", "-"},
           {"slice", "h.mcap", "--ticks", "1..70", "-o", "s.mcap"},
           {"strip", "h.mcap", "--level", "core", "-o", "c.mcap"},
           {"recover", "cut.mcap", "-o", "r.mcap"},

@@ -28,6 +28,7 @@ const std::vector<WritingCommand>& writing_commands() {
         {"ExportFoxglove", {"export", "drive.mcap", "--to", "foxglove", "-o", "OUT"}},
         {"ExportJsonl", {"export", "drive.mcap", "--to", "jsonl", "-o", "OUT"}, false, true},
         {"ExportCsv", {"export", "drive.mcap", "--to", "csv", "-o", "OUT"}, true},
+        {"Show", {"show", "drive.mcap", "-o", "OUT"}, false, true},
         {"Get", {"get", "drive.mcap", "scenario", "-o", "OUT"}, false, true},
         {"Render",
          {"render",
