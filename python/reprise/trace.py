@@ -214,6 +214,24 @@ class Trace:
 
         return view_of_trace(self, first, last, every, radius)
 
+    def page(self, first: int | None = None, last: int | None = None, every: int | None = None, reprise: str = "reprise") -> View:
+        """The page of `reprise show`, which makes it: the run from above with a time slider, events, checks and plots.
+
+        For a notebook or `.save('replay.html')`. `first` to `last`, each `every`th (default: all, fewer of long runs).
+        """
+        from .view import View
+
+        with tempfile.TemporaryDirectory() as folder:
+            command = [reprise, "show", str(self.path), "-o", f"{folder}/replay.html"]
+            if first is not None or last is not None:
+                command += ["--ticks", f"{'' if first is None else first}..{'' if last is None else last}"]
+            command += [] if every is None else ["--every", str(every)]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            if done.returncode != 0:
+                raise TraceError(done.stderr.strip())
+            page = pathlib.Path(folder, "replay.html").read_text(encoding="utf-8")
+        return View(self[self.first].show().svg, page, f"{self.path.name}, made by reprise show", True)
+
     def render(self, tick: int, camera: str = "rgb", weather: str = "", reprise: str = "reprise", **options: Any) -> bytes:
         """A PNG of one tick, made by `reprise render`; options as its own: size='400x300', mount='1,0,1.4', actor=2."""
         with tempfile.TemporaryDirectory() as folder:

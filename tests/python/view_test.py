@@ -55,6 +55,13 @@ class Views(unittest.TestCase):
         self.assertLess(len(figures(view.svg)), len(figures(whole.svg)))
         self.assertLess(len(view.svg), len(whole.svg) / 2, "what is not seen is not there")
 
+    def test_the_page_is_that_of_reprise_show(self):
+        page = self.trace.page(10, 20, reprise=PROGRAM).save(WORK / "page.html").read_text()
+        subprocess.run([PROGRAM, "show", self.path, "--ticks", "10..20", "-o", WORK / "shown.html"], check=True, capture_output=True)
+        self.assertEqual(page, (WORK / "shown.html").read_text())
+        with self.assertRaisesRegex(reprise.TraceError, "--ticks 900..: no such ticks"):
+            self.trace.page(900, reprise=PROGRAM)
+
     def test_of_a_trace_moves_everybody_to_where_the_ticks_have_them(self):
         view = self.trace.show(every=7)
         page = view.save(WORK / "replay.html").read_text()
