@@ -2,7 +2,7 @@
 # Makes the gallery of docs/towns.md again: maps of the towns and what stands at eight spots of each, at clear noon;
 # and the presets of docs/rendering.md.
 #     docs/pictures/make.sh [FOLDER WITH Town07.xodr]
-# Needs a release build and ImageMagick. The maps of CARLA are not ours to ship: without the folder theirs is left as it is.
+# And show.jpg, a page of `reprise show`. Needs a release build, ImageMagick and chromium. The maps of CARLA are not ours to ship: without the folder theirs is left as it is.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 cd "$here/../.."
@@ -67,4 +67,10 @@ montage "$work"/chase/*.png "$work"/top/*.png "$work"/driver/*.png "$work"/orbit
     -tile 2x -geometry 480x360 -strip -quality 80 "$here/presets.jpg"
 
 map tests/towns/village.osm village 600
+
+$reprise run scenarios/cut_in.lua -o "$work/cut_in.mcap"
+$reprise show "$work/cut_in.mcap"
+chromium --headless --no-sandbox --window-size=1280,800 --virtual-time-budget=5000 --screenshot="$work/show.png" \
+    "file://$work/cut_in.html#t=4.2&actor=ego"
+jpeg "$work/show.png" "$here/show.jpg" 1280 80
 [ $# -eq 0 ] || map "$1/Town07.xodr" Town07 900
