@@ -8,9 +8,7 @@
 
 #include "world/frames.h"
 #include "world/models/catalogue.h"
-#if __has_include("world/models/prop_models.h")
 #include "world/models/prop_models.h"
-#endif
 
 namespace reprise::exchange {
 
@@ -72,16 +70,12 @@ json walker_shape(const world::WalkerModel& model) {
 /// By PropState.model.
 json prop_shapes() {
     json shapes = json::array();
-#if __has_include("world/models/prop_models.h")
     for (const world::PropModel& model : world::prop_models())
         shapes.push_back({{"name", model.name},
                           {"length", model.length},
                           {"width", model.width},
                           {"form", static_cast<int>(model.form)},
                           {"paint", fmt::format("#{:06x}", model.paint & 0xff'ffff)}});
-#else
-    shapes.push_back({{"name", "thing"}, {"length", 0.5}, {"width", 0.5}});
-#endif
     return shapes;
 }
 
