@@ -84,7 +84,7 @@ void add_vocabulary(lua_State* L) {
     add_function(L, "print", bound<print>);
     add_function(L, "random", acting<random>);
     add_function(L, "random_int", acting<random_int>);
-    add_surroundings_words(L);
+    add_environment_words(L);
 }
 
 }  // namespace reprise::scripting

@@ -13,7 +13,7 @@ void add_header_words(lua_State* L);        ///< header_words.cpp: `scenario`
 void add_task_words(lua_State* L);          ///< task_words.cpp: wait, start, finish, ...
 void add_check_words(lua_State* L);         ///< check_words.cpp: the table `check`
 void add_spawn_words(lua_State* L);         ///< spawning.cpp
-void add_surroundings_words(lua_State* L);  ///< surroundings.cpp: weather and signals
+void add_environment_words(lua_State* L);  ///< environment.cpp: weather and signals
 void add_handle_words(lua_State* L);        ///< handles.cpp: an actor's methods that look
 void add_drive_words(lua_State* L);         ///< drives.cpp: an actor's methods that act
                                             ///< (into the table of methods)

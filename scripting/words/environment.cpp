@@ -257,7 +257,7 @@ int set_signal(Run& run, lua_State* L) {
 
 }  // namespace
 
-void add_surroundings_words(lua_State* L) {
+void add_environment_words(lua_State* L) {
     add_function(L, "set_weather", acting<set_weather>);
     add_function(L, "signal", bound<signal>);
     add_function(L, "set_signal", acting<set_signal>);
