@@ -1,8 +1,8 @@
 -- The part of the vocabulary that is easiest said in Lua. Runs before every scenario; what it
 -- defines here are the words that a scenario sees.
 
-local give_up_at = _give_up_at
-_give_up_at = nil
+local give_up_at, poll = _give_up_at, _poll
+_give_up_at, _poll = nil, nil
 
 --- Tests the condition at once, then in every tick. True when it holds; false after `timeout` seconds.
 function wait_until(condition, options)
@@ -11,7 +11,13 @@ function wait_until(condition, options)
         if tick() >= last_tick then
             return false
         end
-        wait_ticks(1)
+        local asked, answer = poll(condition, last_tick)
+        if asked then
+            return answer
+        elseif asked == false then
+            error(answer, 0)
+        end
+        wait_ticks(1)  -- inside another condition
     end
     return true
 end

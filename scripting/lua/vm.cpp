@@ -280,11 +280,13 @@ void Vm::raise(lua_State* L, const std::string& message) {
 
 std::uint32_t Vm::line(lua_State* L) const {
     const std::string chunk = "@" + script_;
-    lua_Debug frame;
-    for (int level = 0; lua_getstack(L, level, &frame) != 0; ++level) {
-        lua_getinfo(L, "Sl", &frame);
-        if (frame.currentline > 0 && chunk == frame.source)
-            return static_cast<std::uint32_t>(frame.currentline);
+    for (lua_State* const stack : {L, asker_}) {
+        lua_Debug frame;
+        for (int level = 0; stack != nullptr && lua_getstack(stack, level, &frame) != 0; ++level) {
+            lua_getinfo(stack, "Sl", &frame);
+            if (frame.currentline > 0 && chunk == frame.source)
+                return static_cast<std::uint32_t>(frame.currentline);
+        }
     }
     return compiled_line_;
 }
@@ -344,7 +346,7 @@ bool Vm::ask() {
     return !not_ready;
 }
 
-bool Vm::resume(lua_State* coroutine, int arguments) {
+std::optional<int> Vm::resume(lua_State* coroutine, int arguments) {
     const Running running(*this, coroutine);
     int results = 0;
     const int status = lua_resume(coroutine, main_, arguments, &results);
@@ -352,8 +354,28 @@ bool Vm::resume(lua_State* coroutine, int arguments) {
         make_room(coroutine);
     if ((status != LUA_OK && status != LUA_YIELD) || is_latched())
         fail(coroutine, status);
+    if (status == LUA_OK)
+        return results;
     lua_pop(coroutine, results);
-    return status == LUA_YIELD;
+    return std::nullopt;
+}
+
+Vm::Asked Vm::ask(lua_State* coroutine, lua_State* task) {
+    const Running running(*this, coroutine);
+    asker_ = task;
+    int results = 0;
+    const int status = lua_resume(coroutine, main_, 0, &results);
+    if (status == LUA_OK || status == LUA_YIELD)
+        make_room(coroutine);
+    if (is_latched())
+        fail(coroutine, status);
+    asker_ = nullptr;
+    if (status == LUA_OK)
+        return Asked::answered;
+    if (status != LUA_YIELD)
+        return Asked::failed;
+    lua_pop(coroutine, results);
+    return Asked::waits;
 }
 
 std::string Vm::message_at_top(lua_State* L) const {

@@ -67,8 +67,16 @@ class Vm {
     /// there. False, and nothing left, when it asks about an actor that is not there.
     bool ask();
 
-    /// Resumes a coroutine; true while it lives on. Failures are thrown as by `call`.
-    bool resume(lua_State* coroutine, int arguments);
+    /// Resumes a coroutine; none while it lives on, else how many results lie on its stack.
+    /// Failures are thrown as by `call`.
+    std::optional<int> resume(lua_State* coroutine, int arguments);
+
+    enum class Asked : std::uint8_t { answered, waits, failed };
+
+    /// Calls or resumes what lies on a coroutine's stack, for a task that waits for its answer: the
+    /// results, or what went wrong, lie on the stack then. Where no line of the script is at work,
+    /// messages name that of the task.
+    Asked ask(lua_State* coroutine, lua_State* task);
 
     /// Fills the account for the next tick.
     void refill() {
@@ -149,6 +157,7 @@ class Vm {
     std::string script_;
     lua_State* main_ = nullptr;
     lua_State* current_ = nullptr;     ///< the stack that runs now
+    lua_State* asker_ = nullptr;       ///< of the task whose condition runs now
     std::uint32_t compiled_line_ = 0;  ///< that Lua's compiler reads; 0: it does not run
     Account account_;
     std::uint64_t budget_ = budget_per_load;  ///< [VM instructions] until the next refill
