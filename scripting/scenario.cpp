@@ -124,7 +124,7 @@ void Scenario::advance(const world::TickView& last, world::TickDraft& next) {
     run.last = last;
     run.speak_into(&next);
     run.vm.refill();
-    run.actors.observe(last, run.step);
+    run.observe();
     run.weathers.advance(last, next, run.episode.step_ns);
     run.tasks.advance(run, last.index());
     run.checks.evaluate(run);
@@ -138,7 +138,7 @@ void Scenario::conclude(const world::TickView&, world::TickDraft& next) {
     Run& run = machine_->run;
     run.last = final_tick.view();
     run.speak_into(&next);  // from what is left of the tick's account: it is the same tick
-    run.actors.observe(run.last, run.step);
+    run.observe();
     run.finished = true;
     run.checks.conclude(run);
     run.speak_into(nullptr);

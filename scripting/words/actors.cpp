@@ -21,7 +21,21 @@ void set_size(Body& body, std::uint16_t model) {
     body.half_width = vehicle.width / 2;
 }
 
-Body body_of_vehicle(const world::TickView& tick, const world::VehicleState& vehicle) {
+}  // namespace
+
+Eigen::Vector3d Body::ahead() const {
+    return {std::cos(yaw), std::sin(yaw), 0};
+}
+
+Eigen::Vector3d Body::centre() const {
+    return position + ahead() * ((front - rear) / 2);
+}
+
+Footprint Body::footprint() const {
+    return {centre(), yaw, (front + rear) / 2, half_width};
+}
+
+Body body_of(const world::TickView& tick, const world::VehicleState& vehicle) {
     Body body;
     const Eigen::Vector3d ahead = to_eigen(vehicle.orientation()) * Eigen::Vector3d::UnitX();
     body.position = to_eigen(vehicle.position());
@@ -38,7 +52,7 @@ Body body_of_vehicle(const world::TickView& tick, const world::VehicleState& veh
     return body;
 }
 
-Body body_of_car(const world::CarState& car) {
+Body body_of(const world::CarState& car) {
     Body body;
     body.position = to_eigen(car.position());
     body.yaw = static_cast<double>(car.yaw());
@@ -49,7 +63,7 @@ Body body_of_car(const world::CarState& car) {
     return body;
 }
 
-Body body_of_prop(const world::PropState& prop) {
+Body body_of(const world::PropState& prop) {
     const world::PropModel& model = world::prop_models()[prop.model()];
     const Eigen::Vector3d ahead = to_eigen(prop.orientation()) * Eigen::Vector3d::UnitX();
     Body body;
@@ -61,7 +75,7 @@ Body body_of_prop(const world::PropState& prop) {
     return body;
 }
 
-Body body_of_walker(const world::WalkerState& walker) {
+Body body_of(const world::WalkerState& walker) {
     Body body;
     body.position = to_eigen(walker.position());
     body.yaw = static_cast<double>(walker.yaw());
@@ -71,33 +85,19 @@ Body body_of_walker(const world::WalkerState& walker) {
     return body;
 }
 
-}  // namespace
-
-Eigen::Vector3d Body::ahead() const {
-    return {std::cos(yaw), std::sin(yaw), 0};
-}
-
-Eigen::Vector3d Body::centre() const {
-    return position + ahead() * ((front - rear) / 2);
-}
-
-Footprint Body::footprint() const {
-    return {centre(), yaw, (front + rear) / 2, half_width};
-}
-
 std::optional<Body> body_of(const world::TickView& tick, const Actor& actor) {
     if (actor.is_walker()) {
         const auto* walker = world::find(tick.walkers(), actor.id);
-        return walker == nullptr ? std::nullopt : std::optional(body_of_walker(*walker));
+        return walker == nullptr ? std::nullopt : std::optional(body_of(*walker));
     }
     if (actor.is_prop()) {
         const auto* prop = world::find(tick.props(), actor.id);
-        return prop == nullptr ? std::nullopt : std::optional(body_of_prop(*prop));
+        return prop == nullptr ? std::nullopt : std::optional(body_of(*prop));
     }
     if (const auto* vehicle = world::find(tick.vehicles(), actor.id))
-        return body_of_vehicle(tick, *vehicle);
+        return body_of(tick, *vehicle);
     if (const auto* car = world::find(tick.cars(), actor.id))
-        return body_of_car(*car);
+        return body_of(*car);
     return std::nullopt;
 }
 
@@ -151,7 +151,7 @@ std::string Actors::free_name(const std::string& model) {
     return name;
 }
 
-void Actors::observe(const world::TickView& tick, double step) {
+void Actors::observe(const world::TickView& tick, double step, const Watch& watch) {
     for (Actor& actor : actors_) {
         if (actor.presence == Actor::Presence::gone)
             continue;
@@ -161,12 +161,14 @@ void Actors::observe(const world::TickView& tick, double step) {
                 leave(actor, tick.index());
             continue;
         }
+        const double before = actor.travelled;
         if (actor.presence == Actor::Presence::here)
             actor.travelled += std::abs(body->speed) * step;
         if (body->odometer)
             actor.travelled = *body->odometer;
         actor.presence = Actor::Presence::here;
         actor.position = body->position;
+        watch(actor, *body, actor.travelled - before);
     }
     observe_contacts(tick);
 }
@@ -226,6 +228,9 @@ void Actors::digest(world::Hasher& hasher) const {
         hasher.add(static_cast<std::uint64_t>(actor.contacts.others.size()));
         for (const std::uint32_t other : actor.contacts.others)
             hasher.add(other);
+        hasher.add(
+            static_cast<std::uint8_t>(actor.lights.ran_red() + 2 * actor.lights.is_undecided()));
+        hasher.add(actor.route ? actor.route->share() : -1.0);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +12,8 @@
 #include <Eigen/Core>
 
 #include "scripting/words/footprint.h"
+#include "world/lanes/route_progress.h"
+#include "world/lanes/stop_lines.h"
 #include "world/tick.h"
 
 namespace reprise::world {
@@ -49,6 +52,8 @@ struct Actor {
     bool walks = false;                              ///< was told to
     std::uint8_t open_doors = 0;                     ///< as told last: bit i, see world::Door
     Contacts contacts;
+    world::RedLightWatch lights{};
+    std::optional<world::RouteProgress> route{};  ///< that it was told last
 
     bool is_walker() const { return driver == world::Driver::walker; }
 
@@ -78,6 +83,11 @@ struct Body {
     Eigen::Vector3d centre() const;
     Footprint footprint() const;
 };
+
+Body body_of(const world::TickView& tick, const world::VehicleState& vehicle);
+Body body_of(const world::CarState& car);
+Body body_of(const world::WalkerState& walker);
+Body body_of(const world::PropState& prop);
 
 /// None when the actor is not in the tick. O(log n).
 std::optional<Body> body_of(const world::TickView& tick, const Actor& actor);
@@ -121,8 +131,10 @@ class Actors {
     /// "sedan", then "sedan_2", ...
     std::string free_name(const std::string& model);
 
-    /// Reads a tick once, in their order: who is there, how far they came, whom they touched.
-    void observe(const world::TickView& tick, double step);
+    /// Reads a tick once, in their order: who is there, how far they came, whom they touched. Those
+    /// who are there are shown to `watch`, with what they drove since the last tick [m].
+    using Watch = std::function<void(Actor&, const Body&, double driven)>;
+    void observe(const world::TickView& tick, double step, const Watch& watch);
 
     void digest(world::Hasher& hasher) const;
 

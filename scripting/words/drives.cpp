@@ -141,8 +141,24 @@ int keep_lane(Run& run, lua_State* L) {
     return 0;
 }
 
+/// From here on it is watched how much of the way it has driven.
+void note_route(
+    Run& run, lua_State* L, Actor& actor, const std::vector<std::uint32_t>& stops, double last_s) {
+    actor.route.reset();
+    const Body body = run.look_at(actor);
+    if (body.lane == world::none || !world::is_for_cars(run.town.lanes[body.lane]))
+        return;
+    run.vm.charge(L, stops.size() * run.town.lanes.size() * 5);
+    const auto changes = actor.keeps_lane ? world::LaneChanges::none : world::LaneChanges::allowed;
+    const world::LanePlace here{body.lane,
+                                world::project(run.town.lanes[body.lane], body.position).s};
+    auto route = world::plan_over(world::Planner(run.town, changes), here, stops, last_s);
+    if (route)
+        actor.route.emplace(std::move(*route));
+}
+
 int set_route(Run& run, lua_State* L) {
-    const Actor& actor = sent_car(run, L, "set_route");
+    Actor& actor = sent_car(run, L, "set_route");
     if (lua_type(L, 2) != LUA_TTABLE || lua_rawlen(L, 2) == 0)
         refuse("set_route", "needs a list of lanes or edges: ego:set_route{ 'a1_b1', 'b1_b2' }");
     std::vector<std::uint32_t> lanes;
@@ -162,6 +178,7 @@ int set_route(Run& run, lua_State* L) {
     }
     world::CommandT& command = run.say(L, CommandKind::set_route, actor.id);
     command.s = run.town.lanes[lanes.back()].length;
+    note_route(run, L, actor, lanes, command.s);
     command.lanes = std::move(lanes);
     return 0;
 }
@@ -174,7 +191,7 @@ std::string wanted_lane(const Fields& fields) {
 }
 
 int route_to(Run& run, lua_State* L) {
-    const Actor& actor = sent_car(run, L, "route_to");
+    Actor& actor = sent_car(run, L, "route_to");
     const Fields fields(L, 2, "route_to", {"lane", "s"});
     const std::uint32_t lane = run.lane_named(L, wanted_lane(fields));
     const world::LaneT& goal = run.town.lanes[lane];
@@ -189,8 +206,8 @@ int route_to(Run& run, lua_State* L) {
     run.vm.charge(L, run.town.lanes.size() * 20);
     const world::LaneT& here = run.town.lanes[body.lane];
     const auto changes = actor.keeps_lane ? world::LaneChanges::none : world::LaneChanges::allowed;
-    const auto route = world::Planner(run.town, changes)
-                           .plan({body.lane, world::project(here, body.position).s}, {lane, s});
+    auto route = world::Planner(run.town, changes)
+                     .plan({body.lane, world::project(here, body.position).s}, {lane, s});
     if (!route)
         refuse("route_to",
                fmt::format("no way leads from '{}' to '{}'{}",
@@ -201,6 +218,7 @@ int route_to(Run& run, lua_State* L) {
     command.lanes = {lane};
     command.s = s;
     lua_pushnumber(L, route->length);
+    actor.route.emplace(std::move(*route));
     return 1;
 }
 

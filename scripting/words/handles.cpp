@@ -88,13 +88,12 @@ int lane(Run& run, lua_State* L) {
 }
 
 /// Along its lane, or nil off every lane.
-template <double world::LaneProjection::*coordinate>
-int on_lane(Run& run, lua_State* L) {
+int s_on_lane(Run& run, lua_State* L) {
     const Body body = run.look_at(self(run, L));
     if (body.lane == world::none)
         lua_pushnil(L);
     else
-        lua_pushnumber(L, world::project(run.town.lanes[body.lane], body.position).*coordinate);
+        lua_pushnumber(L, world::project(run.town.lanes[body.lane], body.position).s);
     return 1;
 }
 
@@ -178,6 +177,12 @@ int distance_between(Run& run, lua_State* L) {
 int ttc(Run& run, lua_State* L) {
     const Body a = run.look_at(actor_at(run, L, 1, "ttc"));
     const Body b = run.look_at(actor_at(run, L, 2, "ttc"));
+    const bool one_lane = !lua_isnoneornil(L, 3) &&
+                          Fields(L, 3, "ttc", {"same_lane"}).flag("same_lane").value_or(false);
+    if (one_lane && !share_lane(run.town, a, b)) {
+        lua_pushnumber(L, HUGE_VAL);
+        return 1;
+    }
     const Gap between = gap(run.town, a, b);
     run.vm.charge(L, between.searched * lane_cost);
     lua_pushnumber(L, time_to_collision(between, a, b));
@@ -256,8 +261,8 @@ void add_handle_words(lua_State* L) {
     add_function(L, "acceleration", reading<acceleration>);
     add_function(L, "heading_deg", reading<heading_deg>);
     add_function(L, "lane", reading<lane>);
-    add_function(L, "s", reading<on_lane<&world::LaneProjection::s>>);
-    add_function(L, "offset", reading<on_lane<&world::LaneProjection::t>>);
+    add_function(L, "s", reading<s_on_lane>);
+    add_look_words(L);
     add_function(L, "collided", bound<collided_since_spawn>);
     add_function(L, "distance_driven", bound<distance_driven>);
     add_drive_words(L);

@@ -23,7 +23,8 @@ std::optional<double> way(const TownT& town,
                           double s_from,
                           std::uint32_t to,
                           double s_to,
-                          std::uint32_t& searched) {
+                          std::uint32_t& searched,
+                          bool changes_lanes = true) {
     const std::string& target = town.lanes[to].edge;
     std::set<std::pair<double, std::uint32_t>> open{
         {-s_from, from}};  // distance to the lane's start
@@ -36,10 +37,12 @@ std::optional<double> way(const TownT& town,
             continue;
         const LaneT& lane = town.lanes[index];
         const bool internal = lane.kind == world::LaneKind::internal;
-        if (lane.edge == target && (!internal || index == to) && start + s_to >= 0)
+        const bool is_there =
+            changes_lanes ? lane.edge == target && (!internal || index == to) : index == to;
+        if (is_there && start + s_to >= 0)
             return start + s_to;
         for (const std::uint32_t beside : {lane.left, lane.right})
-            if (beside != none && world::is_for_cars(town.lanes[beside]))
+            if (changes_lanes && beside != none && world::is_for_cars(town.lanes[beside]))
                 open.emplace(start, beside);
         for (const world::Link& link : lane.links) {
             const std::uint32_t next = link.via() != none ? link.via() : link.to();
@@ -83,6 +86,15 @@ std::pair<double, double> extent_along(const Body& a, const Body& b) {
     return {std::min(front, rear) - across, std::max(front, rear) + across};
 }
 
+/// [m] by which a body reaches over the edge of a lane beside it.
+double reach_into(const LaneT& lane, const Body& body) {
+    const world::LaneProjection at = world::project(lane, body.centre());
+    const double angle = body.yaw - world::point_at(lane, at.s).yaw;
+    const double half_shadow = (body.front + body.rear) / 2 * std::abs(std::sin(angle)) +
+                               body.half_width * std::abs(std::cos(angle));
+    return lane.width / 2 + half_shadow - std::abs(at.t);
+}
+
 }  // namespace
 
 Gap gap(const TownT& town, const Body& a, const Body& b) {
@@ -95,6 +107,31 @@ Gap gap(const TownT& town, const Body& a, const Body& b) {
     const bool ahead = (low + high) / 2 >= (a.front - a.rear) / 2;
     const double length = ahead ? low - a.front : -a.rear - high;
     return {std::max(0.0, length), ahead, searched};
+}
+
+double lateral_gap(const Body& a, const Body& b) {
+    const Eigen::Vector3d left(-std::sin(a.yaw), std::cos(a.yaw), 0);
+    const double angle = b.yaw - a.yaw;
+    const double half_length = (b.front + b.rear) / 2;
+    const double half_shadow =
+        half_length * std::abs(std::sin(angle)) + b.half_width * std::abs(std::cos(angle));
+    return std::abs((b.centre() - a.position).dot(left)) - a.half_width - half_shadow;
+}
+
+bool share_lane(const TownT& town, const Body& a, const Body& b) {
+    if (a.lane == none || b.lane == none)
+        return false;
+    if (a.lane == b.lane)
+        return true;
+    const LaneT& lane_a = town.lanes[a.lane];
+    const LaneT& lane_b = town.lanes[b.lane];
+    if (lane_a.edge == lane_b.edge)
+        return reach_into(lane_a, b) >= intrusion || reach_into(lane_b, a) >= intrusion;
+    const double s_a = world::project(lane_a, a.position).s;
+    const double s_b = world::project(lane_b, b.position).s;
+    std::uint32_t searched = 0;
+    return way(town, a.lane, s_a, b.lane, s_b, searched, false) ||
+           way(town, b.lane, s_b, a.lane, s_a, searched, false);
 }
 
 double distance(const Body& a, const Body& b) {

@@ -26,6 +26,17 @@ Gap gap(const world::TownT& town, const Body& a, const Body& b);
 /// [m] between the centres of both bounding boxes.
 double distance(const Body& a, const Body& b);
 
+/// [m] between both outlines, across a's heading, wherever b is along it; negative by how far one
+/// would have to move aside so that they could pass each other.
+double lateral_gap(const Body& a, const Body& b);
+
+/// Is b on the lane that a is on, or on one before or behind it that is reached without a change of
+/// lanes; or does one of them reach `intrusion` metres or more into the lane of the other beside
+/// it?
+bool share_lane(const world::TownT& town, const Body& a, const Body& b);
+
+inline constexpr double intrusion = 0.3;  ///< [m] as UN Regulation 157 (ALKS) counts a cut-in
+
 /// [s] until the gap is closed when both keep their speed; infinite when it is not closing.
 double time_to_collision(const world::TownT& town, const Body& a, const Body& b);
 double time_to_collision(const Gap& between, const Body& a, const Body& b);

@@ -1,5 +1,7 @@
 #include "scripting/words/run.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "scripting/words/places.h"
@@ -24,10 +26,14 @@ Body Run::look_at(const Actor& actor) {
     vm.charge_later(look_cost);
     const auto body = body_of(last, actor);
     REPRISE_CHECK(body, fmt::format("actor {} is not in tick {}", actor.name, now()));
-    Body placed = *body;
+    return with_lane(*body, actor.is_walker());
+}
+
+Body Run::with_lane(const Body& body, bool is_walker) {
+    Body placed = body;
     if (placed.lane != world::none)
         return placed;
-    if (actor.is_walker()) {
+    if (is_walker) {
         const auto walkable = lanes.walkable_at(placed.position);
         const auto roads = lanes.at(placed.position);
         if (!roads.empty())
@@ -38,6 +44,44 @@ Body Run::look_at(const Actor& actor) {
         placed.lane = best->lane;
     }
     return placed;
+}
+
+void Run::observe() {
+    actors.observe(last, step, [&](Actor& actor, const Body& body, double driven) {
+        if (actor.is_walker() || actor.driver == world::Driver::parked)
+            return;
+        if (!stop_lines.empty()) {
+            const double farthest = 2 * std::abs(body.speed) * step + 2;
+            actor.lights.observe(
+                town, stop_lines, last, body.position, body.yaw, body.front, farthest);
+        }
+        if (!actor.route)
+            return;
+        std::optional<world::LanePlace> place;
+        if (body.lane != world::none)
+            place = {body.lane, world::project(town.lanes[body.lane], body.position).s};
+        actor.route->drive_on(town, place, driven, body.front);
+    });
+}
+
+const std::vector<Neighbour>& Run::everybody() {
+    if (everybody_at_ != now()) {
+        everybody_at_ = now();
+        everybody_ = scripting::everybody(last);
+    }
+    return everybody_;
+}
+
+const std::vector<std::vector<world::JunctionArm>>& Run::junction_arms() {
+    if (!arms_)
+        arms_ = world::arms_of_junctions(town);
+    return *arms_;
+}
+
+const std::vector<world::CrossingPlace>& Run::crossings() {
+    if (!crossings_)
+        crossings_ = world::crossings_of(town, lanes);
+    return *crossings_;
 }
 
 }  // namespace reprise::scripting

@@ -1,12 +1,18 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "scripting/words/actors.h"
 #include "scripting/words/checks.h"
 #include "scripting/words/step_context.h"
 #include "scripting/words/streams.h"
+#include "scripting/words/surroundings.h"
 #include "scripting/words/tasks.h"
 #include "scripting/words/weathers.h"
 #include "world/episode_generated.h"
+#include "world/lanes/junctions.h"
+#include "world/lanes/stop_lines.h"
 #include "world/tick.h"
 #include "world/town.h"
 
@@ -20,9 +26,11 @@ struct Run : StepContext {
         const world::LaneMap& its_lanes)
         : StepContext(machine, its_episode, its_town),
           lanes(its_lanes),
+          stop_lines(its_town),
           streams(its_episode.seed) {}
 
     const world::LaneMap& lanes;
+    world::StopLines stop_lines;
     Actors actors;
     Tasks tasks;
     Checks checks;
@@ -35,6 +43,23 @@ struct Run : StepContext {
     /// The body with its lane, found by place where the tick does not name it. The actor must be
     /// present.
     Body look_at(const Actor& actor);
+    Body with_lane(const Body& body, bool is_walker);
+
+    /// Takes in the last tick: what became of the actors.
+    void observe();
+
+    /// Who is on the road in the last tick; made once a tick, when somebody asks.
+    const std::vector<Neighbour>& everybody();
+
+    /// Of the town; made when somebody asks.
+    const std::vector<std::vector<world::JunctionArm>>& junction_arms();
+    const std::vector<world::CrossingPlace>& crossings();
+
+  private:
+    std::vector<Neighbour> everybody_;
+    std::optional<std::uint64_t> everybody_at_;  ///< tick
+    std::optional<std::vector<std::vector<world::JunctionArm>>> arms_;
+    std::optional<std::vector<world::CrossingPlace>> crossings_;
 };
 
 }  // namespace reprise::scripting

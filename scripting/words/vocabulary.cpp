@@ -81,6 +81,7 @@ void add_vocabulary(lua_State* L) {
     add_check_words(L);
     add_handle_words(L);
     add_spawn_words(L);
+    add_place_words(L);
     add_function(L, "print", bound<print>);
     add_function(L, "random", acting<random>);
     add_function(L, "random_int", acting<random_int>);
