@@ -70,13 +70,16 @@ std::optional<Neighbour::Kind> wanted_kind(const Fields& options) {
     if (!kind)
         return std::nullopt;
     for (const auto each :
-         {Neighbour::Kind::vehicle, Neighbour::Kind::bicycle, Neighbour::Kind::walker})
+         {Neighbour::Kind::vehicle,
+          Neighbour::Kind::bicycle,
+          Neighbour::Kind::walker,
+          Neighbour::Kind::prop})
         if (*kind == name_of(each))
             return each;
     refuse("around",
-           fmt::format("no kind '{}'{}: 'vehicle', 'bicycle' or 'walker'",
+           fmt::format("no kind '{}'{}: 'vehicle', 'bicycle', 'walker' or 'prop'",
                        *kind,
-                       world::did_you_mean(*kind, {"vehicle", "bicycle", "walker"})));
+                       world::did_you_mean(*kind, {"vehicle", "bicycle", "walker", "prop"})));
 }
 
 void set_number(lua_State* L, const char* key, double value) {

@@ -43,7 +43,8 @@ const world::TickDraft& Stage::step() {
     for (Body& body : bodies_)
         body.s += body.speed * 0.05;
     place(next);
-    next.tick.measurements = measurements_;
+    if (!measurements_.empty())
+        next.tick.measurements = measurements_;
     next.tick.events.insert(next.tick.events.end(), collisions_.begin(), collisions_.end());
     collisions_.clear();
     draft_ = next;
@@ -114,6 +115,18 @@ void Stage::obey(const world::CommandT& command) {
                        command.speed});
 }
 
+/// The last vehicle, as the kernel would.
+void Stage::measure(const Body& body, world::TickDraft& draft) const {
+    draft.tick.vehicles.back().mutate_model(body.model);
+    world::Measurement measured;
+    measured.mutate_actor(body.id);
+    measured.mutate_speed(body.speed);
+    measured.mutate_lane(body.lane);
+    measured.mutate_lane_s(body.s);
+    measured.mutate_lane_t(body.offset);
+    draft.tick.measurements.push_back(measured);
+}
+
 void Stage::place(world::TickDraft& draft) const {
     for (const Body& body : bodies_) {
         const world::LanePoint at = world::point_at(town.lanes[body.lane], body.s);
@@ -129,6 +142,10 @@ void Stage::place(world::TickDraft& draft) const {
             draft.traffic.cars.push_back(car_at(body.id, x, y, at.yaw, body.speed));
         else
             draft.tick.vehicles.push_back(vehicle_at(body.id, x, y, at.yaw, body.speed));
+        if (body.driver == world::Driver::traffic || body.driver == world::Driver::parked)
+            draft.traffic.cars.back().mutate_model(body.model);
+        else if (body.driver != world::Driver::walker)
+            measure(body, draft);
     }
 }
 

@@ -56,6 +56,7 @@ class Stage {
 
     void obey(const world::CommandT& command);
     void place(world::TickDraft& draft) const;
+    void measure(const Body& body, world::TickDraft& draft) const;
 
     std::vector<Body> bodies_;
     std::vector<world::EventT> collisions_;
