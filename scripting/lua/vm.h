@@ -130,6 +130,8 @@ class Vm {
     Run* run = nullptr;        ///< none while only the header is read
     Header* header = nullptr;  ///< where `scenario` puts what it is given
 
+    const void* actor_type = nullptr;  ///< the metatable that handles of actors have
+
     bool in_branch = false;  ///< the script takes over from another: set before it is read
 
     /// Set while a check's predicate runs: it may look and must not act.

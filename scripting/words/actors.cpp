@@ -48,6 +48,8 @@ Body body_of(const world::TickView& tick, const world::VehicleState& vehicle) {
         body.speed = measured->speed();
         body.acceleration = measured->acceleration();
         body.lane = measured->lane();
+        body.lane_s = measured->lane_s();
+        body.lane_t = measured->lane_t();
     }
     return body;
 }
@@ -86,6 +88,8 @@ Body body_of(const world::WalkerState& walker) {
 }
 
 std::optional<Body> body_of(const world::TickView& tick, const Actor& actor) {
+    if (actor.body_at == tick.index() && actor.body_at != 0)
+        return actor.body;
     if (actor.is_walker()) {
         const auto* walker = world::find(tick.walkers(), actor.id);
         return walker == nullptr ? std::nullopt : std::optional(body_of(*walker));
@@ -168,6 +172,8 @@ void Actors::observe(const world::TickView& tick, double step, const Watch& watc
             actor.travelled = *body->odometer;
         actor.presence = Actor::Presence::here;
         actor.position = body->position;
+        actor.body = *body;
+        actor.body_at = tick.index();
         watch(actor, *body, actor.travelled - before);
     }
     observe_contacts(tick);

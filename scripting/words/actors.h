@@ -31,6 +31,26 @@ struct Contacts {
     std::set<std::uint32_t> others;  ///< ids of the actors among them
 };
 
+/// An actor's body at a tick: the recorded nouns, brought to one form.
+struct Body {
+    Eigen::Vector3d position{0, 0, 0};  ///< world; vehicles: on the ground below the rear axle
+    double yaw = 0;                     ///< [rad] counter-clockwise from east
+    double speed = 0;                   ///< [m/s] ahead
+    double acceleration = 0;            ///< [m/s^2] ahead; walkers: 0
+    double front = 0;                   ///< [m] from the position to the front bumper
+    double rear = 0;                    ///< [m] from the position to the rear bumper
+    double half_width = 0;
+    std::uint32_t lane = world::none;  ///< in Town.lanes, where the tick names it
+    std::optional<double> lane_s;      ///< [m] of the position along it, where the tick holds it
+    std::optional<double> lane_t;      ///< [m] left of it, likewise
+    std::optional<double> odometer;    ///< [m] where the tick holds it
+
+    Eigen::Vector3d ahead() const;
+    /// Of the bounding box, on the ground.
+    Eigen::Vector3d centre() const;
+    Footprint footprint() const;
+};
+
 /// Somebody that the scenario spawned.
 struct Actor {
     enum class Presence : std::uint8_t { coming, here, gone };
@@ -54,6 +74,8 @@ struct Actor {
     Contacts contacts;
     world::RedLightWatch lights{};
     std::optional<world::RouteProgress> route{};  ///< that it was told last
+    Body body{};                                  ///< where it was last seen
+    std::uint64_t body_at = 0;                    ///< tick of that; 0: never
 
     bool is_walker() const { return driver == world::Driver::walker; }
 
@@ -66,30 +88,12 @@ struct Actor {
     }
 };
 
-/// An actor's body at a tick: the recorded nouns, brought to one form.
-struct Body {
-    Eigen::Vector3d position{0, 0, 0};  ///< world; vehicles: on the ground below the rear axle
-    double yaw = 0;                     ///< [rad] counter-clockwise from east
-    double speed = 0;                   ///< [m/s] ahead
-    double acceleration = 0;            ///< [m/s^2] ahead; walkers: 0
-    double front = 0;                   ///< [m] from the position to the front bumper
-    double rear = 0;                    ///< [m] from the position to the rear bumper
-    double half_width = 0;
-    std::uint32_t lane = world::none;  ///< in Town.lanes, where the tick names it
-    std::optional<double> odometer;    ///< [m] where the tick holds it
-
-    Eigen::Vector3d ahead() const;
-    /// Of the bounding box, on the ground.
-    Eigen::Vector3d centre() const;
-    Footprint footprint() const;
-};
-
 Body body_of(const world::TickView& tick, const world::VehicleState& vehicle);
 Body body_of(const world::CarState& car);
 Body body_of(const world::WalkerState& walker);
 Body body_of(const world::PropState& prop);
 
-/// None when the actor is not in the tick. O(log n).
+/// None when the actor is not in the tick. O(log n); of the tick that was observed last O(1).
 std::optional<Body> body_of(const world::TickView& tick, const Actor& actor);
 
 /// Everybody that the scenario spawned, in the order of their ids: 1, 2, 3, ...

@@ -23,8 +23,12 @@ constexpr std::uint64_t patience = 100;  // [ticks] for an actor to appear
 
 /// 0 when the argument is no handle.
 std::uint32_t handle_id(lua_State* L, int index) {
-    const void* held = luaL_testudata(L, index, handle_type);
-    return held == nullptr ? 0 : *static_cast<const std::uint32_t*>(held);
+    const void* held = lua_touserdata(L, index);
+    if (held == nullptr || lua_getmetatable(L, index) == 0)
+        return 0;
+    const bool is_actor = lua_topointer(L, -1) == Vm::of(L).actor_type;
+    lua_pop(L, 1);
+    return is_actor ? *static_cast<const std::uint32_t*>(held) : 0;
 }
 
 Actor& self(Run& run, lua_State* L) {
@@ -93,7 +97,7 @@ int s_on_lane(Run& run, lua_State* L) {
     if (body.lane == world::none)
         lua_pushnil(L);
     else
-        lua_pushnumber(L, world::project(run.town.lanes[body.lane], body.position).s);
+        lua_pushnumber(L, place_on_lane(run.town, body).s);
     return 1;
 }
 
@@ -159,9 +163,9 @@ int actor_named(Run& run, lua_State* L) {
 // --- Between two actors.
 
 int gap_between(Run& run, lua_State* L) {
-    const Body a = run.look_at(actor_at(run, L, 1, "gap"));
-    const Body b = run.look_at(actor_at(run, L, 2, "gap"));
-    const Gap between = gap(run.town, a, b);
+    const Actor& a = actor_at(run, L, 1, "gap");
+    const Actor& b = actor_at(run, L, 2, "gap");
+    const Gap between = run.gap(a, b);
     run.vm.charge(L, between.searched * lane_cost);
     lua_pushnumber(L, between.length);
     return 1;
@@ -175,17 +179,18 @@ int distance_between(Run& run, lua_State* L) {
 }
 
 int ttc(Run& run, lua_State* L) {
-    const Body a = run.look_at(actor_at(run, L, 1, "ttc"));
-    const Body b = run.look_at(actor_at(run, L, 2, "ttc"));
+    const Actor& a = actor_at(run, L, 1, "ttc");
+    const Actor& b = actor_at(run, L, 2, "ttc");
     const bool one_lane = !lua_isnoneornil(L, 3) &&
                           Fields(L, 3, "ttc", {"same_lane"}).flag("same_lane").value_or(false);
-    if (one_lane && !share_lane(run.town, a, b)) {
+    if (one_lane && !share_lane(run.town, run.look_at(a), run.look_at(b))) {
         lua_pushnumber(L, HUGE_VAL);
         return 1;
     }
-    const Gap between = gap(run.town, a, b);
+    const Gap between = run.gap(a, b);
     run.vm.charge(L, between.searched * lane_cost);
-    lua_pushnumber(L, time_to_collision(between, a, b));
+    const auto body = [&](const Actor& actor) { return *body_of(run.last, actor); };
+    lua_pushnumber(L, time_to_collision(between, body(a), body(b)));
     return 1;
 }
 
@@ -252,6 +257,7 @@ int wait_for_presence(Run& run, lua_State* L, int (*again)(lua_State*, int, std:
 
 void add_handle_words(lua_State* L) {
     luaL_newmetatable(L, handle_type);
+    Vm::of(L).actor_type = lua_topointer(L, -1);
     lua_newtable(L);  // the methods
     add_function(L, "name", bound<name>);
     add_function(L, "id", bound<id>);

@@ -118,7 +118,7 @@ void push_entry(Run& run, lua_State* L, const Body& own, const Neighbour& other,
         return;
     const world::LaneT& lane = run.town.lanes[body.lane];
     set_text(L, "lane", lane.name);
-    set_number(L, "s", world::project(lane, body.position).s);
+    set_number(L, "s", place_on_lane(run.town, body).s);
 }
 
 int around(Run& run, lua_State* L) {
@@ -188,11 +188,15 @@ int offset(Run& run, lua_State* L) {
         return 1;
     }
     const world::LaneT& lane = run.town.lanes[index];
+    if (own) {
+        lua_pushnumber(L, place_on_lane(run.town, body).t);
+        return 1;
+    }
     const world::LaneProjection at = world::project(lane, body.position);
     const double beyond =
         (body.position - world::point_at(lane, at.s).position).head<2>().squaredNorm() -
         at.t * at.t;
-    if (!own && beyond > past_end * past_end)
+    if (beyond > past_end * past_end)
         lua_pushnil(L);
     else
         lua_pushnumber(L, at.t);

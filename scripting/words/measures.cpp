@@ -62,12 +62,12 @@ std::optional<double> along_road(const TownT& town,
         return std::nullopt;
     const LaneT& lane_a = town.lanes[a.lane];
     const LaneT& lane_b = town.lanes[b.lane];
-    const double s_a = world::project(lane_a, a.position).s;
+    const double s_a = place_on_lane(town, a).s;
     const bool together =
         a.lane == b.lane || (lane_a.edge == lane_b.edge && lane_a.kind == world::LaneKind::driving);
     if (together)
         return world::project(lane_a, b.position).s - s_a;
-    const double s_b = world::project(lane_b, b.position).s;
+    const double s_b = place_on_lane(town, b).s;
     if (const auto ahead = way(town, a.lane, s_a, b.lane, s_b, searched))
         return *ahead;
     if (const auto behind = way(town, b.lane, s_b, a.lane, s_a, searched))
@@ -96,6 +96,12 @@ double reach_into(const LaneT& lane, const Body& body) {
 }
 
 }  // namespace
+
+world::LaneProjection place_on_lane(const TownT& town, const Body& body) {
+    if (body.lane_s && body.lane_t)
+        return {*body.lane_s, *body.lane_t, std::abs(*body.lane_t)};
+    return world::project(town.lanes[body.lane], body.position);
+}
 
 Gap gap(const TownT& town, const Body& a, const Body& b) {
     auto [low, high] = extent_along(a, b);
@@ -127,8 +133,8 @@ bool share_lane(const TownT& town, const Body& a, const Body& b) {
     const LaneT& lane_b = town.lanes[b.lane];
     if (lane_a.edge == lane_b.edge)
         return reach_into(lane_a, b) >= intrusion || reach_into(lane_b, a) >= intrusion;
-    const double s_a = world::project(lane_a, a.position).s;
-    const double s_b = world::project(lane_b, b.position).s;
+    const double s_a = place_on_lane(town, a).s;
+    const double s_b = place_on_lane(town, b).s;
     std::uint32_t searched = 0;
     return way(town, a.lane, s_a, b.lane, s_b, searched, false) ||
            way(town, b.lane, s_b, a.lane, s_a, searched, false);

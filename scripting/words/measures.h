@@ -23,6 +23,9 @@ struct Gap {
 /// `lane` of both bodies should be set where known. About 1 us on one edge.
 Gap gap(const world::TownT& town, const Body& a, const Body& b);
 
+/// Where a body is on its lane, which must be known: as the tick says, or by its place.
+world::LaneProjection place_on_lane(const world::TownT& town, const Body& body);
+
 /// [m] between the centres of both bounding boxes.
 double distance(const Body& a, const Body& b);
 

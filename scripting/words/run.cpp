@@ -46,6 +46,16 @@ Body Run::with_lane(const Body& body, bool is_walker) {
     return placed;
 }
 
+Gap Run::gap(const Actor& a, const Actor& b) {
+    if (gaps_at_ != now())
+        gaps_.clear();
+    gaps_at_ = now();
+    const auto [found, is_new] = gaps_.try_emplace({a.id, b.id});
+    if (is_new)
+        found->second = scripting::gap(town, look_at(a), look_at(b));
+    return found->second;
+}
+
 void Run::observe() {
     actors.observe(last, step, [&](Actor& actor, const Body& body, double driven) {
         if (actor.is_walker() || actor.driver == world::Driver::parked)
@@ -59,7 +69,7 @@ void Run::observe() {
             return;
         std::optional<world::LanePlace> place;
         if (body.lane != world::none)
-            place = {body.lane, world::project(town.lanes[body.lane], body.position).s};
+            place = {body.lane, place_on_lane(town, body).s};
         actor.route->drive_on(town, place, driven, body.front);
     });
 }

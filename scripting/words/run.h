@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "scripting/words/actors.h"
 #include "scripting/words/checks.h"
+#include "scripting/words/measures.h"
 #include "scripting/words/step_context.h"
 #include "scripting/words/streams.h"
 #include "scripting/words/surroundings.h"
@@ -45,6 +49,10 @@ struct Run : StepContext {
     Body look_at(const Actor& actor);
     Body with_lane(const Body& body, bool is_walker);
 
+    /// Of two actors who are present. Several tasks and checks ask for the same: searched once a
+    /// tick.
+    Gap gap(const Actor& a, const Actor& b);
+
     /// Takes in the last tick: what became of the actors.
     void observe();
 
@@ -56,6 +64,8 @@ struct Run : StepContext {
     const std::vector<world::CrossingPlace>& crossings();
 
   private:
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Gap> gaps_;  ///< of this tick, by ids
+    std::uint64_t gaps_at_ = 0;                                    ///< tick
     std::vector<Neighbour> everybody_;
     std::optional<std::uint64_t> everybody_at_;  ///< tick
     std::optional<std::vector<std::vector<world::JunctionArm>>> arms_;
