@@ -145,6 +145,7 @@ int keep_lane(Run& run, lua_State* L) {
 void note_route(
     Run& run, lua_State* L, Actor& actor, const std::vector<std::uint32_t>& stops, double last_s) {
     actor.route.reset();
+    run.forget_way(actor);
     const Body body = run.look_at(actor);
     if (body.lane == world::none || !world::is_for_cars(run.town.lanes[body.lane]))
         return;
@@ -219,6 +220,7 @@ int route_to(Run& run, lua_State* L) {
     command.s = s;
     lua_pushnumber(L, route->length);
     actor.route.emplace(std::move(*route));
+    run.forget_way(actor);
     return 1;
 }
 

@@ -131,9 +131,14 @@ int around(Run& run, lua_State* L) {
     const auto& all = run.everybody();
     run.vm.charge(L, all.size() * glance_cost);
     std::vector<std::pair<double, const Neighbour*>> near;
+    const Eigen::Vector3d centre = own.centre();
     for (const Neighbour& other : all) {
-        const double away = distance(own, other.body);
-        if (other.id != actor.id && away <= radius && (!kind || other.kind == *kind))
+        // A sine and a cosine for those only who may be near.
+        const double reach = radius + other.body.front + other.body.rear;
+        if (other.id == actor.id || (kind && other.kind != *kind) ||
+            (other.body.position - centre).squaredNorm() > reach * reach)
+            continue;
+        if (const double away = distance(own, other.body); away <= radius)
             near.emplace_back(away, &other);
     }
     std::sort(near.begin(), near.end(), [](const auto& one, const auto& other) {
@@ -153,10 +158,7 @@ int gap_ahead(Run& run, lua_State* L) {
     const Actor& actor = vehicle_at(run, L, "gap_ahead");
     const auto& all = run.everybody();
     run.vm.charge(L, way_cost + all.size() * glance_cost);
-    std::span<const world::Route::Piece> route;
-    if (actor.route)
-        route = actor.route->to_come();
-    const auto found = find_ahead(run.town, all, run.look_at(actor), actor.id, route, clear_way);
+    const auto found = run.in_the_way(actor, clear_way);
     if (!found) {
         lua_pushnil(L);
         return 1;

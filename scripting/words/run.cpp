@@ -56,6 +56,18 @@ Gap Run::gap(const Actor& a, const Actor& b) {
     return found->second;
 }
 
+std::optional<InTheWay> Run::in_the_way(const Actor& actor, double range) {
+    const std::vector<Neighbour>& all = everybody();
+    const auto [found, is_new] = in_the_way_.try_emplace(actor.id);
+    if (is_new) {
+        std::span<const world::Route::Piece> route;
+        if (actor.route)
+            route = actor.route->to_come();
+        found->second = find_ahead(town, all, look_at(actor), actor.id, route, range);
+    }
+    return found->second;
+}
+
 void Run::observe() {
     actors.observe(last, step, [&](Actor& actor, const Body& body, double driven) {
         if (actor.is_walker() || actor.driver == world::Driver::parked)
@@ -78,6 +90,7 @@ const std::vector<Neighbour>& Run::everybody() {
     if (everybody_at_ != now()) {
         everybody_at_ = now();
         everybody_ = scripting::everybody(last);
+        in_the_way_.clear();
     }
     return everybody_;
 }

@@ -53,6 +53,11 @@ struct Run : StepContext {
     /// tick.
     Gap gap(const Actor& a, const Actor& b);
 
+    /// Likewise who is in the way of one of them, within so many metres.
+    std::optional<InTheWay> in_the_way(const Actor& actor, double range);
+
+    void forget_way(const Actor& actor) { in_the_way_.erase(actor.id); }
+
     /// Takes in the last tick: what became of the actors.
     void observe();
 
@@ -66,6 +71,7 @@ struct Run : StepContext {
   private:
     std::map<std::pair<std::uint32_t, std::uint32_t>, Gap> gaps_;  ///< of this tick, by ids
     std::uint64_t gaps_at_ = 0;                                    ///< tick
+    std::map<std::uint32_t, std::optional<InTheWay>> in_the_way_;  ///< likewise, into everybody_
     std::vector<Neighbour> everybody_;
     std::optional<std::uint64_t> everybody_at_;  ///< tick
     std::optional<std::vector<std::vector<world::JunctionArm>>> arms_;

@@ -13,6 +13,7 @@ namespace reprise::scripting {
 
 namespace {
 
+constexpr double longest_body = 20;  ///< [m]
 constexpr double quarter_turn = std::numbers::pi / 2;
 
 using world::LaneT;
@@ -181,6 +182,12 @@ std::optional<InTheWay> find_ahead(const TownT& town,
                                    double range) {
     if (body.lane == none)
         return straight_ahead(all, body, id, range);
+    // No way is shorter than the straight line.
+    std::vector<const Neighbour*> within;
+    const double reach = range + body.front + longest_body;
+    for (const Neighbour& other : all)
+        if (other.id != id && (other.body.position - body.position).squaredNorm() < reach * reach)
+            within.push_back(&other);
     const world::LaneProjection here = world::project(town.lanes[body.lane], body.position);
     const double own_middle = (body.front - body.rear) / 2;
     std::optional<InTheWay> nearest;
@@ -191,15 +198,15 @@ std::optional<InTheWay> find_ahead(const TownT& town,
         world::Box box;
         for (const world::Vec3& point : lane.centre)
             box.take(world::in_plan(point), lane.width);
-        for (const Neighbour& other : all) {
-            if (other.id == id || !is_near(box, other.body))
+        for (const Neighbour* const other : within) {
+            if (!is_near(box, other->body))
                 continue;
-            const auto extent = extent_in(strip, other.body);
+            const auto extent = extent_in(strip, other->body);
             if (!extent || extent->middle < own_middle)
                 continue;
             const double gap = std::max(0.0, extent->near_end - body.front);
             if (gap <= range && (!nearest || gap < nearest->gap))
-                nearest = InTheWay{gap, &other};
+                nearest = InTheWay{gap, other};
         }
         start += lane.length;
         // Whoever is on the lanes behind is farther, but for those who reach onto this one.

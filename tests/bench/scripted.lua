@@ -41,12 +41,12 @@ return scenario 'scripted' {
             { 'max', function() return math.abs(ego:acceleration()) end, 1000 },
             { 'min', function() return distance(ego, child) end, -1 },
             { 'max', function() return math.abs(ego:offset() or 0) end, 100 },
-            { 'never', function() return lead:collided(ego) end },
-            { 'max', function() return bus:speed() end, 100 },
+            { 'never', function() return ego:ran_red() or lead:collided(ego) end },
+            { 'min', function() return ego:gap_ahead() end, -1, { optional = true } },
         }
         for i = 1, p.checks do
-            local kind, look, limit = table.unpack(checks[(i - 1) % #checks + 1])
-            check[kind](kind .. ' ' .. i, look, limit)
+            local kind, look, limit, options = table.unpack(checks[(i - 1) % #checks + 1])
+            check[kind](kind .. ' ' .. i, look, limit, options)
         end
         wait(3600)
     end,
