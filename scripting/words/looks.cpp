@@ -57,7 +57,7 @@ std::string name_of(Run& run, const Neighbour& other) {
 
 const char* driver_of(Run& run, const Neighbour& other) {
     static constexpr const char* names[] = {
-        "autopilot", "manual", "traffic", "parked", "walker", "external"};
+        "autopilot", "manual", "traffic", "parked", "walker", "external", "prop"};
     return other.id < run.actors.next_id()
                ? names[static_cast<std::size_t>(run.actors.at(other.id).driver)]
                : "background";
