@@ -63,9 +63,22 @@ def environment(pipe, seed, cores):
             pipe.send(timed(lambda: sim.run(lambda seen: control, steps)))
 
 
+def plain(folder, count):
+    """Ticks a second of all of so many runs at once in which nobody drives: what the machine has to give."""
+    def ended(words):
+        runs = [subprocess.Popen([os.environ["REPRISE"], "run", "alone.lua", *words, "-o", f"{i}.mcap"], cwd=folder,
+                                 stdout=subprocess.DEVNULL) for i in range(count)]  # fmt: skip
+        for run in runs:
+            if run.wait() != 0:
+                raise subprocess.CalledProcessError(run.returncode, run.args)
+
+    return count * (TICKS - 1) / (timed(lambda: ended(())) - timed(lambda: ended(("--for", "0.05"))))
+
+
 def measure_vector(steps=400, turns=9):
     """Ticks a second of two environments at once, of one, and of one that has a core only, in turns. One with two cores
-    uses both: the next tick is begun while its driver thinks."""
+    uses both: the next tick is begun while its driver thinks. Beside them two plain runs at once over one: two
+    environments can hardly be more than that."""
     cores = os.sched_getaffinity(0)
     pipes, workers = zip(*(multiprocessing.Pipe() for _ in range(3)))
     places = (cores, cores, {min(cores)})
@@ -79,14 +92,20 @@ def measure_vector(steps=400, turns=9):
         return len(these) * steps / max(pipe.recv() for pipe in these)
 
     rate(pipes)  # until queues have formed
-    turns = [(rate(pipes[:2]), rate(pipes[turn % 2 :][:1]), rate(pipes[2:])) for turn in range(turns)]
+    with tempfile.TemporaryDirectory() as place:
+        folder = pathlib.Path(place)
+        (folder / "alone.lua").write_text(SCENARIO % (TICKS * 0.05, "manual"))
+        turns = [(rate(pipes[:2]), rate(pipes[turn % 2 :][:1]), rate(pipes[2:]), plain(folder, 2), plain(folder, 1))
+                 for turn in range(turns)]  # fmt: skip
     for pipe, child in zip(pipes, children):
         pipe.send(0)
         child.join()
-    two, one, on_a_core = (median(column) for column in zip(*turns))
-    return {"ticks/s_two": two, "ticks/s_one": one, "ticks/s_one_on_a_core": on_a_core,
-            "two_of_one": median([both / alone for both, alone, _ in turns]),
-            "two_of_one_on_a_core": median([both / alone for both, _, alone in turns])}  # fmt: skip
+    two, one, on_a_core, plain_two, plain_one = (median(column) for column in zip(*turns))
+    ratios, of_core, of_plain = ([both[i] / both[i + j] for both in turns] for i, j in ((0, 1), (0, 2), (3, 1)))
+    return {"ticks/s_two": two, "ticks/s_one": one, "ticks/s_one_on_a_core": on_a_core, "ticks/s_plain_two": plain_two,
+            "ticks/s_plain_one": plain_one, "two_of_one": median(ratios), "two_of_one_on_a_core": median(of_core),
+            "plain_two_of_one": median(of_plain),
+            "share_of_plain": median([ours / theirs for ours, theirs in zip(ratios, of_plain)])}  # fmt: skip
 
 
 def measure_steps():
