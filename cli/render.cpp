@@ -127,13 +127,6 @@ int render(const RenderOptions& options) {
     replay::TraceReader trace(options.trace);
     Ticks ticks = ticks_to_render(options, trace);
     const Cameras cameras(options, trace, ticks);
-    if (options.recorded_rig && !cameras.recorded() && trace.first() > 1)
-        say(stderr,
-            "reprise: {}: begins at tick {}: what a vehicle carries that was there before is not "
-            "in it, "
-            "only in the whole trace; rendered as without a rig\n",
-            options.trace,
-            trace.first());
     const auto output = open_output(options, cameras, ticks, trace.episode().step_ns);
     if (as_recorded(options, cameras))
         ticks.every = 1;

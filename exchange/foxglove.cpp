@@ -165,6 +165,9 @@ class Export {
         trace_.tick(options_.first);  // says at once when its level leaves out what scenes need
         const json start = timestamp(options_.first, step_ns());
         put(town, options_.first, town_scene(trace_.recording().town, start));
+        if (const auto slice = trace_.slice())
+            for (const auto& [actor, spawn] : slice->spawns)
+                names_[actor] = spawn.command.text;
         for (std::uint64_t index = trace_.first(); index <= options_.last; ++index) {
             const bool seen =
                 index >= options_.first && (index - options_.first) % options_.every == 0;

@@ -51,10 +51,14 @@ bool sorted(const world::TickView& view) {
            });
 }
 
+bool known_enumerators(const world::Command& command) {
+    return command.kind() <= world::CommandKind::MAX && command.driver() <= world::Driver::MAX &&
+           command.shape() <= world::Shape::MAX && command.color() <= world::SignalColor::MAX;
+}
+
 bool known_enumerators(const world::Tick& tick) {
     for (const auto* command : *tick.commands()) {
-        if (command->kind() > world::CommandKind::MAX || command->driver() > world::Driver::MAX ||
-            command->shape() > world::Shape::MAX || command->color() > world::SignalColor::MAX)
+        if (!known_enumerators(*command))
             return false;
     }
     for (const auto* event : *tick.events()) {
@@ -68,6 +72,11 @@ bool known_enumerators(const world::Tick& tick) {
     return true;
 }
 
+bool structs_present(const world::Command& command) {
+    return command.target() != nullptr && command.control() != nullptr &&
+           command.weather() != nullptr;
+}
+
 /// A command without its control, say, is one of another kind; but an event always has a place.
 bool structs_present(const world::Tick& tick) {
     for (const auto* event : *tick.events()) {
@@ -75,8 +84,7 @@ bool structs_present(const world::Tick& tick) {
             return false;
     }
     for (const auto* command : *tick.commands()) {
-        if (command->target() == nullptr || command->control() == nullptr ||
-            command->weather() == nullptr)
+        if (!structs_present(*command))
             return false;
     }
     return true;
@@ -107,6 +115,18 @@ std::optional<std::string> fault_of_tick(mcap::View bytes, std::uint64_t index) 
         if (prop.model() >= world::prop_models().size())
             return fmt::format("unknown model {} of prop {}", prop.model(), prop.id());
     }
+    return std::nullopt;
+}
+
+std::optional<std::string> fault_of_command(mcap::View bytes) {
+    auto check = verifier(bytes);
+    if (!check.VerifyBuffer<world::Command>(nullptr))
+        return "not a Command";
+    const auto& command = *flatbuffers::GetRoot<world::Command>(bytes.data());
+    if (!structs_present(command))
+        return "a part of the command is missing";
+    if (!known_enumerators(command))
+        return "unknown kind of command";
     return std::nullopt;
 }
 

@@ -13,6 +13,7 @@
 namespace reprise::replay {
 
 std::optional<std::string> fault_of_tick(mcap::View bytes, std::uint64_t index);
+std::optional<std::string> fault_of_command(mcap::View bytes);
 std::optional<std::string> fault_of_inputs(mcap::View bytes, std::uint64_t index);
 std::optional<std::string> fault_of_traffic(mcap::View bytes, std::uint64_t index);
 std::optional<std::string> fault_of_episode(mcap::View bytes);

@@ -7,6 +7,7 @@
 
 #include "replay/level.h"
 #include "replay/noun_check.h"
+#include "replay/trace_facts.h"
 #include "replay/trace_format.h"
 #include "world/check.h"
 
@@ -108,9 +109,13 @@ void OpenedTrace::read_slice(const std::map<std::string, std::string>& facts) {
     };
     slice = {to_number(text("slice.first_tick")),
              to_number(text("slice.run_ticks")),
-             format::from_hex(text("slice.chain_before"))};
+             format::from_hex(text("slice.chain_before")),
+             {}};
     if (slice.first < 1 || slice.first > slice.run_ticks)
         input.fail(0, "a slice of a run, but not one that says where it begins");
+    if (const auto fault = take_spawns(facts, slice.first, slice.spawns))
+        input.fail(find_metadata(index, format::run_metadata)->offset,
+                   "a slice of a run that says wrongly who was there before: " + *fault);
 }
 
 void OpenedTrace::check_end_of_slice() const {

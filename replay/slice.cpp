@@ -7,6 +7,7 @@
 
 #include "replay/chain_seed.h"
 #include "replay/level.h"
+#include "replay/trace_facts.h"
 #include "replay/trace_writer.h"
 #include "world/check.h"
 #include "world/digest.h"
@@ -15,8 +16,18 @@ namespace reprise::replay {
 
 namespace {
 
+/// How those were spawned who are there before a tick, in [first(), last() + 1]. Reads all ticks
+/// before it.
+world::Spawns spawns_before(TraceReader& trace, std::uint64_t index) {
+    const auto slice = trace.slice();
+    world::Spawns spawns = slice ? slice->spawns : world::Spawns();
+    for (std::uint64_t earlier = trace.first(); earlier < index; ++earlier)
+        world::hear_spawns(*trace.recorded(earlier).view.tick, spawns);
+    return spawns;
+}
+
 world::SliceStart start_at(TraceReader& trace, std::uint64_t first) {
-    return {first, trace.run_ticks(), trace.chain(first - 1)};
+    return {first, trace.run_ticks(), trace.chain(first - 1), spawns_before(trace, first)};
 }
 
 /// Every link of the chain is checked on the way: what is cut and joined is what was recorded.
@@ -81,6 +92,12 @@ void require_seam(TraceReader& earlier, TraceReader& later) {
         refuse(ticks_are(later.first(), std::min(earlier.last(), later.last())) + " in both");
     if (!(later.chain(later.first() - 1) == earlier.chain(earlier.last())))
         refuse("the second continues another history (its digest chain differs)");
+    Facts there;
+    Facts told;
+    add_spawns(spawns_before(earlier, earlier.last() + 1), there);
+    add_spawns(later.slice() ? later.slice()->spawns : world::Spawns(), told);
+    if (there != told)
+        refuse("the second says otherwise who is there (its metadata was changed)");
 }
 
 }  // namespace

@@ -1,11 +1,77 @@
 #include "replay/trace_facts.h"
 
+#include <charconv>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "replay/level.h"
+#include "replay/mcap/aligned_copy.h"
+#include "replay/noun_check.h"
 #include "replay/trace_format.h"
 
 namespace reprise::replay {
+
+namespace {
+
+constexpr std::string_view spawn_key = "slice.spawn.";
+
+mcap::Bytes packed(const world::CommandT& command) {
+    flatbuffers::FlatBufferBuilder builder(256);
+    builder.Finish(world::Command::Pack(builder, &command));
+    return {builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize()};
+}
+
+/// Only digits, and all of them.
+template <typename Number>
+std::optional<Number> number_in(std::string_view text, int base) {
+    Number number{};
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, number, base);
+    if (read.ec != std::errc() || read.ptr != end)
+        return std::nullopt;
+    return number;
+}
+
+std::optional<mcap::Bytes> bytes_in(std::string_view digits) {
+    if (digits.size() % 2 != 0)
+        return std::nullopt;
+    mcap::Bytes bytes;
+    bytes.reserve(digits.size() / 2);
+    for (std::size_t at = 0; at < digits.size(); at += 2) {
+        const auto byte = number_in<std::uint8_t>(digits.substr(at, 2), 16);
+        if (!byte)
+            return std::nullopt;
+        bytes.push_back(*byte);
+    }
+    return bytes;
+}
+
+/// Nothing for what is no spawn of this actor before that tick. Whether it is written as a run
+/// writes it is seen where it is written again.
+std::optional<world::Spawn> spawn_in(std::string_view text,
+                                     std::uint32_t actor,
+                                     std::uint64_t first) {
+    const auto space = text.find(' ');
+    if (space == std::string_view::npos)
+        return std::nullopt;
+    const auto tick = number_in<std::uint64_t>(text.substr(0, space), 10);
+    const auto bytes = bytes_in(text.substr(space + 1));
+    if (!tick || *tick < 1 || *tick >= first || !bytes)
+        return std::nullopt;
+    AlignedCopy copy;
+    const mcap::View command = copy.of(*bytes);
+    if (fault_of_command(command))
+        return std::nullopt;
+    world::Spawn spawn;
+    flatbuffers::GetRoot<world::Command>(command.data())->UnPackTo(&spawn.command);
+    spawn.tick = *tick;
+    if (spawn.command.kind != world::CommandKind::spawn || spawn.command.actor != actor)
+        return std::nullopt;
+    return spawn;
+}
+
+}  // namespace
 
 Facts run_facts(const world::EpisodeT& episode,
                 const world::Digest128& seed_of_chain,
@@ -33,6 +99,7 @@ Facts run_facts(const world::EpisodeT& episode,
         facts["slice.first_tick"] = std::to_string(slice->first);
         facts["slice.run_ticks"] = std::to_string(slice->run_ticks);
         facts["slice.chain_before"] = world::to_hex(slice->chain_before);
+        add_spawns(slice->spawns, facts);
     }
     if (!episode.branches.empty()) {
         const world::BranchT& branch = episode.branches.back();
@@ -59,6 +126,29 @@ Facts outcome_facts(const world::Outcome& outcome,
          world::to_hex(
              world::digest128({reinterpret_cast<const char*>(episode.data()), episode.size()}))},
     };
+}
+
+void add_spawns(const world::Spawns& spawns, Facts& facts) {
+    for (const auto& [actor, spawn] : spawns)
+        facts[fmt::format("{}{}", spawn_key, actor)] =
+            fmt::format("{} {:02x}", spawn.tick, fmt::join(packed(spawn.command), ""));
+}
+
+std::optional<std::string> take_spawns(const Facts& facts,
+                                       std::uint64_t first,
+                                       world::Spawns& spawns) {
+    for (auto fact = facts.lower_bound(std::string(spawn_key));
+         fact != facts.end() && fact->first.starts_with(spawn_key);
+         ++fact) {
+        const auto& [key, text] = *fact;
+        const auto actor =
+            number_in<std::uint32_t>(std::string_view(key).substr(spawn_key.size()), 10);
+        auto spawn = actor ? spawn_in(text, *actor, first) : std::nullopt;
+        if (!spawn)
+            return fmt::format("its '{}' is no spawn before tick {}", key, first);
+        spawns[*actor] = std::move(*spawn);
+    }
+    return std::nullopt;
 }
 
 std::optional<std::string> first_other_fact(const Facts& written, const Facts& found) {

@@ -21,6 +21,17 @@ Facts run_facts(const world::EpisodeT& episode,
                 Level level,
                 const std::optional<world::SliceStart>& slice);
 
+/// Of a slice that begins behind the tick in which an actor was spawned: the command that did it,
+/// with the actor's name, what it carries, who drives it. A line of reprise.run for each actor that
+/// is there: slice.spawn.ACTOR = "TICK COMMAND", a world.Command in hexadecimal digits.
+void add_spawns(const world::Spawns& spawns, Facts& facts);
+
+/// Takes them from metadata of unknown origin, for a slice that begins at tick `first`. Answers
+/// what is wrong, or nothing.
+std::optional<std::string> take_spawns(const Facts& facts,
+                                       std::uint64_t first,
+                                       world::Spawns& spawns);
+
 /// Metadata reprise.outcome. The digest of the episode's bytes covers the lines of the build and
 /// the town's path, which the chain does not.
 Facts outcome_facts(const world::Outcome& outcome,

@@ -5,17 +5,9 @@
 namespace reprise::world {
 
 void ExternalDrivers::hear(const Tick& tick) {
-    if (tick.commands() == nullptr)
-        return;
-    for (const Command* command : *tick.commands()) {
-        if (command->kind() == CommandKind::despawn)
-            spawns_.erase(command->actor());
-        if (command->kind() == CommandKind::spawn && command->driver() == Driver::external) {
-            Spawn& spawn = spawns_[command->actor()];
-            command->UnPackTo(&spawn.command);
-            spawn.tick = tick.index();
-        }
-    }
+    hear_spawns(tick, spawns_);
+    std::erase_if(spawns_,
+                  [](const auto& one) { return one.second.command.driver != Driver::external; });
 }
 
 bool ExternalDrivers::explain(const Outcome& outcome) const {

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
-
 #include "world/recording.h"
+#include "world/spawns.h"
 #include "world/tick.h"
 
 namespace reprise::world {
@@ -14,13 +12,8 @@ class ExternalDrivers {
     /// The next tick of a run, as it was recorded whole.
     void hear(const Tick& tick);
 
-    struct Spawn {
-        CommandT command;        ///< as the scenario said it
-        std::uint64_t tick = 0;  ///< in which it did
-    };
-
     /// By actor: how the scenario spawned it.
-    const std::map<std::uint32_t, Spawn>& spawns() const { return spawns_; }
+    const Spawns& spawns() const { return spawns_; }
 
     /// Whether an outcome says that the driver of one of them was lost, or ended the run, which one
     /// cannot be seen in ticks; or that a client ended the episode, which is one of them; or the
@@ -28,7 +21,7 @@ class ExternalDrivers {
     bool explain(const Outcome& outcome) const;
 
   private:
-    std::map<std::uint32_t, Spawn> spawns_;
+    Spawns spawns_;
 };
 
 }  // namespace reprise::world

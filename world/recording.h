@@ -5,6 +5,7 @@
 
 #include "world/digest.h"
 #include "world/episode_generated.h"
+#include "world/spawns.h"
 #include "world/town_generated.h"
 
 namespace reprise::world {
@@ -56,6 +57,7 @@ struct SliceStart {
     std::uint64_t first = 1;      ///< its first tick
     std::uint64_t run_ticks = 0;  ///< how many the whole run had
     Digest128 chain_before{};     ///< the chain's value before that tick
+    Spawns spawns{};              ///< of who was there before it: what they carry, and their names
 };
 
 /// The last tick that a run can have.

@@ -55,7 +55,7 @@ void Seats::lose(const remote::Seat& seat, remote::Lost lost) {
 }
 
 /// Gives an actor the driver that was named for it, if one was.
-bool Seats::seat(const world::ExternalDrivers::Spawn& spawn, const remote::Guide* guide) {
+bool Seats::seat(const world::Spawn& spawn, const remote::Guide* guide) {
     const auto seat = std::find_if(free_.begin(), free_.end(), [&](const auto& one) {
         return one->actor() == spawn.command.text;
     });
@@ -89,7 +89,7 @@ void Seats::welcome(const world::Tick& tick) {
         if (command->kind() != world::CommandKind::spawn ||
             command->driver() != world::Driver::external)
             continue;
-        world::ExternalDrivers::Spawn spawn{{}, tick.index()};
+        world::Spawn spawn{{}, tick.index()};
         command->UnPackTo(&spawn.command);
         const std::string& name = spawn.command.text;
         if (!seat(spawn))

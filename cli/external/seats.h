@@ -88,7 +88,7 @@ class Seats {
 
   private:
     void welcome(const world::Tick& tick);
-    bool seat(const world::ExternalDrivers::Spawn& spawn, const remote::Guide* guide = nullptr);
+    bool seat(const world::Spawn& spawn, const remote::Guide* guide = nullptr);
     void ask(const world::SealedTick& tick, const std::function<void()>& meanwhile);
     void lose(const remote::Seat& seat, remote::Lost lost);
 

@@ -87,8 +87,9 @@ void add_slice(CLI::App& app, SliceOptions& slice) {
         ->required()
         ->type_name("S.mcap");
     command.footer(
-        "A slice is a trace: it can be read, played and rendered. Only one that begins at tick 1 "
-        "can be verified.");
+        "A slice is a trace: it can be read, played and rendered, and knows the names and the rigs "
+        "of "
+        "those who were there before. Only one that begins at tick 1 can be verified.");
 }
 
 void add_merge(CLI::App& app, MergeOptions& merge) {

@@ -198,6 +198,13 @@ class Trace:
         return pandas.DataFrame(columns)
 
     @functools.cached_property
+    def spawned_before(self) -> dict[int, Noun]:
+        """Of a slice: by actor, how those were spawned who were there before its first tick (Command of world/tick.fbs)."""
+        key = "slice.spawn."
+        return {int(name[len(key):]): Noun(bytes.fromhex(text.partition(" ")[2]), "world.Command")
+                for name, text in self.facts.items() if name.startswith(key)}  # fmt: skip
+
+    @functools.cached_property
     def egos(self) -> set[int]:
         """Ids of the vehicles that another program drove; without any, of the first vehicle that has mass."""
         from .view import egos_of

@@ -133,7 +133,7 @@ def view_of_tick(town: Noun, tick: Noun, traffic: Noun | None, step: float, egos
 
 def egos_of(trace: Trace) -> set[int]:
     """Who is driven by another program in a trace; without one, the first that has mass. Reads all of it."""
-    driven, first = set(), None
+    driven, first = {actor for actor, spawn in trace.spawned_before.items() if spawn.driver == _DRIVER["external"]}, None
     for tick in trace:
         for command in tick.tick.commands:
             if command.kind == _SPAWN and command.driver == _DRIVER["external"]:

@@ -33,6 +33,12 @@ std::uint32_t find_actor(TraceReader& trace, const std::string& name_or_id) {
     require_kept(trace, "vehicles");
     const std::optional<std::uint32_t> id = id_in(name_or_id);
     std::vector<std::string> names;
+    if (const auto slice = trace.slice())
+        for (const auto& [actor, spawn] : slice->spawns) {
+            if (spawn.command.text == name_or_id)
+                return actor;
+            names.push_back(spawn.command.text);
+        }
     for (std::uint64_t index = trace.first(); index <= trace.last(); ++index) {
         const world::TickView view = trace.recorded(index).view;
         if (id && is_there(view, *id))

@@ -102,15 +102,25 @@ void write_both(const fs::path& folder, const std::string& name, const Bytes& tr
     write_file(folder / (name + ".records"), loose);
 }
 
+/// Whom a slice of later ticks has to know.
+void spawn_somebody(world::TickDraft& draft) {
+    world::CommandT command;
+    command.kind = world::CommandKind::spawn;
+    command.actor = 1;
+    command.text = "ego";
+    draft.tick.commands.push_back(command);
+}
+
 }  // namespace
 
 void write_seeds(const fs::path& folder) {
     fs::create_directories(folder);
     const fs::path made = folder / "made.mcap";
-    for (const SyntheticRun& run : {SyntheticRun{.ticks = 0},
-                                    SyntheticRun{.ticks = 2, .cars = 1},
-                                    SyntheticRun{.ticks = 41, .cars = 2},
-                                    SyntheticRun{.ticks = 66, .cars = 0}}) {
+    for (const SyntheticRun& run :
+         {SyntheticRun{.ticks = 0},
+          SyntheticRun{.ticks = 2, .cars = 1},
+          SyntheticRun{.ticks = 41, .cars = 2},
+          SyntheticRun{.ticks = 66, .cars = 0, .change = at(5, spawn_somebody)}}) {
         write_trace(made, run);
         write_both(folder, "made" + std::to_string(run.ticks), read_file(made));
     }

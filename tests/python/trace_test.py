@@ -11,7 +11,9 @@ import unittest
 
 import numpy as np
 import reprise
+from reprise.nouns import enum
 
+SPAWN = enum("CommandKind")["spawn"]
 PROGRAM, WORK = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
 SOURCE = pathlib.Path(__file__).parents[2]
 
@@ -58,6 +60,10 @@ class TraceTest(unittest.TestCase):
         call("slice", self.path, "--ticks", "70..90", "-o", path)
         part = reprise.Trace(path)
         self.assertEqual((part.first, part.last), (70, 90))
+        spawned = {command.actor: command.text for tick in self.trace for command in tick.tick.commands if command.kind == SPAWN}
+        self.assertTrue(spawned)
+        self.assertEqual({actor: command.text for actor, command in part.spawned_before.items()}, spawned)
+        self.assertEqual(self.trace.spawned_before, {})
         self.assertEqual(part[80].tick.vehicles.tobytes(), self.trace[80].tick.vehicles.tobytes())
 
     def test_outcome_and_scenario_are_those_of_the_run(self):

@@ -8,43 +8,14 @@
 #include "replay/level.h"
 #include "replay/recovery.h"
 #include "replay/trace_writer.h"
-#include "tests/replay/synthetic_run.h"
+#include "tests/replay/sliced_run.h"
 
 namespace reprise::replay {
 namespace {
 
 using testing::HasSubstr;
 
-class Slice : public testing::Test {
-  protected:
-    Slice() { test::write_trace(whole_, {.ticks = 150}); }
-
-    std::filesystem::path cut(std::uint64_t first, std::uint64_t last) {
-        const auto path = folder_ / (std::to_string(first) + ".mcap");
-        TraceReader trace(whole_);
-        slice(trace, first, last, path);
-        return path;
-    }
-
-    std::filesystem::path join(const std::vector<std::filesystem::path>& paths) {
-        std::vector<TraceReader> parts(paths.begin(), paths.end());
-        const auto path = folder_ / "merged.mcap";
-        merge(parts, path);
-        return path;
-    }
-
-    std::filesystem::path join(const std::filesystem::path& earlier,
-                               const std::filesystem::path& later) {
-        return join(std::vector{earlier, later});
-    }
-
-    std::string refusal(const std::filesystem::path& earlier, const std::filesystem::path& later) {
-        return test::error_of([&] { join(earlier, later); });
-    }
-
-    test::Folder folder_;
-    std::filesystem::path whole_ = folder_ / "whole.mcap";
-};
+class Slice : public test::SlicedRun {};
 
 TEST_F(Slice, HoldsTheTicksOfTheTraceByteForByte) {
     TraceReader trace(whole_);
