@@ -80,16 +80,27 @@ function(reprise_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# reprise_room(NAME SOURCES ... ROOMS ... LIBRARIES ...): one static library per folder. LIBRARIES
-# stay private to the room: no third-party type crosses its headers.
+# reprise_room(NAME SOURCES ... SELDOM ... ROOMS ... LIBRARIES ...): one static library per folder. LIBRARIES
+# stay private to the room: no third-party type crosses its headers. SELDOM: those of its sources that
+# neither a tick nor a picture waits for.
 function(reprise_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;SELDOM;ROOMS;LIBRARIES" ${ARGN})
   add_library(${name} STATIC ${ROOM_SOURCES})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                              $<INSTALL_INTERFACE:include/reprise>)
   target_link_libraries(${name} PUBLIC ${ROOM_ROOMS} PRIVATE reprise_build ${ROOM_LIBRARIES})
   reprise_unity(${name})
   reprise_precompiled(${name} world)
+  if(NOT ROOM_SELDOM)
+    return()
+  endif()
+  add_library(${name}_seldom OBJECT ${ROOM_SELDOM})
+  target_include_directories(${name}_seldom PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name}_seldom PRIVATE reprise_build ${ROOM_ROOMS} ${ROOM_LIBRARIES})
+  reprise_seldom_run(${name}_seldom)
+  reprise_unity(${name}_seldom)
+  reprise_precompiled(${name}_seldom world)
+  target_sources(${name} PRIVATE $<TARGET_OBJECTS:${name}_seldom>)
 endfunction()
 
 # reprise_test(NAME [FOREIGN_BYTES] SOURCES ... ROOMS ...): one test program per room. FOREIGN_BYTES: the
