@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 #include <deque>
 #include <poll.h>
@@ -20,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "process/companion.h"
+#include "remote/answer.h"
 #include "remote/door.h"
 #include "remote/frame_channel.h"
 #include "remote/guide.h"
@@ -34,70 +33,13 @@ namespace reprise::remote {
 namespace {
 
 constexpr std::size_t largest_answer = 64 << 10;  // [bytes]
-constexpr std::size_t longest_reason = 300;       // [bytes] of it in ours
-constexpr std::string_view socket_word = "socket:";
-constexpr std::string_view port_word = "tcp:";
 
 bool has_input(int descriptor) {
     pollfd one{descriptor, POLLIN, 0};
     return poll(&one, 1, 0) > 0;
 }
 
-/// What is wrong with a value that a driver said, or "".
-std::string fault_of(const char* name, double value, double low, double high) {
-    if (value >= low && value <= high)
-        return "";
-    return fmt::format("said {} = {} where [{:g}, {:g}] is possible", name, value, low, high);
-}
-
-std::uint16_t port_of(const std::string& digits, const std::string& text) {
-    std::uint16_t port = 0;
-    const char* const end = digits.data() + digits.size();
-    if (const auto read = std::from_chars(digits.data(), end, port);
-        read.ec != std::errc() || read.ptr != end)
-        throw world::Error("--driver " + text +
-                           ": expected tcp:PORT with a port of this machine, 1 to 65535, or 0 for "
-                           "one that is free");
-    return port;
-}
-
-/// What a driver says of itself, for one line of ours.
-std::string shortened(const flatbuffers::String& text) {
-    return text.size() <= longest_reason ? text.str()
-                                         : text.str().substr(0, longest_reason) + " ...";
-}
-
-std::string fault_of(const Control& control, std::uint64_t shown) {
-    if (control.tick() != shown)
-        return fmt::format(
-            "answered tick {} when tick {} was to be answered", control.tick(), shown);
-    for (const std::string& fault : {fault_of("throttle", control.throttle(), 0, 1),
-                                     fault_of("brake", control.brake(), 0, 1),
-                                     fault_of("steer", control.steer(), -1, 1)})
-        if (!fault.empty())
-            return fault;
-    return "";
-}
-
 }  // namespace
-
-SeatPlan parse_seat(const std::string& text) {
-    const auto equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-        throw world::Error("--driver " + text +
-                           ": expected NAME=COMMAND, NAME=socket:PATH or NAME=tcp:PORT");
-    SeatPlan plan{text.substr(0, equals)};
-    const std::string who = text.substr(equals + 1);
-    if (who.starts_with(socket_word))
-        plan.socket = who.substr(socket_word.size());
-    else if (who.starts_with(port_word))
-        plan.port = port_of(who.substr(port_word.size()), text);
-    else
-        plan.command = who;
-    if (plan.command.empty() && plan.socket.empty() && !plan.port)
-        throw world::Error("--driver " + text + ": 'socket:' needs a path");
-    return plan;
-}
 
 struct Seat::Parts {
     SeatPlan plan;

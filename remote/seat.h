@@ -1,31 +1,19 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 
 #include "remote/frame_channel.h"
+#include "remote/seat_plan.h"
 #include "world/recording.h"
 #include "world/tick.h"
 
 namespace reprise::remote {
 
 class Guide;
-
-/// Who is to drive an actor, as the user says it: ego='python3 my_driver.py', which is started, or
-/// ego=socket:PATH or ego=tcp:PORT, where a driver that runs already comes to us.
-struct SeatPlan {
-    std::string actor;
-    std::string command{};                ///< for the shell; empty: it comes to us
-    std::filesystem::path socket{};       ///< a path where nothing is yet
-    std::optional<std::uint16_t> port{};  ///< of this machine; 0: one that is free
-};
-
-/// Throws world::Error, "--driver ego: expected NAME=COMMAND, NAME=socket:PATH or NAME=tcp:PORT".
-SeatPlan parse_seat(const std::string& text);
 
 /// Why a driver drives no longer, in words for people, such as "its program ended with exit code
 /// 1".
