@@ -15,8 +15,8 @@
 ///   metadata    reprise.outcome    how it ended, the last link of the chain, the episode's digest
 ///   the summary (index) that MCAP asks for
 /// Nothing else, and each record in one way only: what differs from it was not written by us.
-/// A slice of a run says so in reprise.run: slice.first_tick, slice.run_ticks, slice.chain_before, and
-/// slice.spawn.ACTOR for each who was there before: see trace_facts.h.
+/// A slice of a run says so in reprise.run: slice.first_tick, slice.run_ticks, slice.chain_before,
+/// and slice.spawn.ACTOR for each who was there before: see trace_facts.h.
 namespace reprise::replay::format {
 
 /// Counted up with every change of this layout or of a schema in world/*.fbs: until 1.0 a trace of
