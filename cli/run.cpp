@@ -26,6 +26,7 @@
 #include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/check_result.h"
+#include "world/crashes.h"
 #include "world/digest.h"
 #include "world/recording.h"
 
@@ -110,35 +111,55 @@ std::span<const world::Control> inputs(replay::TraceReader& before, std::uint64_
     return before.recorded(tick).view.controls();
 }
 
-/// What happened, as it happens: printed lines, collisions, blockages, checks.
-void print_events(const world::TickView& tick, std::uint64_t step_ns, Progress& progress) {
-    for (const world::Event* event : *tick.tick->events()) {
-        std::string text = world::to_line(*event);
-        switch (event->kind()) {
-            case world::EventKind::printed:
-                break;
-            case world::EventKind::collision:
-                text = fmt::format(
-                    "collision of {} with {}, {:.0f} N s",
-                    event->actor(),
-                    event->other() == 0 ? "something fixed" : std::to_string(event->other()),
-                    event->value());
-                break;
-            case world::EventKind::blocked:
-                text = fmt::format("{} is blocked {}", event->actor(), text);
-                break;
-            case world::EventKind::check_failed:
-                if (world::tells_worst(*event))
-                    continue;  // the summary says so
-                text = "check failed: " + text;
-                break;
-            default:
-                continue;
-        }
-        progress.clear();
-        say("{:8.2f} s  {}\n", world::seconds(tick.index(), step_ns), text);
+/// What happened, as it happens: printed lines, blockages, checks; a collision when it is over,
+/// under the time when it began.
+class Commentary {
+  public:
+    Commentary(std::uint64_t step_ns, Progress& progress)
+        : step_ns_(step_ns),
+          progress_(&progress) {}
+
+    void hear(const world::TickView& tick) {
+        for (const world::Crash& crash : crashes_.hear(tick))
+            tell(crash.tick, to_line(crash));
+        for (const world::Event* event : *tick.tick->events())
+            hear(*event, tick.index());
     }
-}
+
+    /// The run has ended before it knew that it would.
+    void end() {
+        for (const world::Crash& crash : crashes_.open())
+            tell(crash.tick, to_line(crash));
+    }
+
+  private:
+    void hear(const world::Event& event, std::uint64_t tick) {
+        const std::string text = world::to_line(event);
+        switch (event.kind()) {
+            case world::EventKind::printed:
+                return tell(tick, text);
+            case world::EventKind::blocked:
+                return tell(
+                    tick,
+                    fmt::format("{} is blocked {}", crashes_.names().name_of(event.actor()), text));
+            case world::EventKind::check_failed:
+                if (!world::tells_worst(event))  // else the summary says so
+                    tell(tick, "check failed: " + text);
+                return;
+            default:
+                return;
+        }
+    }
+
+    void tell(std::uint64_t tick, const std::string& text) {
+        progress_->clear();
+        say("{:8.2f} s  {}\n", world::seconds(tick, step_ns_), text);
+    }
+
+    std::uint64_t step_ns_;
+    Progress* progress_;
+    world::CrashStory crashes_;
+};
 
 const char* word(Check::Status status) {
     switch (status) {
@@ -225,6 +246,7 @@ int run(const RunOptions& options) {
     Seats seats(
         options.drivers, {options.driver_timeout, [&] { return stop.signal() != 0; }}, recording);
     Progress progress("running", "ticks", world::tick_limit(recording.episode));
+    Commentary commentary(recording.episode.step_ns, progress);
     const std::optional<world::Outcome> ended_before = recorded_end(before);
     std::uint64_t index = 0;
     try {
@@ -234,7 +256,7 @@ int run(const RunOptions& options) {
                 kernel.step(before ? inputs(*before, index + 1) : seats.controls());
             ++index;
             trace->append(tick);
-            print_events(tick.view(), recording.episode.step_ns, progress);
+            commentary.hear(tick.view());
             progress.update(index);
             if (!before && stop.signal() == 0) {
                 if (kernel.finished())
@@ -247,6 +269,7 @@ int run(const RunOptions& options) {
         if (stop.signal() == 0)
             throw;  // else it is the signal that counts: nobody reads what we print
     }
+    commentary.end();
     progress.clear();
     say_when_crashing("");
     if (!kernel.finished() && stop.signal() != 0) {

@@ -14,6 +14,8 @@
 #include "foxglove_schemas.h"
 #include "replay/trace_file.h"
 #include "world/check.h"
+#include "world/crashes.h"
+#include "world/wording.h"
 
 namespace reprise::exchange {
 
@@ -42,22 +44,21 @@ LogLevel level_of(world::EventKind kind) {
     }
 }
 
-std::string text_of(const world::Event& event, const Names& names) {
+std::string text_of(const world::Event& event, const world::ActorNames& names) {
     const std::string said = world::to_line(event);
-    const auto name = [&](std::uint32_t id) {
-        const auto found = names.find(id);
-        return id == 0                ? std::string("something fixed")
-               : found == names.end() ? std::to_string(id)
-                                      : found->second;
-    };
     switch (event.kind()) {
         case world::EventKind::printed:
             return said;
         case world::EventKind::collision:
-            return fmt::format("collision of {} with {}, {:.0f} N s",
-                               name(event.actor()),
-                               name(event.other()),
-                               event.value());
+            return fmt::format("collision of {} with {} begins",
+                               names.name_of(event.actor()),
+                               names.name_of(event.other()));
+        case world::EventKind::collision_ended:
+            return fmt::format("collision of {} with {} ended: {} N s, in contact for {:.2f} s",
+                               names.name_of(event.actor()),
+                               names.name_of(event.other()),
+                               world::with_thousands(event.value()),
+                               event.duration());
         default:
             return fmt::format("{}: {}{}",
                                world::EnumNameEventKind(event.kind()),
@@ -191,6 +192,7 @@ class Export {
 
     /// The scenario's actors are known by the names it spawned them with.
     void learn_names(const world::TickView& tick) {
+        all_names_.hear(tick);
         for (const world::Event* event : *tick.tick->events())
             if (event->kind() == world::EventKind::spawned && event->text() != nullptr &&
                 event->actor() < world::first_background_id)
@@ -220,13 +222,14 @@ class Export {
         for (const world::Event* event : *tick.tick->events()) {
             // Background cars come and go all the time.
             if (event->actor() >= world::first_background_id &&
-                event->kind() != world::EventKind::collision)
+                event->kind() != world::EventKind::collision &&
+                event->kind() != world::EventKind::collision_ended)
                 continue;
             put(log,
                 tick.index(),
                 {{"timestamp", time},
                  {"level", static_cast<int>(level_of(event->kind()))},
-                 {"message", text_of(*event, names_)},
+                 {"message", text_of(*event, all_names_)},
                  {"name", "scenario"},
                  {"file", trace_.episode().scenario_path},
                  {"line", event->line()}});
@@ -265,7 +268,8 @@ class Export {
     std::optional<GeoOrigin> origin_;
     replay::TraceFile file_;
     replay::PendingChunk pending_;
-    Names names_;
+    Names names_;                  ///< of the scenario's
+    world::ActorNames all_names_;  ///< of the demand's, too
     FoxgloveExport result_;
 };
 

@@ -116,7 +116,8 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     // 6. measurements: lanes, gaps, footprints, impulses, who is blocked; in the last tick the
     // checks' verdicts
     const std::uint64_t step_ns = parts.episode.step_ns;
-    measure(parts.town, parts.lanes, world::seconds(1, step_ns), last, next);
+    measure(
+        parts.town, parts.lanes, world::seconds(1, step_ns), parts.physics.impacts(), last, next);
     const auto is_under_way = [&](const auto& vehicle) {
         return parts.roster.is_under_way(vehicle);
     };

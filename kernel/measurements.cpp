@@ -91,23 +91,24 @@ struct Impulses {
 
 Impulses impulses_of(std::uint32_t actor,
                      const world::Measurement* before,
+                     std::span<const Impact> impacts,
                      const world::TickDraft& next) {
     Impulses sum;
     if (before != nullptr)
         sum = {before->impulse_vehicles(), before->impulse_walkers(), before->impulse_static()};
-    for (const world::EventT& event : next.tick.events) {
-        if (event.kind != world::EventKind::collision || event.actor != actor)
+    for (const Impact& impact : impacts) {
+        if (impact.actor != actor)
             continue;
-        const bool walker =
-            std::any_of(next.traffic.walkers.begin(),
-                        next.traffic.walkers.end(),
-                        [&](const world::WalkerState& state) { return state.id() == event.other; });
+        const bool walker = std::any_of(
+            next.traffic.walkers.begin(),
+            next.traffic.walkers.end(),
+            [&](const world::WalkerState& state) { return state.id() == impact.other; });
         const bool prop = std::any_of(
             next.tick.props.begin(), next.tick.props.end(), [&](const world::PropState& state) {
-                return state.id() == event.other;
+                return state.id() == impact.other;
             });
-        const bool fixed = event.other == 0 || prop;
-        (fixed ? sum.fixed : walker ? sum.walkers : sum.vehicles) += event.value;
+        const bool fixed = impact.other == 0 || prop;
+        (fixed ? sum.fixed : walker ? sum.walkers : sum.vehicles) += impact.impulse;
     }
     return sum;
 }
@@ -117,6 +118,7 @@ Impulses impulses_of(std::uint32_t actor,
 void measure(const world::TownT& town,
              const world::LaneMap& lanes,
              double step_seconds,
+             std::span<const Impact> impacts,
              const world::TickView& last,
              world::TickDraft& next) {
     for (const world::VehicleState& vehicle : next.tick.vehicles) {
@@ -131,16 +133,16 @@ void measure(const world::TownT& town,
         const auto lane =
             lanes.best(pose_world_vehicle.translation(), std::atan2(ahead.y(), ahead.x()));
         const FootprintShares shares = footprint_shares(town, lanes, model, pose_world_vehicle);
-        const Impulses impulses = impulses_of(vehicle.id(), before, next);
+        const Impulses sums = impulses_of(vehicle.id(), before, impacts, next);
         next.tick.measurements.emplace_back(speed,
                                             acceleration,
                                             lane ? lane->at.s : 0.0,
                                             lane ? lane->at.t : 0.0,
                                             shares.opposite_lane,
                                             shares.sidewalk,
-                                            impulses.vehicles,
-                                            impulses.walkers,
-                                            impulses.fixed,
+                                            sums.vehicles,
+                                            sums.walkers,
+                                            sums.fixed,
                                             nearest_ahead(vehicle, next).gap,
                                             vehicle.id(),
                                             lane ? lane->lane : world::none,

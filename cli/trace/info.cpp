@@ -18,6 +18,7 @@
 #include "world/digest.h"
 #include "world/printable.h"
 #include "world/tick.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -141,6 +142,7 @@ struct Screen {
             row("events", "in so many ticks told by `reprise info --long` only, failed checks too");
             return;
         }
+        print_crashes();
         const char* key = "events";
         for (const TraceStory::Kind& kind : story.kinds) {
             row(key, fmt::format("{} {}", kind.count, kind.name));
@@ -149,6 +151,24 @@ struct Screen {
                 row("", fmt::format("  {:>9}  {}", time(kind.last), kind.last_text));
             key = "";
         }
+    }
+
+    /// One line for all crashes of the same two.
+    void print_crashes() const {
+        constexpr std::size_t most = 12;
+        const auto& crashes = story.crashes;
+        for (std::size_t i = 0; i < std::min(most, crashes.size()); ++i) {
+            const TraceStory::Crashes& all = crashes[i];
+            std::string line = fmt::format("{:>9}  {}", time(all.worst.tick), to_line(all.worst));
+            if (all.count > 1)
+                line += fmt::format(
+                    "; the worst of {} from {} to {}", all.count, time(all.first), time(all.last));
+            row(i == 0 ? "crashes" : "", line);
+        }
+        if (crashes.size() > most)
+            row("",
+                fmt::format(
+                    "{:>9}  {} of others", "", world::count_of(crashes.size() - most, "pair")));
     }
 
     void print_actors() const {
@@ -231,6 +251,7 @@ using Json = nlohmann::ordered_json;
 Json json_of(const TraceStory& story) {
     Json out{{"whole", story.whole},
              {"checks", Json::array()},
+             {"crashes", Json::array()},
              {"kinds", Json::array()},
              {"actors", Json::array()},
              {"cars", story.cars},
@@ -247,6 +268,16 @@ Json json_of(const TraceStory& story) {
                                 {"last_tick", std::to_string(kind.last)},
                                 {"first", kind.first_text},
                                 {"last", kind.last_text}});
+    for (const TraceStory::Crashes& crashes : story.crashes)
+        out["crashes"].push_back({{"actor", crashes.worst.actor},
+                                  {"other", crashes.worst.other},
+                                  {"count", std::to_string(crashes.count)},
+                                  {"first_tick", std::to_string(crashes.first)},
+                                  {"last_tick", std::to_string(crashes.last)},
+                                  {"worst_tick", std::to_string(crashes.worst.tick)},
+                                  {"worst_impulse", crashes.worst.impulse},
+                                  {"worst_duration", crashes.worst.duration},
+                                  {"worst", to_line(crashes.worst)}});
     for (const TraceStory::Actor& actor : story.actors)
         out["actors"].push_back({{"id", actor.id}, {"name", actor.name}});
     return out;

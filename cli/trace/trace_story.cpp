@@ -17,6 +17,24 @@ class Teller {
   public:
     TraceStory story;
 
+    void hear(const world::TickView& tick) {
+        for (world::Crash& crash : heard_.hear(tick))
+            add(std::move(crash));
+        for (const world::Event* event : *tick.tick->events())
+            hear(*event, tick.index());
+    }
+
+    /// Of contacts that never ended, such as those of an imported log, too.
+    void end() {
+        for (const world::Crash& crash : heard_.open())
+            add(crash);
+        std::stable_sort(
+            story.crashes.begin(), story.crashes.end(), [](const auto& one, const auto& other) {
+                return one.first < other.first;
+            });
+    }
+
+  private:
     void hear(const world::Event& event, std::uint64_t tick) {
         switch (event.kind()) {
             case world::EventKind::spawned:
@@ -24,6 +42,8 @@ class Teller {
                     story.actors.push_back({event.actor(), world::to_line(event)});
                 return;
             case world::EventKind::despawned:
+            case world::EventKind::collision:  // a crash
+            case world::EventKind::collision_ended:
             case world::EventKind::finished:  // the outcome says so
                 return;
             case world::EventKind::check_passed:
@@ -40,7 +60,20 @@ class Teller {
         }
     }
 
-  private:
+    void add(world::Crash crash) {
+        auto same =
+            std::find_if(story.crashes.begin(), story.crashes.end(), [&](const auto& known) {
+                return known.worst.actor == crash.actor && known.worst.other == crash.other;
+            });
+        if (same == story.crashes.end())
+            same = story.crashes.insert(same, {0, crash, crash.tick, crash.tick});
+        ++same->count;
+        same->first = std::min(same->first, crash.tick);
+        same->last = std::max(same->last, crash.tick);
+        if (crash.impulse > same->worst.impulse)
+            same->worst = std::move(crash);
+    }
+
     /// What tells how bad it became belongs to the failure, where that was read.
     void hear_failure(const world::Event& event, std::uint64_t tick) {
         if (world::tells_worst(event))
@@ -67,20 +100,9 @@ class Teller {
 
     std::string describe(const world::Event& event) const {
         if (event.kind() == world::EventKind::blocked)
-            return fmt::format("{} {}", name_of(event.actor()), world::to_line(event));
-        if (event.kind() != world::EventKind::collision)
-            return world::to_line(event);
-        return fmt::format("{} with {}, {:.0f} N s",
-                           name_of(event.actor()),
-                           event.other() == 0 ? "something fixed" : name_of(event.other()),
-                           event.value());
-    }
-
-    std::string name_of(std::uint32_t actor) const {
-        for (const TraceStory::Actor& known : story.actors)
-            if (known.id == actor)
-                return fmt::format("{} ({})", known.name, actor);
-        return fmt::format("actor {}", actor);
+            return fmt::format(
+                "{} {}", heard_.names().name_of(event.actor()), world::to_line(event));
+        return world::to_line(event);
     }
 
     struct Failed {
@@ -89,6 +111,7 @@ class Teller {
     };
 
     std::vector<Failed> failed_;
+    world::CrashStory heard_;
 };
 
 }  // namespace
@@ -101,13 +124,13 @@ TraceStory read_story(replay::TraceReader& trace, bool all) {
     for (std::uint64_t index = first; index <= trace.last(); ++index) {
         if (!teller.story.whole && index == first + chunk)
             index = trace.last() - chunk + 1;
-        const world::Tick& tick = *trace.recorded(index).view.tick;
-        if (tick.events() == nullptr)  // the trace's level leaves them out
+        const world::TickView tick = trace.recorded(index).view;
+        if (tick.tick->events() == nullptr)  // the trace's level leaves them out
             break;
-        teller.story.told.hear(tick);
-        for (const world::Event* event : *tick.events())
-            teller.hear(*event, index);
+        teller.story.told.hear(*tick.tick);
+        teller.hear(tick);
     }
+    teller.end();
     const bool has_traffic = ticks > 0 && trace.level() == replay::Level::full;
     if (has_traffic) {
         const world::TickView last = trace.recorded(trace.last()).view;

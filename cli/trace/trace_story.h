@@ -6,6 +6,7 @@
 
 #include "replay/outcomes.h"
 #include "replay/trace_reader.h"
+#include "world/crashes.h"
 
 namespace reprise::cli {
 
@@ -13,11 +14,11 @@ namespace reprise::cli {
 struct TraceStory {
     /// Events of one kind.
     struct Kind {
-        std::string name;  ///< such as collision
+        std::string name;  ///< such as printed
         std::uint64_t count = 0;
         std::uint64_t first = 0;  ///< tick
         std::uint64_t last = 0;
-        std::string first_text;  ///< "ego (1) with van (2), 12246 N s"; a printed line
+        std::string first_text;  ///< "ego since 12.30 s, ..."; a printed line
         std::string last_text;
     };
 
@@ -33,8 +34,17 @@ struct TraceStory {
         std::string name;
     };
 
+    /// Those of the same two, in the order of their first one.
+    struct Crashes {
+        std::uint64_t count = 0;
+        world::Crash worst;
+        std::uint64_t first = 0;  ///< tick
+        std::uint64_t last = 0;   ///< tick of the begin of the last one
+    };
+
     bool whole = false;       ///< false: only the first and the last chunk were read
-    std::vector<Kind> kinds;  ///< in the order of their first event; no checks and spawns
+    std::vector<Kind> kinds;  ///< in the order of their first event; no checks, spawns, crashes
+    std::vector<Crashes> crashes;
     std::vector<Check> checks;
     std::vector<Actor> actors;  ///< of the scenario
     std::uint64_t cars = 0;     ///< of the demand, in the last tick

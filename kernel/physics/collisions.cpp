@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "world/tick.h"
+
 namespace reprise::kernel {
 
 Collisions::Pair& Collisions::pair(std::uint32_t actor, std::uint32_t other, bool ground) {
@@ -13,7 +15,7 @@ Collisions::Pair& Collisions::pair(std::uint32_t actor, std::uint32_t other, boo
             return key_of(p) < k;
         });
     if (at == pairs_.end() || key_of(*at) != key)
-        at = pairs_.insert(at, {actor, other, ground, false, 0, 0, btVector3(0, 0, 0)});
+        at = pairs_.insert(at, {actor, other, ground, false, false, 0, 0, btVector3(0, 0, 0)});
     return *at;
 }
 
@@ -41,6 +43,8 @@ void Collisions::gather(const btDispatcher& dispatcher) {
                 continue;
             Pair& both = pair(actor_of(self), actor_of(other), other.getUserIndex() == ground_body);
             both.impulse += sum;
+            both.mirrored =
+                other.getUserIndex() == vehicle_body && actor_of(other) < actor_of(self);
             if (point.m_appliedImpulse > both.strongest) {
                 both.strongest = point.m_appliedImpulse;
                 both.position = side == 0 ? point.m_positionWorldOnA : point.m_positionWorldOnB;
@@ -62,31 +66,94 @@ void Collisions::add(std::uint32_t actor,
     }
 }
 
-void Collisions::write(std::vector<world::EventT>& events) const {
+/// The pairs that touch in this tick. Ground and obstacles are both the static world: they follow
+/// each other in the order, and become one.
+std::vector<Collisions::Pair> Collisions::touches() const {
     const auto counts = [](const Pair& pair) {
         return pair.always || pair.impulse >= (pair.ground ? least_ground_impulse : least_impulse);
     };
+    std::vector<Pair> touches;
     for (auto pair = pairs_.begin(); pair != pairs_.end(); ++pair) {
         Pair both = *pair;
-        bool is_event = counts(both);
-        // Ground and obstacles are both the static world: they follow each other in the order.
+        bool is_touch = counts(both);
         const auto next = pair + 1;
         if (next != pairs_.end() && next->actor == both.actor && next->other == both.other) {
-            is_event = is_event || counts(*next);
+            is_touch = is_touch || counts(*next);
             both.impulse += next->impulse;
             if (next->strongest > both.strongest)
                 both.position = next->position;
             pair = next;
         }
-        if (!is_event)
+        if (is_touch)
+            touches.push_back(both);
+    }
+    return touches;
+}
+
+void Collisions::write(std::uint64_t tick, bool is_last, std::vector<world::EventT>& events) {
+    const std::uint64_t gap = (longest_gap_ns + step_ns_ - 1) / step_ns_;
+    end(events, [&](const Contact& contact) { return tick - contact.last >= gap; });
+    impacts_.clear();
+    for (const Pair& pair : touches()) {
+        impacts_.push_back({pair.actor, pair.other, pair.impulse});
+        if (!pair.mirrored)
+            touch(pair, tick, events);
+    }
+    if (is_last)
+        end(events, [](const Contact&) { return true; });
+}
+
+/// A contact begins or goes on.
+void Collisions::touch(const Pair& pair, std::uint64_t tick, std::vector<world::EventT>& events) {
+    const auto key_of = [](const auto& item) { return std::make_tuple(item.actor, item.other); };
+    const auto at = std::lower_bound(
+        contacts_.begin(), contacts_.end(), pair, [&](const Contact& contact, const Pair& wanted) {
+            return key_of(contact) < key_of(wanted);
+        });
+    if (at != contacts_.end() && key_of(*at) == key_of(pair)) {
+        at->last = tick;
+        if (pair.impulse > at->worst) {
+            at->worst = pair.impulse;
+            at->place = to_vec3(pair.position);
+        }
+        return;
+    }
+    const world::Vec3 place = to_vec3(pair.position);
+    contacts_.insert(at, {pair.actor, pair.other, tick, tick, pair.impulse, place});
+    world::EventT event;
+    event.kind = world::EventKind::collision;
+    event.actor = pair.actor;
+    event.other = pair.other;
+    event.position = place;
+    event.value = pair.impulse;
+    events.push_back(event);
+}
+
+template <typename Ends>
+void Collisions::end(std::vector<world::EventT>& events, Ends ends) {
+    for (const Contact& contact : contacts_) {
+        if (!ends(contact))
             continue;
         world::EventT event;
-        event.kind = world::EventKind::collision;
-        event.actor = both.actor;
-        event.other = both.other;
-        event.position = to_vec3(both.position);
-        event.value = both.impulse;
+        event.kind = world::EventKind::collision_ended;
+        event.actor = contact.actor;
+        event.other = contact.other;
+        event.position = contact.place;
+        event.value = contact.worst;
+        event.duration = world::seconds(contact.last - contact.first + 1, step_ns_);
         events.push_back(event);
+    }
+    std::erase_if(contacts_, ends);
+}
+
+void Collisions::add_to(world::Hasher& hasher) const {
+    for (const Contact& contact : contacts_) {
+        hasher.add(contact.actor);
+        hasher.add(contact.other);
+        hasher.add(contact.first);
+        hasher.add(contact.last);
+        hasher.add(contact.worst);
+        hasher.add(contact.place);
     }
 }
 

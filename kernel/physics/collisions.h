@@ -1,27 +1,35 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kernel/physics/bullet.h"
+#include "kernel/physics/impact.h"
+#include "world/digest.h"
 #include "world/tick_generated.h"
 
 namespace reprise::kernel {
 
-/// Sums up the contact impulses of a tick and makes events of them.
+/// Sums up the contact impulses of a tick, and makes two events of a contact: `collision` in its
+/// first tick, `collision_ended` when it has been over for half a second, or with the run.
 ///
-/// One event for each ordered pair (actor with mass, other) and tick: two vehicles with mass that
-/// hit each other make two, so that everyone finds his own under `actor`. `other` is 0 for the
-/// static world. value: sum over the tick's substeps of the normal impulses [N s]; position: the
-/// contact point with the largest. Wheels are rays and make none.
+/// One contact for each pair of an actor with mass and another actor, or the static world (`other`
+/// is 0); of two with mass, `actor` is the one with the lower id. Touches with gaps of less than
+/// half a second belong together. collision: value is the impulse of that tick [N s], position the
+/// contact point with the largest. collision_ended: value and position are those of the worst tick,
+/// duration [s] is from the first touch to the last. Wheels are rays and touch nothing.
 ///
-/// Not events: less than 20 N s in a tick (a touch that goes on, 1.5 ton at 1 cm/s); against the
-/// ground less than 200 N s (a bumper that scrapes over a kerb). Ground and obstacles together are
-/// one event, of all their impulses, when either of them is one.
+/// No touch: less than 20 N s in a tick (1.5 ton at 1 cm/s); against the ground less than 200 N s
+/// (a bumper that scrapes over a kerb). Ground and obstacles together are one touch, of all their
+/// impulses, when either of them is one.
 class Collisions {
   public:
     static constexpr double least_impulse = 20;
     static constexpr double least_ground_impulse = 200;
+    static constexpr std::uint64_t longest_gap_ns = 500'000'000;
+
+    explicit Collisions(std::uint64_t step_ns) : step_ns_(step_ns) {}
 
     /// A new tick.
     void clear() { pairs_.clear(); }
@@ -29,26 +37,50 @@ class Collisions {
     /// After each substep: what Bullet's solver applied.
     void gather(const btDispatcher& dispatcher);
 
-    /// For impulses that do not come from Bullet, and are events whatever their size.
+    /// For impulses that do not come from Bullet, and are touches whatever their size.
     void add(std::uint32_t actor, std::uint32_t other, double impulse, const btVector3& position);
 
-    /// Appends the events, sorted by (actor, other).
-    void write(std::vector<world::EventT>& events) const;
+    /// Ends the tick: appends the events of contacts that end, then of those that begin, each
+    /// sorted by (actor, other). In the run's last tick all end.
+    void write(std::uint64_t tick, bool is_last, std::vector<world::EventT>& events);
+
+    /// The tick's touches, sorted by (actor, other); valid until the next one. After write().
+    std::span<const Impact> impacts() const { return impacts_; }
+
+    /// The contacts that go on; nothing where there is none.
+    void add_to(world::Hasher& hasher) const;
 
   private:
     struct Pair {
         std::uint32_t actor = 0;
         std::uint32_t other = 0;
         bool ground = false;
-        bool always = false;  ///< an event even if small
+        bool always = false;    ///< a touch even if small
+        bool mirrored = false;  ///< the same as the pair of its other, whose id is lower
         double impulse = 0;
         double strongest = 0;
         btVector3 position;  ///< of the strongest
     };
 
-    Pair& pair(std::uint32_t actor, std::uint32_t other, bool ground);
+    struct Contact {
+        std::uint32_t actor = 0;
+        std::uint32_t other = 0;
+        std::uint64_t first = 0;  ///< tick
+        std::uint64_t last = 0;   ///< tick
+        double worst = 0;         ///< [N s] of a tick
+        world::Vec3 place;        ///< of the worst
+    };
 
+    Pair& pair(std::uint32_t actor, std::uint32_t other, bool ground);
+    std::vector<Pair> touches() const;
+    void touch(const Pair& pair, std::uint64_t tick, std::vector<world::EventT>& events);
+    template <typename Ends>
+    void end(std::vector<world::EventT>& events, Ends ends);
+
+    std::uint64_t step_ns_;
     std::vector<Pair> pairs_;  ///< sorted by (actor, other, ground)
+    std::vector<Impact> impacts_;
+    std::vector<Contact> contacts_;  ///< that go on; sorted by (actor, other)
 };
 
 }  // namespace reprise::kernel

@@ -115,6 +115,7 @@ struct Physics::World {
           obstacles(standing, bullet.world),
           cars(bullet.world),
           props(bullet.world),
+          collisions(episode.step_ns),
           doors(bullet.world) {
         REPRISE_CHECK(substeps >= 1, std::to_string(substeps) + " substeps");
     }
@@ -266,7 +267,11 @@ void Physics::World::write(world::TickT& tick) {
     }
     tick.props.clear();
     props.write(tick.props);
-    collisions.write(tick.events);
+    const bool is_last =
+        std::any_of(tick.events.begin(), tick.events.end(), [](const world::EventT& event) {
+            return event.kind == world::EventKind::finished;
+        });
+    collisions.write(tick.index, is_last, tick.events);
 }
 
 void Physics::nudge(std::uint32_t id, std::string_view field, std::int64_t units) {
@@ -274,6 +279,10 @@ void Physics::nudge(std::uint32_t id, std::string_view field, std::int64_t units
     REPRISE_CHECK(place != world_->vehicles.end() && (*place)->id() == id,
                   "vehicle " + std::to_string(id));
     (*place)->nudge(field, units);
+}
+
+std::span<const Impact> Physics::impacts() const {
+    return world_->collisions.impacts();
 }
 
 std::uint64_t Physics::digest() const {
@@ -287,6 +296,7 @@ std::uint64_t Physics::digest() const {
     w.walkers.add_to(hasher);
     w.props.add_to(hasher);
     w.doors.add_to(hasher);
+    w.collisions.add_to(hasher);
     add_order(hasher, w.bullet.world);
     add_manifolds(hasher, w.bullet.dispatcher);
     return hasher.digest64();

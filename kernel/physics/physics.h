@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "ground/mesh/ground.h"
+#include "kernel/physics/impact.h"
 #include "world/episode_generated.h"
 #include "world/obstacle.h"
 #include "world/tick.h"
@@ -49,16 +50,19 @@ class Physics {
 
     /// Stage 5. Applies next.tick.controls, moves the kinematic bodies from `last` to `next` in
     /// equal substeps, steps Bullet, and writes next.tick.vehicles, wheels and props (sorted) and
-    /// collision events (sorted by actor, other; one a pair and tick, with the summed impulse).
+    /// the events of collisions that begin and end.
     void advance(const world::TickView& last, world::TickDraft& next);
+
+    /// What hit whom in the tick of the last advance(); sorted by (actor, other).
+    std::span<const Impact> impacts() const;
 
     /// A drill's: moves what lies behind a recorded number of a vehicle or of its wheels by so many
     /// units in the last place.
     void nudge(std::uint32_t id, std::string_view field, std::int64_t units);
 
-    /// Of all bodies' transforms and velocities, their order in Bullet, wheels, and contacts with
-    /// the impulses kept for warm starting. Bullet's trees of bounding boxes are not read: they
-    /// find the same pairs in any shape, and pairs are sorted.
+    /// Of all bodies' transforms and velocities, their order in Bullet, wheels, contacts with the
+    /// impulses kept for warm starting, and collisions that go on. Bullet's trees of bounding boxes
+    /// are not read: they find the same pairs in any shape, and pairs are sorted.
     std::uint64_t digest() const;
 
   private:

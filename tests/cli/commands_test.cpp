@@ -123,13 +123,15 @@ TEST_F(InfoOfACrash, TellsARunOnOneScreen) {
                             "            failed  hit the van: it happened, at 2.25 s; worst 1.15 s "
                             "in all, until 3.30 s\n",
                             "            passed  hit the child\n",
-                            " collision\n",
+                            " printed\n",
                             "  actors    ego (1), van (2), other (4), child (3), ",
                             "  again     reprise run ",
                             "crash.mcap\n"})
         EXPECT_THAT(info.out, HasSubstr(row));
-    EXPECT_THAT(info.out,
-                testing::ContainsRegex("  2.20 s  ego \\(1\\) with van \\(2\\), [0-9]+ N s"));
+    EXPECT_THAT(
+        info.out,
+        testing::ContainsRegex("crashes      2.20 s  ego hits van at [0-9.]+ m/s: [0-9,]+ N s, in "
+                               "contact for [0-9.]+ s; the worst of 2 "));
     EXPECT_THAT(info.out, testing::ContainsRegex("  chain     [0-9a-f]{32}\n"));
     EXPECT_THAT(info.out, Not(HasSubstr("\033")));  // colours are for terminals
     EXPECT_THAT(info.out, Not(HasSubstr("libsumocpp")));

@@ -25,7 +25,7 @@ class Road {
             next.traffic.cars = cars;
             next.traffic.walkers = walkers;
             next.tick.signals = {signal};
-            measure(town_, lanes_, 0.05, last_.view(), next);
+            measure(town_, lanes_, 0.05, {}, last_.view(), next);
             note_blockages(
                 town_, step, [&](const auto&) { return under_way; }, last_.view(), next);
             for (const world::EventT& event : next.tick.events) {

@@ -56,7 +56,7 @@ TEST(Doors, SwingOpenAndShutAtAPersonsPace) {
 
 TEST(Doors, StopWhoComesTooClose) {
     EXPECT_EQ(hits(play(beside("manual", ""), 10)), 0) << "shut it leaves room";
-    EXPECT_GT(hits(play(beside("manual", "parked:set_doors{ front_left = true }"), 10)), 100);
+    EXPECT_GT(hits(play(beside("manual", "parked:set_doors{ front_left = true }"), 10)), 20);
 }
 
 TEST(Doors, OfACarWithMassDoNotPushIt) {

@@ -22,7 +22,7 @@ world::Measurement measured(const std::vector<world::VehicleState>& vehicles,
     world::TickDraft next;
     next.tick.vehicles = vehicles;
     next.traffic.cars = cars;
-    measure(town, lanes, 0.05, last.view(), next);
+    measure(town, lanes, 0.05, {}, last.view(), next);
     return next.tick.measurements.at(0);
 }
 

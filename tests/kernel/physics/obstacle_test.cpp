@@ -17,9 +17,8 @@ double impulse_in(const world::TownT& town, double y = 0) {
     double impulse = 0;
     for (int tick = 0; tick < 60; ++tick) {
         ground.step(test::coasting());
-        for (const world::EventT& event : ground.tick().tick.events)
-            if (event.kind == world::EventKind::collision)
-                impulse += event.value;
+        for (const kernel::Impact& impact : ground.physics().impacts())
+            impulse += impact.impulse;
     }
     return impulse;
 }

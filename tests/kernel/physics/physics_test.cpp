@@ -50,15 +50,15 @@ Eigen::Vector3d velocity_of_mass(const world::VehicleState& state) {
     return world::to_eigen(state.velocity()) + world::to_eigen(state.angular_velocity()).cross(arm);
 }
 
-/// Drives the sedan freely for some ticks; sums what the events say about `other`.
+/// Drives the sedan freely for some ticks; sums the impulses, which are all from `other`.
 double impulse_against(ProvingGround& ground, std::uint32_t other, int ticks) {
     double sum = 0;
     for (int tick = 0; tick < ticks; ++tick) {
         ground.step(coasting());
-        for (const world::EventT& event : collisions(ground)) {
-            EXPECT_EQ(event.actor, 1u);
-            EXPECT_EQ(event.other, other);
-            sum += event.value;
+        for (const kernel::Impact& impact : ground.physics().impacts()) {
+            EXPECT_EQ(impact.actor, 1u);
+            EXPECT_EQ(impact.other, other);
+            sum += impact.impulse;
         }
     }
     return sum;
@@ -181,7 +181,7 @@ TEST(Physics, EqualInputsGiveEqualDigestsInEveryTick) {
         other.step(tick);
         ASSERT_EQ(one.ground.physics().digest(), other.ground.physics().digest()) << tick;
         ASSERT_EQ(one.ground.tick().tick, other.ground.tick().tick) << tick;
-        hits += collisions(one.ground).size();
+        hits += one.ground.physics().impacts().size();
     }
     EXPECT_GT(hits, 2u);
 }
@@ -258,11 +258,17 @@ TEST(Physics, TwoVehiclesWithMassKeepTheirMomentumAndEachFindsTheHit) {
     ground.physics().add_vehicle(4, 0, world::pose({12, 0, 0}, 0, 0), 0);
     double of_one = 0;
     double of_four = 0;
+    int begun = 0;
     for (int tick = 0; tick < 20; ++tick) {
         ground.step(coasting());
-        for (const world::EventT& event : collisions(ground))
-            (event.actor == 1 ? of_one : of_four) += event.value;
+        for (const kernel::Impact& impact : ground.physics().impacts())
+            (impact.actor == 1 ? of_one : of_four) += impact.impulse;
+        for (const world::EventT& event : collisions(ground)) {
+            EXPECT_EQ(std::pair(event.actor, event.other), std::pair(1u, 4u));
+            ++begun;
+        }
     }
+    EXPECT_EQ(begun, 1) << "one for both";
     EXPECT_GT(of_one, 1000);
     EXPECT_DOUBLE_EQ(of_one, of_four);
     const auto& vehicles = ground.tick().tick.vehicles;

@@ -1,0 +1,39 @@
+#include "world/wording.h"
+
+#include <fmt/format.h>
+
+namespace reprise::world {
+
+std::string count_of(std::uint64_t count, std::string_view word, std::string_view plural) {
+    if (count == 1)
+        return fmt::format("1 {}", word);
+    return plural.empty() ? fmt::format("{} {}s", count, word)
+                          : fmt::format("{} {}", count, plural);
+}
+
+std::string with_article(std::string_view noun) {
+    constexpr std::string_view vowels = "aeiouAEIOU";
+    const bool is_vowel = !noun.empty() && vowels.find(noun.front()) != std::string_view::npos;
+    return fmt::format("{} {}", is_vowel ? "an" : "a", noun);
+}
+
+std::string with_thousands(double value) {
+    const std::string digits = with_decimals(value, 0);
+    const std::size_t first = digits.starts_with('-') ? 1 : 0;
+    std::string text;
+    for (std::size_t at = 0; at < digits.size(); ++at) {
+        if (at > first && (digits.size() - at) % 3 == 0)
+            text += ',';
+        text += digits[at];
+    }
+    return text;
+}
+
+std::string with_decimals(double value, int decimals) {
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos)
+        text.erase(0, 1);
+    return text;
+}
+
+}  // namespace reprise::world
