@@ -11,7 +11,7 @@ struct CheckResult {
 
     std::string name;
     Status status = Status::not_evaluated;
-    std::uint64_t tick = 0;  ///< of the first failure
+    std::uint64_t tick = 0;  ///< that records the first failure: the one after that it happened in
     std::string detail;
     std::string worst;  ///< of a failed one, how bad it became: "worst 9.5 at 4.55 s"; may be empty
     std::uint32_t line = 0;  ///< of the script

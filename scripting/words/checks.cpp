@@ -200,6 +200,7 @@ void Checks::fail(StepContext& context, Entry& entry, double value, const std::s
     entry.decided = true;
     entry.status = Status::fail;
     entry.tick = context.now();
+    entry.recorded_in = context.next->tick.index;
     entry.detail = detail;
     context.next->tick.events.push_back(
         event(world::EventKind::check_failed, entry.name, detail, value, entry.line));
@@ -272,7 +273,7 @@ std::vector<world::CheckResult> Checks::results() const {
     std::vector<world::CheckResult> results;
     for (const Entry& entry : entries_)
         results.push_back(
-            {entry.name, entry.status, entry.tick, entry.detail, entry.worst, entry.line});
+            {entry.name, entry.status, entry.recorded_in, entry.detail, entry.worst, entry.line});
     return results;
 }
 

@@ -58,7 +58,8 @@ class Checks {
         std::uint64_t last_bad_tick = 0;  ///< of them
         bool decided = false;
         world::CheckResult::Status status = world::CheckResult::Status::not_evaluated;
-        std::uint64_t tick = 0;  ///< of the failure
+        std::uint64_t tick = 0;         ///< that it failed in
+        std::uint64_t recorded_in = 0;  ///< the tick that holds the event of that
         std::string detail;
         std::string worst;  ///< said at the end
     };
