@@ -31,6 +31,7 @@
 #include "world/check.h"
 #include "world/external_drivers.h"
 #include "world/printable.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -188,9 +189,9 @@ int report(const WhatIf& what_if, const process::CopyResult& result) {
     }
     const replay::TraceReader trace(what_if.output);
     const world::Outcome& outcome = trace.outcome();
-    say("{}: {} ticks, {} from tick {} on; {}: {}\n",
+    say("{}: {}, {} from tick {} on; {}: {}\n",
         what_if.output.string(),
-        trace.ticks(),
+        world::count_of(trace.ticks(), "tick"),
         what_if.branch.name,
         what_if.branch.tick + 1,
         outcome.verdict,

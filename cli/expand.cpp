@@ -11,6 +11,7 @@
 #include "kernel/verify.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -34,9 +35,9 @@ int expand(const ExpandOptions& options) {
     if (divergence)
         return report_difference(options.trace, trace, *divergence, "; nothing was written");
     full.close(trace.outcome());
-    say("{}: {} ticks, equal to those of {} ({:.2f} s)\n",
+    say("{}: {}, equal to those of {} ({:.2f} s)\n",
         options.output,
-        trace.ticks(),
+        world::count_of(trace.ticks(), "tick"),
         options.trace,
         progress.seconds());
     return exit_good;

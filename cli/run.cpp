@@ -29,6 +29,7 @@
 #include "world/crashes.h"
 #include "world/digest.h"
 #include "world/recording.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -196,9 +197,9 @@ void print_summary(const world::Recording& recording,
         simulated,
         wall_seconds,
         simulated / std::max(wall_seconds, 1e-9));
-    say("{}: {} ticks, {:.2f} MB\n",
+    say("{}: {}, {:.2f} MB\n",
         path.string(),
-        outcome.ticks,
+        world::count_of(outcome.ticks, "tick"),
         static_cast<double>(fs::file_size(path)) / 1e6);
 }
 

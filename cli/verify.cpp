@@ -11,6 +11,7 @@
 #include "replay/trace_format.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -53,9 +54,9 @@ int verify(const VerifyOptions& options) {
     progress.clear();
     if (divergence)
         return report_difference(options.trace, trace, *divergence, "");
-    say("{}: equal at every one of {} ticks, chain {} ({:.2f} s)\n",
+    say("{}: equal at every one of {}, chain {} ({:.2f} s)\n",
         options.trace,
-        trace.ticks(),
+        world::count_of(trace.ticks(), "tick"),
         trace.ticks() == 0 ? "-" : world::to_hex(trace.chain(trace.last())),
         progress.seconds());
     if (const std::string what = unseen(trace); !what.empty())

@@ -12,6 +12,7 @@
 #include "remote/schema.h"
 #include "remote/shared_memory.h"
 #include "world/check.h"
+#include "world/wording.h"
 
 namespace reprise::remote {
 
@@ -47,7 +48,7 @@ void unpack(const flatbuffers::Vector<std::uint8_t>* bytes, Object& object, cons
     flatbuffers::Verifier verifier(bytes == nullptr ? nullptr : bytes->data(),
                                    bytes == nullptr ? 0 : bytes->size());
     if (bytes == nullptr || !verifier.VerifyBuffer<Table>(nullptr))
-        throw world::Error(fmt::format("the run said hello without a {}", what));
+        throw world::Error(fmt::format("the run said hello without {}", world::with_article(what)));
     flatbuffers::GetRoot<Table>(bytes->data())->UnPackTo(&object);
 }
 

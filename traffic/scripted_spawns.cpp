@@ -10,6 +10,7 @@
 #include "traffic/orders.h"
 #include "world/check.h"
 #include "world/models/vehicle_classes.h"
+#include "world/wording.h"
 
 namespace reprise::traffic {
 
@@ -54,7 +55,7 @@ InsertionPoint ScriptedSpawns::point_of(const world::CommandT& command,
                            40};
     const auto found = points_->find(points_->occupied(cars.all(), last, next), search);
     if (!found)
-        fail_spawn(*episode_, command, fmt::format("no free place for a {}", model.name));
+        fail_spawn(*episode_, command, "no free place for " + world::with_article(model.name));
     return *found;
 }
 

@@ -1,5 +1,7 @@
 #include "cli/fingerprint/other_build.h"
 
+#include <algorithm>
+
 #include "cli/process/say.h"
 
 namespace reprise::cli {
@@ -13,9 +15,13 @@ void print_other_build(const std::string& headline,
     if (lines.empty())
         return;
     say("{}; equal bytes are not promised\n", headline);
+    std::size_t widest = 0;
     for (const replay::BuildDifference& line : lines)
-        say("  {:<13}{} {}, {} {}\n",
+        widest = std::max(widest, line.key.size());
+    for (const replay::BuildDifference& line : lines)
+        say("  {:<{}}  {} {}, {} {}\n",
             line.key,
+            std::max<std::size_t>(widest, 11),
             expected_name,
             line.expected,
             found_name,

@@ -22,6 +22,7 @@
 #include "replay/golden/pins.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -195,13 +196,13 @@ class Acceptance {
         files::write_file(candidate.tested.golden, "the golden", candidate.text);
         if (!options_.keep.empty())
             keep_trace(candidate.trace, candidate.golden->chain, options_.keep);
-        say("{}  {}: verdict {}, {} checks, {} events, {} s, {:.1f} kB\n",
+        say("{}  {}: verdict {}, {}, {}, {}, {:.1f} kB\n",
             candidate.before ? "accepted" : "new     ",
             candidate.tested.golden.string(),
             candidate.golden->verdict,
-            candidate.golden->checks.size(),
-            candidate.golden->events.size(),
-            replay::golden_seconds(candidate.golden->ticks, candidate.golden->step_ns),
+            world::count_of(candidate.golden->checks.size(), "check"),
+            world::count_of(candidate.golden->events.size(), "event"),
+            replay::time_text(candidate.golden->ticks, candidate.golden->step_ns),
             static_cast<double>(candidate.text.size()) / 1e3);
     }
 

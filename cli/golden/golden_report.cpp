@@ -9,6 +9,7 @@
 
 #include "cli/golden/golden_files.h"
 #include "cli/process/guard.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -37,9 +38,10 @@ std::string rows(const std::string& key, const std::vector<Changed>& changes) {
 std::string verdict_rows(const Golden& expected, const GoldenDifference& difference) {
     if (!difference.verdicts.empty())
         return rows("verdict", difference.verdicts);
-    return report_row(
-        "verdict",
-        fmt::format("unchanged: {} ({} checks)", expected.verdict, expected.checks.size()));
+    return report_row("verdict",
+                      fmt::format("unchanged: {} ({})",
+                                  expected.verdict,
+                                  world::count_of(expected.checks.size(), "check")));
 }
 
 std::string event_rows(const Golden& found, const GoldenDifference& difference) {
@@ -63,12 +65,10 @@ std::string checkpoint_rows(const Golden& expected, const GoldenDifference& diff
         return report_row("pinned", fmt::format("{}", fmt::join(expected.pins, ", ")));
     if (!difference.checkpoints.first)
         return report_row("digests", "unchanged: every tick of every stage");
-    const auto time = [&](std::uint64_t tick) {
-        return replay::golden_seconds(tick, expected.step_ns);
-    };
+    const auto time = [&](std::uint64_t tick) { return replay::time_text(tick, expected.step_ns); };
     const Changed& first = *difference.checkpoints.first;
     return report_row("digests",
-                      fmt::format("first differ between {} s and {} s, in {}; {} of {} differ",
+                      fmt::format("first differ between {} and {}, in {}; {} of {} differ",
                                   time(difference.equal_until),
                                   time(first.tick),
                                   first.what.empty() ? "the history only" : first.what,
@@ -81,10 +81,10 @@ std::string state_rows(const Golden& expected, const GoldenDifference& differenc
         return "";
     const Changed& first = *difference.states.first;
     return report_row("states",
-                      fmt::format("{} of {} differ, first at {} s",
+                      fmt::format("{} of {} differ, first at {}",
                                   difference.states.different,
                                   difference.states.all,
-                                  replay::golden_seconds(first.tick, expected.step_ns))) +
+                                  replay::time_text(first.tick, expected.step_ns))) +
            report_row("", changed_text(first));
 }
 
@@ -162,9 +162,7 @@ std::string failed_checks_text(const Golden& run) {
                     "{}: {}{}{}",
                     check.name,
                     check.status,
-                    check.tick == 0
-                        ? ""
-                        : fmt::format(" at {} s", replay::golden_seconds(check.tick, run.step_ns)),
+                    check.tick == 0 ? "" : " at " + replay::time_text(check.tick, run.step_ns),
                     check.detail.empty() ? "" : ", " + check.detail));
     if (rows > most_rows)
         text += report_row("", fmt::format("and {} more", rows - most_rows));

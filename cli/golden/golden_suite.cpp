@@ -27,6 +27,7 @@
 #include "replay/trace_reader.h"
 #include "world/check.h"
 #include "world/tick.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -282,10 +283,11 @@ class Suite {
             std::count_if(run.events.begin(), run.events.end(), [](const auto& event) {
                 return event.kind == world::EnumNameEventKind(world::EventKind::collision);
             });
-        report.headline = fmt::format("checks only: verdict {}, {} checks, {} collisions",
-                                      run.verdict,
-                                      run.checks.size(),
-                                      collisions);
+        report.headline =
+            fmt::format("checks only: verdict {}, {}, {}",
+                        run.verdict,
+                        world::count_of(run.checks.size(), "check"),
+                        world::count_of(static_cast<std::uint64_t>(collisions), "collision"));
         if (run.verdict == "passed" || run.verdict == "completed") {
             remove_kept(i);
             return;

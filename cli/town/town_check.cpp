@@ -21,6 +21,7 @@
 #include "towns/check/walk_map.h"
 #include "towns/import/import_check.h"
 #include "world/town.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -145,18 +146,18 @@ void print_criterion(const Criterion& criterion) {
 }
 
 void print_table(const Built& built, const std::vector<Criterion>& criteria) {
-    say("{}: {} lanes, {:.2f} km of driving lanes, {} junctions, {} signals\n",
+    say("{}: {}, {:.2f} km of driving lanes, {}, {}\n",
         built.town.name,
-        built.town.lanes.size(),
+        world::count_of(built.town.lanes.size(), "lane"),
         drivable_km(built.town),
-        built.town.junctions.size(),
-        built.town.signals.size());
+        world::count_of(built.town.junctions.size(), "junction"),
+        world::count_of(built.town.signals.size(), "signal"));
     for (const Criterion& criterion : criteria)
         print_criterion(criterion);
-    say("  {} triangles of ground, {} of markings; walk map: {} polygons, {} kB\n",
-        built.ground.triangles.size(),
+    say("  {} of ground, {} of markings; walk map: {}, {} kB\n",
+        world::count_of(built.ground.triangles.size(), "triangle"),
         built.markings.triangles.size(),
-        built.walk_map.polygons(),
+        world::count_of(built.walk_map.polygons(), "polygon"),
         built.walk_map.bytes() / 1024);
     std::string times;
     for (const auto& [part, seconds] : built.seconds)

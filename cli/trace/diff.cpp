@@ -13,6 +13,7 @@
 #include "replay/compare/divergence.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -86,7 +87,7 @@ std::string largest(const replay::Tolerance& tolerance) {
 
 /// "  physics       vehicles[id 1].velocity.x  8.1 / 8.2  (1 unit in the last place apart)".
 void print_all(const Comparison& result) {
-    say("all {} differences of tick {}:\n", result.all.size(), result.divergence->tick);
+    say("all differences of tick {}: {}\n", result.divergence->tick, result.all.size());
     for (const auto& [stage, field] : result.all)
         say("  {:<14}{}  {} / {}{}\n",
             stage,
@@ -102,8 +103,8 @@ void print_text(const Comparison& result,
     if (result.divergence) {
         const std::string branched = replay::branch_text(expected.episode(), found.episode());
         if (!branched.empty() && result.divergence->tick > 0)
-            say("equal for {} ticks; {}; first difference:\n",
-                result.divergence->tick - 1,
+            say("equal for {}; {}; first difference:\n",
+                world::count_of(result.divergence->tick - 1, "tick"),
                 branched);
         else
             say("different\n");
@@ -111,15 +112,15 @@ void print_text(const Comparison& result,
         if (!result.all.empty())
             print_all(result);
     } else if (result.tolerance) {
-        say("equal within tolerance {:g}: {} ticks, {}\n",
+        say("equal within tolerance {:g}: {}, {}\n",
             result.tolerance->bound,
-            expected.ticks(),
+            world::count_of(expected.ticks(), "tick"),
             largest(*result.tolerance));
         if (const std::string note = start_difference(expected, found); !note.empty())
             say("  note      {}\n", note);
     } else {
-        say("equal: {} ticks, chain {}\n",
-            expected.ticks(),
+        say("equal: {}, chain {}\n",
+            world::count_of(expected.ticks(), "tick"),
             world::to_hex(expected.chain(expected.ticks())));
     }
     if (const std::string note = town_path_difference(expected, found); !note.empty())

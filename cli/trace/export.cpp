@@ -18,6 +18,7 @@
 #include "replay/table/kept.h"
 #include "replay/table/table.h"
 #include "world/check.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -83,10 +84,10 @@ void export_foxglove(replay::TraceReader& trace,
     const exchange::FoxgloveOptions wanted{range.first, range.last, every, options.images};
     const auto done = exchange::export_foxglove(trace, wanted, options.output);
     say(stderr,
-        "{}: {} messages, {} of them pictures{}\n",
+        "{}: {}, {}{}\n",
         options.output,
-        done.messages,
-        done.images,
+        world::count_of(done.messages, "message"),
+        world::count_of(done.images, "picture among them", "pictures among them"),
         done.located ? "" : "; no /location: the road network lies nowhere on the globe");
 }
 
@@ -118,7 +119,10 @@ int export_trace(const ExportOptions& options) {
         export_csv(trace, range, every, options.output);
     else
         export_jsonl(trace, range, every, options.output);
-    say(stderr, "{}: {} ticks\n", options.output, (range.last - range.first) / every + 1);
+    say(stderr,
+        "{}: {}\n",
+        options.output,
+        world::count_of((range.last - range.first) / every + 1, "tick"));
     return exit_good;
 }
 

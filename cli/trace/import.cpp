@@ -19,6 +19,7 @@
 #include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/tick.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -76,18 +77,18 @@ void print_skipped(const exchange::CarlaReport& report) {
 
 void print_report(const ImportOptions& options, const exchange::CarlaReport& report) {
     constexpr double hilly = 1;  // [m]
-    say("{}: {} ticks of {} ms ({:.2f} s, {:.2f} MB)\n",
+    say("{}: {} of {} ms ({:.2f} s, {:.2f} MB)\n",
         options.output,
-        report.ticks,
+        world::count_of(report.ticks, "tick"),
         options.step_ms,
         world::seconds(report.ticks, step_ns(options)),
         static_cast<double>(fs::file_size(options.output)) / 1e6);
     row("from", report.source);
     row("holds",
-        fmt::format("poses only, interpolated between {} frames: {} vehicles, {} walkers",
-                    report.frames,
-                    report.vehicles,
-                    report.walkers));
+        fmt::format("poses only, interpolated between {}: {}, {}",
+                    world::count_of(report.frames, "frame"),
+                    world::count_of(report.vehicles, "vehicle"),
+                    world::count_of(report.walkers, "walker")));
     const char* key = "guessed";
     for (const std::string& guess : report.guessed) {
         row(key, guess);
@@ -104,8 +105,8 @@ void print_report(const ImportOptions& options, const exchange::CarlaReport& rep
     print_skipped(report);
     if (report.damage)
         row("lost",
-            fmt::format("{} bytes behind the last whole frame; byte {}: {}",
-                        report.lost,
+            fmt::format("{} behind the last whole frame; byte {}: {}",
+                        world::count_of(report.lost, "byte"),
                         report.damage->offset,
                         report.damage->what));
 }

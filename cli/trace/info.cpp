@@ -81,7 +81,8 @@ struct Screen {
     void print_start() const {
         const world::EpisodeT& episode = trace.episode();
         row("scenario", fmt::format("{} ({})", episode.name, episode.scenario_path));
-        row("town", fmt::format("{}, {} cars of traffic", episode.town, episode.cars));
+        row("town",
+            fmt::format("{}, {} of traffic", episode.town, world::count_of(episode.cars, "car")));
         row("weather",
             fmt::format("{}, road friction {}", episode.weather_name, episode.road_friction));
         row("seed", std::to_string(episode.seed));
@@ -107,8 +108,8 @@ struct Screen {
     void print_length() const {
         const world::EpisodeT& episode = trace.episode();
         row("length",
-            fmt::format("{} ticks of {} ms = {}",
-                        trace.ticks(),
+            fmt::format("{} of {} ms = {}",
+                        world::count_of(trace.ticks(), "tick"),
                         episode.step_ns / 1'000'000,
                         time(trace.ticks())));
         if (trace.slice())
@@ -179,8 +180,9 @@ struct Screen {
         if (story.actors.size() > most)
             words.push_back(fmt::format("{} more", story.actors.size() - most));
         if (trace.level() == replay::Level::full)
-            words.push_back(
-                fmt::format("in the end {} cars and {} walkers around", story.cars, story.walkers));
+            words.push_back(fmt::format("in the end {} and {} around",
+                                        world::count_of(story.cars, "car"),
+                                        world::count_of(story.walkers, "walker")));
         if (!words.empty())
             row("actors", fmt::format("{}", fmt::join(words, ", ")));
     }

@@ -9,6 +9,7 @@
 #include "cli/process/say.h"
 #include "replay/recovery.h"
 #include "world/tick.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -32,9 +33,9 @@ std::string missing(const replay::Recovery& recovery) {
 
 void print_report(const RecoverOptions& options, const replay::Recovery& recovery) {
     const world::EpisodeT& episode = recovery.episode;
-    say("{}: {} ticks ({:.2f} s, {:.2f} MB) recovered from {}\n",
+    say("{}: {} ({:.2f} s, {:.2f} MB) recovered from {}\n",
         options.output,
-        recovery.outcome.ticks,
+        world::count_of(recovery.outcome.ticks, "tick"),
         world::seconds(recovery.outcome.ticks, episode.step_ns),
         static_cast<double>(std::filesystem::file_size(options.output)) / 1e6,
         options.damaged);

@@ -11,6 +11,7 @@
 #include "cli/trace/level_note.h"
 #include "replay/table/statistics.h"
 #include "replay/table/value.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -53,15 +54,16 @@ void print_vehicle(const VehicleStatistics& one, std::uint64_t step_ns) {
                     one.max_speed * 3.6));
     row("standing", share(one.standing));
     row("hard brakes",
-        fmt::format("{} of {} m/s2 or more; hardest {:.1f}",
+        fmt::format("{} of {} m/s2 or more; hardest {}",
                     one.hard_brakes,
                     replay::hard_brake,
-                    one.max_deceleration));
+                    world::with_decimals(one.max_deceleration, 1)));
     row("least gap ahead",
         std::isfinite(one.least_gap) ? fmt::format("{:.2f} m, while driving", one.least_gap) : "-");
     row("collisions",
-        one.collisions == 0 ? "none"
-                            : fmt::format("{}; {:.0f} N s in all", one.collisions, one.impulse));
+        one.collisions == 0
+            ? "none"
+            : fmt::format("{}; {} N s in all", one.collisions, world::with_thousands(one.impulse)));
     row("on opposite lane", share(one.on_opposite_lane));
     row("on the sidewalk", share(one.on_sidewalk));
 }
@@ -80,7 +82,9 @@ void print_screen(const StatsOptions& options,
                            static_cast<double>(bytes) / ticks / 1e3);
     };
     say("{}: {} in {}\n", options.trace, trace.episode().name, trace.episode().town);
-    row("length", fmt::format("{} ticks, {:.2f} s", all.ticks, seconds(all.ticks, step_ns)));
+    row("length",
+        fmt::format(
+            "{}, {:.2f} s", world::count_of(all.ticks, "tick"), seconds(all.ticks, step_ns)));
     if (all.traffic_ticks > 0) {
         row("cars", range_text(all.cars));
         row("walkers", range_text(all.walkers));

@@ -12,6 +12,7 @@
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "world/check.h"
+#include "world/wording.h"
 
 namespace reprise::cli {
 
@@ -41,9 +42,9 @@ int strip(const StripOptions& options) {
     }
     progress.clear();
     stripped.close(trace.outcome());
-    say("{}: {} ticks at level {}, {:.2f} MB of {:.2f} MB\n",
+    say("{}: {} at level {}, {:.2f} MB of {:.2f} MB\n",
         options.output,
-        trace.ticks(),
+        world::count_of(trace.ticks(), "tick"),
         options.level,
         megabytes(options.output),
         megabytes(options.trace));

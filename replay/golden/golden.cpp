@@ -384,6 +384,10 @@ Golden make_golden(TraceReader& trace, std::optional<Sampling> sampling) {
     return golden;
 }
 
+std::string time_text(std::uint64_t tick, std::uint64_t step_ns) {
+    return fmt::format("{:.2f} s", world::seconds(tick, step_ns));
+}
+
 std::string golden_seconds(std::uint64_t tick, std::uint64_t step_ns) {
     const std::uint64_t ms = tick * step_ns / 1'000'000;
     std::string text = fmt::format("{}.{:03}", ms / 1000, ms % 1000);

@@ -137,4 +137,7 @@ Golden load_golden(const std::filesystem::path& path);
 /// "2.85": a tick's time in seconds, exact for steps of whole milliseconds.
 std::string golden_seconds(std::uint64_t tick, std::uint64_t step_ns);
 
+/// "2.85 s", as every command tells times.
+std::string time_text(std::uint64_t tick, std::uint64_t step_ns);
+
 }  // namespace reprise::replay

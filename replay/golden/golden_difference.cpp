@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "world/wording.h"
+
 namespace reprise::replay {
 
 namespace {
@@ -29,7 +31,7 @@ std::string verdict_text(const Golden& golden) {
 std::string check_text(const GoldenCheck& check, std::uint64_t step_ns) {
     std::string text = check.status;
     if (check.tick != 0)
-        text += fmt::format(" at {} s", golden_seconds(check.tick, step_ns));
+        text += " at " + time_text(check.tick, step_ns);
     return check.detail.empty() ? text : text + ", " + check.detail;
 }
 
@@ -65,14 +67,14 @@ void compare_ends(const Golden& expected, const Golden& found, GoldenDifference&
     compare_checks(expected, found, difference);
     if (expected.ticks != found.ticks) {
         Changed change = changed("ends after",
-                                 golden_seconds(expected.ticks, expected.step_ns) + " s",
-                                 golden_seconds(found.ticks, found.step_ns) + " s");
+                                 time_text(expected.ticks, expected.step_ns),
+                                 time_text(found.ticks, found.step_ns));
         difference.details.push_back(std::move(change));
     }
 }
 
 std::string event_line(const GoldenEvent& event, std::uint64_t step_ns) {
-    std::string text = golden_seconds(event.tick, step_ns) + " s " + event.kind;
+    std::string text = time_text(event.tick, step_ns) + " " + event.kind;
     const auto add = [&](const std::string& before, const std::string& value) {
         if (!value.empty())
             text += before + value;
@@ -157,8 +159,8 @@ Changed first_value(const ActorState& expected, const ActorState& found) {
             return changed(expected.actor + " " + name, before, now);
     }
     return changed(expected.actor,
-                   fmt::format("{} values", expected.values.size()),
-                   fmt::format("{} values", found.values.size()));
+                   world::count_of(expected.values.size(), "value"),
+                   world::count_of(found.values.size(), "value"));
 }
 
 /// The id in "ego#1"; states of one instant are sorted by it.
@@ -193,11 +195,12 @@ Tally compare_background(const Golden& expected, const Golden& found) {
                          found.background,
                          [](const BackgroundState* before, const BackgroundState* now) {
                              const auto text = [](const BackgroundState* state) {
-                                 return state == nullptr ? std::string(nothing)
-                                                         : fmt::format("{} cars, {} walkers, {}",
-                                                                       state->cars,
-                                                                       state->walkers,
-                                                                       state->digest);
+                                 return state == nullptr
+                                            ? std::string(nothing)
+                                            : fmt::format("{}, {}, {}",
+                                                          world::count_of(state->cars, "car"),
+                                                          world::count_of(state->walkers, "walker"),
+                                                          state->digest);
                              };
                              Changed change = changed("the demand", text(before), text(now));
                              change.tick = (before != nullptr ? before : now)->tick;

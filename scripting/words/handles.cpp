@@ -60,7 +60,7 @@ int position(Run& run, lua_State* L) {
 }
 
 int speed(Run& run, lua_State* L) {
-    lua_pushnumber(L, body_of(run.last, self(run, L))->speed);
+    lua_pushnumber(L, body_of(run.last, self(run, L))->speed + 0.0);  // never -0.0
     return 1;
 }
 

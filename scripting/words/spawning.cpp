@@ -14,6 +14,7 @@
 #include "scripting/words/vocabulary.h"
 #include "world/models/catalogue.h"
 #include "world/models/prop_models.h"
+#include "world/wording.h"
 
 // Who is there, and where: spawn, and the words about places.
 namespace reprise::scripting {
@@ -61,7 +62,8 @@ void read_model(const Fields& fields, Actor& actor) {
                fmt::format("no driver '{}'{}", driver, world::did_you_mean(driver, drivers)));
     actor.driver = static_cast<world::Driver>(known - drivers.begin());
     if (actor.is_walker() != walker.has_value() || actor.is_prop() != prop.has_value())
-        refuse("spawn", fmt::format("a {} cannot have the driver '{}'", *model, driver));
+        refuse("spawn",
+               fmt::format("{} cannot have the driver '{}'", world::with_article(*model), driver));
 }
 
 void read_name(Run& run, const Fields& fields, Actor& actor) {

@@ -117,7 +117,7 @@ TEST_F(InfoOfACrash, TellsARunOnOneScreen) {
     const Result info = reprise({"info", trace_});
     EXPECT_EQ(info.code, 0);
     EXPECT_LE(std::count(info.out.begin(), info.out.end(), '\n'), 24);
-    for (const char* row : {"  town      small, 1 cars of traffic\n",
+    for (const char* row : {"  town      small, 1 car of traffic\n",
                             "  seed      11\n",
                             "  outcome   failed: time limit\n",
                             "            failed  hit the van: it happened, at 2.25 s; worst 1.15 s "

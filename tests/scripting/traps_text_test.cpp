@@ -54,6 +54,15 @@ TEST(Trap08, FormatHasNoAddresses) {
             << format;
 }
 
+TEST(Trap08, FormatWritesNoMinusBeforeZero) {
+    EXPECT_THAT(printed("print(string.format('%.1f %5.1f|%.0f %f %g %+.1f', -0.04, -0.0, -0.5, "
+                        "-0.0, -0.0, -0.04))"),
+                ElementsAre("0.0   0.0|0 0.000000 0 +0.0"));
+    EXPECT_THAT(printed("print(string.format('%.1f %.2f %f %g %d %s', -0.06, -0.04, -1e-6, -1e-9, "
+                        "-1, -0.5))"),
+                ElementsAre("-0.1 -0.04 -0.000001 -1e-09 -1 -0.5"));
+}
+
 namespace {
 
 /// A locale of its own making (localedef, of the package locales), taken while this lives.

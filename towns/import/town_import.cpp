@@ -28,6 +28,7 @@
 #include "towns/maps/openstreetmap_check.h"
 #include "towns/town_reader.h"
 #include "world/check.h"
+#include "world/wording.h"
 
 namespace reprise::towns {
 
@@ -117,10 +118,15 @@ class Import {
         report += fmt::format(text, std::forward<Values>(values)...) + "\n";
     }
 
+    template <typename Number>
+    static std::string count(Number number, std::string_view word, std::string_view plural = {}) {
+        return world::count_of(static_cast<std::uint64_t>(number), word, plural);
+    }
+
     /// Runs netconvert; the network it made is in the file `made` and in `network`.
     void convert(std::vector<std::string> words) {
         if (const int warnings = run_netconvert(std::move(words)); warnings > 0)
-            say("netconvert gave {} warnings", warnings);
+            say("netconvert gave {}", count(warnings, "warning"));
     }
 
     int run_netconvert(std::vector<std::string> words) {
@@ -150,7 +156,7 @@ class Import {
 
     void count_crossings(const std::vector<Eigen::Vector3d>& mapped) {
         if (const int lost = lost_crossings(read_roads(network, map_).town, mapped); lost > 0)
-            say("lost: {} crossings between junctions or without sidewalks", lost);
+            say("lost: {} between junctions or without sidewalks", count(lost, "crossing"));
     }
 
     void guess_sidewalks(std::vector<std::string>& words) {
@@ -173,14 +179,14 @@ class Import {
         const std::vector<Eigen::Vector3d> crossings = crossings_of(map);
         take_back_crossings(words, crossings);
         if (map.limits_set > 0)
-            say("speed limits: {} lanes got that of their road, which netconvert ignores",
-                map.limits_set);
+            say("speed limits: {} got that of the road, which netconvert ignores",
+                count(map.limits_set, "lane"));
         obey_signs([&](const ImportedRoads& roads) { return lane_signs(map, roads); });
         Place found;
         const SignalReport signals = place_signals(map, read_roads(network, map_), found);
-        say("signals: {} in the map, {} heads placed as it says; signs: {} placed",
+        say("signals: {} in the map, {} placed as it says; signs: {} placed",
             signals.lights,
-            signals.heads,
+            count(signals.heads, "head"),
             signals.signs);
         if (signals.moved > 0)
             say("poles: {} would stand on a road and were moved to its edge, where heads get an "
@@ -190,12 +196,12 @@ class Import {
             say("signals: {} stand beside another one, whose head shows what they would",
                 signals.shared);
         if (signals.lost > 0)
-            say("lost: {} signals and signs that control nothing or have no place", signals.lost);
+            say("lost: signals and signs that control nothing or have no place: {}", signals.lost);
         if (map.other_signs > 0)
-            say("lost: {} signals and signs of other kinds", map.other_signs);
+            say("lost: signals and signs of other kinds: {}", map.other_signs);
         if (map.banked > 0)
-            say("lost: the superelevation of {} roads; they are flat from side to side",
-                map.banked);
+            say("lost: the superelevation of {}, now flat from side to side",
+                count(map.banked, "road"));
         count_crossings(crossings);
         say("lost: road markings and objects (they are made anew)");
         place = place_xml(found);
@@ -233,10 +239,9 @@ class Import {
         network = stop_only_at(patch.edges_with_stops, network);
         const ImportedRoads now = read_roads(network, map_);
         const ObeyedSigns bind = obeyed_signs(find_signs(now), now.town);
-        say("right of way: {} junctions follow their stop and yield signs; {} of {} roads with "
-            "such a "
-            "sign give way",
-            patch.junctions,
+        say("right of way: as stop and yield signs say at {}; of roads with such a sign {} of {} "
+            "give way",
+            count(patch.junctions, "junction"),
             bind.giving_way,
             bind.roads);
     }
@@ -270,9 +275,9 @@ class Import {
             say("courtyards: {} were built over; outlines of buildings have no holes here",
                 areas.filled);
         if (areas.broken > 0)
-            say("lost: {} areas whose outline crosses itself", areas.broken);
+            say("lost: areas whose outline crosses itself: {}", areas.broken);
         if (shapes.open_areas > 0)
-            say("lost: {} areas, or parts of them, whose outline does not close in the map",
+            say("lost: areas, or parts of them, whose outline does not close in the map: {}",
                 shapes.open_areas);
         count_crossings(shapes.crossings);
         place = place_xml(found);
@@ -290,20 +295,18 @@ class Import {
             network, shapes.ways, [&](const std::string& xml) { return judge.faults(xml); });
         if (shapes.ways.empty())
             return;
-        say("bridges and tunnels: {} ways in the map; {} places where a road passes over another; "
+        say("bridges and tunnels: {} in the map; {} where a road passes over another; "
             "{:.2f} km of road raised or lowered for it, the steepest {:.0f} %",
-            shapes.ways.size(),
-            raised.crossings,
+            count(shapes.ways.size(), "way"),
+            count(raised.crossings, "place"),
             raised.length / 1000,
             100 * raised.steepest);
         if (raised.steep > 0)
-            say("steep: {} roads for cars have ramps of more than 12 %: there is no room for "
-                "longer "
-                "ones",
-                raised.steep);
+            say("steep: ramps of more than 12 %, as there is no room for longer ones: {} for cars",
+                count(raised.steep, "road"));
         for (const auto& [kind, number] : raised.flat)
-            say("flat: {} bridges and tunnels stay at the height of what they cross: {}",
-                number,
+            say("flat: at the height of what they cross stay {}, because {}",
+                count(number, "bridge or tunnel", "bridges and tunnels"),
                 kind == HeightFault::Kind::steep ? "ramps would be steeper than 15 %"
                 : kind == HeightFault::Kind::low ? "they leave too little room over another road"
                                                  : "the ground would fail a criterion");

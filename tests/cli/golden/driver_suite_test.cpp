@@ -41,7 +41,7 @@ TEST_F(DriverSuite, WithoutADriverACaseIsNotRunAndDoesNotPass) {
 TEST_F(DriverSuite, WithOneItPassesByItsChecks) {
     for (const std::string& driver : {steady, "ego=" + python_driver})
         EXPECT_THAT(run({"test", "one.lua", "--driver", driver}, 0),
-                    AllOf(HasSubstr("passed    one  checks only: verdict passed, 1 checks"),
+                    AllOf(HasSubstr("passed    one  checks only: verdict passed, 1 check"),
                           HasSubstr("1 passed, 0 changed")));
     EXPECT_FALSE(fs::exists(folder_ / "reprise-test"));
 }
@@ -51,7 +51,7 @@ TEST_F(DriverSuite, FailedChecksAreToldAndTheTraceIsKept) {
     const std::string said =
         run({"test", "--driver", steady, "--driver-timeout", "60", "--junit", "results.xml"}, 1);
     EXPECT_THAT(said,
-                AllOf(HasSubstr("FAILED    one  checks only: verdict failed, 1 checks"),
+                AllOf(HasSubstr("FAILED    one  checks only: verdict failed, 1 check"),
                       HasSubstr("checks    speed: failed at "),
                       HasSubstr("0 passed, 0 changed, 0 nondeterministic, 1 failed")));
     EXPECT_THAT(bytes("results.xml"),

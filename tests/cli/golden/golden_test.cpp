@@ -152,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"Numbers",
                "speed_kmh = 36",
                "speed_kmh = 37",
-               {"only numbers changed", "first differ between 0 s and 1 s", "ego#1 x"}}),
+               {"only numbers changed", "first differ between 0.00 s and 1.00 s", "ego#1 x"}}),
     [](const testing::TestParamInfo<Change>& tested) { return tested.param.name; });
 
 TEST_F(Goldens, KeptTraceTellsTheExactTick) {

@@ -270,7 +270,7 @@ TEST_F(RaiseRoads, OneOfTwoThatAreTooNearStaysFlat) {
         map.way({exit, map.node(east, 300)}, street);
     }
     const world::TownT town = import(map.text());
-    EXPECT_THAT(report_, HasSubstr("flat: 1 bridges and tunnels"));
+    EXPECT_THAT(report_, HasSubstr("what they cross stay 1 bridge or tunnel"));
     const Vector2d west = in_plan(town.low) + Vector2d(0, 300);
     EXPECT_NEAR(height_of_street(town, west + Vector2d(300, 20)), 6, 0.01);
     EXPECT_NEAR(height_of_street(town, west + Vector2d(1100, 24)), 6, 0.01);

@@ -87,7 +87,9 @@ TEST_F(MapSigns, StopsAndGivesWayAtTheNearestJunction) {
     const world::TownT stops = import(crossroads(stop, {}, stop));
     EXPECT_EQ(sides(stops, world::PropKind::stop_sign), "ns");
     EXPECT_EQ(sides(stops, world::PropKind::yield_sign), "");
-    EXPECT_THAT(report_, HasSubstr("1 junctions follow their stop and yield signs; 2 of 2 roads"));
+    EXPECT_THAT(report_,
+                HasSubstr("as stop and yield signs say at 1 junction; of roads with such a sign 2 "
+                          "of 2 give way"));
     const world::TownT yields = import(crossroads(give_way, {}, {}));
     EXPECT_EQ(sides(yields, world::PropKind::yield_sign), "ns") << "SUMO gives way in pairs";
 }
