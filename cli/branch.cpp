@@ -31,7 +31,7 @@
 #include "world/check.h"
 #include "world/external_drivers.h"
 #include "world/printable.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

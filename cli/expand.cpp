@@ -11,7 +11,7 @@
 #include "kernel/verify.h"
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

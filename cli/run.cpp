@@ -26,10 +26,10 @@
 #include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/check_result.h"
-#include "world/crashes.h"
+#include "world/story/crashes.h"
 #include "world/digest.h"
 #include "world/recording.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

@@ -11,7 +11,7 @@
 #include "replay/trace_format.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

@@ -14,8 +14,8 @@
 #include "foxglove_schemas.h"
 #include "replay/trace_file.h"
 #include "world/check.h"
-#include "world/crashes.h"
-#include "world/wording.h"
+#include "world/story/crashes.h"
+#include "world/story/wording.h"
 
 namespace reprise::exchange {
 

@@ -12,7 +12,7 @@
 #include "remote/schema.h"
 #include "remote/shared_memory.h"
 #include "world/check.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::remote {
 

@@ -10,7 +10,7 @@
 #include "traffic/orders.h"
 #include "world/check.h"
 #include "world/models/vehicle_classes.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::traffic {
 

@@ -22,7 +22,7 @@
 #include "replay/golden/pins.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

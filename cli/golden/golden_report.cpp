@@ -9,7 +9,7 @@
 
 #include "cli/golden/golden_files.h"
 #include "cli/process/guard.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

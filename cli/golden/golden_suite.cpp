@@ -27,7 +27,7 @@
 #include "replay/trace_reader.h"
 #include "world/check.h"
 #include "world/tick.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

@@ -21,7 +21,7 @@
 #include "towns/check/walk_map.h"
 #include "towns/import/import_check.h"
 #include "world/town.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

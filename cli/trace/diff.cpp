@@ -13,7 +13,7 @@
 #include "replay/compare/divergence.h"
 #include "replay/trace_reader.h"
 #include "world/digest.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

@@ -18,7 +18,7 @@
 #include "replay/table/kept.h"
 #include "replay/table/table.h"
 #include "world/check.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

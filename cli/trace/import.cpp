@@ -19,7 +19,7 @@
 #include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/tick.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

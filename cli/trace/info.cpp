@@ -18,7 +18,7 @@
 #include "world/digest.h"
 #include "world/printable.h"
 #include "world/tick.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

@@ -9,7 +9,7 @@
 #include "cli/process/say.h"
 #include "replay/recovery.h"
 #include "world/tick.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

@@ -11,7 +11,7 @@
 #include "cli/trace/level_note.h"
 #include "replay/table/statistics.h"
 #include "replay/table/value.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

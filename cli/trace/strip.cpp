@@ -12,7 +12,7 @@
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "world/check.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 

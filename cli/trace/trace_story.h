@@ -6,7 +6,7 @@
 
 #include "replay/outcomes.h"
 #include "replay/trace_reader.h"
-#include "world/crashes.h"
+#include "world/story/crashes.h"
 
 namespace reprise::cli {
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::replay {
 

@@ -11,7 +11,7 @@
 #include "scripting/lua/text.h"
 #include "scripting/lua/vm.h"
 #include "world/check.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::scripting {
 

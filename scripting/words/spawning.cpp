@@ -14,7 +14,7 @@
 #include "scripting/words/vocabulary.h"
 #include "world/models/catalogue.h"
 #include "world/models/prop_models.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 // Who is there, and where: spawn, and the words about places.
 namespace reprise::scripting {

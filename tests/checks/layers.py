@@ -32,7 +32,7 @@ ROOMS = {
 }
 # Inner rooms from the lowest to the highest: each may include those before it. "." is the room's own folder.
 INNER = {
-    "world": ". models lanes",
+    "world": ". models lanes story",
     "ground": "mesh paint .",
     "towns": "check network maps furnish buildings . bridges import make",
     "drivers": "way .",

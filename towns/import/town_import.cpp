@@ -28,7 +28,7 @@
 #include "towns/maps/openstreetmap_check.h"
 #include "towns/town_reader.h"
 #include "world/check.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::towns {
 

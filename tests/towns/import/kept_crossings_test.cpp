@@ -12,7 +12,7 @@
 #include "towns/network/network.h"
 #include "towns/town_reader.h"
 #include "world/town.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::towns {
 namespace {

@@ -1,4 +1,4 @@
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "world/crashes.h"
+#include "world/story/crashes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 
 #include "world/frames.h"
-#include "world/models/catalogue.h"
-#include "world/wording.h"
+#include "world/story/wording.h"
 
 namespace reprise::world {
 
@@ -67,6 +66,11 @@ std::string ActorNames::name_of(std::uint32_t id) const {
     if (named->second.is_name)
         return named->second.text;
     return fmt::format("{} ({})", with_article("passing " + named->second.text), id);
+}
+
+const std::string* ActorNames::given(std::uint32_t id) const {
+    const auto named = named_.find(id);
+    return named != named_.end() && named->second.is_name ? &named->second.text : nullptr;
 }
 
 std::string to_line(const Crash& crash) {

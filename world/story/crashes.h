@@ -18,6 +18,9 @@ class ActorNames {
     /// "ego"; of the demand "a passing hatchback (1000012)"; of id 0 "something fixed".
     std::string name_of(std::uint32_t id) const;
 
+    /// The name that the scenario gave it; null where it gave none.
+    const std::string* given(std::uint32_t id) const;
+
   private:
     struct Named {
         std::string text;  ///< a name, or of the demand a model

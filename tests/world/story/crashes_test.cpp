@@ -1,4 +1,4 @@
-#include "world/crashes.h"
+#include "world/story/crashes.h"
 
 #include <gtest/gtest.h>
 
