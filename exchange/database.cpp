@@ -1,9 +1,14 @@
 #include "exchange/database.h"
 
+#include <set>
+#include <string>
+#include <variant>
+
 #include <fmt/format.h>
 #include <sqlite3.h>
 
 #include "exchange/tick_table.h"
+#include "replay/table/whole_tables.h"
 #include "world/check.h"
 
 namespace reprise::exchange {
@@ -41,18 +46,65 @@ std::string name_in(const std::string& message, const std::string& prefix) {
 struct Database::Connection {
     std::vector<std::unique_ptr<TickTable>> tables;
     sqlite3* database = nullptr;
+    replay::TraceReader* trace_read;
+    std::set<std::string> loaded;
 
-    explicit Connection(replay::TraceReader& trace) {
+    explicit Connection(replay::TraceReader& trace) : trace_read(&trace) {
         check(sqlite3_open(":memory:", &database));
         for (const std::string& name : replay::Table::names()) {
-            tables.push_back(std::make_unique<TickTable>(
-                TickTable{&trace, replay::Table(name, {}, trace.episode().step_ns)}));
+            tables.push_back(std::make_unique<TickTable>(TickTable{
+                &trace,
+                replay::Table(
+                    name, {}, trace.episode().step_ns, {&trace.recording().town, nullptr})}));
             check(sqlite3_create_module(
                 database, name.c_str(), tick_table_module(), tables.back().get()));
         }
     }
 
     ~Connection() { sqlite3_close(database); }
+
+    /// Tables that no tick has are copied, when a statement first names them.
+    void load_whole_tables(const std::string& sql) {
+        for (const std::string& name : replay::whole_table_names())
+            if (sql.find(name) != std::string::npos && loaded.insert(name).second)
+                load(read_whole_table(*trace_read, name));
+    }
+
+    void load(const replay::WholeTable& table) const {
+        run(fmt::format("create table {}(\"{}\")", table.name, fmt::join(table.columns, "\", \"")));
+        const std::vector<std::string> marks(table.columns.size(), "?");
+        sqlite3_stmt* made = nullptr;
+        const std::string insert =
+            fmt::format("insert into {} values({})", table.name, fmt::join(marks, ","));
+        check(sqlite3_prepare_v2(database, insert.c_str(), -1, &made, nullptr));
+        const Statement statement(made, sqlite3_finalize);
+        run("begin");
+        for (const auto& row : table.rows) {
+            for (std::size_t i = 0; i < row.size(); ++i)
+                bind(made, static_cast<int>(i) + 1, row[i]);
+            if (sqlite3_step(made) != SQLITE_DONE)
+                check(sqlite3_errcode(database));
+            sqlite3_reset(made);
+        }
+        run("commit");
+    }
+
+    /// A number, a text, or nothing: all that these tables hold.
+    static void bind(sqlite3_stmt* statement, int place, const replay::Value& value) {
+        if (const auto* whole = std::get_if<std::int64_t>(&value))
+            sqlite3_bind_int64(statement, place, *whole);
+        else if (const auto* real = std::get_if<double>(&value))
+            sqlite3_bind_double(statement, place, *real);
+        else if (const auto* text = std::get_if<std::string>(&value))
+            sqlite3_bind_text(
+                statement, place, text->data(), static_cast<int>(text->size()), SQLITE_TRANSIENT);
+        else
+            sqlite3_bind_null(statement, place);
+    }
+
+    void run(const std::string& statement) const {
+        check(sqlite3_exec(database, statement.c_str(), nullptr, nullptr, nullptr));
+    }
 
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
@@ -67,7 +119,10 @@ struct Database::Connection {
         const std::string message = sqlite3_errmsg(database);
         std::string suggestion;
         if (const std::string table = name_in(message, "no such table: "); !table.empty()) {
-            const auto names = replay::Table::names();
+            std::vector<std::string> names = replay::Table::names();
+            names.insert(names.end(),
+                         replay::whole_table_names().begin(),
+                         replay::whole_table_names().end());
             suggestion = world::did_you_mean(table, names);
             if (suggestion.empty())
                 suggestion = fmt::format("; there are {}", fmt::join(names, ", "));
@@ -106,6 +161,7 @@ Database::Database(replay::TraceReader& trace) : connection_(std::make_unique<Co
 Database::~Database() = default;
 
 void Database::query(const std::string& sql, const Columns& columns, const Row& row) {
+    connection_->load_whole_tables(sql);
     const Statement statement = connection_->prepare(sql);
     const int count = sqlite3_column_count(statement.get());
     std::vector<std::string> names;
@@ -127,7 +183,7 @@ std::string Database::tables() const {
     std::string text;
     for (const auto& one : connection_->tables)
         text += fmt::format("{}({})\n", one->table.name(), fmt::join(one->table.columns(), ", "));
-    return text;
+    return text + "lanes and actors: what stands behind the numbers, such as select * from lanes\n";
 }
 
 }  // namespace reprise::exchange

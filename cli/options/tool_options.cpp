@@ -34,14 +34,18 @@ void add_ticks(CLI::App& command, std::string& ticks) {
         ->type_name("A..B");
 }
 
+void add_actor(CLI::App& command, std::string& actor) {
+    command.add_option("--actor", actor, "Only what belongs to this actor: its name or its id")
+        ->type_name("NAME");
+}
+
 void add_cat(CLI::App& app, CatOptions& cat) {
     CLI::App& command = add_command(app, "cat", "Print ticks as JSON lines or CSV", cat.trace);
     command.add_option("--topic", cat.topic, "tick or traffic (default: both)")
         ->type_name("TOPIC")
         ->check(word_of({"tick", "traffic"}));
     add_ticks(command, cat.ticks);
-    command.add_option("--actor", cat.actor, "Only what belongs to this actor: its name or its id")
-        ->type_name("NAME");
+    add_actor(command, cat.actor);
     command
         .add_option("--fields",
                     cat.fields,
@@ -54,6 +58,10 @@ void add_cat(CLI::App& app, CatOptions& cat) {
         ->type_name("FORMAT")
         ->check(word_of({"jsonl", "csv"}));
     command.footer(
+        "Tables (--format csv): --fields vehicles, measurements, cars, walkers, events, ...; of "
+        "the "
+        "whole\n"
+        "trace: --fields lanes, --fields actors. Their headings name units.\n"
         "Reals have the fewest digits that read back the same; in JSON 64-bit numbers are in "
         "quotes.\n"
         "Example: reprise cat a.mcap --actor ego --fields vehicles.position --format csv | head");
@@ -75,6 +83,8 @@ void add_get(CLI::App& app, GetOptions& get) {
 void add_stats(CLI::App& app, StatsOptions& stats) {
     CLI::App& command =
         add_command(app, "stats", "Say what the vehicles of a trace did", stats.trace);
+    add_ticks(command, stats.ticks);
+    add_actor(command, stats.actor);
     command.add_flag("--json", stats.json, "As JSON, SI units");
 }
 

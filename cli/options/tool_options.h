@@ -26,6 +26,8 @@ struct GetOptions {
 
 struct StatsOptions {
     std::string trace;
+    std::string ticks;  ///< A..B; empty: all
+    std::string actor;  ///< name or id; empty: all
     bool json = false;
 };
 

@@ -1,5 +1,7 @@
 #include "cli/trace/cat.h"
 
+#include <algorithm>
+#include <optional>
 #include <unistd.h>
 
 #include "cli/options/tick_range.h"
@@ -11,6 +13,7 @@
 #include "replay/table/kept.h"
 #include "replay/table/table.h"
 #include "replay/table/trace_parts.h"
+#include "replay/table/whole_tables.h"
 #include "world/check.h"
 #include "world/printable.h"
 
@@ -28,6 +31,29 @@ std::vector<std::string> asked_tables(const CatOptions& options) {
     if (!options.actor.empty())
         tables.emplace_back("vehicles");  // who is who
     return tables;
+}
+
+/// The table of no ticks that is asked for: lanes or actors.
+std::optional<std::string> whole_table(const CatOptions& options) {
+    const auto& names = replay::whole_table_names();
+    for (const std::string& field : options.fields)
+        if (std::find(names.begin(), names.end(), field) != names.end())
+            return field;
+    return std::nullopt;
+}
+
+int print_whole_table(const std::string& name,
+                      const CatOptions& options,
+                      replay::TraceReader& trace) {
+    if (options.fields.size() > 1 || options.format != "csv" || !options.ticks.empty() ||
+        !options.actor.empty())
+        throw world::Error("--fields " + name +
+                           ": a table of the whole trace: alone, with --format csv, without "
+                           "--ticks and --actor");
+    Output output("-");
+    output.text = to_csv(read_whole_table(trace, name));
+    output.finish();
+    return exit_good;
 }
 
 /// Refuses what the trace's level leaves out, and says where it leaves out some.
@@ -48,6 +74,8 @@ void check_level(const CatOptions& options, const replay::TraceReader& trace) {
 int cat(const CatOptions& options) {
     end_quietly_when_nobody_reads();
     replay::TraceReader trace(options.trace);
+    if (const auto table = whole_table(options))
+        return print_whole_table(*table, options, trace);
     const TickRange range = parse_ticks("--ticks", options.ticks, trace);
     check_level(options, trace);
     replay::Selection selection{options.fields, {}};
@@ -56,10 +84,16 @@ int cat(const CatOptions& options) {
     const std::uint64_t step_ns = trace.episode().step_ns;
     Output output("-");
     if (options.format == "csv") {
-        const replay::Table table(replay::table_of(selection), selection, step_ns);
+        world::ActorNames names;
+        const replay::Table table(
+            replay::table_of(selection), selection, step_ns, {&trace.recording().town, &names});
         append_csv_header(table, output.text);
-        for (std::uint64_t index = range.first; index <= range.last; ++index) {
-            append_csv(table, trace.recorded(index), output.text);
+        for (std::uint64_t index = trace.first(); index <= range.last; ++index) {
+            const replay::RecordedTick tick = trace.recorded(index);
+            names.hear(tick.view);
+            if (index < range.first)
+                continue;
+            append_csv(table, tick, output.text);
             output.flush_if_large();
         }
     } else {

@@ -17,6 +17,7 @@
 #include "replay/table/json_lines.h"
 #include "replay/table/kept.h"
 #include "replay/table/table.h"
+#include "replay/table/whole_tables.h"
 #include "world/check.h"
 #include "world/story/wording.h"
 
@@ -38,18 +39,28 @@ void export_csv(replay::TraceReader& trace,
                 std::uint64_t every,
                 const fs::path& folder) {
     NewFolder made(folder);
+    for (const std::string& name : replay::whole_table_names()) {
+        Output output((folder / (name + ".csv")).string());
+        output.text = to_csv(read_whole_table(trace, name));
+        output.finish();
+    }
+    world::ActorNames names;
     std::vector<TableFile> files;
     for (const std::string& name : replay::Table::names()) {
         if (kept(trace.level(), name) == replay::Kept::nothing)
             continue;
-        TableFile file{replay::Table(name, {}, trace.episode().step_ns),
-                       std::make_unique<Output>((folder / (name + ".csv")).string())};
+        TableFile file{
+            replay::Table(name, {}, trace.episode().step_ns, {&trace.recording().town, &names}),
+            std::make_unique<Output>((folder / (name + ".csv")).string())};
         append_csv_header(file.table, file.output->text);
         files.push_back(std::move(file));
     }
     Progress progress("exporting", "ticks", range.last);
-    for (std::uint64_t index = range.first; index <= range.last; index += every) {
+    for (std::uint64_t index = trace.first(); index <= range.last; ++index) {
         const replay::RecordedTick tick = trace.recorded(index);
+        names.hear(tick.view);
+        if (index < range.first || (index - range.first) % every != 0)
+            continue;
         for (const TableFile& file : files) {
             append_csv(file.table, tick, file.output->text);
             file.output->flush_if_large();

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "cli/options/tick_range.h"
 #include "cli/process/guard.h"
 #include "cli/process/output.h"
 #include "cli/process/say.h"
 #include "cli/trace/level_note.h"
+#include "replay/table/actor_search.h"
 #include "replay/table/statistics.h"
 #include "replay/table/value.h"
 #include "world/story/wording.h"
@@ -183,7 +186,13 @@ std::string to_json(const replay::TraceReader& trace, const TraceStatistics& all
 int stats(const StatsOptions& options) {
     end_quietly_when_nobody_reads();
     replay::TraceReader trace(options.trace);
-    const TraceStatistics all = replay::statistics(trace);
+    const TickRange range = parse_ticks("--ticks", options.ticks, trace);
+    std::optional<std::uint32_t> actor;
+    if (!options.actor.empty())
+        actor = replay::find_actor(trace, options.actor);
+    TraceStatistics all = replay::statistics(trace, range.first, range.last);
+    if (actor)
+        std::erase_if(all.vehicles, [&](const auto& vehicle) { return vehicle.id != *actor; });
     print_level_note(trace);
     if (options.json)
         say_lines(to_json(trace, all));

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Iterator
 
 import numpy as np
 
-from . import schema
+from . import schema, tables
 from .nouns import Noun
 
 try:
@@ -185,16 +185,22 @@ class Trace:
         """The table as a pandas.DataFrame with flat columns that name their unit, such as `position.x [m]`.
 
         The place of a vehicle, car or walker is its reference point: on the ground below the middle of the rear axle of
-        vehicles with mass and of cars, below the middle of walkers. `time [s]` stands behind `tick`.
+        vehicles with mass and of cars, below the middle of walkers. How far along its lane something is, is told of both
+        `rear_axle_s [m]` and `front_s [m]`, the front bumper, in `measurements` as in `cars`. `time [s]` stands behind
+        `tick`, names of actors, models and lanes and lengths at the end. `lanes` and `actors` are tables of the whole
+        trace: what stands behind the numbers.
         """
         import pandas
 
+        if noun in ("lanes", "actors"):
+            return pandas.DataFrame(tables.lanes(self) if noun == "lanes" else tables.actors(self))
         columns: dict[str, np.ndarray] = {}
         table = self.table(noun)
         for name in table.dtype.names or ():
             _flatten(columns, name, _UNITS.get(name, ""), table[name])
             if name == "tick":
                 columns["time [s]"] = table["tick"] * self.step
+        tables.add_names(self, noun, table, columns)
         return pandas.DataFrame(columns)
 
     @functools.cached_property
@@ -203,6 +209,11 @@ class Trace:
         key = "slice.spawn."
         return {int(name[len(key):]): Noun(bytes.fromhex(text.partition(" ")[2]), "world.Command")
                 for name, text in self.facts.items() if name.startswith(key)}  # fmt: skip
+
+    @functools.cached_property
+    def names(self) -> dict[int, str]:
+        """What the scenario called its actors, by id."""
+        return tables.names(self)
 
     @functools.cached_property
     def egos(self) -> set[int]:

@@ -59,7 +59,18 @@ class Counter {
         return std::move(result);
     }
 
+    void learn_names(const world::TickView& tick) {
+        for (const world::Event* event : *tick.tick->events())
+            learn_name(*event);
+    }
+
   private:
+    void learn_name(const world::Event& event) {
+        if (event.kind() == world::EventKind::spawned && event.text() != nullptr &&
+            event.actor() < world::first_background_id)
+            vehicles_[event.actor()].result.name = event.text()->str();
+    }
+
     void add(std::size_t now, CountRange& range) const {
         range.least = result.traffic_ticks == 1 ? now : std::min(range.least, now);
         range.most = std::max(range.most, now);
@@ -100,9 +111,7 @@ class Counter {
 
     void add(const world::Event& event) {
         ++result.events;
-        if (event.kind() == world::EventKind::spawned && event.text() != nullptr &&
-            event.actor() < world::first_background_id)
-            vehicles_[event.actor()].result.name = event.text()->str();
+        learn_name(event);
         if (event.kind() != world::EventKind::collision)
             return;
         ++result.collisions;
@@ -116,11 +125,18 @@ class Counter {
 
 }  // namespace
 
-TraceStatistics statistics(TraceReader& trace) {
+TraceStatistics statistics(TraceReader& trace,
+                           std::optional<std::uint64_t> first,
+                           std::optional<std::uint64_t> last) {
     require_kept(trace, "vehicles");
     Counter counter;
-    for (std::uint64_t index = trace.first(); index <= trace.last(); ++index)
-        counter.add(trace.recorded(index));
+    for (std::uint64_t index = trace.first(); index <= last.value_or(trace.last()); ++index) {
+        const RecordedTick tick = trace.recorded(index);
+        if (index < first.value_or(trace.first()))
+            counter.learn_names(tick.view);
+        else
+            counter.add(tick);
+    }
     return counter.finish();
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,7 +55,10 @@ struct TraceStatistics {
     std::uint64_t traffic_bytes = 0;
 };
 
-/// Reads all ticks once. Throws world::Error for a trace of level inputs, which has no states.
-TraceStatistics statistics(TraceReader& trace);
+/// Reads the ticks from first to last (default: all) once, and names from those before. Throws
+/// world::Error for a trace of level inputs, which has no states.
+TraceStatistics statistics(TraceReader& trace,
+                           std::optional<std::uint64_t> first = {},
+                           std::optional<std::uint64_t> last = {});
 
 }  // namespace reprise::replay

@@ -93,6 +93,8 @@ struct Table::Plan {
     std::uint64_t step_ns = 1;
     std::vector<std::string> columns{"tick", "time"};
     std::vector<Leaf> leaves;
+    TableNames names;
+    std::vector<Derived> derived;  ///< the last columns
 
     void add_leaves(const std::vector<Shape>& members,
                     const std::string& prefix,
@@ -105,7 +107,7 @@ struct Table::Plan {
             if (member.field.type == flatbuffers::ET_SEQUENCE && !member.field.repeating) {
                 add_leaves(member.members, path + ".", way);
             } else {
-                columns.push_back(column_name(path));
+                columns.push_back(column_of_field(name, column_name(path)));
                 leaves.push_back({way});
             }
             way.pop_back();
@@ -128,6 +130,8 @@ struct Table::Plan {
         of_traffic = list.owner == world::TrafficTypeTable();
         if (selection.fields.empty())
             selection.fields = {name};
+        const bool is_whole = std::find(selection.fields.begin(), selection.fields.end(), name) !=
+                              selection.fields.end();
         for (std::string& field : selection.fields)
             if (field == name || field.starts_with(name + "."))
                 field.replace(0, name.size(), list.field);
@@ -140,9 +144,13 @@ struct Table::Plan {
         } else {
             columns.insert(columns.end(), {"place", "value"});
         }
+        derived = derived_columns(name, names, is_whole);
+        for (const Derived& column : derived)
+            columns.push_back(column.name);
     }
 
-    void read_list(Bytes object,
+    void read_list(const RecordedTick& tick,
+                   Bytes object,
                    std::vector<Value>& values,
                    const std::function<void(std::span<const Value>)>& row) const {
         const Shape& list = shapes.front();
@@ -158,6 +166,8 @@ struct Table::Plan {
                 const Bytes members = is_table(list.field) ? follow(element) : element;
                 for (std::size_t c = 0; c < leaves.size(); ++c)
                     values[2 + c] = value_of(leaves[c], members);
+                for (std::size_t c = 0; c < derived.size(); ++c)
+                    values[2 + leaves.size() + c] = derived[c].value(names, tick, members);
             }
             row(values);
         }
@@ -179,9 +189,13 @@ bool Table::is_of_traffic(const std::string& name) {
     return list_of(name).owner == world::TrafficTypeTable();
 }
 
-Table::Table(const std::string& name, const Selection& selection, std::uint64_t step_ns)
+Table::Table(const std::string& name,
+             const Selection& selection,
+             std::uint64_t step_ns,
+             const TableNames& names)
     : plan_(std::make_unique<Plan>()) {
     plan_->name = name;
+    plan_->names = names;
     plan_->actor = selection.actor;
     plan_->step_ns = step_ns;
     plan_->of_ticks = name == ticks_table;
@@ -195,8 +209,8 @@ Table::Table(const std::string& name, const Selection& selection, std::uint64_t 
     if (list.owner == nullptr)
         throw world::Error(fmt::format("no table '{}'{}; there are {}",
                                        name,
-                                       world::did_you_mean(name, names()),
-                                       fmt::join(names(), ", ")));
+                                       world::did_you_mean(name, Table::names()),
+                                       fmt::join(Table::names(), ", ")));
     plan_->plan_list(list, selection);
 }
 
@@ -223,7 +237,7 @@ void Table::read(const RecordedTick& tick,
     values[0] = index;
     values[1] = static_cast<double>(index * plan_->step_ns) / 1e9;
     if (!plan_->of_ticks) {
-        plan_->read_list(static_cast<Bytes>(noun), values, row);
+        plan_->read_list(tick, static_cast<Bytes>(noun), values, row);
         return;
     }
     for (std::size_t c = 0; c < plan_->leaves.size(); ++c)
@@ -253,7 +267,7 @@ std::string table_of(const Selection& selection) {
 
 void append_csv_header(const Table& table, std::string& out) {
     for (const std::string& column : table.columns())
-        out += (&column == &table.columns().front() ? "" : ",") + column;
+        out += (&column == &table.columns().front() ? "" : ",") + with_unit(column);
     out += '\n';
 }
 

@@ -34,7 +34,9 @@ class TraceTest(unittest.TestCase):
 
     def columns(self, fields):
         table = list(csv.DictReader(io.StringIO(call("cat", self.path, "--fields", fields, "--format", "csv"))))
-        return {name: np.array([float(row[name]) for row in table]) for name in table[0] if table[0][name] != ""}
+        number = fields.split(".")[-1] if "." in fields else ""
+        return {name.split(" [")[0]: np.array([float(row[name]) for row in table]) for name in table[0]
+                if name.split(" [")[0].endswith(number) and table[0][name] != ""}  # fmt: skip
 
     def test_every_value_of_vehicles_and_cars_is_the_one_that_cat_prints(self):
         for noun, fields in (("vehicles", ("position.x", "velocity.y", "odometer")), ("cars", ("position.z", "yaw", "id"))):
@@ -76,6 +78,27 @@ class TraceTest(unittest.TestCase):
         self.assertEqual(len(frame), 160)
         np.testing.assert_array_equal(frame["speed [m/s]"], self.trace.table("measurements")["speed"])
         np.testing.assert_allclose(frame["time [s]"], frame["tick"] * 0.05)
+
+    def test_pandas_tables_are_those_of_cat(self):
+        import io
+
+        import pandas
+
+        for noun in ("measurements", "cars", "vehicles", "lanes", "actors"):
+            said = call("cat", self.path, "--format", "csv", "--fields", noun)
+            table = pandas.read_csv(io.StringIO(said), keep_default_na=True)
+            frame = self.trace.to_pandas(noun)
+            self.assertEqual(len(frame), len(table), noun)
+            for column in ("name", "model_name", "lane_name", "kind", "left", "junction", "length [m]", "front_s [m]", "rear_axle_s [m]",
+                           "spawned [s]"):  # fmt: skip
+                if column in table and table[column].notna().any():
+                    mine = frame[column]
+                    there = table[column].notna()
+                    self.assertEqual(mine.notna().tolist(), there.tolist(), f"{noun}.{column}")
+                    if table[column].dtype == object:
+                        self.assertEqual(mine[there].tolist(), table[column][there].tolist(), f"{noun}.{column}")
+                    else:
+                        np.testing.assert_allclose(mine[there].astype(float), table[column][there], atol=1e-6)
 
     def test_what_is_no_trace_is_told(self):
         path = WORK / "no.mcap"

@@ -67,7 +67,9 @@ TEST_F(Cat, AnActorIsTheSameByNameAndById) {
 TEST_F(Cat, CsvHoldsTheNumbersOfTheJsonLines) {
     const Result csv =
         cat({"--format", "csv", "--actor", "ego", "--ticks", "9", "--fields", "vehicles.position"});
-    EXPECT_THAT(csv.out, StartsWith("tick,time,position_x,position_y,position_z,id\n9,0.45,"));
+    EXPECT_THAT(
+        csv.out,
+        StartsWith("tick,time [s],position_x [m],position_y [m],position_z [m],id,name\n9,0.45,"));
     const Result json = cat({"--actor", "ego", "--ticks", "9", "--fields", "vehicles.position"});
     std::string numbers = csv.out.substr(csv.out.find("0.45,") + 5);
     for (const char* key : {"\"x\":", "\"y\":", "\"z\":"}) {
