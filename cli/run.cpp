@@ -26,9 +26,9 @@
 #include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/check_result.h"
-#include "world/story/crashes.h"
 #include "world/digest.h"
 #include "world/recording.h"
+#include "world/story/crashes.h"
 #include "world/story/wording.h"
 
 namespace reprise::cli {
@@ -44,10 +44,12 @@ bool is_trace(const fs::path& path) {
 
 /// What a recorded run started from; of this only its length may be another.
 world::Recording prepare_again(const RunOptions& options, replay::TraceReader& trace) {
-    if (options.town || options.seed || !options.parameters.empty())
-        throw world::Error(options.scenario +
-                           ": a recorded run is run again as it was: --town, --seed and --set are "
-                           "for scenarios; to change them run its scenario");
+    if (options.town || options.seed || options.weather || options.friction ||
+        !options.parameters.empty())
+        throw world::Error(
+            options.scenario +
+            ": a recorded run is run again as it was: --town, --seed, --weather, "
+            "--friction and --set are for scenarios; to change them run its scenario");
     if (!options.drivers.empty())
         throw world::Error(options.scenario +
                            ": --driver: what the drivers of a recorded run did is in its trace; "
@@ -67,8 +69,12 @@ world::Recording prepare_again(const RunOptions& options, replay::TraceReader& t
 
 world::Recording prepare(const RunOptions& options) {
     world::Recording recording;
-    const scripting::Overrides overrides{
-        options.town, options.seed, options.seconds, options.parameters};
+    const scripting::Overrides overrides{options.town,
+                                         options.seed,
+                                         options.seconds,
+                                         options.parameters,
+                                         options.weather,
+                                         options.friction};
     recording.episode =
         options.source.empty()
             ? scripting::load_episode(options.scenario, overrides)

@@ -148,6 +148,11 @@ world::EpisodeT episode_of_text(const std::string& name,
     const double duration = overrides.duration.value_or(header.duration);
     if (!(duration > 0) || duration > 86'400)
         throw world::Error(fmt::format("--for {}: must be in (0, 86400] s", duration));
+    if (overrides.weather) {
+        header.weather = preset_weather("--weather", *overrides.weather);
+        if (header.friction)
+            header.weather.friction = *header.friction;
+    }
     episode.name = header.name;
     episode.town = overrides.town.value_or(header.town);
     episode.seed = overrides.seed.value_or(header.seed);
@@ -155,7 +160,7 @@ world::EpisodeT episode_of_text(const std::string& name,
     episode.substeps = substeps;
     episode.max_ticks = std::max<std::uint64_t>(1, ticks_of(duration, step_ns));
     episode.cars = header.cars;
-    episode.road_friction = header.weather.friction;
+    episode.road_friction = overrides.friction.value_or(header.weather.friction);
     episode.weather = header.weather.weather;
     episode.weather_name = header.weather.name;
     episode.parameters = recorded(header.parameters);

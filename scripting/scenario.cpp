@@ -11,6 +11,7 @@
 #include "scripting/words/run.h"
 #include "world/check.h"
 #include "world/digest.h"
+#include "world/weather.h"
 
 namespace reprise::scripting {
 
@@ -55,12 +56,26 @@ struct Scenario::Machine {
     void start() {
         const Header header = read_header(vm, run.episode.scenario);
         vm.run = &run;
-        run.weathers.plan(header.timeline, header.friction);
+        plan_weather(header);
         lua_State* L = vm.main();
         push_parameters(L, run.episode);  // stays at `parameters_at`
         lua_rawgeti(L, LUA_REGISTRYINDEX, header.run);
         lua_pushvalue(L, parameters_at);
         run.tasks.start(L, 1);
+    }
+
+    /// What the command line said instead of the header lies in the episode: another weather has no
+    /// timeline, and a friction of its own holds as the header's does.
+    void plan_weather(const Header& header) {
+        const world::EpisodeT& episode = run.episode;
+        const bool as_written = episode.weather == header.weather.weather;
+        const world::WeatherPreset* other = world::find_weather(episode.weather_name);
+        const double expected = header.friction ? *header.friction
+                                : as_written || other == nullptr ? header.weather.friction
+                                                                 : other->road_friction;
+        const bool own_friction = episode.road_friction != expected && !vm.in_branch;
+        run.weathers.plan(as_written ? header.timeline : std::vector<WeatherEntry>(),
+                          own_friction ? episode.road_friction : header.friction);
     }
 
     Vm vm;

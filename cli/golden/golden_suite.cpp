@@ -26,8 +26,8 @@
 #include "replay/golden/pins.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
-#include "world/tick.h"
 #include "world/story/wording.h"
+#include "world/tick.h"
 
 namespace reprise::cli {
 

@@ -6,6 +6,7 @@
 
 #include "cli/options/option_checks.h"
 #include "cli/options/trace_options.h"
+#include "world/weather.h"
 
 namespace reprise::cli {
 
@@ -128,6 +129,19 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
             },
             ""));
     add_start(command, run, assignments);
+    command
+        .add_option("--weather",
+                    run.weather,
+                    "Another weather than the scenario's at the start: pictures and road friction")
+        ->type_name("PRESET")
+        ->transform(one_of(world::weather_names(), "weather"));
+    command
+        .add_option("--friction",
+                    run.friction,
+                    "Of the road at the start, as a factor on dry asphalt's grip, instead of the "
+                    "weather's")
+        ->type_name("FACTOR")
+        ->check(CLI::Range(0.05, 2.0));
     add_drivers(command, run);
     add_level(command, run.level, {"full", "keyed", "core", "inputs"});
     command

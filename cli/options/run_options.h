@@ -25,6 +25,8 @@ struct RunOptions : DriverOptions {
     std::optional<std::string> town;
     std::optional<std::uint64_t> seed;
     std::optional<double> seconds;
+    std::optional<std::string> weather;  ///< a preset
+    std::optional<double> friction;      ///< of the road
     std::vector<std::pair<std::string, std::string>> parameters;
     std::string level = "full";  ///< how much of each tick is kept
     std::string nudge;           ///< TICK[:ACTOR.FIELD[:UNITS]]; empty: none

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <string_view>
 
+#include "world/weather.h"
+
 namespace reprise::cli {
 
 namespace {
@@ -54,6 +56,20 @@ std::string length(const world::EpisodeT& episode, std::uint64_t ticks) {
     return " --for " + decimal(static_cast<double>(ticks * episode.step_ns) / 1e9);
 }
 
+/// Where it may be another one than the scenario's own; one that has no name, the script says.
+std::string weather(const world::EpisodeT& episode) {
+    const auto& presets = world::weather_presets();
+    const world::WeatherPreset* preset = world::find_weather(episode.weather_name);
+    const bool is_plain =
+        preset == &presets.front() && preset->road_friction == episode.road_friction;
+    if (preset == nullptr || (is_plain && episode.scenario.find("weather") == std::string::npos))
+        return "";
+    std::string text = " --weather " + preset->name;
+    if (preset->road_friction != episode.road_friction)
+        text += " --friction " + decimal(episode.road_friction);
+    return text;
+}
+
 }  // namespace
 
 std::string rerun_command(const std::filesystem::path& trace,
@@ -68,6 +84,7 @@ std::string run_command(const world::EpisodeT& episode, std::uint64_t ticks) {
         text += " --town " + shell_path(episode.town_path);
     text += " --seed " + std::to_string(episode.seed);
     text += length(episode, ticks);
+    text += weather(episode);
     for (const world::ParameterT& parameter : episode.parameters)
         text += " --set " + shell_word(parameter.key + "=" + setting(parameter.value));
     return text;

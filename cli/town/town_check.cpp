@@ -20,8 +20,8 @@
 #include "towns/check/walk_check.h"
 #include "towns/check/walk_map.h"
 #include "towns/import/import_check.h"
-#include "world/town.h"
 #include "world/story/wording.h"
+#include "world/town.h"
 
 namespace reprise::cli {
 

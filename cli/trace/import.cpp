@@ -18,8 +18,8 @@
 #include "replay/mcap/files.h"
 #include "towns/town_reader.h"
 #include "world/check.h"
-#include "world/tick.h"
 #include "world/story/wording.h"
+#include "world/tick.h"
 
 namespace reprise::cli {
 

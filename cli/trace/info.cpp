@@ -17,8 +17,8 @@
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/printable.h"
-#include "world/tick.h"
 #include "world/story/wording.h"
+#include "world/tick.h"
 
 namespace reprise::cli {
 

@@ -8,8 +8,8 @@
 #include "cli/process/reproduce.h"
 #include "cli/process/say.h"
 #include "replay/recovery.h"
-#include "world/tick.h"
 #include "world/story/wording.h"
+#include "world/tick.h"
 
 namespace reprise::cli {
 
