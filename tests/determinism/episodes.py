@@ -179,7 +179,7 @@ def events_in(text):
     for deeds in re.findall(r"deeds: ([^\r\n]*)", text):
         events.update({name: int(count) for name, count in re.findall(r"(\w+)=(\d+)", deeds)})
     events["mistake"] += text.count("(local 'nobody')")  # that was its end, so it could not say so
-    events["collisions"] = len(re.findall(r" collision of ", text))
+    events["collisions"] = len(re.findall(r" hits ", text))
     events["ticks"] = sum(map(int, re.findall(r"\.mcap: (\d+) ticks", text)))
     return events
 

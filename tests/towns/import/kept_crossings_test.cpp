@@ -11,8 +11,8 @@
 #include "tests/towns/street_map.h"
 #include "towns/network/network.h"
 #include "towns/town_reader.h"
-#include "world/town.h"
 #include "world/story/wording.h"
+#include "world/town.h"
 
 namespace reprise::towns {
 namespace {
