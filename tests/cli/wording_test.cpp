@@ -49,7 +49,7 @@ std::string scenario_with(int count) {
                 std::to_string(i) + "', function() return ego:collided() end)\n" +
                 "  print(string.format('%.1f km/h', -0.01))\n";
     return "return scenario 'some' { town = 'straight', cars = " + std::to_string(count) +
-           ", run = function()\n" + body + "  wait(60)\nend }";
+           ", duration = 3, params = { x = 0 }, run = function()\n" + body + "  wait(60)\nend }";
 }
 
 class Wording : public testing::TestWithParam<int> {};
@@ -79,11 +79,12 @@ TEST_P(Wording, OfEveryCommandIsLanguage) {
                                   "export a.mcap --to jsonl -o a.jsonl",
                                   "export a.mcap --to foxglove -o f.mcap",
                                   "branch b.mcap --at 1s --set x=1 -o br.mcap",
-                                  "accept some.lua --for 1 --because 'first golden'",
+                                  "accept some.lua --because 'first golden'",
                                   "test some.lua",
                                   "test some.lua --checks",
                                   "town check straight"}) {
         const Result result = typed("reprise " + command, folder);
+        EXPECT_NE(result.code, 2) << command << "\n" << result.out;
         expect_fine(command, result.out);
     }
 }
