@@ -112,6 +112,18 @@ void Autopilot::free_speed() {
     state_->speed_cap.reset();
 }
 
+void Autopilot::put_elsewhere() {
+    state_->navigator.lose_way();
+    state_->gatekeeper.reset();
+    state_->turn_around = {};
+    state_->waiting_ticks = 0;
+    put_to_speed();
+}
+
+void Autopilot::put_to_speed() {
+    state_->pedals = {};
+}
+
 bool Autopilot::is_under_way() const {
     return !state_->at_end && state_->speed_cap.value_or(world::infinity) >= slowest_order;
 }

@@ -46,6 +46,11 @@ class Autopilot {
     /// Back to the lanes' limits.
     void free_speed();
 
+    /// The scenario moved it: at the next decide it looks where it is, and goes on from there to
+    /// what is left of its route. Or gave it another speed.
+    void put_elsewhere();
+    void put_to_speed();
+
     /// The control for the next tick. The actor must be in `last`.
     world::Control decide(const world::TickView& last);
 

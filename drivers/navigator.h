@@ -47,6 +47,9 @@ class Navigator {
     /// the car needs to brake, and more. Throws world::Error naming a lane that cannot be reached.
     Found follow(Ego& ego);
 
+    /// The car was put elsewhere: at the next follow a way is looked for under it.
+    void lose_way() { on_way_ = false; }
+
     /// A new way for one who has turned around, on the lane under it or else on `lane`.
     void start_on(std::uint32_t lane, Ego& ego);
 

@@ -46,7 +46,10 @@ void Pedestrians::advance(const world::TickView& last, world::TickDraft& next) {
     lay_down(last);
     next.traffic.walkers.clear();
     for (Walker& walker : walkers_) {
-        walk(walker);
+        if (walker.trajectory)
+            follow(walker, next.tick.index);
+        else
+            walk(walker);
         const world::Vec3 position(rounded(walker.position.x(), 1024),
                                    rounded(walker.position.y(), 1024),
                                    rounded(walker.position.z(), 1024));
@@ -86,6 +89,20 @@ void Pedestrians::obey(const world::CommandT& command, world::TickDraft& next) {
         case CommandKind::free_speed:
             walker->wanted_speed = own_speed;
             break;
+        case CommandKind::follow:
+            walker->trajectory.reset();
+            walker->walking = false;
+            walker->speed = 0;
+            if (!command.path.empty() && !walker->down)
+                walker->trajectory.emplace(command.path, command.has_pose);
+            walker->trajectory_start = next.tick.index - 1;  // what the scenario saw
+            break;
+        case CommandKind::teleport:
+            teleport(command, *walker);
+            break;
+        case CommandKind::set_velocity:
+            walker->speed = command.speed;
+            break;
         case CommandKind::despawn:
             despawn(command, next);
             break;
@@ -101,20 +118,12 @@ void Pedestrians::spawn(const world::CommandT& command, world::TickDraft& next) 
     walker.id = command.actor;
     walker.model = command.model;
     walker.wanted_speed = world::walker_models()[walker.model].walking_speed;
-    if (command.lane < town_->lanes.size()) {
-        const world::LanePoint at = world::point_at(town_->lanes[command.lane], command.s);
-        const Eigen::Vector3d left(-std::sin(at.yaw), std::cos(at.yaw), 0);
-        walker.position = at.position + command.offset * left;
-        walker.yaw = at.yaw;
-    } else {
-        walker.position = world::to_eigen(command.target);
-    }
-    walker.position.z() = ground_height(walker.position);
-    const auto place = std::upper_bound(
+    place(command, walker);
+    const auto at = std::upper_bound(
         walkers_.begin(), walkers_.end(), walker.id, [](std::uint32_t id, const Walker& w) {
             return id < w.id;
         });
-    walkers_.insert(place, walker);
+    walkers_.insert(at, walker);
 
     world::EventT event;
     event.kind = world::EventKind::spawned;
@@ -123,6 +132,27 @@ void Pedestrians::spawn(const world::CommandT& command, world::TickDraft& next) 
     event.text = command.text;
     event.line = command.line;
     next.tick.events.push_back(event);
+}
+
+/// At a lane, s and offset, or at a pose.
+void Pedestrians::place(const world::CommandT& command, Walker& walker) const {
+    if (command.lane < town_->lanes.size() && !command.has_pose) {
+        const world::LanePoint at = world::point_at(town_->lanes[command.lane], command.s);
+        const Eigen::Vector3d left(-std::sin(at.yaw), std::cos(at.yaw), 0);
+        walker.position = at.position + command.offset * left;
+        walker.yaw = at.yaw;
+    } else {
+        walker.position = world::to_eigen(command.target);
+        walker.yaw = command.has_pose ? command.heading : walker.yaw;
+    }
+    walker.position.z() = ground_height(walker.position);
+}
+
+/// Goes on from there to where it was told.
+void Pedestrians::teleport(const world::CommandT& command, Walker& walker) const {
+    walker.trajectory.reset();
+    place(command, walker);
+    walker.speed = command.speed;
 }
 
 void Pedestrians::despawn(const world::CommandT& command, world::TickDraft& next) {
@@ -149,6 +179,32 @@ void Pedestrians::lay_down(const world::TickView& last) {
     }
 }
 
+/// The height of the ground and the walk cycle, after so many metres.
+void Pedestrians::step_on(Walker& walker, double distance, double speed) const {
+    walker.position.z() = ground_height(walker.position);
+    const double height = world::walker_models()[walker.model].height;
+    walker.phase += distance / walk_cycle_length(speed, height);
+    walker.phase -= std::floor(walker.phase);
+}
+
+/// Where the trajectory says. Behind its end it stands.
+void Pedestrians::follow(Walker& walker, std::uint64_t tick) const {
+    constexpr double rounding = 1e-9;  // [s]
+    const double time = static_cast<double>(tick - walker.trajectory_start) * step_;
+    walker.speed = 0;
+    if (walker.down || time > walker.trajectory->end() + rounding) {
+        walker.trajectory.reset();
+        return;
+    }
+    const world::Trajectory::State state = walker.trajectory->at(time);
+    const double distance = (state.position - walker.position).head<2>().norm();
+    walker.position.head<2>() = state.position.head<2>();
+    walker.yaw = state.heading.value_or(walker.yaw);
+    walker.speed = state.velocity.norm();
+    if (distance > 0)
+        step_on(walker, distance, distance / step_);
+}
+
 void Pedestrians::walk(Walker& walker) const {
     if (walker.down || !walker.walking) {
         walker.speed = 0;
@@ -162,10 +218,7 @@ void Pedestrians::walk(Walker& walker) const {
     if (distance > 0) {
         walker.yaw = std::atan2(way.y(), way.x());
         walker.position.head<2>() += way * (distance / left);
-        walker.position.z() = ground_height(walker.position);
-        const double height = world::walker_models()[walker.model].height;
-        walker.phase += distance / walk_cycle_length(walker.speed, height);
-        walker.phase -= std::floor(walker.phase);
+        step_on(walker, distance, walker.speed);
     }
     if (distance == left) {  // arrived
         walker.speed = 0;
@@ -213,6 +266,10 @@ std::uint64_t Pedestrians::digest() const {
             hasher.add(value);
         hasher.add(walker.walking);
         hasher.add(walker.down);
+        if (walker.trajectory) {
+            walker.trajectory->add_to(hasher);
+            hasher.add(walker.trajectory_start);
+        }
     }
     return hasher.digest64();
 }

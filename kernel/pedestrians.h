@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -8,14 +9,15 @@
 #include "world/models/gait.h"
 #include "world/tick.h"
 #include "world/town.h"
+#include "world/trajectory.h"
 
 namespace reprise::kernel {
 
 using world::walk_cycle_length;
 
 /// The walkers that a scenario spawns: each goes in a straight line to where it was told, at the
-/// speed it was told (reached with 2 m/s^2), and stops there. One that a vehicle with mass has hit
-/// lies where it was and does nothing more.
+/// speed it was told (reached with 2 m/s^2), and stops there; or is where a trajectory says. One
+/// that a vehicle with mass has hit lies where it was and does nothing more.
 class Pedestrians {
   public:
     /// `town` and its `lanes` must outlive this.
@@ -24,8 +26,8 @@ class Pedestrians {
                 const world::LaneMap& lanes);
 
     /// Stage 4. Carries out next's commands for walkers (spawn, walk, set_speed, free_speed,
-    /// despawn), moves everyone by one tick, and writes next.traffic.walkers (sorted by id) and
-    /// spawned/despawned events.
+    /// follow, teleport, set_velocity, despawn), moves everyone by one tick, and writes
+    /// next.traffic.walkers (sorted by id) and spawned/despawned events.
     ///
     /// spawn: at lane, s, offset; without a lane at `target`. walk: to `target` with `speed`; 0 is
     /// the model's own walking speed. Commands for actors that are no walkers are left to other
@@ -51,6 +53,8 @@ class Pedestrians {
         double phase = 0;  ///< of the walk cycle, in [0, 1)
         bool walking = false;
         bool down = false;
+        std::optional<world::Trajectory> trajectory{};  ///< says where it is
+        std::uint64_t trajectory_start = 0;             ///< tick of its time 0
     };
 
     Walker* find(std::uint32_t id);
@@ -58,6 +62,10 @@ class Pedestrians {
     void spawn(const world::CommandT& command, world::TickDraft& next);
     void despawn(const world::CommandT& command, world::TickDraft& next);
     void lay_down(const world::TickView& last);
+    void place(const world::CommandT& command, Walker& walker) const;
+    void teleport(const world::CommandT& command, Walker& walker) const;
+    void follow(Walker& walker, std::uint64_t tick) const;
+    void step_on(Walker& walker, double distance, double speed) const;
     void walk(Walker& walker) const;
     double ground_height(const Eigen::Vector3d& p_world) const;
 

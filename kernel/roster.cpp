@@ -10,6 +10,7 @@
 #include "world/models/car_model.h"
 #include "world/models/catalogue.h"
 #include "world/random.h"
+#include "world/trajectory.h"
 
 namespace reprise::kernel {
 
@@ -22,6 +23,11 @@ bool has_mass(world::Driver driver) {
 /// Stands still until its driver says something: nobody at the wheel, foot on the brake.
 world::Control parked_control(std::uint32_t actor) {
     return {0, 1, 0, actor, 0, false, false};
+}
+
+/// Sine of the angle uphill.
+double climb_of(const Eigen::Isometry3d& pose_world_vehicle) {
+    return pose_world_vehicle.linear()(2, 0);
 }
 
 /// Without a target: is it to keep its lane from now on, or free to change?
@@ -84,6 +90,11 @@ void Roster::apply_commands(const world::TickView& last, world::TickDraft& next,
                     change_lane(*entry.autopilot, command);
                 entry.route_line = command.line;
                 break;
+            case world::CommandKind::follow:
+            case world::CommandKind::teleport:
+            case world::CommandKind::set_velocity:
+                carry_out(command, entry, next.tick.index, physics);
+                break;
             case world::CommandKind::control:
                 entry.control = command.control;
                 entry.scripted = true;
@@ -105,16 +116,12 @@ void Roster::spawn(const world::TickView& last,
                    world::CommandT& command,
                    world::TickDraft& next,
                    Physics& physics) {
-    if (command.lane == world::none)
+    if (command.lane == world::none && !command.has_pose)
         choose_place(last, next.tick.commands, command);
-    const world::LaneT& lane = town_->lanes.at(command.lane);
-    const world::LanePoint place = world::point_at(lane, command.s);
-    Eigen::Isometry3d pose_world_vehicle =
-        world::pose(world::to_vec3(place.position), place.yaw, place.pitch);
-    pose_world_vehicle = pose_world_vehicle * Eigen::Translation3d(0, command.offset, 0);
+    const Eigen::Isometry3d pose_world_vehicle = pose_of(command, command.model, physics);
     physics.add_vehicle(command.actor, command.model, pose_world_vehicle, command.speed);
 
-    Entry entry{std::nullopt, parked_control(command.actor)};
+    Entry entry{command.model, std::nullopt, parked_control(command.actor)};
     if (command.driver == world::Driver::autopilot) {
         entry.autopilot.emplace(command.actor, command.model, *episode_, map_);
         entry.route_line = command.line;
@@ -122,11 +129,81 @@ void Roster::spawn(const world::TickView& last,
             entry.autopilot->set_route(command.lanes, town_->lanes.at(command.lanes.back()).length);
     }
     if (command.speed > 0)
-        roll(entry, command, std::sin(place.pitch), next.tick.index);
+        roll(entry, command, climb_of(pose_world_vehicle), next.tick.index);
     entries_.insert_or_assign(command.actor, std::move(entry));
     world::EventT spawned = event(world::EventKind::spawned, command.actor, command);
     spawned.position = world::to_vec3(pose_world_vehicle.translation());
     next.tick.events.push_back(spawned);
+}
+
+/// On a lane, or anywhere.
+Eigen::Isometry3d Roster::pose_of(const world::CommandT& command,
+                                  std::uint16_t model,
+                                  const Physics& physics) const {
+    if (command.has_pose)
+        return physics.stance(model, world::to_eigen(command.target), command.heading);
+    const world::LanePoint place = world::point_at(town_->lanes.at(command.lane), command.s);
+    return world::pose(world::to_vec3(place.position), place.yaw, place.pitch) *
+           Eigen::Translation3d(0, command.offset, 0);
+}
+
+/// Commands that decide where a vehicle is, whoever drives it.
+void Roster::carry_out(const world::CommandT& command,
+                       Entry& entry,
+                       std::uint64_t tick,
+                       Physics& physics) const {
+    if (command.kind == world::CommandKind::follow)
+        follow(command, entry, tick, physics);
+    else
+        move(command, entry, tick, physics);
+}
+
+void Roster::follow(const world::CommandT& command,
+                    Entry& entry,
+                    std::uint64_t tick,
+                    Physics& physics) const {
+    if (entry.autopilot)
+        entry.autopilot->put_elsewhere();
+    if (command.path.empty()) {
+        entry.follows_until = 0;
+        return physics.let_go(command.actor);
+    }
+    // The scenario counts from what it saw: the tick before this one.
+    const std::uint64_t start = tick - 1;
+    const double step = world::seconds(1, episode_->step_ns);
+    entry.follows_until = start + world::last_tick_of(command.path, step);
+    physics.follow(command.actor, world::Trajectory(command.path, command.has_pose), start);
+}
+
+/// Elsewhere, or at another speed. Its driver has not seen that yet: an autopilot holds the speed
+/// for this tick.
+void Roster::move(const world::CommandT& command,
+                  Entry& entry,
+                  std::uint64_t tick,
+                  Physics& physics) const {
+    double climb = 0;
+    if (command.kind == world::CommandKind::teleport) {
+        const Eigen::Isometry3d pose_world_vehicle = pose_of(command, entry.model, physics);
+        physics.teleport(command.actor, pose_world_vehicle, command.speed);
+        climb = climb_of(pose_world_vehicle);
+        entry.follows_until = 0;
+    } else {
+        physics.set_speed(command.actor, command.speed);
+    }
+    if (!entry.autopilot)
+        return;
+    if (command.kind == world::CommandKind::teleport)
+        entry.autopilot->put_elsewhere();
+    else
+        entry.autopilot->put_to_speed();
+    entry.moved_at = tick;
+    entry.control = command.speed > 0 ? drivers::rolling_control(
+                                            command.actor,
+                                            world::car_model(world::vehicle_models()[entry.model]),
+                                            command.speed,
+                                            climb,
+                                            world::seconds(1, episode_->step_ns))
+                                      : parked_control(command.actor);
 }
 
 /// Until its driver has seen the tick of its spawn, and could answer, it goes on as fast as it is.
@@ -219,9 +296,14 @@ void Roster::apply_controls(std::span<const world::Control> controls,
     }
     for (auto& [id, entry] : entries_) {
         const bool in_last_tick = find(last.vehicles(), id) != nullptr;
-        if (entry.autopilot && in_last_tick)
+        if (next.tick.index > entry.follows_until)
+            entry.follows_until = 0;
+        if (entry.autopilot && entry.follows_until > 0)
+            entry.control = {0, 0, 0, id, 0, false, false};  // a trajectory drives
+        else if (entry.autopilot && in_last_tick && entry.moved_at != next.tick.index)
             entry.control = decide(entry, last);
-        else if (!entry.scripted && entry.rolls_until > 0 && next.tick.index > entry.rolls_until)
+        else if (!entry.autopilot && !entry.scripted && entry.rolls_until > 0 &&
+                 next.tick.index > entry.rolls_until)
             entry.control = parked_control(id);  // nobody took the wheel
         entry.control.mutate_actor(id);
         next.tick.controls.push_back(entry.control);
@@ -231,6 +313,8 @@ void Roster::apply_controls(std::span<const world::Control> controls,
 bool Roster::is_under_way(const world::VehicleState& vehicle) const {
     constexpr double driven = 1;  // [m] what settles on its springs has not driven
     const Entry& entry = entries_.at(vehicle.id());
+    if (entry.follows_until > 0)
+        return false;
     if (entry.autopilot)
         return entry.autopilot->is_under_way();
     if (entry.control.hand_brake())
@@ -251,6 +335,8 @@ std::uint64_t Roster::digest() const {
         hasher.add(entry.autopilot.has_value());
         if (entry.scripted)
             hasher.add(true);
+        if (entry.follows_until > 0)
+            hasher.add(entry.follows_until);
         if (entry.autopilot)
             hasher.add(entry.autopilot->digest());
     }

@@ -46,14 +46,33 @@ class Roster {
 
   private:
     struct Entry {
+        std::uint16_t model = 0;                      ///< in the vehicle catalogue
         std::optional<drivers::Autopilot> autopilot;  ///< none: manual
         world::Control control;                       ///< the newest
         bool scripted = false;                        ///< the scenario gave one: it drives
         /// Tick until which it holds the speed of its spawn, unless somebody drives before; 0: no.
         std::uint64_t rolls_until = 0;
         std::uint32_t route_line = 0;  ///< of the scenario, that last asked for a route
+        /// Last tick in which a trajectory says where it is; 0: none.
+        std::uint64_t follows_until = 0;
+        std::uint64_t moved_at = 0;  ///< tick in which it was put elsewhere or given another speed
     };
 
+    void carry_out(const world::CommandT& command,
+                   Entry& entry,
+                   std::uint64_t tick,
+                   Physics& physics) const;
+    void follow(const world::CommandT& command,
+                Entry& entry,
+                std::uint64_t tick,
+                Physics& physics) const;
+    void move(const world::CommandT& command,
+              Entry& entry,
+              std::uint64_t tick,
+              Physics& physics) const;
+    Eigen::Isometry3d pose_of(const world::CommandT& command,
+                              std::uint16_t model,
+                              const Physics& physics) const;
     void roll(Entry& entry, const world::CommandT& spawn, double climb, std::uint64_t tick) const;
     world::Control decide(Entry& entry, const world::TickView& last) const;
     void despawn(const world::CommandT& command, world::TickDraft& next, Physics& physics);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <charconv>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <libsumo/libsumo.h>
@@ -21,6 +22,7 @@
 #include "traffic/insertion_points.h"
 #include "traffic/mirrors.h"
 #include "traffic/orders.h"
+#include "traffic/placements.h"
 #include "traffic/road_graph.h"
 #include "traffic/route_planner.h"
 #include "traffic/scripted_spawns.h"
@@ -63,7 +65,8 @@ struct Background::Parts {
           routes(graph, episode.seed),
           insertion(town, graph, routes),
           demand(episode, town, graph, points, insertion),
-          spawns(episode, town, graph, points, insertion),
+          placements(episode, town, lanes, graph, routes, insertion),
+          spawns(episode, town, graph, points, insertion, placements),
           orders(episode, town, graph, routes),
           mirrors(town, lanes, graph, world::seconds(1, episode.step_ns)),
           reader(town, graph, world::seconds(1, episode.step_ns), episode.seed),
@@ -72,6 +75,8 @@ struct Background::Parts {
           step_ns(episode.step_ns) {}
 
     void carry_out(const world::TickView& last, world::TickDraft& next);
+    void give(const world::CommandT& command, Car& car, std::uint64_t tick);
+    std::vector<world::VehicleState> place(std::uint64_t tick);
     void drop_arrived(world::TickDraft& next);
 
     SumoProcess process;
@@ -80,6 +85,7 @@ struct Background::Parts {
     RoutePlanner routes;
     Insertion insertion;
     Demand demand;
+    Placements placements;
     ScriptedSpawns spawns;
     Orders orders;
     Mirrors mirrors;
@@ -105,14 +111,43 @@ void Background::Parts::carry_out(const world::TickView& last, world::TickDraft&
             signal_orders.give(command, step_ns, next.tick.index);
             continue;
         }
+        if (command.kind == CommandKind::teleport && command.driver != world::Driver::walker)
+            spawns.make_room_for(command, cars, next);
         Car* car = cars.find(command.actor);
         if (car == nullptr || command.actor >= world::first_background_id)
             continue;  // somebody else's actor
         if (command.kind == CommandKind::despawn)
             cars.remove_from_sumo(static_cast<std::size_t>(car - cars.all().data()), next);
         else if (car->origin == Origin::scripted)
-            orders.give(command, *car, next.tick.index);
+            give(command, *car, next.tick.index);
     }
+}
+
+void Background::Parts::give(const world::CommandT& command, Car& car, std::uint64_t tick) {
+    using world::CommandKind;
+    if (command.kind == CommandKind::follow || command.kind == CommandKind::teleport ||
+        command.kind == CommandKind::set_velocity)
+        placements.give(command, car, tick);
+    else if (car.sumo.empty())
+        car.waiting.push_back(command);
+    else
+        orders.give(command, car, tick);
+}
+
+/// Cars that are where the scenario says, and those that SUMO drives again, with the orders that
+/// waited for it.
+std::vector<world::VehicleState> Background::Parts::place(std::uint64_t tick) {
+    std::vector<std::uint32_t> freed;
+    auto beside_sumo = placements.advance(cars, tick, freed);
+    for (const std::uint32_t id : freed)
+        orders.release(*cars.find(id), tick);
+    for (Car& car : cars.all()) {
+        if (car.sumo.empty() || car.waiting.empty())
+            continue;
+        for (const world::CommandT& command : std::exchange(car.waiting, {}))
+            orders.give(command, car, tick);
+    }
+    return beside_sumo;
 }
 
 /// SUMO takes vehicles out at the end of their routes.
@@ -122,10 +157,11 @@ void Background::Parts::drop_arrived(world::TickDraft& next) {
     for (const std::string& name : arrived) {
         std::uint32_t id = 0;  // our own, written as a number
         std::from_chars(name.data(), name.data() + name.size(), id);
-        if (const Car* car = cars.find(id))
+        const Car* car = cars.find(id);
+        if (car != nullptr && car->sumo == name)
             cars.remove(static_cast<std::size_t>(car - cars.all().data()), next);
         else
-            mirrors.forget(id);
+            mirrors.forget(name);
     }
 }
 
@@ -146,10 +182,11 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     parts.demand.fill_up(parts.cars, last, next);
 
     // Everybody's route and speed, and the physics vehicles where they will be.
+    const auto beside_sumo = parts.place(next.tick.index);
     parts.routes.keep_ahead(parts.cars);
     parts.orders.follow(parts.cars, next.tick.index);
-    parts.mirrors.advance(last, parts.cars.all());
     parts.signal_orders.follow(next.tick.index);
+    parts.mirrors.advance(last, parts.cars.all(), beside_sumo);
 
     libsumo::Simulation::step();
 

@@ -28,9 +28,9 @@ class Background {
 
     /// Stage 3. Mirrors the physics vehicles of the last tick into SUMO, carries out next's
     /// commands for cars that traffic drives (spawn, despawn, set_speed, free_speed, change_lane,
-    /// set_route), makes one SUMO step, and writes next.traffic.cars (sorted by id, parked ones
-    /// among them), next.tick.signals, and spawned/despawned events. Keeps the number of background
-    /// cars.
+    /// set_route, follow, teleport, set_velocity), makes one SUMO step, and writes
+    /// next.traffic.cars (sorted by id, parked ones among them), next.tick.signals, and
+    /// spawned/despawned events. Keeps the number of background cars.
     void advance(const world::TickView& last, world::TickDraft& next);
 
     /// Of all that this keeps: every car unrounded, with its route, trail and orders; the signals;

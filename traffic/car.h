@@ -9,6 +9,7 @@
 
 #include "traffic/trail.h"
 #include "world/tick.h"
+#include "world/trajectory.h"
 
 namespace reprise::traffic {
 
@@ -35,7 +36,8 @@ struct Car {
     std::uint32_t id = 0;
     std::uint16_t model = 0;
     Origin origin = Origin::demand;
-    std::string sumo;  ///< SUMO's id; empty when SUMO need not know (parked beside the lane)
+    std::string sumo;  ///< SUMO's id; empty when SUMO does not drive it (parked, on a trajectory)
+    std::uint32_t entries = 0;  ///< times that it was put into SUMO, under another id each time
 
     // As of the last SUMO step.
     std::uint32_t lane = world::none;
@@ -54,12 +56,19 @@ struct Car {
     // Where it goes: edges, the current one first; `last_lane` is where the plan ends.
     std::vector<std::uint32_t> route;
     std::uint32_t last_lane = world::none;
-    std::uint32_t draws = 0;  ///< made for its route so far
-    bool dead_end = false;    ///< nothing goes on from last_lane
-    bool keeps_lane = false;  ///< changes lanes where it is ordered to only
+    std::uint32_t draws = 0;           ///< made for its route so far
+    bool dead_end = false;             ///< nothing goes on from last_lane
+    bool keeps_lane = false;           ///< changes lanes where it is ordered to only
+    std::vector<std::uint32_t> stops;  ///< edges of the last set_route
 
     std::optional<SpeedOrder> speed_order;
     std::optional<LaneOrder> lane_order;
+
+    // By the scenario's word; see placements.h.
+    std::optional<world::Trajectory> trajectory;  ///< says where it is
+    std::uint64_t trajectory_start = 0;           ///< tick of its time 0
+    std::vector<world::CommandT> waiting;         ///< orders for when SUMO drives it again
+    std::uint64_t held_in = 0;                    ///< tick in which SUMO must hold its speed
 };
 
 }  // namespace reprise::traffic

@@ -161,7 +161,7 @@ void CarReader::read_car(Car& car, std::uint64_t tick) const {
 
 void CarReader::read(Cars& cars, std::uint64_t tick) const {
     for (Car& car : cars.all())
-        if (car.origin != Origin::parked)
+        if (car.origin != Origin::parked && !car.sumo.empty())
             read_car(car, tick);
 }
 

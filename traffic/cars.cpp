@@ -116,6 +116,17 @@ void Cars::add_to(world::Hasher& hasher) const {
             hasher.add(car.lane_order->duration);
             hasher.add(car.lane_order->until);
         }
+        if (car.trajectory) {
+            car.trajectory->add_to(hasher);
+            hasher.add(car.trajectory_start);
+        }
+        // Until it is put elsewhere, its stops follow from the commands, and nothing reads them.
+        if (car.entries > 1 || (car.sumo.empty() && car.origin == Origin::scripted)) {
+            hasher.add(car.entries);
+            hasher.add(car.held_in);
+            hasher.add(std::span<const std::uint32_t>(car.stops));
+            hasher.add(std::uint64_t{car.waiting.size()});
+        }
     }
 }
 

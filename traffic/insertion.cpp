@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <fmt/format.h>
 #include <libsumo/libsumo.h>
 
 #include "traffic/fleet.h"
@@ -37,6 +38,8 @@ void Insertion::insert(Car& car, const InsertionPoint& point, const std::string&
     const world::LaneT& lane = town_->lanes[point.lane];
     routes_->start(point.lane, car);
     car.sumo = sumo_id(car.id);
+    if (car.entries++ > 0)
+        car.sumo += fmt::format(".{}", car.entries);
     libsumo::Route::add(car.sumo, graph_->names(car.route));
     Vehicle::add(car.sumo, car.sumo, type, "now");
     // Put there by force: SUMO's own insertion waits in a queue for as long as it likes.

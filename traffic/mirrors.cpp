@@ -50,8 +50,8 @@ Mirrors::Mirrors(const world::TownT& town,
       step_(step),
       short_predecessors_(lanes_with_short_predecessors(town, graph)) {}
 
-void Mirrors::forget(std::uint32_t id) {
-    std::erase_if(mirrors_, [id](const Mirror& mirror) { return mirror.id == id; });
+void Mirrors::forget(const std::string& sumo) {
+    std::erase_if(mirrors_, [&sumo](const Mirror& mirror) { return mirror.sumo == sumo; });
 }
 
 Mirrors::Target Mirrors::target_of(const world::VehicleState& vehicle) const {
@@ -94,7 +94,9 @@ std::vector<std::uint32_t> Mirrors::likely_way(std::uint32_t lane, std::uint16_t
     return way;
 }
 
-Mirrors::Mirror& Mirrors::find_or_add(const world::VehicleState& vehicle, const Target& target) {
+Mirrors::Mirror& Mirrors::find_or_add(const world::VehicleState& vehicle,
+                                      const std::string& sumo,
+                                      const Target& target) {
     auto at = std::lower_bound(
         mirrors_.begin(), mirrors_.end(), vehicle.id(), [](const Mirror& m, std::uint32_t id) {
             return m.id < id;
@@ -104,7 +106,7 @@ Mirrors::Mirror& Mirrors::find_or_add(const world::VehicleState& vehicle, const 
     using libsumo::Vehicle;
     Mirror mirror;
     mirror.id = vehicle.id();
-    mirror.sumo = sumo_id(vehicle.id());
+    mirror.sumo = sumo;
     // Off the road it starts on some edge, and is taken away from there at once.
     const std::uint32_t start =
         target.lane == world::none ? graph_->edge(0).lanes.front() : target.lane;
@@ -242,8 +244,19 @@ void Mirrors::keep_order(const Mirror& mirror,
         libsumo::Vehicle::moveTo(mirror.sumo, town_->lanes[target.lane].name, target.lane_position);
 }
 
-void Mirrors::advance(const world::TickView& last, std::span<const Car> cars) {
-    const auto vehicles = last.vehicles();
+void Mirrors::advance(const world::TickView& last,
+                      std::span<const Car> cars,
+                      std::span<const world::VehicleState> beside_sumo) {
+    std::span<const world::VehicleState> vehicles = last.vehicles();
+    std::vector<world::VehicleState> all;
+    if (!beside_sumo.empty()) {
+        all.assign(vehicles.begin(), vehicles.end());
+        all.insert(all.end(), beside_sumo.begin(), beside_sumo.end());
+        std::sort(all.begin(), all.end(), [](const auto& one, const auto& other) {
+            return one.id() < other.id();
+        });
+        vehicles = all;
+    }
     // Gone ones first.
     for (const Mirror& mirror : mirrors_)
         if (world::find(vehicles, mirror.id) == nullptr)
@@ -253,7 +266,10 @@ void Mirrors::advance(const world::TickView& last, std::span<const Car> cars) {
     });
     for (const world::VehicleState& vehicle : vehicles) {
         const Target target = target_of(vehicle);
-        Mirror& mirror = find_or_add(vehicle, target);
+        // A car's own id is SUMO's until the end of the step.
+        const bool is_car = world::find(beside_sumo, vehicle.id()) != nullptr;
+        const std::string name = sumo_id(vehicle.id()) + (is_car ? "f" : "");
+        Mirror& mirror = find_or_add(vehicle, name, target);
         try {
             enter_again(mirror, vehicle);
             move(mirror, vehicle, target);

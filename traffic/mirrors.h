@@ -30,10 +30,13 @@ class Mirrors {
     /// Brings SUMO's copies in line with the last tick: new ones, moved ones, gone ones. About 10
     /// us a vehicle on a road; 40 us in a junction or off the way that was expected. `cars` are
     /// those of traffic, sorted by id.
-    void advance(const world::TickView& last, std::span<const Car> cars);
+    /// `beside_sumo`, sorted by id: cars of traffic's that SUMO does not drive now.
+    void advance(const world::TickView& last,
+                 std::span<const Car> cars,
+                 std::span<const world::VehicleState> beside_sumo = {});
 
     /// SUMO took this vehicle out of the simulation; it is put back at the next advance.
-    void forget(std::uint32_t id);
+    void forget(const std::string& sumo);
 
     void add_to(world::Hasher& hasher) const;
 
@@ -55,7 +58,9 @@ class Mirrors {
         double lane_position = 0;  ///< [m] in SUMO's measure
     };
 
-    Mirror& find_or_add(const world::VehicleState& vehicle, const Target& target);
+    Mirror& find_or_add(const world::VehicleState& vehicle,
+                        const std::string& sumo,
+                        const Target& target);
     Target target_of(const world::VehicleState& vehicle) const;
     void move(Mirror& mirror, const world::VehicleState& vehicle, const Target& target);
     bool start_where_sumo_has_it(const Mirror& mirror, std::vector<std::uint32_t>& way) const;

@@ -58,6 +58,16 @@ void Orders::give(const world::CommandT& command, Car& car, std::uint64_t tick) 
     }
 }
 
+void Orders::release(Car& car, std::uint64_t tick) const {
+    if (car.speed_order) {
+        world::CommandT command;
+        command.speed = car.speed_order->to;
+        return take_speed(command, car, tick);
+    }
+    Vehicle::setSpeed(car.sumo, -1);
+    Vehicle::setSpeedMode(car.sumo, sumo_default_speed_mode);
+}
+
 /// Changed evenly over the duration, and never faster than a car can.
 void Orders::take_speed(const world::CommandT& command, Car& car, std::uint64_t tick) const {
     const double change = command.speed - car.speed;
@@ -138,6 +148,9 @@ void Orders::take_route(const world::CommandT& command, Car& car) const {
     if (route.size() < 2)
         return;
     car.route = route;
+    car.stops.clear();
+    for (const std::uint32_t lane : command.lanes)
+        car.stops.push_back(graph_->edge_of(lane));
     routes_->extend(car);
     routes_->send(car);
 }
@@ -172,7 +185,9 @@ bool Orders::is_off_its_route(const Car& car) const {
 
 void Orders::follow(Cars& cars, std::uint64_t tick) const {
     for (Car& car : cars.all()) {
-        if (car.speed_order) {
+        if (car.sumo.empty())
+            continue;
+        if (car.speed_order && car.held_in != tick) {
             const SpeedOrder& order = *car.speed_order;
             const std::uint64_t done = std::min(tick - order.start, order.ticks);
             const double share =

@@ -31,6 +31,9 @@ class Orders {
     /// line, for a route to a lane that cannot be reached.
     void give(const world::CommandT& command, Car& car, std::uint64_t tick) const;
 
+    /// A car whose speed was held for a tick goes on as it was told before.
+    void release(Car& car, std::uint64_t tick) const;
+
     /// Asks of SUMO what the orders want in this tick; ends those that are carried out.
     void follow(Cars& cars, std::uint64_t tick) const;
 

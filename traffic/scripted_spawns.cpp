@@ -79,12 +79,67 @@ void ScriptedSpawns::make_room(const InsertionPoint& point,
 void ScriptedSpawns::make_room_for(const world::CommandT& command,
                                    Cars& cars,
                                    world::TickDraft& next) const {
+    if (command.has_pose)
+        return make_room_at(command, cars, next);
     const world::VehicleModel& model = world::vehicle_models()[command.model];
     const double front = command.s + origin_to_front(command.model);
     make_room({command.lane, std::min(front, town_->lanes[command.lane].length)},
               model.length,
               cars,
               next);
+}
+
+/// Takes out background cars that stand within 2 m of the one that comes there.
+void ScriptedSpawns::make_room_at(const world::CommandT& command,
+                                  Cars& cars,
+                                  world::TickDraft& next) const {
+    const world::VehicleModel& model = world::vehicle_models()[command.model];
+    const Eigen::Vector2d ahead(std::cos(command.heading), std::sin(command.heading));
+    const Eigen::Vector2d middle(command.target.x(), command.target.y());
+    const double to_middle = model.length / 2 - model.rear_overhang;
+    for (std::size_t i = cars.size(); i-- > 0;) {
+        if (cars[i].origin != Origin::demand)
+            continue;
+        const OccupiedBox other = box_of(cars[i]);
+        const Eigen::Vector2d apart = other.centre - (middle + ahead * to_middle);
+        const double along = std::abs(apart.dot(ahead));
+        const double across = std::abs(apart.x() * ahead.y() - apart.y() * ahead.x());
+        // As wide as it is long where it stands across.
+        const double turn = std::abs(std::sin(other.yaw - command.heading));
+        if (along < (model.length + other.length) / 2 + 2 && across < 2.6 + turn * other.length / 2)
+            cars.remove_from_sumo(i, next);
+    }
+}
+
+void ScriptedSpawns::spawn_at_pose(const world::CommandT& command,
+                                   Car car,
+                                   Cars& cars,
+                                   world::TickDraft& next) const {
+    make_room_at(command, cars, next);
+    const Placements::Pose pose = placements_->pose_of(command);
+    placements_->stand(car, pose);
+    const bool on_road = car.lane != none;
+    if (car.origin != Origin::parked) {
+        if (!placements_->enter_sumo(car, next.tick.index))
+            fail_spawn(*episode_,
+                       command,
+                       fmt::format("({:.2f}, {:.2f}) is on no lane for cars that leads its way",
+                                   command.target.x(),
+                                   command.target.y()));
+    } else if (on_road) {
+        const world::LaneT& lane = town_->lanes[car.lane];
+        const double offset = world::project(lane, pose.rear).t;
+        if (stands_in_the_way(lane, world::vehicle_models()[car.model], offset)) {
+            using libsumo::Vehicle;
+            const double s = car.lane_position / lane.sumo_length * lane.length;
+            insertion_->insert(car, {car.lane, s}, scripted_type(car.model));
+            Vehicle::setLaneChangeMode(car.sumo, 0);
+            Vehicle::setSpeedMode(car.sumo, 0);
+            Vehicle::setSpeed(car.sumo, 0);
+            placements_->stand(car, pose);
+        }
+    }
+    cars.add(std::move(car), command.text, command.line, next);
 }
 
 /// Stands the car there, `offset` [m] left of the middle of the lane.
@@ -117,6 +172,9 @@ void ScriptedSpawns::spawn(const world::CommandT& command,
     car.model = command.model;
     car.origin = parked ? Origin::parked : Origin::scripted;
     car.speed = parked ? 0 : command.speed;
+
+    if (command.has_pose)
+        return spawn_at_pose(command, std::move(car), cars, next);
 
     const InsertionPoint point = point_of(command, cars, last, next);
     const world::LaneT& lane = town_->lanes[point.lane];

@@ -3,6 +3,7 @@
 #include "traffic/cars.h"
 #include "traffic/insertion.h"
 #include "traffic/insertion_points.h"
+#include "traffic/placements.h"
 #include "traffic/road_graph.h"
 #include "world/episode_generated.h"
 #include "world/models/catalogue.h"
@@ -19,12 +20,14 @@ class ScriptedSpawns {
                    const world::TownT& town,
                    const RoadGraph& graph,
                    const InsertionPoints& points,
-                   const Insertion& insertion)
+                   const Insertion& insertion,
+                   const Placements& placements)
         : episode_(&episode),
           town_(&town),
           graph_(&graph),
           points_(&points),
-          insertion_(&insertion) {}
+          insertion_(&insertion),
+          placements_(&placements) {}
 
     /// Carries out a spawn command; background cars that stand there are taken out. Throws
     /// world::Error, with the script's line, where the car cannot stand.
@@ -47,6 +50,11 @@ class ScriptedSpawns {
                    double car_length,
                    Cars& cars,
                    world::TickDraft& next) const;
+    void spawn_at_pose(const world::CommandT& command,
+                       Car car,
+                       Cars& cars,
+                       world::TickDraft& next) const;
+    void make_room_at(const world::CommandT& command, Cars& cars, world::TickDraft& next) const;
     void park(Car& car, const InsertionPoint& point, double offset) const;
 
     const world::EpisodeT* episode_;
@@ -54,6 +62,7 @@ class ScriptedSpawns {
     const RoadGraph* graph_;
     const InsertionPoints* points_;
     const Insertion* insertion_;
+    const Placements* placements_;
 };
 
 }  // namespace reprise::traffic

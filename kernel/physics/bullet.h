@@ -28,6 +28,17 @@ inline std::uint32_t actor_of(const btCollisionObject& object) {
     return static_cast<std::uint32_t>(object.getUserIndex2());
 }
 
+/// [kg] What a body weighs that Bullet moves as if it had no mass: user index 3.
+inline void tag_mass(btCollisionObject& object, double mass) {
+    object.setUserIndex3(static_cast<int>(mass));
+}
+
+/// Infinite for what stands fast.
+inline double mass_of(const btCollisionObject& object) {
+    constexpr double infinite = 1e9;
+    return object.getUserIndex3() > 0 ? object.getUserIndex3() : infinite;
+}
+
 inline btVector3 to_bullet(const Eigen::Vector3d& v) {
     return {v.x(), v.y(), v.z()};
 }

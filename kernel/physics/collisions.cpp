@@ -32,8 +32,10 @@ void Collisions::gather(const btDispatcher& dispatcher) {
             if (impulse > manifold.getContactPoint(strongest).m_appliedImpulse)
                 strongest = k;
         }
-        if (sum <= 0)
+        if (sum <= 0) {
+            gather_unyielding(manifold);
             continue;
+        }
         const btManifoldPoint& point = manifold.getContactPoint(strongest);
         const btCollisionObject* bodies[2] = {manifold.getBody0(), manifold.getBody1()};
         for (int side = 0; side < 2; ++side) {
@@ -49,6 +51,48 @@ void Collisions::gather(const btDispatcher& dispatcher) {
                 both.strongest = point.m_appliedImpulse;
                 both.position = side == 0 ? point.m_positionWorldOnA : point.m_positionWorldOnB;
             }
+        }
+    }
+}
+
+/// Two that both are where a trajectory says, or one and what stands: neither gives way, so Bullet
+/// applies nothing. What a plastic hit would take: the reduced mass at the speed at which they
+/// close. Once a tick.
+void Collisions::gather_unyielding(const btPersistentManifold& manifold) {
+    const btRigidBody* bodies[2] = {btRigidBody::upcast(manifold.getBody0()),
+                                    btRigidBody::upcast(manifold.getBody1())};
+    for (const btRigidBody* body : bodies)
+        if (body == nullptr || body->getInvMass() != 0 || body->getUserIndex() == ground_body)
+            return;
+    double impulse = 0;
+    const btManifoldPoint* worst = nullptr;
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+        const btManifoldPoint& point = manifold.getContactPoint(k);
+        if (point.getDistance() > 0)
+            continue;
+        const btVector3& p = point.getPositionWorldOnB();
+        const btVector3 between =
+            bodies[0]->getVelocityInLocalPoint(p - bodies[0]->getWorldTransform().getOrigin()) -
+            bodies[1]->getVelocityInLocalPoint(p - bodies[1]->getWorldTransform().getOrigin());
+        const double mass = 1 / (1 / mass_of(*bodies[0]) + 1 / mass_of(*bodies[1]));
+        const double lost = -between.dot(point.m_normalWorldOnB) * mass;
+        if (lost > impulse) {
+            impulse = lost;
+            worst = &point;
+        }
+    }
+    if (worst == nullptr)
+        return;
+    for (int side = 0; side < 2; ++side) {
+        if (bodies[side]->getUserIndex() != vehicle_body)
+            continue;
+        const btRigidBody& other = *bodies[1 - side];
+        Pair& both = pair(actor_of(*bodies[side]), actor_of(other), false);
+        both.mirrored = other.getUserIndex() == vehicle_body &&
+                        actor_of(other) < actor_of(*bodies[side]);
+        if (impulse > both.strongest) {
+            both.impulse = both.strongest = impulse;
+            both.position = worst->getPositionWorldOnB();
         }
     }
 }

@@ -71,6 +71,8 @@ class Collisions {
         world::Vec3 place;        ///< of the worst
     };
 
+    void gather_unyielding(const btPersistentManifold& manifold);
+
     Pair& pair(std::uint32_t actor, std::uint32_t other, bool ground);
     std::vector<Pair> touches() const;
     void touch(const Pair& pair, std::uint64_t tick, std::vector<world::EventT>& events);

@@ -56,7 +56,8 @@ NearCars::~NearCars() {
 
 void NearCars::choose(std::span<const world::CarState> last,
                       std::span<const world::CarState> next,
-                      std::span<const btVector3> centres) {
+                      std::span<const btVector3> centres,
+                      const Displaced& displaced) {
     // Who stays: still there and not too far.
     std::vector<const world::CarState*> entering;
     auto old = boxes_.begin();
@@ -83,7 +84,9 @@ void NearCars::choose(std::span<const world::CarState> last,
         boxes_.begin(), boxes_.end(), [](const auto& a, const auto& b) { return a->id < b->id; });
     // Where to.
     for (const auto& box : boxes_)
-        aim(*box, last, *world::find(next, box->id));
+        aim(*box,
+            holds(displaced, box->id) ? nullptr : world::find(last, box->id),
+            *world::find(next, box->id));
 }
 
 void NearCars::enter(const world::CarState& car) {
@@ -98,13 +101,13 @@ void NearCars::enter(const world::CarState& car) {
     body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     body.setActivationState(DISABLE_DEACTIVATION);
     tag(body, car_body, car.id());
+    tag_mass(body, world::vehicle_models()[car.model()].mass);
     world_->addRigidBody(&body);
     boxes_.push_back(std::move(box));
 }
 
-void NearCars::aim(Box& box, std::span<const world::CarState> last, const world::CarState& next) {
+void NearCars::aim(Box& box, const world::CarState* before, const world::CarState& next) {
     const btTransform to = box_pose(next);
-    const world::CarState* before = world::find(last, box.id);
     btTransform from = before != nullptr ? box_pose(*before) : to;
     if (from.getOrigin().distance2(to.getOrigin()) > longest_move * longest_move)
         from = to;

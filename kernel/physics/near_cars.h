@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/physics/bullet.h"
+#include "kernel/physics/displaced.h"
 #include "world/digest.h"
 #include "world/tick.h"
 
@@ -31,7 +32,8 @@ class NearCars {
     /// Start of a tick: who is in, and from where to where they go. All in id order.
     void choose(std::span<const world::CarState> last,
                 std::span<const world::CarState> next,
-                std::span<const btVector3> centres);
+                std::span<const btVector3> centres,
+                const Displaced& displaced = {});
 
     /// Puts every box where it is after `share` of the tick. Bullet takes the velocities, linear
     /// and angular, from the difference to the pose before.
@@ -45,7 +47,7 @@ class NearCars {
     struct Box;
 
     void enter(const world::CarState& car);
-    void aim(Box& box, std::span<const world::CarState> last, const world::CarState& next);
+    void aim(Box& box, const world::CarState* last, const world::CarState& next);
 
     btDynamicsWorld* world_;
     std::vector<std::unique_ptr<btBoxShape>> shapes_;  ///< [i] of vehicle_models()[i]

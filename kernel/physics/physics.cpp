@@ -14,6 +14,7 @@
 #include "kernel/physics/near_cars.h"
 #include "kernel/physics/near_obstacles.h"
 #include "kernel/physics/props.h"
+#include "kernel/physics/stance.h"
 #include "kernel/physics/vehicle.h"
 #include "kernel/physics/walker_hits.h"
 #include "world/check.h"
@@ -127,6 +128,13 @@ struct Physics::World {
             });
     }
 
+    Vehicle& vehicle(std::uint32_t id) {
+        const auto found = place(id);
+        REPRISE_CHECK(found != vehicles.end() && (*found)->id() == id,
+                      "vehicle " + std::to_string(id));
+        return **found;
+    }
+
     void choose_neighbours(const world::TickView& last, const world::TickDraft& next);
     void wake_props(const world::TickView& last, const world::TickDraft& next);
     void make_substep(int index, double road_friction);
@@ -168,6 +176,30 @@ void Physics::add_vehicle(std::uint32_t id,
         std::make_unique<Vehicle>(id, model, w.bullet.world, w.ground, pose_world_vehicle, speed));
 }
 
+Eigen::Isometry3d Physics::stance(std::uint16_t model,
+                                  const Eigen::Vector3d& p_world,
+                                  double yaw) const {
+    return kernel::stance(world_->ground, world::vehicle_models()[model], p_world, yaw);
+}
+
+void Physics::follow(std::uint32_t id, world::Trajectory trajectory, std::uint64_t start) {
+    world_->vehicle(id).follow(std::move(trajectory), start);
+}
+
+void Physics::let_go(std::uint32_t id) {
+    world_->vehicle(id).let_go();
+}
+
+void Physics::teleport(std::uint32_t id,
+                       const Eigen::Isometry3d& pose_world_vehicle,
+                       double speed) {
+    world_->vehicle(id).teleport(pose_world_vehicle, speed);
+}
+
+void Physics::set_speed(std::uint32_t id, double speed) {
+    world_->vehicle(id).set_speed(speed);
+}
+
 world::Vec3 Physics::remove_vehicle(std::uint32_t id) {
     World& w = *world_;
     const auto place = w.place(id);
@@ -200,10 +232,15 @@ void Physics::advance(const world::TickView& last, world::TickDraft& next) {
         if (const world::Control* control = world::find(next.tick.controls, vehicle->id()))
             vehicle->set_control(*control);
     w.props.set_road_friction(next.tick.road_friction);
+    for (const auto& vehicle : w.vehicles)
+        vehicle->aim(next.tick.index, w.step);
     // Without a vehicle or a prop that moves nothing can happen.
     if (!w.vehicles.empty() || w.props.any_awake())
         for (int i = 1; i <= w.substeps; ++i)
             w.make_substep(i, next.tick.road_friction);
+    for (const auto& vehicle : w.vehicles)
+        if (vehicle->is_guided())
+            vehicle->settle(w.step);
     w.write(next.tick);
 }
 
@@ -211,11 +248,12 @@ void Physics::World::choose_neighbours(const world::TickView& last, const world:
     centres.clear();
     for (const auto& vehicle : vehicles)
         centres.push_back(vehicle->body().getCenterOfMassPosition());
-    walkers.choose(last.walkers(), next.traffic.walkers, centres, step);
+    const Displaced displaced = displaced_by(next.tick.commands);
+    walkers.choose(last.walkers(), next.traffic.walkers, centres, step, displaced);
     wake_props(last, next);
     props.add_centres(centres);
     obstacles.choose(centres);
-    cars.choose(last.cars(), next.traffic.cars, centres);
+    cars.choose(last.cars(), next.traffic.cars, centres, displaced);
     doors.choose(next, vehicles, centres);
 }
 
@@ -242,8 +280,12 @@ void Physics::World::wake_props(const world::TickView& last, const world::TickDr
 
 void Physics::World::make_substep(int index, double road_friction) {
     const double share = static_cast<double>(index) / substeps;
-    for (const auto& vehicle : vehicles)
-        vehicle->drive(road_friction, substep);
+    for (const auto& vehicle : vehicles) {
+        if (vehicle->is_guided())
+            vehicle->be_guided(share);
+        else
+            vehicle->drive(road_friction, substep);
+    }
     walkers.test(share, vehicles, collisions);
     cars.move(share);
     doors.move(vehicles);
@@ -275,10 +317,7 @@ void Physics::World::write(world::TickT& tick) {
 }
 
 void Physics::nudge(std::uint32_t id, std::string_view field, std::int64_t units) {
-    const auto place = world_->place(id);
-    REPRISE_CHECK(place != world_->vehicles.end() && (*place)->id() == id,
-                  "vehicle " + std::to_string(id));
-    (*place)->nudge(field, units);
+    world_->vehicle(id).nudge(field, units);
 }
 
 std::span<const Impact> Physics::impacts() const {

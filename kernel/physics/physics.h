@@ -13,6 +13,7 @@
 #include "world/obstacle.h"
 #include "world/tick.h"
 #include "world/town.h"
+#include "world/trajectory.h"
 
 namespace reprise::kernel {
 
@@ -47,6 +48,19 @@ class Physics {
     void add_prop(std::uint32_t id, std::uint16_t model, const Eigen::Isometry3d& pose_world_prop);
     bool has_prop(std::uint32_t id) const;
     world::Vec3 remove_prop(std::uint32_t id);
+    /// A vehicle of this model at rest on the ground there; see kernel/physics/stance.h.
+    Eigen::Isometry3d stance(std::uint16_t model, const Eigen::Vector3d& p_world, double yaw) const;
+
+    /// From the next tick on the vehicle is where the trajectory says, until that ends; its time 0
+    /// is tick `start`. Or moved by forces again. See kernel/physics/guide.h.
+    void follow(std::uint32_t id, world::Trajectory trajectory, std::uint64_t start);
+    void let_go(std::uint32_t id);
+
+    /// Puts it elsewhere, as add_vehicle does; what it has driven stays.
+    void teleport(std::uint32_t id, const Eigen::Isometry3d& pose_world_vehicle, double speed);
+
+    /// [m/s] along its heading, at once.
+    void set_speed(std::uint32_t id, double speed);
 
     /// Stage 5. Applies next.tick.controls, moves the kinematic bodies from `last` to `next` in
     /// equal substeps, steps Bullet, and writes next.tick.vehicles, wheels and props (sorted) and

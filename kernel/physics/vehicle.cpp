@@ -121,8 +121,16 @@ Vehicle::Vehicle(std::uint32_t id,
     : id_(id),
       model_index_(model),
       model_(world::car_model(world::vehicle_models()[model])),
-      chassis_(std::make_unique<Chassis>(model_, bullet, ground)),
-      last_position_(world::to_vec3(pose_world_vehicle.translation())) {
+      ground_(&ground) {
+    put_down(bullet, pose_world_vehicle, speed);
+}
+
+/// A new chassis there: at rest on its wheels.
+void Vehicle::put_down(btDynamicsWorld& bullet,
+                       const Eigen::Isometry3d& pose_world_vehicle,
+                       double speed) {
+    chassis_.reset();  // Bullet hears of the old one's end first
+    chassis_ = std::make_unique<Chassis>(model_, bullet, *ground_);
     const Eigen::Isometry3d pose_world_body =
         pose_world_vehicle * Eigen::Translation3d(model_.com_ahead, 0, model_.com_height);
     const Eigen::Vector3d velocity = pose_world_vehicle.linear().col(0) * speed;
@@ -130,8 +138,10 @@ Vehicle::Vehicle(std::uint32_t id,
     body.setCenterOfMassTransform(to_bullet(pose_world_body));
     body.setInterpolationWorldTransform(body.getCenterOfMassTransform());
     body.setLinearVelocity(to_bullet(velocity));
-    tag(body, vehicle_body, id);
+    tag(body, vehicle_body, id_);
+    tag_mass(body, model_.catalogue->mass);
     bullet.addRigidBody(&body);
+    last_position_ = world::to_vec3(pose_world_vehicle.translation());
     last_velocity_ = world::to_vec3(velocity);
 }
 
@@ -194,6 +204,133 @@ void Vehicle::drive(double road_friction, double step) {
     }
 }
 
+// --- On a trajectory.
+
+Eigen::Isometry3d Vehicle::pose() const {
+    const btTransform& body_pose = body().getCenterOfMassTransform();
+    Eigen::Isometry3d pose_world_body = Eigen::Isometry3d::Identity();
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            pose_world_body.linear()(row, column) = body_pose.getBasis()[row][column];
+        pose_world_body.translation()[row] = body_pose.getOrigin()[row];
+    }
+    return pose_world_body * Eigen::Translation3d(-model_.com_ahead, 0, -model_.com_height);
+}
+
+void Vehicle::follow(world::Trajectory trajectory, std::uint64_t start) {
+    guide_.emplace(std::move(trajectory), start);
+}
+
+void Vehicle::let_go() {
+    guide_.reset();
+}
+
+void Vehicle::teleport(const Eigen::Isometry3d& pose_world_vehicle, double speed) {
+    btDynamicsWorld& bullet = *chassis_->world;
+    guide_.reset();
+    guided_ = false;
+    steering_angle_ = 0;
+    put_down(bullet, pose_world_vehicle, speed);
+}
+
+void Vehicle::set_speed(double speed) {
+    const btMatrix3x3& basis = body().getCenterOfMassTransform().getBasis();
+    const double turn_rate = speed * std::tan(steering_angle_) / model_.catalogue->wheelbase;
+    const btVector3 spin = basis.getColumn(2) * turn_rate;
+    const btVector3 to_middle = basis * btVector3(model_.com_ahead, 0, 0);
+    body().setLinearVelocity(basis.getColumn(0) * speed + spin.cross(to_middle));
+    body().setAngularVelocity(spin);
+}
+
+/// Takes the body from forces and gives it back to them. Bullet sorts its bodies by what moves them
+/// when they enter. A guided one meets whatever stands, too: nothing gives way, but it is noticed.
+void Vehicle::hold(bool guided) {
+    btRigidBody& held = chassis_->body;
+    const btVector3 velocity = held.getLinearVelocity();
+    const btVector3 spin = held.getAngularVelocity();
+    btDynamicsWorld& bullet = *chassis_->world;
+    bullet.removeRigidBody(&held);
+    guided_ = guided;
+    if (guided) {
+        held.setMassProps(0, btVector3(0, 0, 0));
+        held.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+        bullet.addRigidBody(&held, btBroadphaseProxy::DefaultFilter, btBroadphaseProxy::AllFilter);
+    } else {
+        held.setCollisionFlags(0);
+        held.setMassProps(model_.catalogue->mass, to_bullet(model_.inertia));
+        bullet.addRigidBody(&held);
+    }
+    held.updateInertiaTensor();
+    held.setActivationState(DISABLE_DEACTIVATION);
+    held.setInterpolationWorldTransform(held.getCenterOfMassTransform());
+    held.setLinearVelocity(velocity);
+    held.setAngularVelocity(spin);
+}
+
+void Vehicle::aim(std::uint64_t tick, double step) {
+    if (guide_ && guide_->is_over(tick, step))
+        guide_.reset();
+    if (guide_.has_value() != guided_)
+        hold(guide_.has_value());
+    if (guide_)
+        guide_->aim(tick, step, *ground_, *model_.catalogue, pose());
+}
+
+void Vehicle::be_guided(double share) {
+    const Eigen::Isometry3d pose_world_body =
+        guide_->pose_after(share) * Eigen::Translation3d(model_.com_ahead, 0, model_.com_height);
+    // Bullet takes the velocity from the difference to where it was.
+    body().setWorldTransform(to_bullet(pose_world_body));
+}
+
+void Vehicle::settle(double step) {
+    btRigidBody& held = body();
+    const btVector3 to_middle = held.getCenterOfMassTransform().getBasis() *
+                                btVector3(model_.com_ahead, 0, model_.com_height);
+    const btVector3 spin = to_bullet(guide_->angular_velocity());
+    held.setLinearVelocity(to_bullet(guide_->velocity()) + spin.cross(to_middle));
+    held.setAngularVelocity(spin);
+    held.setInterpolationWorldTransform(held.getCenterOfMassTransform());
+    held.updateInertiaTensor();
+    roll_wheels(step);
+}
+
+/// As wheels that neither slip nor hang in the air.
+void Vehicle::roll_wheels(double step) {
+    constexpr double slow = 0.5;  // [m/s] a standing car's wheels stay as they are
+    const world::VehicleModel& m = *model_.catalogue;
+    RaycastCar& car = chassis_->car;
+    const btMatrix3x3& basis = body().getCenterOfMassTransform().getBasis();
+    const double speed = basis.getColumn(0).dot(to_bullet(guide_->velocity()));
+    const double turn_rate = basis.getColumn(2).dot(to_bullet(guide_->angular_velocity()));
+    if (std::abs(speed) > slow) {
+        steering_angle_ = std::clamp(std::atan(m.wheelbase * turn_rate / speed),
+                                     -m.max_steering_angle,
+                                     m.max_steering_angle);
+        const world::AckermannAngles angles =
+            world::ackermann(steering_angle_, m.wheelbase, m.track);
+        car.setSteeringValue(angles.left, 0);
+        car.setSteeringValue(angles.right, 1);
+    }
+    chassis_->rays.begin();
+    for (int i = 0; i < 4; ++i) {
+        btWheelInfo& wheel = car.m_wheelInfo[i];
+        car.rayCast(wheel);
+        const double left = (i % 2 == 0 ? 0.5 : -0.5) * m.track;
+        const double ahead = i < 2 ? m.wheelbase : 0;
+        const double along = (speed - turn_rate * left) * std::cos(wheel.m_steering) +
+                             turn_rate * ahead * std::sin(wheel.m_steering);
+        const double share = (i < 2 ? model_.front_share : 1 - model_.front_share) / 2;
+        wheel.m_deltaRotation = along * step / m.wheel_radius;
+        wheel.m_rotation = wrap_turn(wheel.m_rotation + wheel.m_deltaRotation);
+        wheel.m_wheelsSuspensionForce =
+            wheel.m_raycastInfo.m_isInContact ? share * m.mass * world::gravity : 0;
+        wheel.m_skidInfo = 1;
+    }
+}
+
+// --- What is recorded.
+
 world::VehicleState Vehicle::state_after(double step) {
     const btTransform& pose = body().getCenterOfMassTransform();
     const btVector3 arm = pose.getBasis() * btVector3(-model_.com_ahead, 0, -model_.com_height);
@@ -204,10 +341,13 @@ world::VehicleState Vehicle::state_after(double step) {
     last_position_ = to_vec3(position);
     last_velocity_ = to_vec3(velocity);
 
+    // Who is guided brakes where its trajectory does.
+    constexpr double visible_braking = 1;  // [m/s^2]
+    const double speed_change = acceleration.dot(pose.getBasis().getColumn(0));
     std::uint16_t lamps = control_.lamps();
-    if (control_.brake() > 0)
+    if (guided_ ? speed_change < -visible_braking : control_.brake() > 0)
         lamps |= world::lamp_brake;
-    if (control_.reverse())
+    if (!guided_ && control_.reverse())
         lamps |= world::lamp_reverse;
     return {last_position_,
             to_quat(pose.getRotation()),
@@ -302,6 +442,10 @@ void Vehicle::add_to(world::Hasher& hasher) const {
         hasher.add(wheel(i));
         hasher.add(chassis_->car.getWheelInfo(i).m_deltaRotation);
     }
+    if (guide_)
+        guide_->add_to(hasher);
+    if (guided_)
+        hasher.add(guided_);
 }
 
 }  // namespace reprise::kernel

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include <Eigen/Geometry>
 
+#include "kernel/physics/guide.h"
 #include "world/digest.h"
 #include "world/models/car_model.h"
 #include "world/tick_generated.h"
@@ -72,6 +74,32 @@ class Vehicle {
     /// Holds until the next one.
     void set_control(const world::Control& control);
 
+    /// From the next tick on it is where the trajectory says, and nothing moves it: to others it is
+    /// a wall that moves. Its time 0 is tick `start`.
+    void follow(world::Trajectory trajectory, std::uint64_t start);
+
+    /// Moved by forces again.
+    void let_go();
+
+    /// Somewhere else, on the ground there, at rest on its wheels, rolling ahead with `speed`. What
+    /// it has driven stays.
+    void teleport(const Eigen::Isometry3d& pose_world_vehicle, double speed);
+
+    /// [m/s] along its heading, at once; turning as its wheels stand.
+    void set_speed(double speed);
+
+    /// Before the substeps of the tick that ends at `tick`: does it follow, and where to?
+    void aim(std::uint64_t tick, double step);
+
+    /// Does it follow in this tick?
+    bool is_guided() const { return guided_; }
+
+    /// Follows for one substep, to where it is after `share` of the tick.
+    void be_guided(double share);
+
+    /// Behind the substeps: motion and wheels as they are on the trajectory.
+    void settle(double step);
+
     /// Changes the body's velocity by all that acts within `step` seconds: weight, engine, brakes,
     /// air, suspension, tyres. Called before each Bullet substep.
     void drive(double road_friction, double step);
@@ -90,6 +118,12 @@ class Vehicle {
   private:
     struct Chassis;
 
+    void put_down(btDynamicsWorld& bullet,
+                  const Eigen::Isometry3d& pose_world_vehicle,
+                  double speed);
+    Eigen::Isometry3d pose() const;
+    void hold(bool guided);
+    void roll_wheels(double step);
     void nudge_wheel(int index, std::string_view field, std::int64_t units);
 
     void steer(double step);
@@ -98,12 +132,15 @@ class Vehicle {
     std::uint32_t id_;
     std::uint16_t model_index_;
     world::CarModel model_;
+    const Ground* ground_;
     std::unique_ptr<Chassis> chassis_;
     world::Control control_;
     double steering_angle_ = 0;
     double odometer_ = 0;
     world::Vec3 last_position_;
     world::Vec3 last_velocity_;
+    std::optional<Guide> guide_;  ///< what it follows, or is about to
+    bool guided_ = false;
 };
 
 }  // namespace reprise::kernel

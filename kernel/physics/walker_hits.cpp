@@ -18,7 +18,8 @@ constexpr double reach = 12;
 void WalkerHits::choose(std::span<const world::WalkerState> last,
                         std::span<const world::WalkerState> next,
                         std::span<const btVector3> centres,
-                        double step) {
+                        double step,
+                        const Displaced& displaced) {
     near_.clear();
     for (const world::WalkerState& walker : next) {
         const btVector3 to = to_bullet(walker.position());
@@ -28,7 +29,8 @@ void WalkerHits::choose(std::span<const world::WalkerState> last,
             });
         if (!close || walker.down())
             continue;
-        const world::WalkerState* before = world::find(last, walker.id());
+        const world::WalkerState* before =
+            holds(displaced, walker.id()) ? nullptr : world::find(last, walker.id());
         const btVector3 from = before != nullptr ? to_bullet(before->position()) : to;
         const world::WalkerModel& model = world::walker_models()[walker.model()];
         near_.push_back({walker.id(),

@@ -8,6 +8,7 @@
 
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/collisions.h"
+#include "kernel/physics/displaced.h"
 #include "kernel/physics/vehicle.h"
 #include "world/tick.h"
 
@@ -30,7 +31,8 @@ class WalkerHits {
     void choose(std::span<const world::WalkerState> last,
                 std::span<const world::WalkerState> next,
                 std::span<const btVector3> centres,
-                double step);
+                double step,
+                const Displaced& displaced = {});
 
     /// Once for each substep, with the walkers where they are after `share` of the tick.
     void test(double share,
