@@ -226,6 +226,7 @@ void Kernel::branch(const world::BranchT& branch) {
     parts.episode.scenario = branch.scenario;
     parts.episode.scenario_path = branch.scenario_path;
     parts.episode.parameters = branch.parameters;
+    parts.episode.files = branch.files;
     parts.scenario.take_over();
 }
 

@@ -6,7 +6,11 @@ namespace reprise::kernel {
 
 namespace {
 
-Eigen::Isometry3d pose_of(const world::TownT& town, const world::CommandT& spawn) {
+Eigen::Isometry3d pose_of(const world::TownT& town,
+                          const world::CommandT& spawn,
+                          const Physics& physics) {
+    if (spawn.has_pose)
+        return physics.prop_stance(spawn.model, world::to_eigen(spawn.target), spawn.heading);
     const world::LanePoint place = world::point_at(town.lanes.at(spawn.lane), spawn.s);
     return world::pose(world::to_vec3(place.position), place.yaw, place.pitch) *
            Eigen::Translation3d(0, spawn.offset, 0);
@@ -28,7 +32,7 @@ void place_props(const world::TownT& town, world::TickDraft& next, Physics& phys
         event.text = command.text;
         event.line = command.line;
         if (comes) {
-            const Eigen::Isometry3d pose = pose_of(town, command);
+            const Eigen::Isometry3d pose = pose_of(town, command, physics);
             physics.add_prop(command.actor, command.model, pose);
             event.position = world::to_vec3(pose.translation());
         } else {

@@ -14,6 +14,18 @@ void add_parameters(world::Hasher& hasher, const std::vector<world::ParameterT>&
     }
 }
 
+/// Few runs have any: without one the chain is what it was.
+void add_files(world::Hasher& hasher, const std::vector<world::FileT>& files) {
+    if (files.empty())
+        return;
+    hasher.add_text("files");
+    hasher.add(static_cast<std::uint64_t>(files.size()));
+    for (const world::FileT& file : files) {
+        hasher.add_text(file.name);
+        hasher.add_text(file.text);
+    }
+}
+
 }  // namespace
 
 world::Digest128 chain_seed(const world::Recording& recording) {
@@ -33,6 +45,7 @@ world::Digest128 chain_seed(const world::Recording& recording) {
     hasher.add_text(episode.scenario_path);
     hasher.add_text(episode.scenario);
     add_parameters(hasher, episode.parameters);
+    add_files(hasher, episode.files);
     hasher.add_text(episode.imported_from);
     hasher.add_text(episode.town);
     hasher.add(episode.town_digest);
@@ -53,6 +66,7 @@ world::Digest128 chain_of_branch(const world::Digest128& parent, const world::Br
     add_parameters(hasher, branch.parameters);
     hasher.add(branch.max_ticks);
     hasher.add(branch.parent_chain);
+    add_files(hasher, branch.files);
     return world::chain(parent, hasher.digest128());
 }
 

@@ -8,6 +8,7 @@
 
 #include "scripting/lua/vm.h"
 #include "scripting/scenario.h"
+#include "scripting/words/files.h"
 #include "scripting/words/header.h"
 #include "scripting/words/tasks.h"
 #include "world/check.h"
@@ -131,7 +132,10 @@ std::uint64_t limit_of_branch(const world::EpisodeT& run,
 
 world::EpisodeT load_episode(const std::filesystem::path& scenario_lua,
                              const Overrides& overrides) {
-    return episode_of_text(scenario_lua.filename().string(), read_source(scenario_lua), overrides);
+    world::EpisodeT episode =
+        episode_of_text(scenario_lua.filename().string(), read_source(scenario_lua), overrides);
+    episode.files = companions_of(episode.scenario, episode.parameters, scenario_lua.parent_path());
+    return episode;
 }
 
 world::EpisodeT episode_of_text(const std::string& name,
@@ -188,6 +192,7 @@ world::BranchT load_branch(const std::filesystem::path& scenario_lua,
     override_parameters(header, overrides, branch.scenario_path);
     branch.name = header.name;
     branch.parameters = recorded(header.parameters);
+    branch.files = companions_of(branch.scenario, branch.parameters, scenario_lua.parent_path());
     std::optional<double> duration = overrides.duration;
     if (!duration && header.has_duration)
         duration = header.duration;

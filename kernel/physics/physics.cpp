@@ -216,6 +216,18 @@ void Physics::add_prop(std::uint32_t id,
     world_->props.add(id, model, pose_world_prop);
 }
 
+Eigen::Isometry3d Physics::prop_stance(std::uint16_t model,
+                                       const Eigen::Vector3d& p_world,
+                                       double yaw) const {
+    const world::PropModel& prop = world::prop_models()[model];
+    world::VehicleModel feet{};  // four, at its corners
+    feet.wheelbase = prop.length;
+    feet.track = prop.width;
+    const Eigen::Vector3d ahead(std::cos(yaw), std::sin(yaw), 0);
+    return kernel::stance(world_->ground, feet, p_world - ahead * (prop.length / 2), yaw) *
+           Eigen::Translation3d(prop.length / 2, 0, 0);
+}
+
 bool Physics::has_prop(std::uint32_t id) const {
     return world_->props.has(id);
 }

@@ -46,6 +46,9 @@ class Physics {
 
     /// Puts a prop on the ground with its foot at this pose, and takes it out again.
     void add_prop(std::uint32_t id, std::uint16_t model, const Eigen::Isometry3d& pose_world_prop);
+    Eigen::Isometry3d prop_stance(std::uint16_t model,
+                                  const Eigen::Vector3d& p_world,
+                                  double yaw) const;
     bool has_prop(std::uint32_t id) const;
     world::Vec3 remove_prop(std::uint32_t id);
     /// A vehicle of this model at rest on the ground there; see kernel/physics/stance.h.

@@ -1,6 +1,6 @@
 """Made by make_schema.py from world/*.fbs, remote/wire.fbs and world/models/vehicle_models.cpp: change those."""
 
-DIGEST = "2fd842833a1ac082"
+DIGEST = "dc528b981877751f"
 
 # name: (type, values)
 ENUMS = {'remote.Kind': ('uint',
@@ -409,13 +409,15 @@ TABLES = {'remote.Hello': {'version': (0, 'uint'),
                 'spawn_points': (12, '[SpawnPoint]'),
                 'drawn_buildings': (13, '[DrawnBuilding]')},
  'world.Parameter': {'key': (0, 'string'), 'value': (1, 'string')},
+ 'world.File': {'name': (0, 'string'), 'text': (1, 'string')},
  'world.Branch': {'tick': (0, 'ulong'),
                   'name': (1, 'string'),
                   'scenario_path': (2, 'string'),
                   'scenario': (3, 'string'),
                   'parameters': (4, '[Parameter]'),
                   'max_ticks': (5, 'ulong'),
-                  'parent_chain': (6, 'Digest128')},
+                  'parent_chain': (6, 'Digest128'),
+                  'files': (7, '[File]')},
  'world.Episode': {'name': (0, 'string'),
                    'scenario_path': (1, 'string'),
                    'scenario': (2, 'string'),
@@ -433,7 +435,8 @@ TABLES = {'remote.Hello': {'version': (0, 'uint'),
                    'town_digest': (14, 'Digest128'),
                    'town_path': (15, 'string'),
                    'branches': (16, '[Branch]'),
-                   'imported_from': (17, 'string')}}
+                   'imported_from': (17, 'string'),
+                   'files': (18, '[File]')}}
 
 # Of the catalogue, which a tick's `model` is an index of: name, length, width, rear bumper to rear axle [m]
 VEHICLES = [('sedan', 4.7, 1.82, 1.0),

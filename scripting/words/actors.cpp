@@ -113,11 +113,15 @@ Actor& Actors::add(Actor actor) {
     return actors_.back();
 }
 
-Actors::Obstructor Actors::obstructor(const world::TickView& tick, const Footprint& wanted) const {
+Actors::Obstructor Actors::obstructor(const world::TickView& tick,
+                                      const Footprint& wanted,
+                                      std::uint32_t self) const {
     constexpr double far_away = 50;  // [m] no two models are that long
     for (const Actor& actor : actors_) {
-        const bool here = actor.presence == Actor::Presence::here;
-        if (actor.presence == Actor::Presence::gone || actor.is_leaving ||
+        // Who was put elsewhere since the tick is there already.
+        const bool here =
+            actor.presence == Actor::Presence::here && actor.displaced_at != tick.index();
+        if (actor.id == self || actor.presence == Actor::Presence::gone || actor.is_leaving ||
             !(here || actor.p_world_asked) ||
             ((here ? actor.position : *actor.p_world_asked) - wanted.centre).norm() > far_away)
             continue;
@@ -222,6 +226,8 @@ void Actors::digest(world::Hasher& hasher) const {
         hasher.add(actor.asked_at);
         hasher.add(actor.presence);
         hasher.add(actor.gone_at);
+        hasher.add(actor.follows_until);
+        hasher.add(actor.displaced_at);
         hasher.add(actor.travelled);
         hasher.add(world::to_vec3(actor.position));
         hasher.add(

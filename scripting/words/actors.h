@@ -71,6 +71,8 @@ struct Actor {
     bool keeps_lane = false;                         ///< changes lanes when it is told to only
     bool walks = false;                              ///< was told to
     std::uint8_t open_doors = 0;                     ///< as told last: bit i, see world::Door
+    std::uint64_t follows_until = 0;  ///< last tick of its trajectory; 0: follows none
+    std::uint64_t displaced_at = 0;   ///< tick in which the scenario last put it elsewhere
     Contacts contacts;
     world::RedLightWatch lights{};
     std::optional<world::RouteProgress> route{};  ///< that it was told last
@@ -122,8 +124,10 @@ class Actors {
         double depth = 0;              ///< [m] see overlap()
     };
 
-    /// The first of them. O(actors).
-    Obstructor obstructor(const world::TickView& tick, const Footprint& wanted) const;
+    /// The first of them but for `self`. O(actors).
+    Obstructor obstructor(const world::TickView& tick,
+                          const Footprint& wanted,
+                          std::uint32_t self) const;
 
     /// Null when nobody has that name.
     const Actor* find(const std::string& name) const;

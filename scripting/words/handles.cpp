@@ -273,6 +273,7 @@ void add_handle_words(lua_State* L) {
     add_function(L, "distance_driven", bound<distance_driven>);
     add_drive_words(L);
     add_equipment_words(L);
+    add_placing_words(L);
     refuse_unknown(L, "an actor");
     lua_pushvalue(L, -1);
     lua_setfield(L, -4, "_actor");  // the prelude adds to it

@@ -12,6 +12,7 @@
 #include "scripting/words/places.h"
 #include "scripting/words/rig.h"
 #include "scripting/words/vocabulary.h"
+#include "scripting/words/where.h"
 #include "world/models/catalogue.h"
 #include "world/models/prop_models.h"
 #include "world/story/wording.h"
@@ -21,7 +22,6 @@ namespace reprise::scripting {
 
 namespace {
 
-constexpr double farthest_beside = 50;         // [m] from a lane's centre line
 constexpr double fastest = 150;                // [m/s]
 constexpr std::int64_t longest_latency = 100;  // [ticks]
 
@@ -87,105 +87,20 @@ void want_room(const Run& run, const Actor& actor) {
                 most_driven_actors));
 }
 
-/// As the kernel will put it down, roughly: on the centre line, then aside.
-Eigen::Vector3d place_of(const world::LaneT& lane, const world::CommandT& command) {
-    const world::LanePoint at = world::point_at(lane, command.s);
-    return at.position + command.offset * Eigen::Vector3d(-std::sin(at.yaw), std::cos(at.yaw), 0);
-}
-
-/// What it will cover there.
-Footprint footprint_of(const Actor& actor,
-                       const world::LaneT& lane,
-                       const world::CommandT& command) {
-    const double yaw = world::point_at(lane, command.s).yaw;
-    const Eigen::Vector3d p_world = place_of(lane, command);
-    if (actor.is_walker()) {
-        const double half = world::walker_models()[actor.model].shoulder_width / 2;
-        return {p_world, yaw, half, half};
-    }
-    if (actor.is_prop()) {
-        const world::PropModel& prop = world::prop_models()[actor.model];
-        return {p_world, yaw, prop.length / 2, prop.width / 2};
-    }
-    const world::VehicleModel& model = world::vehicle_models()[actor.model];
-    const double middle = model.length / 2 - model.rear_overhang;
-    return {p_world + middle * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0),
-            yaw,
-            model.length / 2,
-            model.width / 2};
-}
-
-void want_free_place(const Run& run, const Actor& actor) {
-    const std::size_t most = actor.is_prop() ? most_props_in_a_place : most_in_a_place;
-    if (!actor.is_walker() &&
-        run.actors.count_near(*actor.p_world_asked, place_radius, actor.is_prop()) >= most)
-        refuse("spawn",
-               fmt::format("more than {} {} within {:.0f} m: they would stand in each other",
-                           most,
-                           actor.is_prop() ? "props" : "vehicles",
-                           place_radius));
-    const auto [other, depth] = run.actors.obstructor(run.last, actor.asked);
-    if (other != nullptr)
-        refuse("spawn",
-               fmt::format("'{}' would stand in '{}', which line {} spawned: they reach {:.2f} m "
-                           "into each other; move one of them by 's' or 'offset'",
-                           actor.name,
-                           other->name,
-                           other->line,
-                           depth));
-}
-
-bool drives(const Actor& actor) {
-    return !actor.is_walker() && !actor.is_prop() && actor.driver != world::Driver::parked;
-}
-
-/// Lane, s and offset into the command, the place into the actor.
-void read_place(
+/// Into the command and the actor; where none is said, the kernel finds a free one.
+void take_place(
     Run& run, lua_State* L, const Fields& fields, Actor& actor, world::CommandT& command) {
-    const auto name = fields.text("lane");
-    if (!name) {
+    const auto place = read_place(run, L, fields, actor);
+    if (!place) {
         if (!drives(actor))
             refuse("spawn", "'lane' is missing: only who drives is given a free place");
-        if (fields.has("s") || fields.has("offset"))
-            refuse("spawn", "'s' and 'offset' need a 'lane'");
         command.lane = world::none;
         return;
     }
-    try {
-        command.lane = run.lane_named(L, *name);
-    } catch (const world::Error& error) {
-        refuse("spawn", error.what());
-    }
-    const world::LaneT& lane = run.town.lanes[command.lane];
-    const bool on_its_lane = drives(actor);
-    if (on_its_lane && !world::is_for_cars(lane))
-        refuse("spawn", fmt::format("'{}' is not a lane for cars", *name));
-    command.s = fields.number("s").value_or(0);
-    if (command.s < 0 || command.s > lane.length)
-        refuse("spawn",
-               fmt::format("'s' must be in [0, {:.2f}], the length of '{}', got {}",
-                           lane.length,
-                           *name,
-                           number_text(command.s)));
-    command.offset = fields.number("offset").value_or(0);
-    if (command.offset != 0 && actor.driver == world::Driver::traffic)
-        refuse("spawn",
-               fmt::format("'offset' has no effect on '{}': driver = 'traffic' keeps to the middle "
-                           "of its lane; leave it out, or take driver = 'autopilot'",
-                           actor.name));
-    // Who drives begins on its lane; who is put down may stand beside it.
-    const double farthest = on_its_lane ? lane.width / 2 : farthest_beside;
-    if (std::abs(command.offset) > farthest)
-        refuse("spawn",
-               fmt::format("'offset' must be in [-{:.2f}, {:.2f}]{}, got {}",
-                           farthest,
-                           farthest,
-                           on_its_lane ? ", half the width of '" + *name + "'" : "",
-                           number_text(command.offset)));
-    actor.p_world_asked = place_of(lane, command);
-    actor.asked = footprint_of(actor, lane, command);
-    run.vm.charge(L, run.actors.next_id());
-    want_free_place(run, actor);
+    place->say(command);
+    actor.p_world_asked = place->p_world;
+    actor.asked = footprint_at(actor, *place);
+    want_free_place(run, L, "spawn", actor);
 }
 
 /// Is it to keep its lane?
@@ -216,22 +131,34 @@ std::uint8_t read_latency(const Fields& fields, const Actor& actor) {
     return static_cast<std::uint8_t>(ticks);
 }
 
+int spawn(Run& run, lua_State* L);
+
+int spawn_again(lua_State* L, int, std::ptrdiff_t) {
+    return acting<spawn>(L);
+}
+
+std::vector<std::string> spawn_keys() {
+    std::vector<std::string> keys{"name", "model", "driver", "latency"};
+    keys.insert(keys.end(), place_keys.begin(), place_keys.end());
+    for (const char* key : {"speed", "speed_kmh", "rig", "sees", "lane_changes"})
+        keys.emplace_back(key);
+    return keys;
+}
+
+/// Of who is still to be given a place: another one cannot be put beside it before.
+bool waits_for_its_place(Run& run, lua_State* L, const Fields& fields) {
+    lua_settop(L, 1);
+    if (!push_related(fields))
+        return false;
+    const Actor& other = actor_at(run, L, 2, "spawn");
+    return other.presence == Actor::Presence::gone ||
+           (other.presence == Actor::Presence::coming && !other.p_world_asked);
+}
+
 int spawn(Run& run, lua_State* L) {
-    const Fields fields(L,
-                        1,
-                        "spawn",
-                        {"name",
-                         "model",
-                         "driver",
-                         "latency",
-                         "lane",
-                         "s",
-                         "offset",
-                         "speed",
-                         "speed_kmh",
-                         "rig",
-                         "sees",
-                         "lane_changes"});
+    const Fields fields(L, 1, "spawn", spawn_keys());
+    if (waits_for_its_place(run, L, fields))
+        return wait_for_presence(run, L, spawn_again);
     Actor actor;
     actor.id = run.actors.next_id();
     actor.line = run.vm.line(L);
@@ -240,7 +167,7 @@ int spawn(Run& run, lua_State* L) {
     want_room(run, actor);
     read_name(run, fields, actor);
     world::CommandT command;
-    read_place(run, L, fields, actor, command);
+    take_place(run, L, fields, actor, command);
     const double speed = fields.speed().value_or(0);
     if (speed > fastest)
         refuse(
@@ -260,6 +187,9 @@ int spawn(Run& run, lua_State* L) {
     said.lane = command.lane;
     said.s = command.s;
     said.offset = command.offset;
+    said.has_pose = command.has_pose;
+    said.target = command.target;
+    said.heading = command.heading;
     said.speed = speed;
     said.text = actor.name;
     said.latency = latency;

@@ -20,5 +20,6 @@ void add_handle_words(lua_State* L);     ///< handles.cpp: those that look
 void add_look_words(lua_State* L);       ///< looks.cpp: those that look around
 void add_drive_words(lua_State* L);      ///< drives.cpp: those that act
 void add_equipment_words(lua_State* L);  ///< equipment.cpp: lamps and doors
+void add_placing_words(lua_State* L);    ///< follow.cpp: those that put it somewhere
 
 }  // namespace reprise::scripting
