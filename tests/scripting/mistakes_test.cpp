@@ -283,9 +283,8 @@ TEST(Mistakes, CanBeCaughtByTheScript) {
         test::printed("print(pcall(wait, -1)) print(pcall(function() spawn{ colour = 1 } end))")
             .at(1),
         "false test.lua:1: spawn: unknown key 'colour' (known: name, model, driver, latency, lane, "
-        "s, "
-        "offset, speed, "
-        "speed_kmh, rig, sees, lane_changes)");
+        "s, offset, x, y, z, heading_deg, ahead_of, behind, beside, gap, speed, speed_kmh, rig, "
+        "sees, lane_changes)");
 }
 
 TEST(Mistakes, AnActorThatNeverComesIsNamedWithTheLineOfItsSpawn) {
