@@ -54,7 +54,8 @@ void RoutePlanner::send(const Car& car) const {
 
 void RoutePlanner::keep_ahead(Cars& cars) const {
     for (Car& car : cars.all()) {
-        if (car.sumo.empty() || car.origin == Origin::parked || car.dead_end || car.route.size() > many_edges)
+        if (car.sumo.empty() || car.origin == Origin::parked || car.dead_end ||
+            car.route.size() > many_edges)
             continue;
         double left = 0;
         for (const std::uint32_t edge : car.route)

@@ -22,9 +22,9 @@ namespace {
 using world::CommandKind;
 using world::Driver;
 
-constexpr double fastest_vehicle = 150;        // [m/s]
-constexpr double fastest_walker = 12;  // [m/s]
-constexpr double at_the_start = 0.1;   // [m] an actor that is so near a point is there
+constexpr double fastest_vehicle = 150;  // [m/s]
+constexpr double fastest_walker = 12;    // [m/s]
+constexpr double at_the_start = 0.1;     // [m] an actor that is so near a point is there
 
 /// Whoever is put somewhere must be able to move.
 Actor& movable(Run& run, lua_State* L, const char* who) {
