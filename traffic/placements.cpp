@@ -8,6 +8,7 @@
 #include "traffic/fleet.h"
 #include "traffic/orders.h"
 #include "world/frames.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::traffic {
 
