@@ -10,8 +10,10 @@
 #include "drivers/gatekeeper.h"
 #include "drivers/hazards.h"
 #include "drivers/lane_change.h"
+#include "drivers/lateral_order.h"
 #include "drivers/navigator.h"
 #include "drivers/pedals.h"
+#include "drivers/speed_order.h"
 #include "drivers/steering.h"
 #include "drivers/turn_around.h"
 #include "drivers/wide_turn.h"
@@ -25,6 +27,7 @@ namespace reprise::drivers {
 namespace {
 
 constexpr double speed_gain = 0.8;      // [1/s]
+constexpr double exact_gain = 3;        // [1/s] of one who is told a speed and when
 constexpr double indicate_before = 30;  // [m]
 constexpr double low_sun = 0.1;         // [rad]
 constexpr double longest_wait = 12;     // [s] for room on the next lane
@@ -58,7 +61,12 @@ struct Autopilot::State {
     bool has_tight_bends() const;
     void plan_wide_turns(const Ego& ego);
     double change_lanes(const world::TickView& last, Ego& ego);
+    void begin_orders(const world::TickView& last, const Ego& ego);
     double cruise(const Ego& ego) const;
+    double ordered_acceleration(const Ego& ego) const;
+    double obedient_acceleration(const world::TickView& last, Ego& ego);
+    double careful_acceleration(const world::TickView& last, Ego& ego);
+    std::span<const SweptWidth> corridor(const Ego& ego);
     double approach_turn(const Ego& ego);
     void turn(const world::TickView& last, Ego& ego, world::Control& control);
     std::uint16_t lamps(const world::TickView& last, const Ego& ego) const;
@@ -77,9 +85,12 @@ struct Autopilot::State {
     Pedals pedals;
     TurnAround turn_around;
     std::uint32_t turns_into = 0;  ///< the lane behind the turn
-    std::optional<double> speed_cap;
-    std::uint32_t waiting_ticks = 0;  ///< beside cars on the lane that we want
-    bool at_end = false;              ///< follows from the last tick and the way: not digested
+    SpeedOrder speed_order;
+    LateralOrder lateral_order;
+    std::uint64_t tick = 0;                ///< the last one: not digested, nor what follows
+    std::vector<SweptWidth> moved_swept_;  ///< beside the path
+    std::uint32_t waiting_ticks = 0;       ///< beside cars on the lane that we want
+    bool at_end = false;                   ///< follows from the last tick and the way: not digested
 };
 
 Autopilot::Autopilot(std::uint32_t actor,
@@ -104,12 +115,41 @@ void Autopilot::keep_lane(bool keep) {
     state_->navigator.keep_lane(keep);
 }
 
-void Autopilot::set_speed(double speed) {
-    state_->speed_cap = std::max(speed, 0.0);
+void Autopilot::switch_lane(std::uint32_t lane, double duration, world::Shape shape) {
+    state_->navigator.switch_lane(lane);
+    state_->lateral_order.come_over(duration, shape);
+}
+
+void Autopilot::set_offset(double offset, double duration, world::Shape shape) {
+    state_->lateral_order.set_offset(offset, duration, shape);
+}
+
+void Autopilot::set_speed(double speed, double duration, world::Shape shape) {
+    state_->speed_order.cap({0, speed, duration, shape});
+}
+
+void Autopilot::hold_speed(double speed, double duration, world::Shape shape) {
+    state_->speed_order.hold({0, speed, duration, shape});
+}
+
+void Autopilot::end_hold() {
+    state_->speed_order.end_hold();
+}
+
+void Autopilot::brake(double deceleration) {
+    state_->speed_order.brake(deceleration);
+}
+
+void Autopilot::end_brake() {
+    state_->speed_order.end_brake();
 }
 
 void Autopilot::free_speed() {
-    state_->speed_cap.reset();
+    state_->speed_order.free();
+}
+
+void Autopilot::ignore_lights(bool ignore) {
+    state_->gatekeeper.ignore_lights(ignore);
 }
 
 void Autopilot::put_elsewhere() {
@@ -125,7 +165,7 @@ void Autopilot::put_to_speed() {
 }
 
 bool Autopilot::is_under_way() const {
-    return !state_->at_end && state_->speed_cap.value_or(world::infinity) >= slowest_order;
+    return !state_->at_end && state_->speed_order.target() >= slowest_order;
 }
 
 const std::vector<std::uint32_t>& Autopilot::path() const {
@@ -140,6 +180,7 @@ world::Control Autopilot::decide(const world::TickView& last) {
         own != nullptr,
         "actor " + std::to_string(state.actor) + ", tick " + std::to_string(last.index()));
     Ego ego = ego_of(*own);
+    state.tick = last.index();
     world::Control control(0, 0, 0, state.actor, 0, false, false);
     if (!state.turn_around.done())
         state.turn(last, ego, control);
@@ -148,7 +189,8 @@ world::Control Autopilot::decide(const world::TickView& last) {
 
     state.at_end = false;
     // Where am I? Off every road there is nothing to follow: stop.
-    const Navigator::Found found = state.navigator.follow(ego);
+    const Navigator::Found found =
+        state.navigator.follow(ego, state.lateral_order.offset(state.tick, state.step));
     if (found == Navigator::Found::nothing) {
         control.mutate_brake(0.5);
         return control;
@@ -158,34 +200,85 @@ world::Control Autopilot::decide(const world::TickView& last) {
 
     state.at_end = state.way().ended() && state.way().path().end() - ego.front_s() < end_reach;
 
-    // Who is in the way, and may I go on? The most careful answer counts.
+    // Who is in the way, and may I go on? The most careful answer counts, unless I am told.
+    state.begin_orders(last, ego);
     state.plan_wide_turns(ego);
-    double acceleration = state.cruise(ego);
-    acceleration = std::min(acceleration, state.change_lanes(last, ego));
-    acceleration = std::min(acceleration, state.approach_turn(ego));
-    state.plan_wide_turns(ego);
-    state.hazards.look(
-        last,
-        ego,
-        state.way().path(),
-        state.style,
-        state.has_wide_turn ? state.wide_turn->swept() : std::span<const SweptWidth>());
-    acceleration = std::min(acceleration, state.hazards.acceleration());
-    acceleration =
-        std::min(acceleration,
-                 state.gatekeeper.decide(
-                     last, ego, state.way(), state.hazards.overlaps(), state.style, state.step));
+    const bool told = state.speed_order.reacts_to_nothing();
+    const double acceleration =
+        told ? state.obedient_acceleration(last, ego) : state.careful_acceleration(last, ego);
+    const bool exact = told || state.speed_order.is_changing(state.tick, state.step);
 
     // Hands and feet.
     const double climb = state.way().path().climb(ego.rear_axle_s + ego.model->wheelbase / 2, 1);
     const Pedals::Position pedals =
-        state.pedals.press(acceleration, ego.speed, climb, state.car, state.step);
+        state.pedals.press(acceleration,
+                           ego.speed,
+                           climb,
+                           state.car,
+                           state.step,
+                           exact ? Pedals::Manner::exact : Pedals::Manner::gentle);
     control.mutate_throttle(pedals.throttle);
     control.mutate_brake(pedals.brake);
-    control.mutate_steer(state.has_wide_turn ? steer(ego, *state.wide_turn)
-                                             : steer(ego, state.way().path()));
+    const BesidePath beside =
+        state.lateral_order.beside(state.tick, state.step, ego.speed, tracked_ahead(*ego.model));
+    control.mutate_steer(state.has_wide_turn ? steer(ego, *state.wide_turn, beside)
+                                             : steer(ego, state.way().path(), beside));
     control.mutate_lamps(state.lamps(last, ego));
     return control;
+}
+
+/// What the scenario said since the last tick.
+void Autopilot::State::begin_orders(const world::TickView& last, const Ego& ego) {
+    speed_order.begin(tick, ego.speed, step);
+    lateral_order.begin(
+        tick, navigator.beside_way(ego), car, ego.speed, last.tick->road_friction());
+    lateral_order.end(tick, step);
+}
+
+/// Whatever comes. A change of lanes is still put off for as long as there is no room.
+double Autopilot::State::obedient_acceleration(const world::TickView& last, Ego& ego) {
+    change_lanes(last, ego);
+    plan_wide_turns(ego);
+    return ordered_acceleration(ego);
+}
+
+double Autopilot::State::careful_acceleration(const world::TickView& last, Ego& ego) {
+    double acceleration = cruise(ego);
+    acceleration = std::min(acceleration, change_lanes(last, ego));
+    acceleration = std::min(acceleration, approach_turn(ego));
+    plan_wide_turns(ego);
+    hazards.look(last, ego, way().path(), style, corridor(ego));
+    acceleration = std::min(acceleration, hazards.acceleration());
+    return std::min(acceleration,
+                    gatekeeper.decide(last, ego, way(), hazards.overlaps(), style, step));
+}
+
+/// What the car will sweep beside its path; empty: its width everywhere.
+std::span<const SweptWidth> Autopilot::State::corridor(const Ego& ego) {
+    const std::span<const SweptWidth> swept =
+        has_wide_turn ? wide_turn->swept() : std::span<const SweptWidth>();
+    if (lateral_order.empty())
+        return swept;
+    const Path& path = way().path();
+    const double half = ego.model->width / 2;
+    moved_swept_.assign(path.points().size(), SweptWidth{half, half});
+    if (!swept.empty())
+        std::copy_n(
+            swept.begin(), std::min(swept.size(), moved_swept_.size()), moved_swept_.begin());
+    for (std::size_t i = 0; i < moved_swept_.size(); ++i) {
+        const double later =
+            std::max(path.s_of(i) - ego.rear_axle_s, 0.0) / std::max(ego.speed, 2.0);
+        const double offset = lateral_order.offset(tick, step, later);
+        moved_swept_[i].left += offset;
+        moved_swept_[i].right -= offset;
+    }
+    return moved_swept_;
+}
+
+/// Of one who keeps to an ordered speed, or to the changing of one. [m/s^2]
+double Autopilot::State::ordered_acceleration(const Ego& ego) const {
+    const SpeedOrder::Wish wish = speed_order.wish(tick, step);
+    return wish.acceleration + exact_gain * (wish.speed - ego.speed);
 }
 
 /// Bends that no steering can follow; those where we turn around are not driven along the path.
@@ -247,7 +340,8 @@ double Autopilot::State::change_lanes(const world::TickView& last, Ego& ego) {
 /// The speed that lanes, curves and the scenario's cap allow, and dead ends. [m/s^2]
 double Autopilot::State::cruise(const Ego& ego) const {
     const Path& path = way().path();
-    const double cap = speed_cap.value_or(world::infinity);
+    const bool changing = speed_order.is_changing(tick, step);
+    const double cap = changing ? speed_order.wish(tick, step).speed : speed_order.target();
     // A glance ahead makes up for the tick's delay.
     const double middle = ego.model->wheelbase / 2;
     const double s = ego.rear_axle_s + middle + ego.speed * step;
@@ -263,6 +357,11 @@ double Autopilot::State::cruise(const Ego& ego) const {
             std::clamp((squared_speed(s + 1) - here) / 2, -style.comfortable_braking, 0.0);
     }
     acceleration = std::clamp(acceleration, -4.0, style.acceleration);
+    if (changing) {
+        const double as_told = ordered_acceleration(ego);
+        // A change takes what it takes, as long as the road allows the speed.
+        acceleration = cap < allowed ? as_told : std::min(acceleration, as_told);
+    }
     if (way().ended())
         acceleration = std::min(
             acceleration,
@@ -304,8 +403,9 @@ void Autopilot::State::turn(const world::TickView& last, Ego& ego, world::Contro
     const double along = back ? -ego.speed : ego.speed;
     const double wanted = std::clamp(2 * (std::abs(move.speed) - along), -2.5, 1.0);
     const double climb = (back ? -1 : 1) * turn_around.climb(ego);
-    const Pedals::Position position =
-        move.speed == 0 ? Pedals::Position{0, 0.5} : pedals.press(wanted, along, climb, car, step);
+    const Pedals::Position position = move.speed == 0 || speed_order.brakes()
+                                          ? Pedals::Position{0, 0.5}
+                                          : pedals.press(wanted, along, climb, car, step);
     control.mutate_throttle(position.throttle);
     control.mutate_brake(position.brake);
     control.mutate_steer(move.steer);
@@ -339,6 +439,8 @@ std::uint16_t Autopilot::State::lamps(const world::TickView& last, const Ego& eg
     for (const LaneChange& change : way().changes())
         if (change.start - ego.front_s() < indicate_before && ego.rear_axle_s < change.end)
             lit = change.to_left ? world::lamp_left : world::lamp_right;
+    if (const int side = lateral_order.side(tick, step))
+        lit = side > 0 ? world::lamp_left : world::lamp_right;
     const world::Weather* weather = last.tick->weather();
     if (weather != nullptr &&
         (weather->rain() > 0 || static_cast<double>(weather->sun_altitude()) < low_sun))
@@ -354,7 +456,8 @@ std::uint64_t Autopilot::digest() const {
     state.pedals.add_to(hasher);
     state.turn_around.add_to(hasher);
     hasher.add(state.turns_into);
-    hasher.add(state.speed_cap.value_or(-1));  // a cap is never negative
+    state.speed_order.add_to(hasher);
+    state.lateral_order.add_to(hasher);
     hasher.add(state.waiting_ticks);
     hasher.add(state.has_wide_turn);
     if (state.has_wide_turn)

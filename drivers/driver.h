@@ -7,6 +7,7 @@
 #include "drivers/road_map.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"
+#include "world/transition.h"
 
 namespace reprise::drivers {
 
@@ -35,21 +36,42 @@ class Autopilot {
     /// it is too late for that, nothing happens.
     void change_lane(std::uint32_t lane);
 
+    /// To this lane, beside the one that it is on, at once and whoever is there, within `duration`
+    /// [s]: the car is on the line of that shape between the middles of both lanes. With the shape
+    /// `step` as quickly as the grip allows.
+    void switch_lane(std::uint32_t lane, double duration, world::Shape shape);
+
+    /// [m] left of the middle of whatever lane it is on, from now on; duration and shape as above,
+    /// 0 as it likes.
+    void set_offset(double offset, double duration, world::Shape shape);
+
     /// From now on it stays on its lane, whatever comes, but for change_lane: goes on as the lane
     /// does, and stops where that ends. What is left of its route must be possible so; the next
     /// decide throws world::Error where it is not. Or again as it likes.
     void keep_lane(bool keep);
 
-    /// [m/s]; a cap below the limits of the lanes.
-    void set_speed(double speed);
+    /// [m/s]; a cap below the limits of the lanes, reached in `duration` [s], or as it likes.
+    void set_speed(double speed, double duration = 0, world::Shape shape = world::Shape::linear);
 
-    /// Back to the lanes' limits.
+    /// Exactly that fast: it reacts to nothing, neither others nor lights, bends, limits or right
+    /// of way, and steers along its way. Where that ends it goes straight on.
+    void hold_speed(double speed, double duration, world::Shape shape);
+    void end_hold();
+
+    /// At `deceleration` [m/s^2] until it stands, and then stands; it reacts to nothing.
+    void brake(double deceleration);
+    void end_brake();
+
+    /// Back to the lanes' limits. Ends holding and braking, too.
     void free_speed();
 
     /// The scenario moved it: at the next decide it looks where it is, and goes on from there to
     /// what is left of its route. Or gave it another speed.
     void put_elsewhere();
     void put_to_speed();
+
+    /// Red lights and stop lines are as green ones. It still looks out for others.
+    void ignore_lights(bool ignore);
 
     /// The control for the next tick. The actor must be in `last`.
     world::Control decide(const world::TickView& last);

@@ -26,6 +26,20 @@ SignalColor color_of(const world::TickView& last, std::uint32_t signal) {
     return signal < last.signals().size() ? last.signals()[signal] : SignalColor::off;
 }
 
+/// What one who runs red lights takes this one for.
+SignalColor ignored(SignalColor color) {
+    switch (color) {
+        case SignalColor::red:
+        case SignalColor::red_yellow:
+        case SignalColor::yellow:
+            return SignalColor::green;
+        case SignalColor::stop:
+            return SignalColor::green_minor;
+        default:
+            return color;
+    }
+}
+
 bool is_left(Turn turn) {
     return turn == Turn::left || turn == Turn::partially_left || turn == Turn::around;
 }
@@ -145,7 +159,8 @@ bool Gatekeeper::must_stop(const world::TickView& last,
                            double step) {
     const double to_line = gate.s - ego.front_s();
     const double needed = ego.speed * ego.speed / (2 * std::max(to_line, 0.1));
-    const SignalColor color = color_of(last, gate.signal);
+    const SignalColor color =
+        ignores_lights_ ? ignored(color_of(last, gate.signal)) : color_of(last, gate.signal);
     if (color == SignalColor::yellow) {
         const double room = std::max(to_line - line_distance, to_line / 2);
         return stops_at_yellow(gate, ego.speed * ego.speed / (2 * std::max(room, 0.1)));
@@ -262,6 +277,8 @@ void Gatekeeper::add_to(world::Hasher& hasher) const {
     hasher.add(waited_ticks_);
     hasher.add(stopped_gate_);
     hasher.add(creeping_gate_);
+    if (ignores_lights_)
+        hasher.add(true);
 }
 
 }  // namespace reprise::drivers

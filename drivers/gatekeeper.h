@@ -34,6 +34,9 @@ class Gatekeeper {
                   const DrivingStyle& style,
                   double step);
 
+    /// Drive as if every red or yellow light were green, and stop lines none.
+    void ignore_lights(bool ignore) { ignores_lights_ = ignore; }
+
     void reset();
     void add_to(world::Hasher& hasher) const;
 
@@ -59,6 +62,7 @@ class Gatekeeper {
     std::uint32_t waited_ticks_ = 0;
     std::uint32_t stopped_gate_ = world::none;  ///< where a stop sign was obeyed
     std::uint32_t creeping_gate_ = world::none;
+    bool ignores_lights_ = false;
 };
 
 }  // namespace reprise::drivers

@@ -9,6 +9,7 @@
 
 #include "world/check.h"
 #include "world/frames.h"
+#include "world/geometry2d.h"
 #include "world/units.h"
 
 namespace reprise::drivers {
@@ -38,13 +39,19 @@ void Navigator::set_route(std::vector<std::uint32_t> stops, double last_s) {
 
 void Navigator::change_lane(std::uint32_t lane) {
     new_lane_ = lane;
+    new_lane_at_once_ = false;
+}
+
+void Navigator::switch_lane(std::uint32_t lane) {
+    new_lane_ = lane;
+    new_lane_at_once_ = true;
 }
 
 void Navigator::keep_lane(bool keep) {
     new_keeping_ = keep;
 }
 
-Navigator::Found Navigator::follow(Ego& ego) {
+Navigator::Found Navigator::follow(Ego& ego, double beside) {
     Found found = Found::same;
     if (new_keeping_)
         way_.keep_lane(*new_keeping_);
@@ -53,7 +60,7 @@ Navigator::Found Navigator::follow(Ego& ego) {
         rear_axle_s_ = way_.path().project(ego.position, rear_axle_s_, reach);
         ego.rear_axle_s = rear_axle_s_;
     }
-    if (!on_way_ || is_lost(ego)) {
+    if (!on_way_ || is_lost(ego, beside)) {
         const std::optional<std::uint32_t> lane = lane_under(ego);
         on_way_ = lane.has_value();
         if (!on_way_)
@@ -97,9 +104,15 @@ std::optional<std::uint32_t> Navigator::lane_under(const Ego& ego) const {
     return nearest;
 }
 
-bool Navigator::is_lost(const Ego& ego) const {
+double Navigator::beside_way(const Ego& ego) const {
     const PathPoint here = way_.path().at(ego.rear_axle_s);
-    const double distance = (ego.position - here.position).norm();
+    return world::cross(here.direction, (ego.position - here.position).head<2>());
+}
+
+bool Navigator::is_lost(const Ego& ego, double beside) const {
+    const PathPoint here = way_.path().at(ego.rear_axle_s);
+    const Eigen::Vector3d aside(-here.direction.y() * beside, here.direction.x() * beside, 0);
+    const double distance = (ego.position - here.position - aside).norm();
     // Where a dead end ends one may stand beyond the path.
     const bool beyond = way_.ended() && ego.rear_axle_s >= way_.path().end() - Path::spacing;
     return !beyond && (distance > lost_distance || here.direction.dot(ego.direction) < -0.2);
@@ -185,6 +198,10 @@ void Navigator::take_route(Ego& ego) {
 void Navigator::take_change(Ego& ego) {
     const std::uint32_t wanted = *new_lane_;
     new_lane_.reset();
+    if (new_lane_at_once_) {
+        start_over(ego, {wanted}, ego.model->length + 0.5 * ego.speed);
+        return;
+    }
     std::vector<std::uint32_t> lanes_ahead = committed_lanes(ego);
     const auto is_beside = [&](std::uint32_t lane) {
         return wanted == map_->town.lanes[lane].left || wanted == map_->town.lanes[lane].right;
@@ -216,6 +233,8 @@ void Navigator::add_to(world::Hasher& hasher) const {
         hasher.add(new_route_->last_s);
     }
     hasher.add(new_lane_.value_or(world::none));
+    if (new_lane_ && new_lane_at_once_)
+        hasher.add(true);
     if (new_keeping_)
         hasher.add(*new_keeping_);
     hasher.add(rear_axle_s_);

@@ -40,12 +40,20 @@ class Navigator {
     /// To a lane beside the one that the car is on, by the next follow.
     void change_lane(std::uint32_t lane);
 
+    /// To this lane at once, whatever is there: it is the way from the next follow on, which the
+    /// car finds itself beside.
+    void switch_lane(std::uint32_t lane);
+
     /// Stays on its lane from the next follow on, but for change_lane; or again as it likes.
     void keep_lane(bool keep);
 
     /// Brings the place on the way (and ego.rear_axle_s) up to date, and the way as far ahead as
-    /// the car needs to brake, and more. Throws world::Error naming a lane that cannot be reached.
-    Found follow(Ego& ego);
+    /// the car needs to brake, and more. The car is to be `beside` metres left of it. Throws
+    /// world::Error naming a lane that cannot be reached.
+    Found follow(Ego& ego, double beside = 0);
+
+    /// [m] left of the way.
+    double beside_way(const Ego& ego) const;
 
     /// The car was put elsewhere: at the next follow a way is looked for under it.
     void lose_way() { on_way_ = false; }
@@ -68,7 +76,7 @@ class Navigator {
     };
 
     std::optional<std::uint32_t> lane_under(const Ego& ego) const;
-    bool is_lost(const Ego& ego) const;
+    bool is_lost(const Ego& ego, double beside) const;
     void start_over(Ego& ego, const std::vector<std::uint32_t>& lanes_ahead, double change_room);
     std::vector<std::uint32_t> committed_lanes(const Ego& ego) const;
     void require_way(std::uint32_t from, std::span<const std::uint32_t> stops, double last_s) const;
@@ -82,6 +90,7 @@ class Navigator {
     double comfortable_braking_;
     std::optional<NewRoute> new_route_;
     std::optional<std::uint32_t> new_lane_;
+    bool new_lane_at_once_ = false;
     std::optional<bool> new_keeping_;
     double rear_axle_s_ = 0;  ///< only grows while the way stays
     bool on_way_ = false;

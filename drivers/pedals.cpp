@@ -49,8 +49,12 @@ double travel_time(double distance, double speed, double acceleration, double to
     return (top_speed - start) / acceleration + (distance - ramp) / top_speed;
 }
 
-Pedals::Position Pedals::press(
-    double wanted, double speed, double climb, const world::CarModel& car, double step) {
+Pedals::Position Pedals::press(double wanted,
+                               double speed,
+                               double climb,
+                               const world::CarModel& car,
+                               double step,
+                               Manner manner) {
     // What became of the last wish?
     if (started_ && !holding_ && !saturated_ && speed > 1) {
         const double got = (speed - last_speed_) / step;
@@ -60,7 +64,7 @@ Pedals::Position Pedals::press(
     started_ = true;
 
     // Jerk: gentle on the throttle, quicker on the brake, at once in need.
-    if (wanted < -4)
+    if (wanted < -4 || manner == Manner::exact)
         asked_ = wanted;
     else
         asked_ = std::clamp(wanted, asked_ - 12 * step, asked_ + 5 * step);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "world/digest.h"
 #include "world/models/car_model.h"
 #include "world/tick_generated.h"
@@ -48,9 +50,19 @@ class Pedals {
         double brake = 0;
     };
 
+    /// How soon a wish is followed.
+    enum class Manner : std::uint8_t {
+        gentle,  ///< jerk limited
+        exact    ///< at once
+    };
+
     /// `climb` is the sine of the road's slope the way the car drives, or wants to.
-    Position press(
-        double wanted, double speed, double climb, const world::CarModel& car, double step);
+    Position press(double wanted,
+                   double speed,
+                   double climb,
+                   const world::CarModel& car,
+                   double step,
+                   Manner manner = Manner::gentle);
 
     void add_to(world::Hasher& hasher) const;
 

@@ -7,12 +7,12 @@ namespace reprise::drivers {
 
 namespace {
 
-constexpr double tracked_share = 0.5;     // of the wheelbase, ahead of the rear axle
-constexpr double offset_gain = 2.0;       // [1/s]
-constexpr double offset_softening = 1.5;  // [m/s]
-constexpr double steepest_return = 0.5;   // [rad] towards the path
-constexpr double preview = 0.08;          // [s] a tick's delay and the wheels' turning
-constexpr double yaw_damping = 0.05;      // [s]
+constexpr double tracked_share = 0.5;            // of the wheelbase, ahead of the rear axle
+constexpr double offset_gain = 2.0;              // [1/s]
+constexpr double offset_softening = 1.5;         // [m/s]
+constexpr double steepest_return = 0.5;          // [rad] towards the path
+constexpr double preview = BesidePath::preview;  // [s]
+constexpr double yaw_damping = 0.05;             // [s]
 
 /// What the car should do there.
 struct Aim {
@@ -40,10 +40,29 @@ double steer_to(const Ego& ego, const Aim& aim, double ahead) {
     return std::clamp(angle / ego.model->max_steering_angle, -1.0, 1.0);
 }
 
+/// To the left of the path, and across it.
+void move_beside(Aim& aim, const BesidePath& beside) {
+    if (beside.on_path())
+        return;
+    const Eigen::Vector2d left(-aim.direction.y(), aim.direction.x());
+    aim.position += beside.offset * left;
+    aim.direction = (aim.direction + beside.slope * left).normalized();
+    aim.yaw += std::atan(beside.slope);
+    // On the inner side of a bend the line is bent more.
+    constexpr double most_narrowing = 0.8;
+    const double narrowing = std::min(aim.curvature * beside.offset, most_narrowing);
+    aim.curvature = aim.curvature / (1 - narrowing) + beside.bend;
+    aim.curvature_soon = aim.curvature_soon / (1 - narrowing) + beside.bend_soon;
+}
+
 }  // namespace
 
-double steer(const Ego& ego, const Path& path) {
-    const double ahead = tracked_share * ego.model->wheelbase;
+double tracked_ahead(const world::VehicleModel& model) {
+    return tracked_share * model.wheelbase;
+}
+
+double steer(const Ego& ego, const Path& path, const BesidePath& beside) {
+    const double ahead = tracked_ahead(*ego.model);
     const double s = ego.rear_axle_s + ahead;
     const PathPoint here = path.at(s);
     Aim aim{here.position.head<2>(), here.direction};
@@ -52,19 +71,23 @@ double steer(const Ego& ego, const Path& path) {
     // In a steady turn the body points by asin(ahead * curvature) away from the track's tangent.
     const double slip = std::asin(std::clamp(ahead * aim.curvature, -0.9, 0.9));
     aim.yaw = here.yaw - slip;
+    move_beside(aim, beside);
+    if (beside.bend != 0)
+        aim.yaw -= std::asin(std::clamp(ahead * beside.bend, -0.9, 0.9));
     return steer_to(ego, aim, ahead);
 }
 
-double steer(const Ego& ego, const WideTurnPlan& wide_turn) {
-    const double ahead = tracked_share * ego.model->wheelbase;
+double steer(const Ego& ego, const WideTurnPlan& wide_turn, const BesidePath& beside) {
+    const double ahead = tracked_ahead(*ego.model);
     const WideTurnPoint here = wide_turn.at(ego.rear_axle_s);
     const Eigen::Vector2d direction(std::cos(here.yaw), std::sin(here.yaw));
     const double soon = ego.rear_axle_s + preview * std::max(ego.speed, 0.0);
-    const Aim aim{here.position + ahead * direction,
-                  direction,
-                  here.yaw,
-                  here.curvature,
-                  wide_turn.at(soon).curvature};
+    Aim aim{here.position + ahead * direction,
+            direction,
+            here.yaw,
+            here.curvature,
+            wide_turn.at(soon).curvature};
+    move_beside(aim, beside);
     return steer_to(ego, aim, ahead);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "drivers/ego.h"
+#include "drivers/lateral_order.h"
 #include "drivers/way/path.h"
 #include "drivers/wide_turn.h"
 
@@ -12,10 +13,14 @@ namespace reprise::drivers {
 /// Robotics 23 (2006), 661; yaw damping from Hoffmann et al., ACC 2007), with the path's curvature
 /// fed forward and with the tracked point between the axles instead of on the front one: in a
 /// corner of 6 m the rear axle of a sedan runs 0.7 m inside the front axle's track, and a lane has
-/// no room for all of that on one side.
-double steer(const Ego& ego, const Path& path);
+/// no room for all of that on one side. `beside`: where it is to drive beside the path, at
+/// `tracked_ahead` of the rear axle.
+double steer(const Ego& ego, const Path& path, const BesidePath& beside = {});
 
 /// As above, for a long vehicle: it tracks the plan of its rear axle.
-double steer(const Ego& ego, const WideTurnPlan& wide_turn);
+double steer(const Ego& ego, const WideTurnPlan& wide_turn, const BesidePath& beside = {});
+
+/// [m] of the rear axle: what is kept on the path.
+double tracked_ahead(const world::VehicleModel& model);
 
 }  // namespace reprise::drivers

@@ -30,12 +30,52 @@ double climb_of(const Eigen::Isometry3d& pose_world_vehicle) {
     return pose_world_vehicle.linear()(2, 0);
 }
 
-/// Without a target: is it to keep its lane from now on, or free to change?
+/// Without a target: is it to keep its lane from now on, or free to change? Within a time: at once.
 void change_lane(drivers::Autopilot& autopilot, const world::CommandT& command) {
-    if (world::names_lane(command))
-        autopilot.change_lane(command.lanes.front());
-    else
+    if (!world::names_lane(command))
         autopilot.keep_lane(!command.lanes.empty());
+    else if (command.duration > 0 || command.shape == world::Shape::step)
+        autopilot.switch_lane(command.lanes.front(), command.duration, command.shape);
+    else
+        autopilot.change_lane(command.lanes.front());
+}
+
+/// Of those about how it drives.
+void give_order(drivers::Autopilot& autopilot, const world::CommandT& command) {
+    switch (command.kind) {
+        case world::CommandKind::set_speed:
+            autopilot.set_speed(command.speed, command.duration, command.shape);
+            break;
+        case world::CommandKind::free_speed:
+            autopilot.free_speed();
+            break;
+        case world::CommandKind::hold_speed:
+            if (command.on)
+                autopilot.hold_speed(command.speed, command.duration, command.shape);
+            else
+                autopilot.end_hold();
+            break;
+        case world::CommandKind::brake:
+            if (command.on)
+                autopilot.brake(command.deceleration);
+            else
+                autopilot.end_brake();
+            break;
+        case world::CommandKind::set_offset:
+            autopilot.set_offset(command.offset, command.duration, command.shape);
+            break;
+        case world::CommandKind::ignore_lights:
+            autopilot.ignore_lights(command.on);
+            break;
+        case world::CommandKind::set_route:
+            autopilot.set_route(command.lanes, command.s);
+            break;
+        case world::CommandKind::change_lane:
+            change_lane(autopilot, command);
+            break;
+        default:
+            break;
+    }
 }
 
 world::EventT event(world::EventKind kind, std::uint32_t actor, const world::CommandT& command) {
@@ -68,26 +108,14 @@ void Roster::apply_commands(const world::TickView& last, world::TickDraft& next,
         if (found == entries_.end())
             continue;
         Entry& entry = found->second;
+        if (entry.autopilot)
+            give_order(*entry.autopilot, command);
         switch (command.kind) {
             case world::CommandKind::despawn:
                 despawn(command, next, physics);
                 break;
-            case world::CommandKind::set_speed:
-                if (entry.autopilot)
-                    entry.autopilot->set_speed(command.speed);
-                break;
-            case world::CommandKind::free_speed:
-                if (entry.autopilot)
-                    entry.autopilot->free_speed();
-                break;
             case world::CommandKind::set_route:
-                if (entry.autopilot)
-                    entry.autopilot->set_route(command.lanes, command.s);
-                entry.route_line = command.line;
-                break;
             case world::CommandKind::change_lane:
-                if (entry.autopilot)
-                    change_lane(*entry.autopilot, command);
                 entry.route_line = command.line;
                 break;
             case world::CommandKind::follow:

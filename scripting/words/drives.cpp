@@ -5,6 +5,7 @@
 #include "scripting/lua/text.h"
 #include "scripting/words/caps.h"
 #include "scripting/words/handles.h"
+#include "scripting/words/obedience.h"
 #include "scripting/words/places.h"
 #include "scripting/words/vocabulary.h"
 #include "world/frames.h"
@@ -20,125 +21,10 @@ using world::Driver;
 
 constexpr lua_Integer few_stops = 10;  ///< of a route that anybody would write
 
-Actor& driven(Run& run, lua_State* L, const char* who) {
-    Actor& actor = actor_at(run, L, 1, who);
-    const char* why_not = actor.driver == Driver::parked     ? "parked"
-                          : actor.driver == Driver::manual   ? "driven by hand"
-                          : actor.driver == Driver::external ? "driven by another program"
-                          : actor.driver == Driver::prop     ? "a prop"
-                                                             : nullptr;
-    if (why_not != nullptr)
-        refuse(
-            who,
-            fmt::format(
-                "'{}' is {}: only 'autopilot', 'traffic' and walkers obey", actor.name, why_not));
-    return actor;
-}
-
-Actor& driver_of_car(Run& run, lua_State* L, const char* who) {
-    Actor& actor = driven(run, L, who);
-    if (actor.is_walker())
-        refuse(who, "'" + actor.name + "' is a walker");
-    return actor;
-}
-
 /// A car that is sent somewhere: another program's, too, which reads in the tick where to.
 Actor& sent_car(Run& run, lua_State* L, const char* who) {
     Actor& actor = actor_at(run, L, 1, who);
     return actor.driver == Driver::external ? actor : driver_of_car(run, L, who);
-}
-
-double over(lua_State* L, int index, const Actor& actor, const char* who) {
-    const Fields options(L, index, who, {"over"}, true);
-    const double duration = options.number("over").value_or(0);
-    if (duration < 0 || duration > 3600)
-        refuse(who, "'over' must be in [0, 3600] s");
-    if (duration > 0 && actor.driver != Driver::traffic)
-        refuse(who,
-               fmt::format("'over' has no effect on '{}': {}; leave it out, or take driver = "
-                           "'traffic'",
-                           actor.name,
-                           actor.is_walker() ? "a walker changes its speed by 2 m/s^2"
-                                             : "an autopilot takes the time that it needs"));
-    return duration;
-}
-
-/// A walker's speed counts while it walks.
-Actor& with_a_speed(Run& run, lua_State* L, const char* who) {
-    Actor& actor = driven(run, L, who);
-    if (actor.is_walker() && !actor.walks)
-        refuse(who,
-               fmt::format("has no effect on '{}', which stands until it is told where to go: "
-                           "{}:walk{{ to = {{ x, y }}, speed = 2 }}",
-                           actor.name,
-                           actor.name));
-    return actor;
-}
-
-int change_speed(Run& run, lua_State* L, const char* who, double unit) {
-    const Actor& actor = with_a_speed(run, L, who);
-    const double speed = number_at(L, 2, who, "the speed") * unit;
-    if (speed < 0 || speed > 150)
-        refuse(who, fmt::format("the speed must be in [0, 150] m/s, got {}", number_text(speed)));
-    const double duration = over(L, 3, actor, who);
-    world::CommandT& command = run.say(L, CommandKind::set_speed, actor.id);
-    command.speed = speed;
-    command.duration = duration;
-    return 0;
-}
-
-int set_speed(Run& run, lua_State* L) {
-    return change_speed(run, L, "set_speed", 1);
-}
-
-int set_speed_kmh(Run& run, lua_State* L) {
-    return change_speed(run, L, "set_speed_kmh", 1 / 3.6);
-}
-
-int free_speed(Run& run, lua_State* L) {
-    run.say(L, CommandKind::free_speed, with_a_speed(run, L, "free_speed").id);
-    return 0;
-}
-
-/// 'left' and 'right' are of the lane that the actor is on now.
-std::uint32_t target_lane(Run& run, lua_State* L, const Actor& actor, const std::string& target) {
-    if (target != "left" && target != "right") {
-        const std::uint32_t lane = run.lane_named(L, target);
-        if (run.town.lanes[lane].kind != world::LaneKind::driving)
-            refuse("change_lane", "'" + target + "' is not a lane for cars");
-        return lane;
-    }
-    const Body body = run.look_at(actor);
-    if (body.lane == world::none)
-        refuse("change_lane", "'" + actor.name + "' is on no lane");
-    const world::LaneT& here = run.town.lanes[body.lane];
-    const std::uint32_t lane = target == "left" ? here.left : here.right;
-    if (lane == world::none || run.town.lanes[lane].kind != world::LaneKind::driving)
-        refuse("change_lane", fmt::format("no lane to the {} of '{}'", target, here.name));
-    return lane;
-}
-
-int change_lane(Run& run, lua_State* L) {
-    const Actor& actor = driver_of_car(run, L, "change_lane");
-    const std::string target = text_at(L, 2, "change_lane", "the target");
-    const double duration = over(L, 3, actor, "change_lane");
-    const std::uint32_t lane = target_lane(run, L, actor, target);
-    world::CommandT& command = run.say(L, CommandKind::change_lane, actor.id);
-    command.lanes.push_back(lane);
-    command.duration = duration;
-    return 0;
-}
-
-/// A change of lanes to no lane; to leave it open again, one that says nothing.
-int keep_lane(Run& run, lua_State* L) {
-    Actor& actor = driver_of_car(run, L, "keep_lane");
-    if (!lua_isnoneornil(L, 2) && !lua_isboolean(L, 2))
-        refuse("keep_lane", "takes true or false, true where it is left out");
-    actor.keeps_lane = lua_isnoneornil(L, 2) || lua_toboolean(L, 2) != 0;
-    world::CommandT& command = run.say(L, CommandKind::change_lane, actor.id);
-    if (actor.keeps_lane)
-        command.lanes.push_back(world::none);
-    return 0;
 }
 
 /// From here on it is watched how much of the way it has driven.
@@ -326,12 +212,30 @@ int despawn(Run& run, lua_State* L) {
 
 }  // namespace
 
+Actor& driven(Run& run, lua_State* L, const char* who) {
+    Actor& actor = actor_at(run, L, 1, who);
+    const char* why_not = actor.driver == Driver::parked     ? "parked"
+                          : actor.driver == Driver::manual   ? "driven by hand"
+                          : actor.driver == Driver::external ? "driven by another program"
+                          : actor.driver == Driver::prop     ? "a prop"
+                                                             : nullptr;
+    if (why_not != nullptr)
+        refuse(
+            who,
+            fmt::format(
+                "'{}' is {}: only 'autopilot', 'traffic' and walkers obey", actor.name, why_not));
+    return actor;
+}
+
+Actor& driver_of_car(Run& run, lua_State* L, const char* who) {
+    Actor& actor = driven(run, L, who);
+    if (actor.is_walker())
+        refuse(who, "'" + actor.name + "' is a walker");
+    return actor;
+}
+
 void add_drive_words(lua_State* L) {
-    add_function(L, "set_speed", commanding<set_speed>);
-    add_function(L, "set_speed_kmh", commanding<set_speed_kmh>);
-    add_function(L, "free_speed", commanding<free_speed>);
-    add_function(L, "change_lane", commanding<change_lane>);
-    add_function(L, "keep_lane", commanding<keep_lane>);
+    add_motion_words(L);
     add_function(L, "set_route", commanding<set_route>);
     add_function(L, "route_to", commanding<route_to>);
     add_function(L, "walk", commanding<walk>);

@@ -19,6 +19,7 @@ void add_place_words(lua_State* L);        ///< place_words.cpp: lanes, junction
 void add_handle_words(lua_State* L);     ///< handles.cpp: those that look
 void add_look_words(lua_State* L);       ///< looks.cpp: those that look around
 void add_drive_words(lua_State* L);      ///< drives.cpp: those that act
+void add_motion_words(lua_State* L);     ///< motion.cpp: of these, speed and lateral motion
 void add_equipment_words(lua_State* L);  ///< equipment.cpp: lamps and doors
 void add_placing_words(lua_State* L);    ///< follow.cpp: those that put it somewhere
 
