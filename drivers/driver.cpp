@@ -219,7 +219,7 @@ world::Control Autopilot::decide(const world::TickView& last) {
                            exact ? Pedals::Manner::exact : Pedals::Manner::gentle);
     control.mutate_throttle(pedals.throttle);
     control.mutate_brake(pedals.brake);
-    const BesidePath beside =
+    const std::optional<BesidePath> beside =
         state.lateral_order.beside(state.tick, state.step, ego.speed, tracked_ahead(*ego.model));
     control.mutate_steer(state.has_wide_turn ? steer(ego, *state.wide_turn, beside)
                                              : steer(ego, state.way().path(), beside));
@@ -310,7 +310,15 @@ void Autopilot::State::plan_wide_turns(const Ego& ego) {
         return;
     if (!wide_turn)
         wide_turn.emplace(*car.catalogue, map->clearances);
-    wide_turn->plan(way().path(), ego);
+    // What the scenario wants beside the path comes on top of the plan.
+    Ego start = ego;
+    if (!lateral_order.empty()) {
+        const PathPoint here = way().path().at(ego.rear_axle_s);
+        start.position = here.position;
+        start.direction = here.direction;
+        start.yaw = here.yaw;
+    }
+    wide_turn->plan(way().path(), start);
     has_wide_turn = !wide_turn->empty();
 }
 

@@ -12,6 +12,7 @@ namespace reprise::drivers {
 namespace {
 
 constexpr double comfort = 1.5;         // [m/s^2] sideways of one who is told no time
+constexpr double hard = 5;              // [m/s^2] at the corners of a linear change
 constexpr double slowest = 2;           // [m/s] below it a time says nothing about a way
 constexpr double steepest_slope = 0.5;  // that a course is fed forward with
 constexpr double sharpest_bend = 0.1;   // [1/m]
@@ -54,6 +55,9 @@ void LateralOrder::begin(std::uint64_t tick,
                           car, distance, change_.shape, std::max(speed, slowest), road_friction)});
     }
     change_.duration = std::min(change_.duration, longest_change);
+    if (change_.shape == world::Shape::linear)
+        change_.corner =
+            std::min(change_.duration / 3, std::abs(distance) / change_.duration / hard);
 }
 
 double LateralOrder::seconds(std::uint64_t tick, double step) const {
@@ -70,9 +74,14 @@ double LateralOrder::offset(std::uint64_t tick, double step, double later) const
     return changes_ ? change_.value(seconds(tick, step) + later) : kept_;
 }
 
-BesidePath LateralOrder::beside(std::uint64_t tick, double step, double speed, double ahead) const {
+std::optional<BesidePath> LateralOrder::beside(std::uint64_t tick,
+                                               double step,
+                                               double speed,
+                                               double ahead) const {
+    if (empty())
+        return std::nullopt;
     if (!changes_)
-        return {kept_, 0, 0, 0};
+        return BesidePath{kept_, 0, 0, 0};
     const double along = std::max(speed, slowest);
     const double then = seconds(tick, step) + ahead / along;
     const auto bend = [&](double at) {
@@ -98,7 +107,7 @@ void LateralOrder::add_to(world::Hasher& hasher) const {
     hasher.add(kept_);
     hasher.add(is_new_);
     hasher.add(changes_);
-    for (const double number : {change_.from, change_.to, change_.duration})
+    for (const double number : {change_.from, change_.to, change_.duration, change_.corner})
         hasher.add(number);
     hasher.add(change_.shape);
     hasher.add(start_);

@@ -11,14 +11,13 @@ namespace reprise::drivers {
 
 /// Where beside its path the car is to drive at one place, and how that goes on. Left is positive.
 struct BesidePath {
-    static constexpr double preview = 0.08;  ///< [s] a tick's delay and the wheels' turning
+    /// [s] of bend_soon: a tick's delay, the wheels' turning, and the tyres' answer to it
+    static constexpr double preview = 0.15;
 
     double offset = 0;     ///< [m]
     double slope = 0;      ///< offset per metre driven
     double bend = 0;       ///< slope per metre driven [1/m]
     double bend_soon = 0;  ///< when the wheels will have turned
-
-    bool on_path() const { return offset == 0 && slope == 0 && bend == 0 && bend_soon == 0; }
 };
 
 /// What a scenario told a driver about its place beside the middle of its lane: an offset that it
@@ -50,8 +49,11 @@ class LateralOrder {
     /// [m] left of the path at this tick, and `later` seconds after it.
     double offset(std::uint64_t tick, double step, double later = 0) const;
 
-    /// For the place `ahead` [m] of the rear axle, which is to run on the line.
-    BesidePath beside(std::uint64_t tick, double step, double speed, double ahead) const;
+    /// For the place `ahead` [m] of the rear axle, which is to run on the line; none when empty.
+    std::optional<BesidePath> beside(std::uint64_t tick,
+                                     double step,
+                                     double speed,
+                                     double ahead) const;
 
     /// A change that is done is forgotten.
     void end(std::uint64_t tick, double step);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "drivers/ego.h"
 #include "drivers/lateral_order.h"
 #include "drivers/way/path.h"
@@ -14,11 +16,15 @@ namespace reprise::drivers {
 /// fed forward and with the tracked point between the axles instead of on the front one: in a
 /// corner of 6 m the rear axle of a sedan runs 0.7 m inside the front axle's track, and a lane has
 /// no room for all of that on one side. `beside`: where it is to drive beside the path, at
-/// `tracked_ahead` of the rear axle.
-double steer(const Ego& ego, const Path& path, const BesidePath& beside = {});
+/// `tracked_ahead` of the rear axle; who is told that knows what tyres slip, too.
+double steer(const Ego& ego,
+             const Path& path,
+             const std::optional<BesidePath>& beside = std::nullopt);
 
 /// As above, for a long vehicle: it tracks the plan of its rear axle.
-double steer(const Ego& ego, const WideTurnPlan& wide_turn, const BesidePath& beside = {});
+double steer(const Ego& ego,
+             const WideTurnPlan& wide_turn,
+             const std::optional<BesidePath>& beside = std::nullopt);
 
 /// [m] of the rear axle: what is kept on the path.
 double tracked_ahead(const world::VehicleModel& model);

@@ -1,5 +1,6 @@
 #include "world/transition.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -24,6 +25,13 @@ double Transition::value(double seconds) const {
         return from;
     const double u = seconds / duration;
     double share = u;
+    if (shape == Shape::linear && corner > 0) {
+        const double full = duration - corner;
+        const double left = duration - seconds;
+        share = seconds < corner ? seconds * seconds / (2 * corner * full)
+                : left < corner  ? 1 - left * left / (2 * corner * full)
+                                 : (seconds - corner / 2) / full;
+    }
     if (shape == Shape::cubic)
         share = u * u * (3 - 2 * u);
     else if (shape != Shape::linear)
@@ -37,13 +45,19 @@ double Transition::rate(double seconds) const {
     const double u = seconds / duration;
     const double mean = (to - from) / duration;
     if (shape == Shape::linear)
-        return mean;
+        return corner > 0 ? (to - from) / (duration - corner) *
+                                std::min({seconds / corner, (duration - seconds) / corner, 1.0})
+                          : mean;
     return mean * (shape == Shape::cubic ? 6 * u * (1 - u) : pi / 2 * std::sin(pi * u));
 }
 
 double Transition::acceleration(double seconds) const {
-    if (!is_under_way(seconds, duration) || shape == Shape::linear)
+    if (!is_under_way(seconds, duration))
         return 0;
+    if (shape == Shape::linear) {
+        const double change = corner > 0 ? (to - from) / ((duration - corner) * corner) : 0;
+        return seconds < corner ? change : duration - seconds < corner ? -change : 0;
+    }
     const double u = seconds / duration;
     return (to - from) / (duration * duration) *
            (shape == Shape::cubic ? 6 - 12 * u : pi * pi / 2 * std::cos(pi * u));

@@ -21,11 +21,6 @@ constexpr double rebound_damping = 0.45;
 constexpr double wheel_travel = 0.25;     // [m] from rest up to the stop
 constexpr double anti_roll_share = 0.55;  // of the springs' roll stiffness
 
-// Cornering stiffness of the tyres per load [1/rad]: Gillespie gives 0.12 to 0.2 per degree for
-// passenger cars. The softer front axle makes every model understeer: here 1.6 degrees for each g.
-constexpr double front_cornering = 9.0;
-constexpr double rear_cornering = 12.0;
-
 double wrap_turn(double angle) {
     const double turn = 2 * std::numbers::pi;
     const double wrapped = angle - turn * std::floor(angle / turn);
@@ -104,7 +99,7 @@ void Vehicle::Chassis::hang_wheels(const world::CarModel& model) {
         wheel.m_wheelsSuspensionForce = 0;
         wheel.m_skidInfo = 1;
         const auto index = static_cast<std::size_t>(i);
-        car.wheels[index].cornering_stiffness = front ? front_cornering : rear_cornering;
+        car.wheels[index].cornering_stiffness = front ? world::front_cornering : world::rear_cornering;
         car.anti_roll[index / 2] = anti_roll_share * share * omega * omega * m.mass / 2;
     }
     car.gravity = world::gravity;

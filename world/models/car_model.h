@@ -32,6 +32,12 @@ CarModel car_model(const VehicleModel& model);
 inline constexpr double gravity = 9.81;       ///< [m/s^2]
 inline constexpr double air_density = 1.225;  ///< [kg/m^3] ICAO standard atmosphere, sea level
 inline constexpr double steering_rate = 0.7;  ///< [rad/s] of the front wheels
+
+// Cornering stiffness of the tyres per load [1/rad]: Gillespie gives 0.12 to 0.2 per degree for
+// passenger cars. The softer front axle makes every model understeer: here 1.6 degrees for each g.
+inline constexpr double front_cornering = 9.0;
+inline constexpr double rear_cornering = 12.0;
+
 inline constexpr double reverse_speed = 8.0;  ///< [m/s] fastest speed backwards
 
 /// Force of the engine at the wheels along x. [N]; throttle in [0, 1], speed along x.
