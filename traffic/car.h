@@ -10,18 +10,28 @@
 #include "traffic/trail.h"
 #include "world/tick.h"
 #include "world/trajectory.h"
+#include "world/transition.h"
 
 namespace reprise::traffic {
 
 /// Who wanted the car, which decides what happens to it at the end of its way.
 enum class Origin : std::uint8_t { demand, scripted, parked };
 
-/// A scripted speed: from `from` at `start`, evenly over `ticks`, then held. [m/s]
+/// A scripted speed: from `from` at `start`, over `ticks`, then held. [m/s]
 struct SpeedOrder {
     double from = 0;
     double to = 0;
     std::uint64_t start = 0;
     std::uint64_t ticks = 0;
+    world::Shape shape = world::Shape::linear;
+    bool reacts = true;  ///< to others, lights and right of way
+    bool brakes = false;
+};
+
+/// A scripted place beside the middle of the lane, left positive. SUMO does not know of it.
+struct OffsetOrder {
+    world::Transition change;  ///< [m]
+    std::uint64_t start = 0;   ///< tick
 };
 
 /// A scripted lane change: asked of SUMO again and again until it is made or `until` has passed.
@@ -63,6 +73,9 @@ struct Car {
 
     std::optional<SpeedOrder> speed_order;
     std::optional<LaneOrder> lane_order;
+    std::optional<OffsetOrder> offset_order;
+    double offset = 0;            ///< [m] that it shows by now
+    bool ignores_lights = false;  ///< red ones and stop lines
 
     // By the scenario's word; see placements.h.
     std::optional<world::Trajectory> trajectory;  ///< says where it is

@@ -119,15 +119,29 @@ Eigen::Vector3d CarReader::bumper_of(const Car& car) const {
     return front;
 }
 
+/// As its order wants it, and as the car drives: a standing car stands.
+void CarReader::move_aside(Car& car, std::uint64_t tick) const {
+    constexpr double steepest = 0.5;  // metres aside for each metre driven
+    const OffsetOrder& order = *car.offset_order;
+    const double seconds = static_cast<double>(tick - order.start) * step_;
+    const double most = steepest * car.speed * step_;
+    car.offset += std::clamp(order.change.value(seconds) - car.offset, -most, most);
+    if (car.offset == 0 && order.change.to == 0 && seconds >= order.change.duration)
+        car.offset_order.reset();
+}
+
 /// The pose that the car shows, after its bumper.
 void CarReader::move_body(Car& car, bool new_lane) const {
     const Eigen::Vector3d front = bumper_of(car);
     double lane_yaw = car.yaw;
-    if (car.lane != none && (new_lane || !car.slip.isZero(0))) {
+    if (car.lane != none && (new_lane || !car.slip.isZero(0) || car.offset != 0)) {
         const world::LaneT& on = town_->lanes[car.lane];
         lane_yaw = world::point_at(on, car.lane_position * on.length / on.sumo_length).yaw;
     }
-    car.trail.advance(smooth(car, front, new_lane, lane_yaw, step_));
+    Eigen::Vector3d shown = smooth(car, front, new_lane, lane_yaw, step_);
+    if (car.offset != 0)
+        shown += car.offset * Eigen::Vector3d(-std::sin(lane_yaw), std::cos(lane_yaw), 0);
+    car.trail.advance(shown);
     car.rear = car.trail.rear();
     const Eigen::Vector3d body = car.trail.front() - car.rear;
     car.yaw = std::atan2(body.y(), body.x());
@@ -151,6 +165,8 @@ void CarReader::read_car(Car& car, std::uint64_t tick) const {
     car.standing_ticks = speed < 0.1 ? car.standing_ticks + 1 : 0;
     if (stands)
         return;
+    if (car.offset_order)
+        move_aside(car, tick);
     const std::string lane =
         keeps_lane ? town_->lanes[car.lane].name : Vehicle::getLaneID(car.sumo);
     const bool new_lane = car.lane == none || town_->lanes[car.lane].name != lane;

@@ -28,6 +28,7 @@ class CarReader {
     void read_car(Car& car, std::uint64_t tick) const;
     void enter_lane(Car& car, std::string_view lane) const;
     Eigen::Vector3d bumper_of(const Car& car) const;
+    void move_aside(Car& car, std::uint64_t tick) const;
     void move_body(Car& car, bool new_lane) const;
 
     const world::TownT* town_;

@@ -27,8 +27,23 @@ std::uint32_t flags_of(const Car& car) {
            (std::uint32_t{car.sumo.empty()} << 3U) +
            (std::uint32_t{car.speed_order.has_value()} << 4U) +
            (std::uint32_t{car.lane_order.has_value()} << 5U) +
-           (std::uint32_t{car.keeps_lane} << 6U) + (std::uint32_t{car.model} << 8U) +
-           (std::uint32_t{car.lamps} << 16U);
+           (std::uint32_t{car.keeps_lane} << 6U) + (std::uint32_t{car.ignores_lights} << 7U) +
+           (std::uint32_t{car.model} << 8U) + (std::uint32_t{car.lamps} << 16U);
+}
+
+/// Of most speed orders nothing.
+void add_rarer(world::Hasher& hasher, const SpeedOrder& order) {
+    if (order.shape != world::Shape::linear)
+        hasher.add(order.shape);
+    if (!order.reacts)
+        hasher.add(order.brakes);
+}
+
+void add_offset(world::Hasher& hasher, const OffsetOrder& order, double offset) {
+    for (const double number : {order.change.from, order.change.to, order.change.duration, offset})
+        hasher.add(number);
+    hasher.add(order.change.shape);
+    hasher.add(order.start);
 }
 
 /// What every car keeps. Left out is what nothing is computed from (acceleration, pitch) or what
@@ -110,12 +125,15 @@ void Cars::add_to(world::Hasher& hasher) const {
             hasher.add(car.speed_order->to);
             hasher.add(car.speed_order->start);
             hasher.add(car.speed_order->ticks);
+            add_rarer(hasher, *car.speed_order);
         }
         if (car.lane_order) {
             hasher.add(car.lane_order->lane);
             hasher.add(car.lane_order->duration);
             hasher.add(car.lane_order->until);
         }
+        if (car.offset_order)
+            add_offset(hasher, *car.offset_order, car.offset);
         if (car.trajectory) {
             car.trajectory->add_to(hasher);
             hasher.add(car.trajectory_start);

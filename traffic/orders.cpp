@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <libsumo/libsumo.h>
@@ -21,9 +23,31 @@ using world::none;
 // 4, the limits of acceleration: the ramp below keeps its own, so that a duration is kept exactly.
 constexpr int obeys_but_hits_nobody = 1 + 8 + 16;
 constexpr int sumo_default_speed_mode = 31;
+constexpr int gives_way = 8;
+constexpr int stops_at_red = 16;
+// No bit but 32: inside junctions, too, nobody goes first.
+constexpr int reacts_to_nothing = 32;
 
 constexpr double hardest_braking = 9;     // [m/s^2] a dry road's limit
 constexpr double hardest_starting = 4.5;  // [m/s^2] a quick car
+constexpr double comfort_aside = 1.5;     // [m/s^2] of one who is told an offset and no time
+constexpr double quick_aside = 4;         // [m/s^2]
+
+/// Is the next light one that says: stop?
+bool comes_to_a_red_light(const Car& car) {
+    const auto lights = Vehicle::getNextTLS(car.sumo);
+    return !lights.empty() &&
+           std::string_view("rRuyYs").find(lights.front().state) != std::string_view::npos;
+}
+
+int speed_mode(const Car& car) {
+    if (car.speed_order && !car.speed_order->reacts)
+        return reacts_to_nothing;
+    int mode = car.speed_order ? obeys_but_hits_nobody : sumo_default_speed_mode;
+    if (car.ignores_lights && comes_to_a_red_light(car))
+        mode &= ~(stops_at_red + gives_way);
+    return mode;
+}
 
 }  // namespace
 
@@ -43,9 +67,26 @@ void Orders::give(const world::CommandT& command, Car& car, std::uint64_t tick) 
             take_speed(command, car, tick);
             break;
         case CommandKind::free_speed:
-            car.speed_order.reset();
-            Vehicle::setSpeed(car.sumo, -1);
-            Vehicle::setSpeedMode(car.sumo, sumo_default_speed_mode);
+            free_speed(car);
+            break;
+        case CommandKind::hold_speed:
+            if (command.on)
+                take_speed(command, car, tick);
+            else if (car.speed_order && !car.speed_order->reacts && !car.speed_order->brakes)
+                free_speed(car);
+            break;
+        case CommandKind::brake:
+            if (command.on)
+                take_braking(command, car, tick);
+            else if (car.speed_order && car.speed_order->brakes)
+                free_speed(car);
+            break;
+        case CommandKind::set_offset:
+            take_offset(command, car, tick);
+            break;
+        case CommandKind::ignore_lights:
+            car.ignores_lights = command.on;
+            Vehicle::setSpeedMode(car.sumo, speed_mode(car));
             break;
         case CommandKind::change_lane:
             take_lane(command, car, tick);
@@ -60,12 +101,17 @@ void Orders::give(const world::CommandT& command, Car& car, std::uint64_t tick) 
 
 void Orders::release(Car& car, std::uint64_t tick) const {
     if (car.speed_order) {
+        const bool brakes = car.speed_order->brakes;
         world::CommandT command;
-        command.speed = car.speed_order->to;
-        return take_speed(command, car, tick);
+        command.kind =
+            car.speed_order->reacts ? CommandKind::set_speed : CommandKind::hold_speed;
+        command.speed = std::max(car.speed_order->to, 0.0);
+        take_speed(command, car, tick);
+        car.speed_order->brakes = brakes;
+        return;
     }
     Vehicle::setSpeed(car.sumo, -1);
-    Vehicle::setSpeedMode(car.sumo, sumo_default_speed_mode);
+    Vehicle::setSpeedMode(car.sumo, speed_mode(car));
 }
 
 /// Changed evenly over the duration, and never faster than a car can.
@@ -74,8 +120,49 @@ void Orders::take_speed(const world::CommandT& command, Car& car, std::uint64_t 
     const double limit = change < 0 ? hardest_braking : hardest_starting;
     const double seconds = std::max(command.duration, std::abs(change) / limit);
     const auto ticks = static_cast<std::uint64_t>(std::ceil(seconds / step_ - 1e-9));
-    car.speed_order = SpeedOrder{car.speed, command.speed, tick - 1, ticks};
-    Vehicle::setSpeedMode(car.sumo, obeys_but_hits_nobody);
+    const bool reacts = command.kind != CommandKind::hold_speed;
+    const world::Shape shape = command.duration > 0 ? command.shape : world::Shape::linear;
+    car.speed_order = SpeedOrder{car.speed, command.speed, tick - 1, ticks, shape, reacts};
+    Vehicle::setSpeedMode(car.sumo, speed_mode(car));
+}
+
+/// Evenly, and to the end of a tick.
+void Orders::take_braking(const world::CommandT& command, Car& car, std::uint64_t tick) const {
+    const double seconds = car.speed / command.deceleration;
+    const auto ticks = static_cast<std::uint64_t>(std::ceil(seconds / step_ - 1e-9));
+    // Beyond standing, so that the last tick's share is no weaker than the others.
+    const double to = car.speed - command.deceleration * static_cast<double>(ticks) * step_;
+    car.speed_order = SpeedOrder{car.speed, to, tick - 1, ticks, world::Shape::linear, false, true};
+    Vehicle::setSpeedMode(car.sumo, speed_mode(car));
+}
+
+void Orders::take_offset(const world::CommandT& command, Car& car, std::uint64_t tick) const {
+    const double far = std::abs(command.offset - car.offset);
+    const bool quick = command.shape == world::Shape::step;
+    double seconds = command.duration;
+    if (seconds <= 0)
+        seconds = std::numbers::pi * std::sqrt(far / (2 * (quick ? quick_aside : comfort_aside)));
+    car.offset_order = OffsetOrder{{car.offset, command.offset, seconds, command.shape}, tick - 1};
+}
+
+void Orders::free_speed(Car& car) const {
+    car.speed_order.reset();
+    Vehicle::setSpeed(car.sumo, -1);
+    Vehicle::setSpeedMode(car.sumo, speed_mode(car));
+}
+
+void Orders::follow_speed_order(Car& car, std::uint64_t tick) const {
+    const SpeedOrder& order = *car.speed_order;
+    const std::uint64_t done = std::min(tick - order.start, order.ticks);
+    if (order.shape == world::Shape::linear) {
+        const double share =
+            order.ticks == 0 ? 1 : static_cast<double>(done) / static_cast<double>(order.ticks);
+        Vehicle::setSpeed(car.sumo, std::max(order.from + (order.to - order.from) * share, 0.0));
+        return;
+    }
+    const world::Transition change{
+        order.from, order.to, static_cast<double>(order.ticks) * step_, order.shape};
+    Vehicle::setSpeed(car.sumo, std::max(change.value(static_cast<double>(done) * step_), 0.0));
 }
 
 void Orders::take_lane(const world::CommandT& command, Car& car, std::uint64_t tick) const {
@@ -187,13 +274,10 @@ void Orders::follow(Cars& cars, std::uint64_t tick) const {
     for (Car& car : cars.all()) {
         if (car.sumo.empty())
             continue;
-        if (car.speed_order && car.held_in != tick) {
-            const SpeedOrder& order = *car.speed_order;
-            const std::uint64_t done = std::min(tick - order.start, order.ticks);
-            const double share =
-                order.ticks == 0 ? 1 : static_cast<double>(done) / static_cast<double>(order.ticks);
-            Vehicle::setSpeed(car.sumo, order.from + (order.to - order.from) * share);
-        }
+        if (car.ignores_lights)
+            Vehicle::setSpeedMode(car.sumo, speed_mode(car));
+        if (car.speed_order && car.held_in != tick)
+            follow_speed_order(car, tick);
         if (car.lane_order && car.lane != none)
             follow_lane_order(car, tick);
         else if (car.keeps_lane && is_off_its_route(car)) {

@@ -39,6 +39,10 @@ class Orders {
 
   private:
     void take_speed(const world::CommandT& command, Car& car, std::uint64_t tick) const;
+    void take_braking(const world::CommandT& command, Car& car, std::uint64_t tick) const;
+    void take_offset(const world::CommandT& command, Car& car, std::uint64_t tick) const;
+    void free_speed(Car& car) const;
+    void follow_speed_order(Car& car, std::uint64_t tick) const;
     void take_lane(const world::CommandT& command, Car& car, std::uint64_t tick) const;
     void keep_lane(Car& car, bool keep) const;
     void take_route(const world::CommandT& command, Car& car) const;
