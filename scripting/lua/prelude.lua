@@ -34,6 +34,25 @@ function wait_until_green(lane, options)
     end, limit)
 end
 
+local steer_together = _steer_together
+_steer_together = nil
+
+--- Steers the speed of `a` so that it comes to its point when `b` comes to its own; returns when either
+--- is there, or they hit each other: did they meet, and how many seconds apart.
+function arrive_together(a, b, point, options)
+    local met, apart, left_a, left_b
+    while true do
+        local done, now_met, now_apart, now_a, now_b = steer_together(a, b, point, options, left_a, left_b)
+        if now_apart then
+            met, apart, left_a, left_b = now_met, now_apart, now_a, now_b
+        end
+        if done then
+            return met, apart
+        end
+        wait_ticks(1)
+    end
+end
+
 local actor = _actor
 _actor = nil
 

@@ -80,6 +80,7 @@ void add_vocabulary(lua_State* L) {
     add_task_words(L);
     add_check_words(L);
     add_handle_words(L);
+    add_meeting_words(L);
     add_spawn_words(L);
     add_place_words(L);
     add_function(L, "print", bound<print>);

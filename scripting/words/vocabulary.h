@@ -15,6 +15,7 @@ void add_check_words(lua_State* L);        ///< check_words.cpp: the table `chec
 void add_spawn_words(lua_State* L);        ///< spawning.cpp
 void add_environment_words(lua_State* L);  ///< environment.cpp: weather and signals
 void add_place_words(lua_State* L);        ///< place_words.cpp: lanes, junctions, crossings
+void add_meeting_words(lua_State* L);      ///< meetings.cpp: for the prelude's arrive_together
 // Into the table of an actor's methods:
 void add_handle_words(lua_State* L);     ///< handles.cpp: those that look
 void add_look_words(lua_State* L);       ///< looks.cpp: those that look around
