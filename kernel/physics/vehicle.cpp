@@ -99,7 +99,8 @@ void Vehicle::Chassis::hang_wheels(const world::CarModel& model) {
         wheel.m_wheelsSuspensionForce = 0;
         wheel.m_skidInfo = 1;
         const auto index = static_cast<std::size_t>(i);
-        car.wheels[index].cornering_stiffness = front ? world::front_cornering : world::rear_cornering;
+        car.wheels[index].cornering_stiffness =
+            front ? world::front_cornering : world::rear_cornering;
         car.anti_roll[index / 2] = anti_roll_share * share * omega * omega * m.mass / 2;
     }
     car.gravity = world::gravity;

@@ -64,7 +64,7 @@ Change speed_change_at(lua_State* L, int index, const Actor& actor, const char* 
     if (change.duration > 0 && actor.is_walker())
         refuse(who,
                fmt::format("'over' has no effect on '{}': a walker changes its speed by 2 m/s^2; "
-                           "leave it out",
+                           "leave it out, or take driver = 'traffic'",
                            actor.name));
     if (change.shape == Shape::step)
         refuse(who, "nobody's speed changes by a step: leave 'shape' out, as fast as it likes");

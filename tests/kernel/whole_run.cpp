@@ -45,6 +45,12 @@ world::Recording on_straight_lanes(const std::string& body, double seconds) {
     return recording_of(network, body, 0, seconds);
 }
 
+world::Recording in_town(const std::string& town, const std::string& body, double seconds) {
+    const towns::Network network = towns::load_network(
+        std::string(REPRISE_SOURCE) + "/scenarios/towns/" + town + "/" + town + ".net.xml");
+    return recording_of(network, body, 0, seconds);
+}
+
 KeptTick::KeptTick(const world::SealedTick& tick)
     : tick_(tick.tick_bytes().begin(), tick.tick_bytes().end()),
       traffic_(tick.traffic_bytes().begin(), tick.traffic_bytes().end()) {}

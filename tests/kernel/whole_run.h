@@ -19,6 +19,9 @@ world::Recording in_town1(const std::string& body, unsigned cars, double seconds
 /// Likewise on tests/maps/lanes.net.xml, without background cars.
 world::Recording on_straight_lanes(const std::string& body, double seconds);
 
+/// Likewise in one of scenarios/towns, without background cars.
+world::Recording in_town(const std::string& town, const std::string& body, double seconds);
+
 /// A tick's bytes, kept.
 class KeptTick {
   public:

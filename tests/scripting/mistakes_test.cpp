@@ -93,12 +93,6 @@ TEST(Mistakes, OfWhatHasNoEffect) {
     expect(
         ego,
         {
-            {"ego:set_speed(3, { over = 2 })",
-             "set_speed: 'over' has no effect on 'ego': an autopilot takes the time that it "
-             "needs; leave it out, or take driver = 'traffic'"},
-            {"ego:change_lane('left', { over = 2 })",
-             "change_lane: 'over' has no effect on 'ego': an autopilot takes the time that it "
-             "needs; leave it out, or take driver = 'traffic'"},
             {"ego:keep_lane('yes')", "keep_lane: takes true or false, true where it is left out"},
         });
     expect(child,

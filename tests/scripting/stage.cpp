@@ -34,6 +34,7 @@ Stage::Stage(const std::string& source, world::TownT its_town)
 const world::TickDraft& Stage::step() {
     world::TickDraft next;
     next.tick.index = last_.view().index() + 1;
+    next.tick.road_friction = 1;
     scenario.advance(last_.view(), next);
     for (const world::CommandT& command : next.tick.commands)
         obey(command);
