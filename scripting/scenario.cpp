@@ -70,7 +70,7 @@ struct Scenario::Machine {
         const world::EpisodeT& episode = run.episode;
         const bool as_written = episode.weather == header.weather.weather;
         const world::WeatherPreset* other = world::find_weather(episode.weather_name);
-        const double expected = header.friction ? *header.friction
+        const double expected = header.friction                  ? *header.friction
                                 : as_written || other == nullptr ? header.weather.friction
                                                                  : other->road_friction;
         const bool own_friction = episode.road_friction != expected && !vm.in_branch;

@@ -103,8 +103,7 @@ void Orders::release(Car& car, std::uint64_t tick) const {
     if (car.speed_order) {
         const bool brakes = car.speed_order->brakes;
         world::CommandT command;
-        command.kind =
-            car.speed_order->reacts ? CommandKind::set_speed : CommandKind::hold_speed;
+        command.kind = car.speed_order->reacts ? CommandKind::set_speed : CommandKind::hold_speed;
         command.speed = std::max(car.speed_order->to, 0.0);
         take_speed(command, car, tick);
         car.speed_order->brakes = brakes;

@@ -88,8 +88,8 @@ void Collisions::gather_unyielding(const btPersistentManifold& manifold) {
             continue;
         const btRigidBody& other = *bodies[1 - side];
         Pair& both = pair(actor_of(*bodies[side]), actor_of(other), false);
-        both.mirrored = other.getUserIndex() == vehicle_body &&
-                        actor_of(other) < actor_of(*bodies[side]);
+        both.mirrored =
+            other.getUserIndex() == vehicle_body && actor_of(other) < actor_of(*bodies[side]);
         if (impulse > both.strongest) {
             both.impulse = both.strongest = impulse;
             both.position = worst->getPositionWorldOnB();

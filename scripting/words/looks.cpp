@@ -69,11 +69,10 @@ std::optional<Neighbour::Kind> wanted_kind(const Fields& options) {
     const auto kind = options.text("kind");
     if (!kind)
         return std::nullopt;
-    for (const auto each :
-         {Neighbour::Kind::vehicle,
-          Neighbour::Kind::bicycle,
-          Neighbour::Kind::walker,
-          Neighbour::Kind::prop})
+    for (const auto each : {Neighbour::Kind::vehicle,
+                            Neighbour::Kind::bicycle,
+                            Neighbour::Kind::walker,
+                            Neighbour::Kind::prop})
         if (*kind == name_of(each))
             return each;
     refuse("around",
