@@ -61,6 +61,9 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     app.get_formatter()->column_width(28);
     // The last word counts, as in every shell alias.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    add_new(app, fresh);
+    add_list(app, list);
+    add_lint(app, lint);
     add_run(app, run, app_->assignments);
     add_drive(app, drive, app_->drive_size);
     add_verify(app, verify);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/options/discover_options.h"
 #include "cli/options/drive_options.h"
 #include "cli/options/golden_options.h"
 #include "cli/options/render_options.h"
@@ -45,6 +46,9 @@ class CommandLine {
     TownOptions town;
     ServeOptions serve;
     DriveOptions drive;
+    ListOptions list;
+    NewOptions fresh;
+    LintOptions lint;
 
   private:
     struct App;

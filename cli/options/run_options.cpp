@@ -144,6 +144,10 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
         ->check(CLI::Range(0.05, 2.0));
     add_drivers(command, run);
     add_level(command, run.level, {"full", "keyed", "core", "inputs"});
+    command.add_flag("--watch",
+                     run.watch,
+                     "Run again whenever the scenario, or a file that it names, is saved; until "
+                     "Ctrl-C");
     command
         .add_option("--nudge",
                     run.nudge,

@@ -29,6 +29,7 @@ struct RunOptions : DriverOptions {
     std::optional<double> friction;      ///< of the road
     std::vector<std::pair<std::string, std::string>> parameters;
     std::string level = "full";  ///< how much of each tick is kept
+    bool watch = false;          ///< again whenever the scenario is saved
     std::string nudge;           ///< TICK[:ACTOR.FIELD[:UNITS]]; empty: none
 };
 

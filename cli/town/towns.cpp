@@ -135,6 +135,23 @@ towns::Network load_town(const std::string& town, const fs::path& scenario) {
     return is_map(town) ? import_map(town) : towns::load_network(find_network(town, scenario));
 }
 
+std::vector<NamedTown> named_towns() {
+    const auto folders = town_folders({});
+    std::vector<NamedTown> towns;
+    for (const std::string& name : names_in(folders))
+        if (fs::path network = network_named(name, folders); !network.empty())
+            towns.push_back({name, network.lexically_normal()});
+    return towns;
+}
+
+std::vector<fs::path> scenario_folders() {
+    std::vector<fs::path> folders{".", "scenarios"};
+    const auto with_towns = town_folders({});
+    for (auto folder = with_towns.begin() + 1; folder != with_towns.end(); ++folder)
+        folders.push_back(folder->parent_path());
+    return folders;
+}
+
 towns::Network load_named_town(const std::string& name, const fs::path& folder) {
     const auto folders = town_folders(folder / "any.lua");
     const bool is_name =

@@ -17,16 +17,40 @@ int add_check(Run& run, lua_State* L) {
     return 0;
 }
 
+constexpr Word check_rows[] = {
+    {"never",
+     acting<add_check<Kind::never>>,
+     "(name: string, predicate?: (fun(): any)|CheckOptions, options?: CheckOptions)",
+     "fails in the first tick in which the predicate is true; 'blocked' needs none"},
+    {"always",
+     acting<add_check<Kind::always>>,
+     "(name: string, predicate: (fun(): any), options?: CheckOptions)",
+     "fails in the first tick in which the predicate is false"},
+    {"max",
+     acting<add_check<Kind::max>>,
+     "(name: string, measure: (fun(): number?), limit: number, options?: CheckOptions)",
+     "fails in the first tick in which the measure is above the limit"},
+    {"min",
+     acting<add_check<Kind::min>>,
+     "(name: string, measure: (fun(): number?), limit: number, options?: CheckOptions)",
+     "fails in the first tick in which the measure is below the limit"},
+    {"eventually",
+     acting<add_check<Kind::eventually>>,
+     "(name: string, predicate: (fun(): any), options?: DeadlineOptions)",
+     "fails when the predicate was not true in time, or until the end"},
+    {"at_end",
+     acting<add_check<Kind::at_end>>,
+     "(name: string, predicate: (fun(): any), options?: CheckOptions)",
+     "fails when the predicate is false in the last tick"},
+};
+
 }  // namespace
+
+constinit const WordList check_words{Owner::check, "Promises", check_rows};
 
 void add_check_words(lua_State* L) {
     lua_newtable(L);
-    add_function(L, "never", acting<add_check<Kind::never>>);
-    add_function(L, "always", acting<add_check<Kind::always>>);
-    add_function(L, "max", acting<add_check<Kind::max>>);
-    add_function(L, "min", acting<add_check<Kind::min>>);
-    add_function(L, "eventually", acting<add_check<Kind::eventually>>);
-    add_function(L, "at_end", acting<add_check<Kind::at_end>>);
+    add_words(L, check_words);
     refuse_unknown(L, "check");
     lua_setfield(L, -2, "check");
 }

@@ -11,6 +11,7 @@
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/text.h"
 #include "scripting/words/caps.h"
+#include "scripting/words/language.h"
 #include "scripting/words/step_context.h"
 #include "scripting/words/tasks.h"
 #include "world/blockage.h"
@@ -52,7 +53,21 @@ world::EventT event(world::EventKind kind,
     return event;
 }
 
+constexpr Key check_key_rows[] = {
+    {"stop", "boolean", "ends the run when it fails; not for what fails at the end only"},
+    {"optional", "boolean", "passes when there was nothing to look at"},
+};
+
+constexpr Key deadline_key_rows[] = {
+    {"stop", "boolean", "ends the run when it fails; needs 'within'"},
+    {"optional", "boolean", "passes when there was nothing to look at"},
+    {"within", "number", "[s] from now on; without it until the end"},
+};
+
 }  // namespace
+
+constinit const KeyList check_keys{"CheckOptions", "check.*", check_key_rows};
+constinit const KeyList deadline_keys{"DeadlineOptions", "check.eventually", deadline_key_rows};
 
 void Checks::add(StepContext& context, lua_State* L, Kind kind) {
     const std::string who = names[static_cast<std::size_t>(kind)];
@@ -72,10 +87,8 @@ void Checks::add(StepContext& context, lua_State* L, Kind kind) {
     int options_index = built_in ? 2 : 3;
     if (has_limit(kind))
         entry.limit = number_at(L, options_index++, who, "the limit");
-    std::vector<std::string> keys{"stop", "optional"};
-    if (kind == Kind::eventually)
-        keys.emplace_back("within");
-    const Fields options(L, options_index, who, keys, true);
+    const KeyList& keys = kind == Kind::eventually ? deadline_keys : check_keys;
+    const Fields options(L, options_index, who, names_of(keys.keys), true);
     entry.stop = options.flag("stop").value_or(false);
     const bool at_the_end =
         kind == Kind::at_end || (kind == Kind::eventually && !options.has("within"));

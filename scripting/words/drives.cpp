@@ -61,6 +61,8 @@ int set_route(Run& run, lua_State* L) {
             run.vm.charge(L, run.town.lanes.size() * 20);
         lanes.push_back(
             lane_or_edge_named(run.town, text_at(L, -1, "set_route", fmt::format("entry {}", i))));
+        if (const world::LaneT& stop = run.town.lanes[lanes.back()]; !world::is_for_cars(stop))
+            refuse("set_route", fmt::format("entry {}: {}", i, not_for_cars(run.town, stop)));
         lua_pop(L, 1);
     }
     world::CommandT& command = run.say(L, CommandKind::set_route, actor.id);
@@ -77,13 +79,18 @@ std::string wanted_lane(const Fields& fields) {
     return *lane;
 }
 
+constexpr Key route_key_rows[] = {
+    {"lane", "LaneName", "where to", true},
+    {"s", "number", "[m] along it; default its end"},
+};
+
 int route_to(Run& run, lua_State* L) {
     Actor& actor = sent_car(run, L, "route_to");
-    const Fields fields(L, 2, "route_to", {"lane", "s"});
+    const Fields fields(L, 2, "route_to", names_of(route_key_rows));
     const std::uint32_t lane = run.lane_named(L, wanted_lane(fields));
     const world::LaneT& goal = run.town.lanes[lane];
     if (goal.kind != world::LaneKind::driving)
-        refuse("route_to", "'" + goal.name + "' is not a lane for cars");
+        refuse("route_to", not_for_cars(run.town, goal));
     const double s = fields.number("s").value_or(goal.length);
     if (!(s >= 0 && s <= goal.length))
         refuse("route_to", fmt::format("'s' must be in [0, {:.1f}] m, got {}", goal.length, s));
@@ -145,9 +152,26 @@ Actor& walking(Run& run, lua_State* L, const char* who) {
     return actor;
 }
 
+constexpr Key walk_key_rows[] = {
+    {"to", "number[]|{x: number, y: number}", "[m] the point in the world", true},
+    {"speed", "number", "[m/s] default the model's own"},
+    {"speed_kmh", "number", "[km/h] the same"},
+};
+
+constexpr Key walk_to_key_rows[] = {
+    {"x", "number", "[m] in the world, with y"},
+    {"y", "number", "[m] in the world, with x"},
+    {"lane", "LaneName", "or a place on this lane"},
+    {"s", "number", "[m] along it; default 0"},
+    {"offset", "number", "[m] to the left of its centre line; default 0"},
+    {"across", "LaneName", "or the far side of this lane's road"},
+    {"speed", "number", "[m/s] default the model's own"},
+    {"speed_kmh", "number", "[km/h] the same"},
+};
+
 int walk(Run& run, lua_State* L) {
     Actor& actor = walking(run, L, "walk");
-    const Fields fields(L, 2, "walk", {"to", "speed", "speed_kmh"});
+    const Fields fields(L, 2, "walk", names_of(walk_key_rows));
     fields.push("to");
     const Eigen::Vector3d target = point_at_top(L, "walk");
     say_walk(run, L, actor, target, fields);
@@ -156,8 +180,7 @@ int walk(Run& run, lua_State* L) {
 
 int walk_to(Run& run, lua_State* L) {
     Actor& actor = walking(run, L, "walk_to");
-    const Fields fields(
-        L, 2, "walk_to", {"x", "y", "lane", "s", "offset", "across", "speed", "speed_kmh"});
+    const Fields fields(L, 2, "walk_to", names_of(walk_to_key_rows));
     const auto across = fields.text("across");
     const auto lane = fields.text("lane");
     const auto x = fields.number("x");
@@ -187,11 +210,19 @@ double in_range(const Fields& fields, const char* key, double low) {
     return value;
 }
 
+constexpr Key control_key_rows[] = {
+    {"throttle", "number", "[0, 1] default 0"},
+    {"brake", "number", "[0, 1] default 0"},
+    {"steer", "number", "[-1, 1] to the left; default 0"},
+    {"hand_brake", "boolean", "default false"},
+    {"reverse", "boolean", "default false"},
+};
+
 int control(Run& run, lua_State* L) {
     const Actor& actor = actor_at(run, L, 1, "control");
     if (actor.driver != Driver::manual)
         refuse("control", "'" + actor.name + "' has a driver: spawn it with driver = 'manual'");
-    const Fields fields(L, 2, "control", {"throttle", "brake", "steer", "hand_brake", "reverse"});
+    const Fields fields(L, 2, "control", names_of(control_key_rows));
     const world::Control said(in_range(fields, "throttle", 0),
                               in_range(fields, "brake", 0),
                               in_range(fields, "steer", -1),
@@ -209,6 +240,27 @@ int despawn(Run& run, lua_State* L) {
     actor.is_leaving = true;
     return 0;
 }
+
+constexpr Word order_rows[] = {
+    {"set_route",
+     commanding<set_route>,
+     "(stops: LaneOrEdgeName[])",
+     "lanes or edges to pass in this order"},
+    {"route_to",
+     commanding<route_to>,
+     "(goal: RouteOptions): number",
+     "the shortest way there, planned now; its length [m]"},
+    {"walk", commanding<walk>, "(options: WalkOptions)", "a walker: in a straight line"},
+    {"walk_to",
+     commanding<walk_to>,
+     "(options: WalkToOptions)",
+     "a walker: to a point, a place on a lane, or across a road"},
+    {"control",
+     commanding<control>,
+     "(controls: ControlOptions)",
+     "of driver = 'manual': the pedals and the wheel, until the next one"},
+    {"despawn", commanding<despawn>, "()", "takes it out of the world"},
+};
 
 }  // namespace
 
@@ -234,14 +286,15 @@ Actor& driver_of_car(Run& run, lua_State* L, const char* who) {
     return actor;
 }
 
+constinit const WordList actor_orders{Owner::actor, "Actors: orders", order_rows};
+constinit const KeyList route_keys{"RouteOptions", "route_to", route_key_rows};
+constinit const KeyList walk_keys{"WalkOptions", "walk", walk_key_rows};
+constinit const KeyList walk_to_keys{"WalkToOptions", "walk_to", walk_to_key_rows};
+constinit const KeyList control_keys{"ControlOptions", "control", control_key_rows};
+
 void add_drive_words(lua_State* L) {
+    add_words(L, actor_orders);
     add_motion_words(L);
-    add_function(L, "set_route", commanding<set_route>);
-    add_function(L, "route_to", commanding<route_to>);
-    add_function(L, "walk", commanding<walk>);
-    add_function(L, "walk_to", commanding<walk_to>);
-    add_function(L, "control", commanding<control>);
-    add_function(L, "despawn", commanding<despawn>);
 }
 
 }  // namespace reprise::scripting

@@ -18,6 +18,24 @@ namespace reprise::scripting {
 
 namespace {
 
+constexpr Key set_weather_key_rows[] = {
+    {"over", "number", "[s] of the change; default at once"},
+};
+
+constexpr Key set_signal_key_rows[] = {
+    {"duration", "number", "[s] for how long; default for good"},
+    {"turn",
+     "'straight'|'left'|'right'|'partially_left'|'partially_right'|'around'",
+     "of the way that turns so"},
+};
+
+constexpr Key green_key_rows[] = {
+    {"turn",
+     "'straight'|'left'|'right'|'partially_left'|'partially_right'|'around'",
+     "of the way that turns so"},
+    {"timeout", "number", "[s] to give up after; default never"},
+};
+
 using world::SignalColor;
 
 // --- Weather.
@@ -27,7 +45,7 @@ SaidWeather present_weather(const world::TickView& last) {
 }
 
 int set_weather(Run& run, lua_State* L) {
-    const Fields options(L, 2, "set_weather", {"over"}, true);
+    const Fields options(L, 2, "set_weather", names_of(set_weather_key_rows), true);
     WeatherEntry entry;
     entry.over = options.number("over").value_or(0);
     if (entry.over < 0 || entry.over > 86'400)
@@ -122,7 +140,7 @@ int signal(Run& run, lua_State* L) {
 
 /// For the prelude's wait_until_green(lane, options): the turn, and options of wait_until.
 int wish_for_green(Run& run, lua_State* L) {
-    const Fields options(L, 2, "wait_until_green", {"turn", "timeout"}, true);
+    const Fields options(L, 2, "wait_until_green", names_of(green_key_rows), true);
     const std::uint32_t lane = run.lane_named(L, text_at(L, 1, "wait_until_green", "the lane"));
     const auto turn = turn_named("wait_until_green", options.text("turn"));
     if (!signal_of(run.town, lane, turn))
@@ -240,7 +258,7 @@ SignalColor wanted_color(lua_State* L) {
 }
 
 int set_signal(Run& run, lua_State* L) {
-    const Fields options(L, 3, "set_signal", {"duration", "turn"}, true);
+    const Fields options(L, 3, "set_signal", names_of(set_signal_key_rows), true);
     const SignalColor color = wanted_color(L);
     const double duration = options.number("duration").value_or(0);
     if (options.has("duration") && !(duration > 0 && duration <= 86'400))
@@ -255,13 +273,37 @@ int set_signal(Run& run, lua_State* L) {
     return 0;
 }
 
+constexpr Word environment_rows[] = {
+    {"set_weather",
+     acting<set_weather>,
+     "(weather: WeatherName|table, options?: SetWeatherOptions)",
+     "another weather by name or by numbers, at once or over a time"},
+    {"signal",
+     bound<signal>,
+     "(lane: LaneName, turn?: "
+     "'straight'|'left'|'right'|'partially_left'|'partially_right'|'around'): string?",
+     "the colour at the end of the lane; nil where no signal stands"},
+    {"set_signal",
+     acting<set_signal>,
+     "(where: string|string[], color: 'red'|'red_yellow'|'yellow'|'green'|'program', options?: "
+     "SetSignalOptions)",
+     "lanes or junctions: their signals show it, for a time or for good"},
+    {"wait_until_green",
+     nullptr,
+     "(lane: LaneName, options?: GreenOptions): boolean",
+     "until the light is green: true; false after the timeout"},
+};
+
 }  // namespace
 
+constinit const WordList environment_words{Owner::global, "Weather and signals", environment_rows};
+constinit const KeyList set_weather_keys{"SetWeatherOptions", "set_weather", set_weather_key_rows};
+constinit const KeyList set_signal_keys{"SetSignalOptions", "set_signal", set_signal_key_rows};
+constinit const KeyList green_keys{"GreenOptions", "wait_until_green", green_key_rows};
+
 void add_environment_words(lua_State* L) {
-    add_function(L, "set_weather", acting<set_weather>);
-    add_function(L, "signal", bound<signal>);
-    add_function(L, "set_signal", acting<set_signal>);
-    add_function(L, "_wish_for_green", acting<wish_for_green>);
+    add_words(L, environment_words);
+    add_function(L, "_wish_for_green", acting<wish_for_green>);  // for the prelude, which hides it
 }
 
 }  // namespace reprise::scripting

@@ -14,6 +14,22 @@ namespace reprise::scripting {
 
 namespace {
 
+constexpr Key door_key_rows[] = {
+    {"front_left", "boolean", "true: open, false: shut"},
+    {"front_right", "boolean", "true: open, false: shut"},
+    {"rear_left", "boolean", "true: open, false: shut"},
+    {"rear_right", "boolean", "true: open, false: shut"},
+};
+
+constexpr Key lamp_key_rows[] = {
+    {"left", "boolean", "the indicators on the left"},
+    {"right", "boolean", "on the right"},
+    {"hazard", "boolean", "on both sides"},
+    {"low_beam", "boolean", "headlights"},
+    {"brake", "boolean", "brake lamps"},
+    {"reverse", "boolean", "reversing lamps"},
+};
+
 struct LampWord {
     const char* key;
     std::uint16_t bits;
@@ -100,11 +116,25 @@ int set_lamps(Run& run, lua_State* L) {
     return 0;
 }
 
+constexpr Word equipment_rows[] = {
+    {"set_doors",
+     commanding<set_doors>,
+     "(doors: DoorOptions)",
+     "true opens, false shuts; what is not named stays"},
+    {"set_lamps",
+     commanding<set_lamps>,
+     "(lamps?: LampOptions)",
+     "true or false, as the scenario says from now on; without a table: the driver's again"},
+};
+
 }  // namespace
 
+constinit const WordList equipment_words{Owner::actor, "Actors: lamps and doors", equipment_rows};
+constinit const KeyList door_keys{"DoorOptions", "set_doors", door_key_rows};
+constinit const KeyList lamp_keys{"LampOptions", "set_lamps", lamp_key_rows};
+
 void add_equipment_words(lua_State* L) {
-    add_function(L, "set_doors", commanding<set_doors>);
-    add_function(L, "set_lamps", commanding<set_lamps>);
+    add_words(L, equipment_words);
 }
 
 }  // namespace reprise::scripting

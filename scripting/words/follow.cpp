@@ -19,6 +19,27 @@ namespace reprise::scripting {
 
 namespace {
 
+constexpr Key follow_key_rows[] = {
+    {"from", "'start'", "times are those of time(); default: from now"},
+    {"teleport", "boolean", "is put at the first point"},
+};
+
+constexpr Key teleport_key_rows[] = {
+    {"speed", "number", "[m/s] default: as it was"},
+    {"speed_kmh", "number", "[km/h] the same"},
+    {"lane", "LaneName|'left'|'right'|'same'", "as of spawn"},
+    {"s", "number", "[m] along the lane"},
+    {"offset", "number", "[m] to the left of its centre line"},
+    {"x", "number", "[m] of a pose, east"},
+    {"y", "number", "[m] of a pose, north"},
+    {"z", "number", "[m] where roads lie above each other"},
+    {"heading_deg", "number", "counter-clockwise from east"},
+    {"ahead_of", "Actor", "along the road from that one"},
+    {"behind", "Actor", "likewise, behind it"},
+    {"beside", "Actor", "abreast, in the lane beside"},
+    {"gap", "number", "[m] from bumper to bumper"},
+};
+
 using world::CommandKind;
 using world::Driver;
 
@@ -219,7 +240,7 @@ void put_at_start(Run& run, lua_State* L, Actor& actor, const world::Trajectory&
 
 int follow(Run& run, lua_State* L) {
     Actor& actor = movable(run, L, "follow");
-    const Fields options(L, 3, "follow", {"from", "teleport"}, true);
+    const Fields options(L, 3, "follow", names_of(follow_key_rows), true);
     if (lua_isboolean(L, 2) && lua_toboolean(L, 2) == 0) {
         actor.follows_until = 0;
         run.say(L, CommandKind::follow, actor.id);
@@ -256,9 +277,7 @@ int following(Run& run, lua_State* L) {
 
 int teleport(Run& run, lua_State* L) {
     Actor& actor = movable(run, L, "teleport");
-    std::vector<std::string> keys{"speed", "speed_kmh"};
-    keys.insert(keys.end(), place_keys.begin(), place_keys.end());
-    const Fields fields(L, 2, "teleport", keys);
+    const Fields fields(L, 2, "teleport", names_of(teleport_key_rows));
     const auto place = read_place(run, L, fields, actor);
     if (!place)
         refuse(
@@ -312,15 +331,34 @@ int pose(Run& run, lua_State* L) {
     return 4;
 }
 
+constexpr Word placing_rows[] = {
+    {"follow",
+     commanding<follow>,
+     "(points: table[]|string|boolean, options?: FollowOptions)",
+     "is exactly at these points at their times; the name of a CSV beside the script; false ends "
+     "it"},
+    {"following", reading<following>, "(): boolean", "is it on a trajectory?"},
+    {"teleport", commanding<teleport>, "(place: TeleportOptions)", "is put there, as by spawn"},
+    {"set_velocity",
+     commanding<set_velocity>,
+     "(speed: number)",
+     "[m/s] along its heading, at once"},
+    {"set_velocity_kmh", commanding<set_velocity_kmh>, "(speed: number)", "[km/h] the same"},
+    {"pose",
+     reading<pose>,
+     "(): number, number, number, number",
+     "x, y [m], heading_deg, z [m], as spawn takes them"},
+};
+
 }  // namespace
 
+constinit const WordList placing_words{
+    Owner::actor, "Actors: trajectories and places", placing_rows};
+constinit const KeyList follow_keys{"FollowOptions", "follow", follow_key_rows};
+constinit const KeyList teleport_keys{"TeleportOptions", "teleport", teleport_key_rows};
+
 void add_placing_words(lua_State* L) {
-    add_function(L, "follow", commanding<follow>);
-    add_function(L, "following", reading<following>);
-    add_function(L, "teleport", commanding<teleport>);
-    add_function(L, "set_velocity", commanding<set_velocity>);
-    add_function(L, "set_velocity_kmh", commanding<set_velocity_kmh>);
-    add_function(L, "pose", reading<pose>);
+    add_words(L, placing_words);
 }
 
 }  // namespace reprise::scripting

@@ -16,6 +16,10 @@ namespace reprise::scripting {
 
 namespace {
 
+constexpr Key ttc_key_rows[] = {
+    {"same_lane", "boolean", "math.huge as well while both are on different lanes"},
+};
+
 constexpr const char* handle_type = "actor";    // name of the metatable in Lua's registry
 constexpr const char* handle_list = "handles";  // id -> handle
 constexpr std::uint64_t lane_cost = 50;  // [instructions] of a lane that a search for a way passed
@@ -181,8 +185,9 @@ int distance_between(Run& run, lua_State* L) {
 int ttc(Run& run, lua_State* L) {
     const Actor& a = actor_at(run, L, 1, "ttc");
     const Actor& b = actor_at(run, L, 2, "ttc");
-    const bool one_lane = !lua_isnoneornil(L, 3) &&
-                          Fields(L, 3, "ttc", {"same_lane"}).flag("same_lane").value_or(false);
+    const bool one_lane =
+        !lua_isnoneornil(L, 3) &&
+        Fields(L, 3, "ttc", names_of(ttc_key_rows)).flag("same_lane").value_or(false);
     if (one_lane && !share_lane(run.town, run.look_at(a), run.look_at(b))) {
         lua_pushnumber(L, HUGE_VAL);
         return 1;
@@ -194,7 +199,49 @@ int ttc(Run& run, lua_State* L) {
     return 1;
 }
 
+constexpr Word look_rows[] = {
+    {"name", bound<name>, "(): string", "of the spawn"},
+    {"id", bound<id>, "(): integer", "in the trace"},
+    {"exists", bound<exists>, "(): boolean", "is it in the world?"},
+    {"position", reading<position>, "(): number, number, number", "x, y, z [m] in the world"},
+    {"speed", reading<speed>, "(): number", "[m/s] along its heading"},
+    {"acceleration", reading<acceleration>, "(): number", "[m/s^2] along its heading; of vehicles"},
+    {"heading_deg", reading<heading_deg>, "(): number", "(-180, 180] counter-clockwise from east"},
+    {"lane", reading<lane>, "(): LaneName?", "the lane it is on; nil off every lane"},
+    {"s", reading<s_on_lane>, "(): number?", "[m] along its lane; nil off every lane"},
+    {"collided",
+     bound<collided_since_spawn>,
+     "(other?: Actor|'vehicle'|'walker'|'prop'|'static'): boolean",
+     "did it touch anybody, or that one, since its spawn?"},
+    {"distance_driven", bound<distance_driven>, "(): number", "[m] since its spawn"},
+    {"speed_kmh", nullptr, "(): number", "[km/h] along its heading"},
+    {"x", nullptr, "(): number", "[m] in the world, to the east"},
+    {"y", nullptr, "(): number", "[m] in the world, to the north"},
+};
+
+constexpr Word pair_rows[] = {
+    {"gap", reading<gap_between>, "(a: Actor, b: Actor): number", "[m] from bumper to bumper"},
+    {"distance",
+     reading<distance_between>,
+     "(a: Actor, b: Actor): number",
+     "[m] between the centres of the bounding boxes"},
+    {"ttc",
+     reading<ttc>,
+     "(a: Actor, b: Actor, options?: TtcOptions): number",
+     "[s] until the gap is closed at the present speeds; math.huge when it is not closing"},
+};
+
+constexpr Word branch_rows[] = {
+    {"actor", bound<actor_named>, "(name: string): Actor", "who was spawned before"},
+};
+
 }  // namespace
+
+constinit const WordList actor_looks{Owner::actor, "Actors: looks", look_rows};
+constinit const WordList pair_words{Owner::global, "Between two", pair_rows};
+constinit const KeyList ttc_keys{"TtcOptions", "ttc", ttc_key_rows};
+constinit const WordList branch_words{
+    Owner::global, "What if: in scripts of reprise branch only", branch_rows};
 
 void push_handle(lua_State* L, std::uint32_t actor) {
     luaL_getsubtable(L, LUA_REGISTRYINDEX, handle_list);
@@ -259,18 +306,8 @@ void add_handle_words(lua_State* L) {
     luaL_newmetatable(L, handle_type);
     Vm::of(L).actor_type = lua_topointer(L, -1);
     lua_newtable(L);  // the methods
-    add_function(L, "name", bound<name>);
-    add_function(L, "id", bound<id>);
-    add_function(L, "exists", bound<exists>);
-    add_function(L, "position", reading<position>);
-    add_function(L, "speed", reading<speed>);
-    add_function(L, "acceleration", reading<acceleration>);
-    add_function(L, "heading_deg", reading<heading_deg>);
-    add_function(L, "lane", reading<lane>);
-    add_function(L, "s", reading<s_on_lane>);
+    add_words(L, actor_looks);
     add_look_words(L);
-    add_function(L, "collided", bound<collided_since_spawn>);
-    add_function(L, "distance_driven", bound<distance_driven>);
     add_drive_words(L);
     add_equipment_words(L);
     add_placing_words(L);
@@ -284,10 +321,8 @@ void add_handle_words(lua_State* L) {
     lua_pop(L, 1);
     // Only there: a word more would change the memory of every script that never says it.
     if (Vm::of(L).in_branch)
-        add_function(L, "actor", bound<actor_named>);
-    add_function(L, "gap", reading<gap_between>);
-    add_function(L, "distance", reading<distance_between>);
-    add_function(L, "ttc", reading<ttc>);
+        add_words(L, branch_words);
+    add_words(L, pair_words);
 }
 
 }  // namespace reprise::scripting

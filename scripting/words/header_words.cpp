@@ -96,14 +96,27 @@ void read_weather(lua_State* L, const Fields& fields, Header& header) {
     }
 }
 
+constexpr Key header_key_rows[] = {
+    {"town", "string", "its name, or the path of a network; default 'town1', --town overrides"},
+    {"duration", "number", "[s] the run's limit; default 60, --for overrides"},
+    {"seed", "integer", "of everything that is drawn; default 0, --seed overrides"},
+    {"cars", "integer", "of the background traffic, 0 to 10,000; default 0"},
+    {"weather",
+     "WeatherName|table|table[]",
+     "a preset's name, numbers, or a timeline of { at =, over =, ... }; default 'clear_noon'"},
+    {"friction",
+     "number",
+     "factor on dry asphalt's grip, whatever the weather; default the weather's"},
+    {"params",
+     "table<string, number|string|boolean>",
+     "the run function's parameters with their defaults; --set overrides"},
+    {"run", "fun(p: table<string, any>)", "what happens; its end is the run's end", true},
+};
+
 /// The call with the table. Upvalue 1: the name. Returns the table as the mark of a scenario.
 int take_table(lua_State* L) {
     Vm& vm = Vm::of(L);
-    const Fields fields(
-        L,
-        1,
-        "scenario",
-        {"town", "duration", "seed", "cars", "weather", "friction", "params", "run"});
+    const Fields fields(L, 1, "scenario", names_of(header_key_rows));
     if (vm.header == nullptr || vm.header->run != 0)
         refuse("scenario", "a file holds one scenario");
     Header header;
@@ -151,10 +164,20 @@ int scenario(lua_State* L) {
     return 1;
 }
 
+constexpr Word header_rows[] = {
+    {"scenario",
+     guarded<scenario>,
+     "(name: string): fun(header: ScenarioHeader): table",
+     "the file's last statement: return scenario 'name' { ... }"},
+};
+
 }  // namespace
 
+constinit const WordList header_words{Owner::global, "The file", header_rows};
+constinit const KeyList header_keys{"ScenarioHeader", "scenario", header_key_rows};
+
 void add_header_words(lua_State* L) {
-    add_function(L, "scenario", guarded<scenario>);
+    add_words(L, header_words);
 }
 
 }  // namespace reprise::scripting

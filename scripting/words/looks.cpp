@@ -18,6 +18,10 @@ namespace reprise::scripting {
 
 namespace {
 
+constexpr Key around_key_rows[] = {
+    {"kind", "'vehicle'|'bicycle'|'walker'|'prop'", "only these"},
+};
+
 constexpr double farthest_look = 1000;     // [m]
 constexpr double clear_way = 200;          // [m] as far as gap() searches
 constexpr std::uint64_t glance_cost = 5;   // [instructions] of somebody who is looked at
@@ -125,7 +129,7 @@ int around(Run& run, lua_State* L) {
     const double radius = number_at(L, 2, "around", "the distance");
     if (radius < 0 || radius > farthest_look)
         refuse("around", fmt::format("the distance must be in [0, {}] m", farthest_look));
-    const auto kind = wanted_kind(Fields(L, 3, "around", {"kind"}, true));
+    const auto kind = wanted_kind(Fields(L, 3, "around", names_of(around_key_rows), true));
     const Body own = *body_of(run.last, actor);
     const auto& all = run.everybody();
     run.vm.charge(L, all.size() * glance_cost);
@@ -258,17 +262,48 @@ int on_opposite_lane(Run& run, lua_State* L) {
     return 2;
 }
 
+constexpr Word sight_rows[] = {
+    {"offset",
+     reading<offset>,
+     "(lane?: LaneName): number?",
+     "[m] to the left of its lane's centre line, or of that lane's; nil off it"},
+    {"around",
+     reading<around>,
+     "(radius: number, options?: AroundOptions): table[]",
+     "everybody within so many metres, by distance"},
+    {"gap_ahead",
+     reading<gap_ahead>,
+     "(): number?, string?, string?",
+     "[m] to what is in its way along its lane, its name and kind; nil when the way is clear"},
+    {"lateral_gap",
+     reading<lateral_gap_to>,
+     "(other: Actor): number",
+     "[m] between both outlines across its heading"},
+    {"ran_red",
+     bound<since_spawn<ran_red>>,
+     "(): boolean",
+     "it has crossed a stop line at red since its spawn"},
+    {"route_completion",
+     bound<since_spawn<route_completion>>,
+     "(): number?",
+     "share [0, 1] of the way of its last route that it has driven; nil without one"},
+    {"left_road",
+     reading<left_road>,
+     "(): boolean, integer",
+     "a wheel is on something that is no road; and how many"},
+    {"on_opposite_lane",
+     reading<on_opposite_lane>,
+     "(): boolean, number",
+     "a part of it is on a lane that runs the other way; and which share"},
+};
+
 }  // namespace
 
+constinit const WordList sight_words{Owner::actor, "Actors: looks around", sight_rows};
+constinit const KeyList around_keys{"AroundOptions", "around", around_key_rows};
+
 void add_look_words(lua_State* L) {
-    add_function(L, "offset", reading<offset>);
-    add_function(L, "around", reading<around>);
-    add_function(L, "gap_ahead", reading<gap_ahead>);
-    add_function(L, "lateral_gap", reading<lateral_gap_to>);
-    add_function(L, "ran_red", bound<since_spawn<ran_red>>);
-    add_function(L, "route_completion", bound<since_spawn<route_completion>>);
-    add_function(L, "left_road", reading<left_road>);
-    add_function(L, "on_opposite_lane", reading<on_opposite_lane>);
+    add_words(L, sight_words);
 }
 
 }  // namespace reprise::scripting

@@ -21,6 +21,11 @@ namespace reprise::scripting {
 
 namespace {
 
+constexpr Key arrive_key_rows[] = {
+    {"speed", "number", "[m/s] when they arrive"},
+    {"speed_kmh", "number", "[km/h] the same"},
+};
+
 using world::CommandKind;
 using world::Driver;
 
@@ -229,7 +234,7 @@ int steer_together(Run& run, lua_State* L) {
     const Actor& steered = driven(run, L, arrival);
     if (steered.is_walker() && !steered.walks)
         refuse(arrival, "'" + steered.name + "' stands: tell it first where to walk");
-    const Fields options(L, 4, arrival, {"speed", "speed_kmh"}, true);
+    const Fields options(L, 4, arrival, names_of(arrive_key_rows), true);
     const std::optional<double> final_speed = options.speed();
     const Comer a = comer_at(run, L, 1, goal_of(run, L, 3, "a"), left_before(L, 5));
     const Comer b = comer_at(run, L, 2, goal_of(run, L, 3, "b"), left_before(L, 6));
@@ -251,10 +256,21 @@ int steer_together(Run& run, lua_State* L) {
     return 5;
 }
 
+constexpr Word meeting_rows[] = {
+    {"arrive_together",
+     nullptr,
+     "(a: Actor, b: Actor, point: table, options?: ArriveOptions): boolean, number",
+     "steers a so that both come to the point at once; waits: met within 0.1 s, and how far apart"},
+};
+
 }  // namespace
 
+constinit const WordList meeting_words{Owner::global, "Arriving together", meeting_rows};
+constinit const KeyList arrive_keys{"ArriveOptions", "arrive_together", arrive_key_rows};
+
 void add_meeting_words(lua_State* L) {
-    add_function(L, "_steer_together", commanding<steer_together>);
+    add_words(L, meeting_words);
+    add_function(L, "_steer_together", commanding<steer_together>);  // for the prelude
 }
 
 }  // namespace reprise::scripting

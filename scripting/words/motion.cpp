@@ -20,6 +20,11 @@ namespace reprise::scripting {
 
 namespace {
 
+constexpr Key over_key_rows[] = {
+    {"over", "number", "[s] that the change takes"},
+    {"shape", "'sinusoidal'|'linear'|'cubic'|'step'", "of the change"},
+};
+
 using world::CommandKind;
 using world::Driver;
 using world::Shape;
@@ -36,7 +41,7 @@ struct Change {
 };
 
 Change change_at(lua_State* L, int index, const char* who) {
-    const Fields options(L, index, who, {"over", "shape"}, true);
+    const Fields options(L, index, who, names_of(over_key_rows), true);
     Change change;
     change.duration = options.number("over").value_or(0);
     if (change.duration < 0 || change.duration > longest_change)
@@ -344,19 +349,54 @@ int set_offset(Run& run, lua_State* L) {
     return 0;
 }
 
+constexpr Word motion_rows[] = {
+    {"set_speed",
+     commanding<set_speed>,
+     "(speed: number, options?: OverOptions)",
+     "[m/s] a cap for the autopilot, the speed of others"},
+    {"set_speed_kmh",
+     commanding<set_speed_kmh>,
+     "(speed: number, options?: OverOptions)",
+     "[km/h] the same"},
+    {"free_speed", commanding<free_speed>, "()", "back to the driver's own choice"},
+    {"hold_speed",
+     commanding<hold_speed>,
+     "(speed?: number|boolean, options?: OverOptions)",
+     "[m/s] exactly that, and reacts to nothing; false lifts it"},
+    {"hold_speed_kmh",
+     commanding<hold_speed_kmh>,
+     "(speed: number, options?: OverOptions)",
+     "[km/h] the same"},
+    {"brake",
+     commanding<brake>,
+     "(deceleration: number|boolean)",
+     "[m/s^2] until it stands, and stays; false lifts it"},
+    {"ignore_lights",
+     commanding<ignore_lights>,
+     "(ignore?: boolean)",
+     "drives over red lights and stop lines; false lifts it"},
+    {"change_lane",
+     commanding<change_lane>,
+     "(target: 'left'|'right'|LaneName, options?: OverOptions)",
+     "to the lane beside, or one of that name"},
+    {"keep_lane",
+     commanding<keep_lane>,
+     "(keep?: boolean)",
+     "stays on its lane, but for change_lane; false: again as its way needs it"},
+    {"set_offset",
+     commanding<set_offset>,
+     "(offset: number, options?: OverOptions)",
+     "[m] to the left of its lane's centre line, from now on"},
+};
+
 }  // namespace
 
+constinit const WordList motion_words{Owner::actor, "Actors: speed and lane", motion_rows};
+constinit const KeyList over_keys{
+    "OverOptions", "set_speed, change_lane, set_offset", over_key_rows};
+
 void add_motion_words(lua_State* L) {
-    add_function(L, "set_speed", commanding<set_speed>);
-    add_function(L, "set_speed_kmh", commanding<set_speed_kmh>);
-    add_function(L, "free_speed", commanding<free_speed>);
-    add_function(L, "hold_speed", commanding<hold_speed>);
-    add_function(L, "hold_speed_kmh", commanding<hold_speed_kmh>);
-    add_function(L, "brake", commanding<brake>);
-    add_function(L, "ignore_lights", commanding<ignore_lights>);
-    add_function(L, "change_lane", commanding<change_lane>);
-    add_function(L, "keep_lane", commanding<keep_lane>);
-    add_function(L, "set_offset", commanding<set_offset>);
+    add_words(L, motion_words);
 }
 
 }  // namespace reprise::scripting

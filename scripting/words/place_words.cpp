@@ -21,6 +21,19 @@ namespace reprise::scripting {
 
 namespace {
 
+constexpr Key pick_junction_key_rows[] = {
+    {"lit", "boolean", "with (false: without) traffic lights"},
+    {"arms", "integer", "so many streets meet"},
+    {"stop", "boolean", "with (without) a stop sign"},
+    {"optional", "boolean", "nil when none fits, rather than an error"},
+};
+
+constexpr Key pick_crossing_key_rows[] = {
+    {"lit", "boolean", "with (without) lights for walkers"},
+    {"lanes", "integer", "so many lanes for cars are crossed"},
+    {"optional", "boolean", "nil when none fits, rather than an error"},
+};
+
 using world::none;
 
 constexpr std::uint64_t search_cost = 20;  // [instructions] a lane of the town
@@ -283,7 +296,7 @@ bool as_wished(const std::optional<bool>& wish, bool is) {
 }
 
 int pick_junction(Run& run, lua_State* L) {
-    const Fields fields(L, 1, "pick_junction", {"lit", "arms", "stop", "optional"}, true);
+    const Fields fields(L, 1, "pick_junction", names_of(pick_junction_key_rows), true);
     const auto lit = fields.flag("lit");
     const auto stop = fields.flag("stop");
     const auto wanted = fields.integer("arms");
@@ -309,7 +322,7 @@ int pick_junction(Run& run, lua_State* L) {
 }
 
 int pick_crossing(Run& run, lua_State* L) {
-    const Fields fields(L, 1, "pick_crossing", {"lit", "lanes", "optional"}, true);
+    const Fields fields(L, 1, "pick_crossing", names_of(pick_crossing_key_rows), true);
     const auto lit = fields.flag("lit");
     const auto wanted = fields.integer("lanes");
     run.vm.charge(L, run.town.lanes.size() * search_cost);
@@ -329,14 +342,40 @@ int pick_crossing(Run& run, lua_State* L) {
     return 1;
 }
 
+constexpr Word junction_rows[] = {
+    {"lane_at",
+     bound<lane_at>,
+     "(x: number, y: number, z?: number): LaneName?, number?, number?",
+     "the lane there, s and offset [m] on it; nil where no lane is"},
+    {"lane_next",
+     bound<lane_next>,
+     "(lane: LaneName, direction?: 'left'|'right'|'straight'|'turnaround'): "
+     "LaneName|LaneName[]|nil",
+     "the lane behind it in that direction, or nil; without one a list of all"},
+    {"lane_junction",
+     bound<lane_junction>,
+     "(lane: LaneName): string?",
+     "the junction at its end, or nil"},
+    {"pick_junction",
+     acting<pick_junction>,
+     "(wish?: PickJunctionOptions): table?",
+     "a junction of three streets or more that fits, by the seed"},
+    {"pick_crossing",
+     acting<pick_crossing>,
+     "(wish?: PickCrossingOptions): table?",
+     "a pedestrian crossing that fits, by the seed"},
+};
+
 }  // namespace
 
+constinit const WordList junction_words{Owner::global, "Junctions and crossings", junction_rows};
+constinit const KeyList pick_junction_keys{
+    "PickJunctionOptions", "pick_junction", pick_junction_key_rows};
+constinit const KeyList pick_crossing_keys{
+    "PickCrossingOptions", "pick_crossing", pick_crossing_key_rows};
+
 void add_place_words(lua_State* L) {
-    add_function(L, "lane_at", bound<lane_at>);
-    add_function(L, "lane_next", bound<lane_next>);
-    add_function(L, "lane_junction", bound<lane_junction>);
-    add_function(L, "pick_junction", acting<pick_junction>);
-    add_function(L, "pick_crossing", acting<pick_crossing>);
+    add_words(L, junction_words);
 }
 
 }  // namespace reprise::scripting

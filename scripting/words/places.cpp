@@ -1,5 +1,6 @@
 #include "scripting/words/places.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -44,6 +45,27 @@ std::map<std::string, EdgeFacts> edge_facts(const TownT& town) {
             facts[lane.edge].sidewalk = true;
     }
     return facts;
+}
+
+/// "its lanes are 'a_1' (driving), 'a_0' (sidewalk)", those for cars first.
+std::string lanes_of(std::vector<const LaneT*> lanes) {
+    std::stable_sort(lanes.begin(), lanes.end(), [](const LaneT* a, const LaneT* b) {
+        return a->kind == LaneKind::driving && b->kind != LaneKind::driving;
+    });
+    std::string text;
+    for (const LaneT* lane : lanes)
+        text += fmt::format("{}'{}' ({})",
+                            text.empty() ? "" : ", ",
+                            lane->name,
+                            lane->kind == LaneKind::driving    ? "driving"
+                            : lane->kind == LaneKind::sidewalk ? "sidewalk"
+                                                               : "not for cars");
+    return (lanes.size() == 1 ? "its lane is " : "its lanes are ") + text;
+}
+
+std::string hint_of(const std::string& name, const std::vector<std::string>& names) {
+    const std::string hint = world::did_you_mean(name, names);
+    return hint.empty() ? "; reprise list lanes shows them" : hint;
 }
 
 bool fits(const std::optional<bool>& wish, bool is) {
@@ -93,15 +115,39 @@ std::string describe(const LaneWish& wish) {
     return text;
 }
 
+std::string not_for_cars(const TownT& town, const LaneT& lane) {
+    const char* what = lane.kind == LaneKind::sidewalk       ? "is a sidewalk"
+                       : lane.kind == LaneKind::crossing     ? "is a crossing"
+                       : lane.kind == LaneKind::walking_area ? "is a walking area"
+                                                             : "is not a lane for cars";
+    const LaneT* beside = nullptr;
+    const auto apart = [&](const LaneT& other) { return std::abs(other.index - lane.index); };
+    for (const LaneT& other : town.lanes)
+        if (other.edge == lane.edge && other.kind == LaneKind::driving &&
+            (beside == nullptr || apart(other) < apart(*beside)))
+            beside = &other;
+    return fmt::format(
+        "'{}' {}, no lane for cars{}",
+        lane.name,
+        lane.kind == LaneKind::other ? "is for others" : what,
+        beside == nullptr ? "" : "; beside it lies '" + beside->name + "' (driving)");
+}
+
 std::uint32_t lane_named(const TownT& town, const std::string& name) {
     if (const auto lane = world::find_lane(town, name))
         return *lane;
     std::vector<std::string> names;
-    for (const LaneT& lane : town.lanes)
-        if (lane.kind != LaneKind::internal)
+    std::vector<const LaneT*> of_edge;
+    for (const LaneT& lane : town.lanes) {
+        if (lane.kind == LaneKind::driving)
             names.push_back(lane.name);
-    throw world::Error(
-        fmt::format("no lane '{}' in {}{}", name, town.name, world::did_you_mean(name, names)));
+        if (lane.edge == name)
+            of_edge.push_back(&lane);
+    }
+    if (!of_edge.empty())
+        throw world::Error(
+            fmt::format("'{}' is an edge of {}: {}", name, town.name, lanes_of(of_edge)));
+    throw world::Error(fmt::format("no lane '{}' in {}{}", name, town.name, hint_of(name, names)));
 }
 
 std::uint32_t lane_or_edge_named(const TownT& town, const std::string& name) {
@@ -117,8 +163,8 @@ std::uint32_t lane_or_edge_named(const TownT& town, const std::string& name) {
         names.push_back(lane.name);
         names.push_back(lane.edge);
     }
-    throw world::Error(fmt::format(
-        "no lane or edge '{}' in {}{}", name, town.name, world::did_you_mean(name, names)));
+    throw world::Error(
+        fmt::format("no lane or edge '{}' in {}{}", name, town.name, hint_of(name, names)));
 }
 
 Eigen::Vector3d across_road(const TownT& town, std::uint32_t lane, const Eigen::Vector3d& p_world) {

@@ -25,6 +25,9 @@ std::vector<std::uint32_t> fitting_lanes(const world::TownT& town, const LaneWis
 /// "length = 120.0, left = true"; empty for a wish that any lane fulfils.
 std::string describe(const LaneWish& wish);
 
+/// "'b2_m1_0' is a sidewalk, no lane for cars; beside it lies 'b2_m1_1' (driving)".
+std::string not_for_cars(const world::TownT& town, const world::LaneT& lane);
+
 /// The lane of this name, or throws: "no lane 'b1_b2_9' in town1 (did you mean 'b1_b2_1'?)".
 std::uint32_t lane_named(const world::TownT& town, const std::string& name);
 

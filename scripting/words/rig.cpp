@@ -9,6 +9,7 @@
 
 #include "scripting/lua/text.h"
 #include "scripting/lua/vm.h"
+#include "scripting/words/language.h"
 #include "world/check.h"
 #include "world/rig.h"
 
@@ -43,22 +44,24 @@ std::int64_t whole_within(const Fields& fields,
     return value;
 }
 
+constexpr Key sensor_key_rows[] = {
+    {"name", "string", "letters, digits, _ and -; unique on the vehicle", true},
+    {"kind", "'rgb'|'depth'|'semantic'", "default 'rgb'"},
+    {"width", "integer", "[px] 1 to 4096, default 800"},
+    {"height", "integer", "[px] 1 to 4096, default 600"},
+    {"fov_deg", "number", "[deg] 1 to 170 across, default 90"},
+    {"x", "number", "[m] ahead of the rear axle, default 1"},
+    {"y", "number", "[m] to the left, default 0"},
+    {"z", "number", "[m] above the ground, default 1.4"},
+    {"yaw_deg", "number", "[deg] to the left, default 0: ahead"},
+    {"pitch_deg", "number", "[deg] up, default 0"},
+    {"every", "integer", "[ticks] between frames, default 1"},
+};
+
 /// The table on top of the stack as the sensor with this number.
 std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number) {
-    const Fields fields(L,
-                        -1,
-                        fmt::format("spawn: sensor {} of 'rig'", number),
-                        {"name",
-                         "kind",
-                         "width",
-                         "height",
-                         "fov_deg",
-                         "x",
-                         "y",
-                         "z",
-                         "yaw_deg",
-                         "pitch_deg",
-                         "every"});
+    const Fields fields(
+        L, -1, fmt::format("spawn: sensor {} of 'rig'", number), names_of(sensor_key_rows));
     auto sensor = std::make_unique<world::SensorT>();
     const auto name = fields.text("name");
     if (!name)
@@ -128,6 +131,8 @@ std::size_t bytes_of(const world::SensorT& sensor) {
 }
 
 }  // namespace
+
+constinit const KeyList sensor_keys{"SensorOptions", "rig of spawn", sensor_key_rows};
 
 std::vector<std::unique_ptr<world::SensorT>> read_rig(lua_State* L,
                                                       const Fields& spawn,

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <lua.hpp>
 
 #include "scripting/lua/arguments.h"
@@ -25,41 +26,47 @@ namespace {
 constexpr double fastest = 150;                // [m/s]
 constexpr std::int64_t longest_latency = 100;  // [ticks]
 
-const std::vector<std::string> drivers{
-    "autopilot", "manual", "traffic", "parked", "walker", "external", "prop"};
+std::string all_models() {
+    std::string known;
+    for (const world::VehicleModel& each : world::vehicle_models())
+        known += std::string(each.name) + ", ";
+    return fmt::format(
+        "{}one of {} walkers such as {} (reprise list walkers), or one of {} props "
+        "such as {} (reprise list props)",
+        known,
+        world::walker_models().size(),
+        world::walker_models().front().name,
+        world::prop_models().size(),
+        world::prop_models().front().name);
+}
 
 void read_model(const Fields& fields, Actor& actor) {
     const auto model = fields.text("model");
     if (!model) {
-        std::string known;
-        for (const world::VehicleModel& each : world::vehicle_models())
-            known += std::string(each.name) + ", ";
-        refuse(
-            "spawn",
-            fmt::format("'model' is missing: one of {}one of {} walkers such as {}, or one of {} "
-                        "props such as {}",
-                        known,
-                        world::walker_models().size(),
-                        world::walker_models().front().name,
-                        world::prop_models().size(),
-                        world::prop_models().front().name));
+        refuse("spawn", "'model' is missing: one of " + all_models());
     }
     const auto vehicle = world::find_vehicle_model(*model);
     const auto walker = world::find_walker_model(*model);
     const auto prop = world::find_prop_model(*model);
     if (!vehicle && !walker && !prop)
         refuse("spawn",
-               fmt::format(
-                   "no model '{}'{}", *model, world::did_you_mean(*model, world::model_names())));
+               fmt::format("no model '{}'{}; there are {}",
+                           *model,
+                           world::did_you_mean(*model, world::model_names()),
+                           all_models()));
     actor.model = vehicle ? *vehicle : walker ? *walker : *prop;
 
     const std::string driver = fields.text("driver").value_or(vehicle  ? "autopilot"
                                                               : walker ? "walker"
                                                                        : "prop");
+    const std::vector<std::string>& drivers = driver_names();
     const auto known = std::find(drivers.begin(), drivers.end(), driver);
     if (known == drivers.end())
         refuse("spawn",
-               fmt::format("no driver '{}'{}", driver, world::did_you_mean(driver, drivers)));
+               fmt::format("no driver '{}'{}; there are {}",
+                           driver,
+                           world::did_you_mean(driver, drivers),
+                           fmt::join(drivers, ", ")));
     actor.driver = static_cast<world::Driver>(known - drivers.begin());
     if (actor.is_walker() != walker.has_value() || actor.is_prop() != prop.has_value())
         refuse("spawn",
@@ -137,13 +144,35 @@ int spawn_again(lua_State* L, int, std::ptrdiff_t) {
     return acting<spawn>(L);
 }
 
-std::vector<std::string> spawn_keys() {
-    std::vector<std::string> keys{"name", "model", "driver", "latency"};
-    keys.insert(keys.end(), place_keys.begin(), place_keys.end());
-    for (const char* key : {"speed", "speed_kmh", "rig", "sees", "lane_changes"})
-        keys.emplace_back(key);
-    return keys;
-}
+constexpr Key spawn_key_rows[] = {
+    {"name", "string", "unique; default the model's, 'sedan_2' of a second one"},
+    {"model",
+     "ModelName|WalkerName|PropName",
+     "what it is: reprise list models, walkers, props",
+     true},
+    {"driver", "DriverName", "who moves it; default 'autopilot', of walkers 'walker'"},
+    {"latency", "integer", "[ticks] 0 to 100, of an 'external' driver's controls"},
+    {"lane",
+     "LaneName|'left'|'right'|'same'",
+     "its lane; who drives and has none is given a free place by the seed"},
+    {"s", "number", "[m] along the lane, of the rear axle; default 0"},
+    {"offset", "number", "[m] to the left of the lane's centre line; default 0"},
+    {"x", "number", "[m] of a pose, east"},
+    {"y", "number", "[m] of a pose, north"},
+    {"z", "number", "[m] of a pose, where roads lie above each other"},
+    {"heading_deg", "number", "of a pose, counter-clockwise from east"},
+    {"ahead_of", "Actor", "along the road from that one, 'gap' metres away"},
+    {"behind", "Actor", "likewise, behind it"},
+    {"beside", "Actor", "abreast, in the lane to its 'left' or 'right'"},
+    {"gap", "number", "[m] from bumper to bumper"},
+    {"speed", "number", "[m/s] from the first tick on; default 0"},
+    {"speed_kmh", "number", "[km/h] the same"},
+    {"rig", "SensorOptions[]", "up to 16 cameras on a vehicle with mass"},
+    {"sees", "'everything'|'sensors'", "what an 'external' driver is shown of others"},
+    {"lane_changes",
+     "boolean",
+     "false: keeps its lane; of 'autopilot' and 'traffic'; default true"},
+};
 
 /// Of who is still to be given a place: another one cannot be put beside it before.
 bool waits_for_its_place(Run& run, lua_State* L, const Fields& fields) {
@@ -156,7 +185,7 @@ bool waits_for_its_place(Run& run, lua_State* L, const Fields& fields) {
 }
 
 int spawn(Run& run, lua_State* L) {
-    const Fields fields(L, 1, "spawn", spawn_keys());
+    const Fields fields(L, 1, "spawn", names_of(spawn_key_rows));
     if (waits_for_its_place(run, L, fields))
         return wait_for_presence(run, L, spawn_again);
     Actor actor;
@@ -203,12 +232,18 @@ int spawn(Run& run, lua_State* L) {
 
 // --- Places in any town.
 
+constexpr Key pick_lane_key_rows[] = {
+    {"length", "number", "[m] at least so long"},
+    {"left", "boolean", "with (false: without) a lane to the left in its direction"},
+    {"right", "boolean", "with (without) a lane to the right in its direction"},
+    {"sidewalk", "boolean", "with (without) a sidewalk directly to the right"},
+    {"straight", "boolean", "without (with) a bend below 500 m radius"},
+    {"lanes", "integer", "so many lanes for cars in its direction"},
+    {"optional", "boolean", "nil when none fits, rather than an error"},
+};
+
 int pick_lane(Run& run, lua_State* L) {
-    const Fields fields(L,
-                        1,
-                        "pick_lane",
-                        {"length", "left", "right", "sidewalk", "straight", "lanes", "optional"},
-                        true);
+    const Fields fields(L, 1, "pick_lane", names_of(pick_lane_key_rows), true);
     LaneWish wish;
     wish.length = fields.number("length").value_or(0);
     wish.left = fields.flag("left");
@@ -277,17 +312,48 @@ int neighbour(Run& run, lua_State* L) {
     return 1;
 }
 
+constexpr Word spawn_rows[] = {
+    {"spawn", acting<spawn>, "(options: SpawnOptions): Actor", "an actor; stands in the next tick"},
+};
+
+constexpr Word place_rows[] = {
+    {"pick_lane",
+     acting<pick_lane>,
+     "(options?: PickLaneOptions): LaneName",
+     "a driving lane that fits, chosen by the seed"},
+    {"lane_point",
+     bound<lane_point>,
+     "(lane: LaneName, s: number, offset?: number): number, number, number, number",
+     "x, y, z [m] and heading [deg] there"},
+    {"lane_length", bound<lane_length>, "(lane: LaneName): number", "[m]"},
+    {"lane_width", bound<lane_width>, "(lane: LaneName): number", "[m]"},
+    {"speed_limit", bound<speed_limit>, "(lane: LaneName): number", "[m/s] of a lane"},
+    {"lane_left_of",
+     bound<neighbour<&world::LaneT::left>>,
+     "(lane: LaneName): LaneName?",
+     "the lane for cars to its left in its direction, or nil"},
+    {"lane_right_of",
+     bound<neighbour<&world::LaneT::right>>,
+     "(lane: LaneName): LaneName?",
+     "the lane for cars to its right in its direction, or nil"},
+};
+
 }  // namespace
 
+constinit const WordList spawn_words{Owner::global, "Actors", spawn_rows};
+constinit const WordList place_words{Owner::global, "Places in any town", place_rows};
+constinit const KeyList spawn_keys{"SpawnOptions", "spawn", spawn_key_rows};
+constinit const KeyList pick_lane_keys{"PickLaneOptions", "pick_lane", pick_lane_key_rows};
+
+const std::vector<std::string>& driver_names() {
+    static const std::vector<std::string> names{
+        "autopilot", "manual", "traffic", "parked", "walker", "external", "prop"};
+    return names;
+}
+
 void add_spawn_words(lua_State* L) {
-    add_function(L, "spawn", acting<spawn>);
-    add_function(L, "pick_lane", acting<pick_lane>);
-    add_function(L, "lane_point", bound<lane_point>);
-    add_function(L, "lane_length", bound<lane_length>);
-    add_function(L, "lane_width", bound<lane_width>);
-    add_function(L, "speed_limit", bound<speed_limit>);
-    add_function(L, "lane_left_of", bound<neighbour<&world::LaneT::left>>);
-    add_function(L, "lane_right_of", bound<neighbour<&world::LaneT::right>>);
+    add_words(L, spawn_words);
+    add_words(L, place_words);
 }
 
 }  // namespace reprise::scripting

@@ -46,9 +46,13 @@ int wait_ticks(Run& run, lua_State* L) {
     return sleep(run, L, static_cast<std::uint64_t>(ticks));
 }
 
+constexpr Key wait_key_rows[] = {
+    {"timeout", "number", "[s] to give up after; default never"},
+};
+
 /// The tick in which a wait with these options gives up.
 std::uint64_t last_tick(const Run& run, lua_State* L, int options_index, const char* who) {
-    const Fields options(L, options_index, who, {"timeout"}, true);
+    const Fields options(L, options_index, who, names_of(wait_key_rows), true);
     const auto timeout = options.number("timeout");
     if (timeout && (*timeout < 0 || *timeout > 1e9))
         refuse(who, "'timeout' must be in [0, 1e9] s");
@@ -183,7 +187,39 @@ int time(Run& run, lua_State* L) {
     return 1;
 }
 
+constexpr Word task_rows[] = {
+    {"wait", acting<wait>, "(seconds: number)", "goes on after that time, rounded up to ticks"},
+    {"wait_ticks", acting<wait_ticks>, "(n: integer)", "goes on n ticks later"},
+    {"wait_until",
+     nullptr,
+     "(condition: (fun(): any), options?: WaitOptions): boolean",
+     "tests at once and then in every tick; true, or false after the timeout"},
+    {"start", acting<start>, "(task: fun()): Task", "runs beside; begins in this tick"},
+    {"wait_for",
+     acting<wait_for>,
+     "(task: Task, options?: WaitOptions): boolean",
+     "until the task has ended; false after the timeout. Also task:wait(), task:done(), "
+     "task:cancel()"},
+    {"parallel",
+     acting<run_together<Tasks::Until::all_ended>>,
+     "(tasks: (fun())[])",
+     "runs them beside each other until all have ended"},
+    {"race",
+     acting<run_together<Tasks::Until::first_ended>>,
+     "(tasks: (fun(): any)[]): integer, any",
+     "until the first has ended: its number, what it returned; the others are cancelled"},
+    {"finish",
+     acting<finish>,
+     "(reason?: string)",
+     "ends the run; nothing after it is carried out"},
+    {"tick", bound<tick>, "(): integer", "of the last tick: what the scenario sees"},
+    {"time", bound<time>, "(): number", "[s] of the last tick"},
+};
+
 }  // namespace
+
+constinit const WordList task_words{Owner::global, "Time", task_rows};
+constinit const KeyList wait_keys{"WaitOptions", "wait_until", wait_key_rows};
 
 void add_task_words(lua_State* L) {
     luaL_newmetatable(L, task_type);
@@ -196,17 +232,9 @@ void add_task_words(lua_State* L) {
     lua_pushboolean(L, 0);
     lua_setfield(L, -2, "__metatable");
     lua_pop(L, 1);
-    add_function(L, "wait", acting<wait>);
-    add_function(L, "wait_ticks", acting<wait_ticks>);
-    add_function(L, "_give_up_at", acting<give_up_at>);
+    add_words(L, task_words);
+    add_function(L, "_give_up_at", acting<give_up_at>);  // for the prelude, which hides them
     add_function(L, "_poll", acting<poll>);
-    add_function(L, "start", acting<start>);
-    add_function(L, "wait_for", acting<wait_for>);
-    add_function(L, "parallel", acting<run_together<Tasks::Until::all_ended>>);
-    add_function(L, "race", acting<run_together<Tasks::Until::first_ended>>);
-    add_function(L, "finish", acting<finish>);
-    add_function(L, "tick", bound<tick>);
-    add_function(L, "time", bound<time>);
 }
 
 }  // namespace reprise::scripting

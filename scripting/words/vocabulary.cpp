@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <lua.hpp>
 
 #include "scripting/lua/arguments.h"
@@ -73,7 +74,29 @@ int random_int(Run& run, lua_State* L) {
     return 1;
 }
 
+constexpr Word other_rows[] = {
+    {"print", bound<print>, "(...)", "into the trace, a line an event"},
+    {"random",
+     acting<random>,
+     "(stream?: string): number",
+     "a number in [0, 1), by the run's seed"},
+    {"random_int",
+     acting<random_int>,
+     "(low: integer, high: integer, stream?: string): integer",
+     "a whole number in [low, high], by the run's seed"},
+};
+
 }  // namespace
+
+constinit const WordList other_words{Owner::global, "Chance, print", other_rows};
+
+std::string no_weather(const std::string& name) {
+    const std::vector<std::string> names = world::weather_names();
+    return fmt::format("no weather '{}'{}; there are {}",
+                       name,
+                       world::did_you_mean(name, names),
+                       fmt::join(names, ", "));
+}
 
 void add_vocabulary(lua_State* L) {
     add_header_words(L);
@@ -83,10 +106,9 @@ void add_vocabulary(lua_State* L) {
     add_meeting_words(L);
     add_spawn_words(L);
     add_place_words(L);
-    add_function(L, "print", bound<print>);
-    add_function(L, "random", acting<random>);
-    add_function(L, "random_int", acting<random_int>);
     add_environment_words(L);
+    add_words(L, road_words);
+    add_words(L, other_words);
 }
 
 }  // namespace reprise::scripting

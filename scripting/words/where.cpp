@@ -10,6 +10,7 @@
 #include "scripting/lua/text.h"
 #include "scripting/words/caps.h"
 #include "scripting/words/handles.h"
+#include "scripting/words/places.h"
 #include "world/check.h"
 #include "world/frames.h"
 #include "world/models/catalogue.h"
@@ -17,9 +18,6 @@
 #include "world/units.h"
 
 namespace reprise::scripting {
-
-const std::vector<std::string> place_keys{
-    "lane", "s", "offset", "x", "y", "z", "heading_deg", "ahead_of", "behind", "beside", "gap"};
 
 namespace {
 
@@ -72,7 +70,7 @@ Place read_lane(Run& run, lua_State* L, const Fields& fields, const Actor& actor
     }
     const world::LaneT& lane = run.town.lanes[index];
     if (drives(actor) && !world::is_for_cars(lane))
-        refuse(who, fmt::format("'{}' is not a lane for cars", name));
+        refuse(who, not_for_cars(run.town, lane));
     const double s = fields.number("s").value_or(0);
     if (s < 0 || s > lane.length)
         refuse(who,

@@ -22,9 +22,6 @@ struct Place {
     void say(world::CommandT& command) const;
 };
 
-/// The keys by which a place is said: a lane, a pose, or another actor.
-extern const std::vector<std::string> place_keys;
-
 /// Does it say one by another actor? Then that handle is put onto the stack: whoever reads the
 /// place waits for it first (all_present) where it has none yet.
 bool push_related(const Fields& fields);

@@ -41,7 +41,7 @@ INNER = {
     "scripting": "lua words .",
     "replay": "mcap . table compare golden",
     "exchange": ". carla page",
-    "cli": "options process fingerprint town trace golden external pictures .",
+    "cli": "options process fingerprint town trace golden external pictures discover .",
 }
 # Where a header may stand: in the .cpp files and private headers of a room, or, with "+", in all its headers.
 LIBRARIES = {

@@ -161,7 +161,8 @@ TEST_F(EpisodeFile, MistakesInTheHeaderNameTheirLine) {
         {header("seed = -1"), "story.lua:2: scenario: 'seed' must not be below 0"},
         {header("cars = -1"), "story.lua:2: scenario: 'cars' must be in [0, 10000]"},
         {header("weather = 'claer_noon'"),
-         "story.lua:2: scenario: no weather 'claer_noon' (did you mean 'clear_noon'?)"},
+         "story.lua:2: scenario: no weather 'claer_noon' (did you mean 'clear_noon'?); there are "
+         "clear_noon, hard_rain_sunset"},
         {header("params = 3"),
          "story.lua:2: scenario: 'params' must be a table: params = { gap = 12 }"},
         {header("params = { 3 }"),

@@ -38,17 +38,29 @@ TEST(Mistakes, OfSpawn) {
             {"spawn{}",
              "spawn: 'model' is missing: one of sedan, hatchback, suv, van, lorry, bus, city_car, "
              "wagon, coupe, pickup, taxi, police, ambulance, minibus, motorcycle, bicycle, one of "
-             "50 walkers such as adult, or one of 9 props such as cone"},
-            {"spawn{ model = 'sedna' }", "spawn: no model 'sedna' (did you mean 'sedan'?)"},
+             "50 walkers such as adult (reprise list walkers), or one of 9 props such as cone "
+             "(reprise list props)"},
+            {"spawn{ model = 'sedna' }",
+             "spawn: no model 'sedna' (did you mean 'sedan'?); there are sedan, hatchback, "
+             "suv, van, lorry, bus, city_car, wagon, coupe, pickup, taxi, police, ambulance, "
+             "minibus, motorcycle, bicycle, one of 50 walkers such as adult (reprise list walkers), "
+             "or one of 9 props such as cone (reprise list props)"},
             {"spawn{ model = 'sedan', driver = 'autopilt' }",
-             "spawn: no driver 'autopilt' (did you mean 'autopilot'?)"},
+             "spawn: no driver 'autopilt' (did you mean 'autopilot'?); there are "
+             "autopilot, manual, traffic, parked, walker, external, prop"},
             {"spawn{ model = 'sedan', driver = 'walker' }",
              "spawn: a sedan cannot have the driver 'walker'"},
             {"spawn{ model = 'child', driver = 'traffic' }",
              "spawn: a child cannot have the driver 'traffic'"},
             {"spawn{ model = 'sedan', lane = 'eats_1' }",
              "spawn: no lane 'eats_1' in straight_road (did you mean 'east_1'?)"},
-            {"spawn{ model = 'sedan', lane = 'east_0' }", "spawn: 'east_0' is not a lane for cars"},
+            {"spawn{ model = 'sedan', lane = 'east_0' }",
+             "spawn: 'east_0' is a sidewalk, no lane for cars; beside it lies 'east_1' (driving)"},
+            {"spawn{ model = 'sedan', lane = 'east' }",
+             "spawn: 'east' is an edge of straight_road: its lanes are 'east_1' (driving), "
+             "'east_2' (driving), 'east_0' (sidewalk)"},
+            {"spawn{ model = 'sedan', lane = 'main' }",
+             "spawn: no lane 'main' in straight_road; reprise list lanes shows them"},
             {"spawn{ model = 'sedan', lane = 'east_1', s = 401 }",
              "spawn: 's' must be in [0, 400.00], the length of 'east_1', got 401.0"},
             {"spawn{ model = 'sedan', lane = 'east_1', s = 'far' }",
@@ -144,24 +156,32 @@ TEST(Mistakes, OfHandles) {
                {"gap(ego)",
                 "gap: an actor is needed as argument 2, got no value: write ego:speed(), "
                 "gap(ego, other)"},
-               {"ego:change_lane('lft')", "no lane 'lft' in straight_road"},
+               {"ego:change_lane('lft')",
+                "no lane 'lft' in straight_road; reprise list lanes shows them"},
                {"ego:change_lane('right')", "change_lane: no lane to the right of 'east_1'"},
                {"ego:change_lane('left', { ovr = 3 })",
                 "change_lane: unknown key 'ovr' (did you mean 'over'?)"},
-               {"ego:change_lane('east_0')", "change_lane: 'east_0' is not a lane for cars"},
+               {"ego:change_lane('east_0')",
+                "change_lane: 'east_0' is a sidewalk, no lane for cars; beside it lies 'east_1' "
+                "(driving)"},
                {"ego:set_speed()", "set_speed: the speed must be a number, got nothing"},
                {"ego:set_speed(-1)", "set_speed: the speed must be in [0, 150] m/s, got -1.0"},
                {"ego:set_speed(1, { over = -1 })", "set_speed: 'over' must be in [0, 3600] s"},
                {"ego:set_route{ 'west_9' }",
                 "no lane or edge 'west_9' in straight_road (did you mean 'west_1'?)"},
+               {"ego:set_route{ 'east_0' }",
+                "set_route: entry 1: 'east_0' is a sidewalk, no lane for cars; beside it lies "
+                "'east_1' (driving)"},
                {"ego:set_route{}",
                 "set_route: needs a list of lanes or edges: "
                 "ego:set_route{ 'a1_b1', 'b1_b2' }"},
                {"ego:route_to{ s = 3 }",
                 "route_to: needs a lane: ego:route_to{ lane = 'b1_b2_1', s = 30 }"},
                {"ego:route_to{ lane = 'east_9' }",
-                "no lane 'east_9' in straight_road (did you mean 'east_0'?)"},
-               {"ego:route_to{ lane = 'east_0' }", "route_to: 'east_0' is not a lane for cars"},
+                "no lane 'east_9' in straight_road (did you mean 'east_1'?)"},
+               {"ego:route_to{ lane = 'east_0' }",
+                "route_to: 'east_0' is a sidewalk, no lane for cars; beside it lies 'east_1' "
+                "(driving)"},
                {"ego:route_to{ lane = 'east_1', s = 401 }",
                 "route_to: 's' must be in [0, 400.0] m, got 401"},
                {"ego:route_to{ lane = 'west_1', s = 5 }",
@@ -249,10 +269,11 @@ TEST(Mistakes, OfWaitsChecksAndPlaces) {
              "pick_lane: straight_road has no driving lane with left = true, lanes = "
              "3"},
             {"pick_lane{ lenght = 3 }", "pick_lane: unknown key 'lenght' (did you mean 'length'?)"},
-            {"lane_length('east_3')", "no lane 'east_3' in straight_road (did you mean 'east_0'?)"},
+            {"lane_length('east_3')", "no lane 'east_3' in straight_road (did you mean 'east_1'?)"},
             {"random(3)", "random: the stream's name must be a string, got 3"},
             {"random_int(3, 1)", "random_int: no numbers to choose from in [3, 1]"},
-            {"set_weather 'clear'", "set_weather: no weather 'clear'"},
+            {"set_weather 'clear'",
+             "set_weather: no weather 'clear'; there are clear_noon, hard_rain_sunset"},
             {"local x = p.gap", "params has no 'gap'"},
             {"local t = nil; t.x = 1", "attempt to index a nil value (local 't')"},
             {"assert(false)", "assertion failed!"},

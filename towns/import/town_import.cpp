@@ -21,6 +21,7 @@
 #include "towns/import/import_check.h"
 #include "towns/import/map_signs.h"
 #include "towns/import/right_of_way.h"
+#include "towns/import/road_ids.h"
 #include "towns/import/signal_sites.h"
 #include "towns/maps/map_source.h"
 #include "towns/maps/netconvert.h"
@@ -173,6 +174,8 @@ class Import {
             say("left-hand traffic: netconvert mirrors the lanes; roads with unlike sides come out "
                 "wrong");
         std::vector<std::string> words = opendrive_words("map.xodr", map.left_hand);
+        // Each lane says which of the map's it was made of.
+        words.emplace_back("--output.original-names");
         if (wish.guess_sidewalks)
             guess_sidewalks(words);
         convert(words);
@@ -182,6 +185,11 @@ class Import {
             say("speed limits: {} got that of the road, which netconvert ignores",
                 count(map.limits_set, "lane"));
         obey_signs([&](const ImportedRoads& roads) { return lane_signs(map, roads); });
+        RoadIds ids = add_road_ids(network, read_roads(network, map_), map);
+        network = std::move(ids.network);
+        say("road ids: {} lanes know their road of the map, its lane and where along it they lie{}",
+            ids.lanes,
+            ids.unknown > 0 ? fmt::format("; {} do not", ids.unknown) : "");
         Place found;
         const SignalReport signals = place_signals(map, read_roads(network, map_), found);
         say("signals: {} in the map, {} placed as it says; signs: {} placed",
@@ -233,7 +241,7 @@ class Import {
                                        "--offset.disable-normalization"};
         if (!patch.edges.empty())
             words.insert(words.end(), {"--edge-files", "signs.edg.xml"});
-        if (source_.kind == MapKind::openstreetmap)
+        if (source_.kind != MapKind::network)
             words.emplace_back("--output.original-names");
         convert(words);
         network = stop_only_at(patch.edges_with_stops, network);

@@ -217,6 +217,9 @@ OpenDrive read_opendrive(const std::string& xml, const std::string& file) {
         drop_generated_name(road);
         read_signals(road, map);
         read_crossings(road, map);
+        map.roads.emplace(
+            text(road, "id"),
+            MapRoad{ReferenceLine(road.child("planView")), std::max(real(road, "length"), 0.0)});
     }
     std::ostringstream prepared;
     document.save(prepared, "", pugi::format_raw);

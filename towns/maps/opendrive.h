@@ -1,10 +1,12 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "towns/maps/reference_line.h"
 #include "towns/maps/signal_words.h"
 #include "world/town_generated.h"
 
@@ -24,9 +26,16 @@ struct RoadSignal {
     double limit_kmh = 0;  ///< speed_limit only
 };
 
+/// Of an OpenDRIVE road, where it runs.
+struct MapRoad {
+    ReferenceLine line;
+    double length = 0;  ///< [m] of it
+};
+
 /// What netconvert does not take over from an OpenDRIVE map.
 struct OpenDrive {
     std::string version;                     ///< such as 1.4
+    std::map<std::string, MapRoad> roads;    ///< by id
     std::vector<RoadSignal> signals;         ///< in the order of the file
     std::vector<Eigen::Vector3d> crossings;  ///< crosswalks, in the map's frame
     int other_signs = 0;                     ///< of kinds that towns do not have

@@ -9,6 +9,7 @@
 #include <pugixml.hpp>
 
 #include "towns/network/network_xml.h"
+#include "world/lanes/road_place.h"
 #include "world/models/vehicle_classes.h"
 #include "world/tick.h"
 #include "world/town.h"
@@ -142,6 +143,8 @@ LaneT read_lane(const pugi::xml_node& edge, const pugi::xml_node& lane_xml, cons
     const bool inside = !lane.edge.empty() && lane.edge.front() == ':';
     if (!inside)
         lane.street = edge.attribute("name").value();
+    const pugi::xml_node road = lane_xml.find_child_by_attribute("param", "key", "road");
+    world::set_road_pieces(lane, world::read_road_pieces(road.attribute("value").value()));
     lane.junction =
         find_junction(town, inside ? junction_around(lane.edge) : edge.attribute("to").value());
     return lane;
