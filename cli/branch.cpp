@@ -29,7 +29,7 @@
 #include "replay/trace_writer.h"
 #include "scripting/scenario.h"
 #include "world/check.h"
-#include "world/external_drivers.h"
+#include "world/external/external_drivers.h"
 #include "world/printable.h"
 #include "world/story/wording.h"
 

@@ -10,7 +10,7 @@
 #include "replay/outcomes.h"
 #include "world/check.h"
 #include "world/digest.h"
-#include "world/external_drivers.h"
+#include "world/external/external_drivers.h"
 
 namespace reprise::kernel {
 

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "remote/wire_generated.h"
+#include "world/external/rig.h"
 #include "world/recording.h"
-#include "world/rig.h"
 #include "world/tick.h"
 
 namespace reprise::remote {
@@ -65,8 +65,8 @@ class Client {
     /// What the vehicle carries; empty without a rig.
     const world::SensorRig& sensors() const;
 
-    /// A frame: `pixels` as world/sensor.h has them, in memory that the renderer writes into. They
-    /// stay until the answer to the tick after theirs.
+    /// A frame: `pixels` as world/external/sensor.h has them, in memory that the renderer writes
+    /// into. They stay until the answer to the tick after theirs.
     struct Picture {
         const world::SensorSpec* sensor = nullptr;
         std::span<const std::uint8_t> pixels;

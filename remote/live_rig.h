@@ -9,8 +9,8 @@
 
 #include "remote/frame_channel.h"
 #include "remote/picture_ring.h"
+#include "world/external/rig.h"
 #include "world/recording.h"
-#include "world/rig.h"
 #include "world/tick.h"
 
 namespace reprise::remote {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "world/rig.h"
+#include "world/external/rig.h"
 
 namespace reprise::remote {
 

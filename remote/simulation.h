@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "remote/client.h"
+#include "world/external/sensor.h"
 #include "world/recording.h"
-#include "world/sensor.h"
 #include "world/tick.h"
 
 namespace reprise::remote {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "world/sensor.h"
+#include "world/external/sensor.h"
 #include "world/tick.h"
 #include "world/town.h"
 

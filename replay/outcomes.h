@@ -5,7 +5,7 @@
 #include <string>
 
 #include "replay/trace_reader.h"
-#include "world/external_drivers.h"
+#include "world/external/external_drivers.h"
 #include "world/recording.h"
 
 namespace reprise::replay {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "scripting/words/signature.h"
+#include "scripting/run/signature.h"
 #include "scripting/words/vocabulary.h"
 #include "world/models/catalogue.h"
 #include "world/models/prop_models.h"

@@ -7,10 +7,10 @@
 #include <fmt/ranges.h>
 
 #include "scripting/lua/vm.h"
+#include "scripting/run/files.h"
+#include "scripting/run/tasks.h"
 #include "scripting/scenario.h"
-#include "scripting/words/files.h"
 #include "scripting/words/header.h"
-#include "scripting/words/tasks.h"
 #include "world/check.h"
 
 namespace reprise::scripting {

@@ -8,7 +8,7 @@
 #include "scripting/lua/sandbox.h"
 #include "scripting/lua/text.h"
 #include "scripting/lua/vm.h"
-#include "scripting/words/places.h"
+#include "scripting/run/places.h"
 #include "scripting/words/vocabulary.h"
 #include "world/check.h"
 #include "world/models/catalogue.h"

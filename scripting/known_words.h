@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scripting/words/signature.h"
-#include "scripting/words/word.h"
+#include "scripting/run/signature.h"
+#include "scripting/run/word.h"
 #include "world/town_generated.h"
 
 namespace reprise::scripting {

@@ -8,7 +8,7 @@
 
 #include "scripting/known_words.h"
 #include "scripting/lua/tokens.h"
-#include "scripting/words/signature.h"
+#include "scripting/run/signature.h"
 #include "world/check.h"
 
 // What must it do?     Name each thing in a scenario that is not there, with its line.

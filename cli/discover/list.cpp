@@ -12,7 +12,7 @@
 #include "cli/process/output.h"
 #include "cli/process/say.h"
 #include "scripting/annotations.h"
-#include "scripting/words/language.h"
+#include "scripting/run/language.h"
 #include "world/check.h"
 #include "world/models/catalogue.h"
 #include "world/models/prop_models.h"

@@ -11,7 +11,7 @@
 
 #include "remote/guide.h"
 #include "remote/seat.h"
-#include "world/external_drivers.h"
+#include "world/external/external_drivers.h"
 #include "world/recording.h"
 #include "world/tick.h"
 

@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/options/option_checks.h"
+#include "world/external/rig.h"
 #include "world/models/catalogue.h"
-#include "world/rig.h"
 #include "world/weather.h"
 
 namespace reprise::cli {

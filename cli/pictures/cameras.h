@@ -7,7 +7,7 @@
 #include "cli/options/render_options.h"
 #include "render/views/preset_camera.h"
 #include "replay/trace_reader.h"
-#include "world/rig.h"
+#include "world/external/rig.h"
 
 namespace reprise::cli {
 

@@ -1,6 +1,6 @@
 #include "cli/pictures/recorded_rig.h"
 
-#include "world/spawns.h"
+#include "world/external/spawns.h"
 
 namespace reprise::cli {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "replay/trace_reader.h"
-#include "world/rig.h"
+#include "world/external/rig.h"
 
 namespace reprise::cli {
 

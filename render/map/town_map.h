@@ -1,8 +1,8 @@
 #pragma once
 
 #include "ground/mesh/ground.h"
+#include "world/external/sensor.h"
 #include "world/geometry2d.h"
-#include "world/sensor.h"
 #include "world/town_generated.h"
 
 namespace reprise::render {

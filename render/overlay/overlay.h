@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/overlay/tags.h"
-#include "world/sensor.h"
+#include "world/external/sensor.h"
 
 namespace reprise::render {
 

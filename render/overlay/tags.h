@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/trace/camera.h"
-#include "world/sensor.h"
+#include "world/external/sensor.h"
 #include "world/tick.h"
 
 namespace reprise::render {

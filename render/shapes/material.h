@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "world/sensor.h"
+#include "world/external/sensor.h"
 
 namespace reprise::render {
 

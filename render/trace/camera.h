@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "world/sensor.h"
+#include "world/external/sensor.h"
 
 namespace reprise::render {
 

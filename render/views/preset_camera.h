@@ -8,7 +8,7 @@
 
 #include "render/views/clear_sight.h"
 #include "render/views/track.h"
-#include "world/sensor.h"
+#include "world/external/sensor.h"
 
 namespace reprise::render {
 

@@ -2,7 +2,7 @@
 
 #include "scripting/lua/binding.h"
 #include "scripting/lua/sandbox.h"
-#include "scripting/words/run.h"
+#include "scripting/run/run.h"
 #include "scripting/words/vocabulary.h"
 
 namespace reprise::scripting {

@@ -3,10 +3,10 @@
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/text.h"
-#include "scripting/words/caps.h"
+#include "scripting/run/caps.h"
+#include "scripting/run/places.h"
 #include "scripting/words/handles.h"
 #include "scripting/words/obedience.h"
-#include "scripting/words/places.h"
 #include "scripting/words/vocabulary.h"
 #include "world/frames.h"
 #include "world/lanes/planner.h"

@@ -9,7 +9,7 @@
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/binding.h"
 #include "scripting/lua/text.h"
-#include "scripting/words/run.h"
+#include "scripting/run/run.h"
 #include "scripting/words/vocabulary.h"
 #include "world/check.h"
 

@@ -8,7 +8,7 @@
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/sandbox.h"
-#include "scripting/words/measures.h"
+#include "scripting/run/measures.h"
 #include "scripting/words/vocabulary.h"
 #include "world/frames.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "scripting/lua/binding.h"
-#include "scripting/words/run.h"
+#include "scripting/run/run.h"
 
 struct lua_State;
 

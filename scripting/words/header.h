@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scripting/lua/literals.h"
-#include "scripting/words/weathers.h"
+#include "scripting/run/weathers.h"
 
 namespace reprise::scripting {
 

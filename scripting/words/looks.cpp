@@ -8,9 +8,9 @@
 #include <lua.hpp>
 
 #include "scripting/lua/arguments.h"
+#include "scripting/run/measures.h"
+#include "scripting/run/surroundings.h"
 #include "scripting/words/handles.h"
-#include "scripting/words/measures.h"
-#include "scripting/words/surroundings.h"
 #include "scripting/words/vocabulary.h"
 
 // What an actor sees around itself, and what became of its drive. None of it acts.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scripting/words/run.h"
+#include "scripting/run/run.h"
 
 struct lua_State;
 

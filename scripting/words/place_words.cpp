@@ -11,8 +11,8 @@
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/binding.h"
-#include "scripting/words/places.h"
-#include "scripting/words/run.h"
+#include "scripting/run/places.h"
+#include "scripting/run/run.h"
 #include "scripting/words/vocabulary.h"
 #include "world/frames.h"
 

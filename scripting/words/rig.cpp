@@ -9,9 +9,9 @@
 
 #include "scripting/lua/text.h"
 #include "scripting/lua/vm.h"
-#include "scripting/words/language.h"
+#include "scripting/run/language.h"
 #include "world/check.h"
-#include "world/rig.h"
+#include "world/external/rig.h"
 
 // What a vehicle carries, and what its driver is shown.
 namespace reprise::scripting {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scripting/lua/arguments.h"
-#include "scripting/words/actors.h"
+#include "scripting/run/actors.h"
 
 namespace reprise::scripting {
 

@@ -3,7 +3,7 @@
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/binding.h"
-#include "scripting/words/run.h"
+#include "scripting/run/run.h"
 #include "scripting/words/vocabulary.h"
 #include "world/lanes/road_place.h"
 

@@ -8,9 +8,9 @@
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/text.h"
-#include "scripting/words/caps.h"
+#include "scripting/run/caps.h"
+#include "scripting/run/places.h"
 #include "scripting/words/handles.h"
-#include "scripting/words/places.h"
 #include "scripting/words/rig.h"
 #include "scripting/words/vocabulary.h"
 #include "scripting/words/where.h"

@@ -9,8 +9,8 @@
 #include "scripting/lua/binding.h"
 #include "scripting/lua/sandbox.h"
 #include "scripting/lua/text.h"
-#include "scripting/words/caps.h"
-#include "scripting/words/run.h"
+#include "scripting/run/caps.h"
+#include "scripting/run/run.h"
 #include "scripting/words/vocabulary.h"
 
 namespace reprise::scripting {

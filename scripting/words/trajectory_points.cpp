@@ -11,7 +11,7 @@
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/text.h"
-#include "scripting/words/files.h"
+#include "scripting/run/files.h"
 #include "scripting/words/where.h"
 #include "world/check.h"
 #include "world/frames.h"

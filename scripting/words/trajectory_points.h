@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scripting/words/run.h"
+#include "scripting/run/run.h"
 
 namespace reprise::scripting {
 

@@ -10,8 +10,10 @@
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/binding.h"
 #include "scripting/lua/text.h"
-#include "scripting/words/caps.h"
-#include "scripting/words/run.h"
+#include "scripting/run/caps.h"
+#include "scripting/run/run.h"
+#include "world/check.h"
+#include "world/weather.h"
 
 namespace reprise::scripting {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scripting/words/language.h"
+#include "scripting/run/language.h"
 
 struct lua_State;
 

@@ -8,9 +8,9 @@
 #include <lua.hpp>
 
 #include "scripting/lua/text.h"
-#include "scripting/words/caps.h"
+#include "scripting/run/caps.h"
+#include "scripting/run/places.h"
 #include "scripting/words/handles.h"
-#include "scripting/words/places.h"
 #include "world/check.h"
 #include "world/frames.h"
 #include "world/models/catalogue.h"

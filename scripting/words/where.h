@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scripting/lua/arguments.h"
-#include "scripting/words/run.h"
+#include "scripting/run/run.h"
 
 namespace reprise::scripting {
 

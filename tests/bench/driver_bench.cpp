@@ -20,7 +20,7 @@
 #include "tests/bench/lane.h"
 #include "tests/bench/stopwatch.h"
 #include "tests/bench/timer.h"
-#include "world/external_drivers.h"
+#include "world/external/external_drivers.h"
 
 namespace {
 

@@ -32,13 +32,13 @@ ROOMS = {
 }
 # Inner rooms from the lowest to the highest: each may include those before it. "." is the room's own folder.
 INNER = {
-    "world": ". models lanes story",
+    "world": ". models lanes story external",
     "ground": "mesh paint .",
     "towns": "check network maps furnish buildings . bridges import make",
     "drivers": "way .",
     "kernel": "drill physics .",
     "render": "shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look shade map views overlay film .",
-    "scripting": "lua words .",
+    "scripting": "lua run words .",
     "replay": "mcap . table compare golden",
     "exchange": ". carla page",
     "cli": "options process fingerprint town trace golden external pictures discover .",

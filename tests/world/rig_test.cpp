@@ -1,4 +1,4 @@
-#include "world/rig.h"
+#include "world/external/rig.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 
 #include "process/program.h"
 #include "tests/cli/program.h"
-#include "world/sensor.h"
+#include "world/external/sensor.h"
 
 namespace reprise::test {
 namespace {

@@ -12,7 +12,7 @@
 #include "render/sensors.h"
 #include "replay/trace_reader.h"
 #include "tests/cli/program.h"
-#include "world/rig.h"
+#include "world/external/rig.h"
 
 namespace reprise::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "scripting/words/checks.h"
+#include "scripting/run/checks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "scripting/words/tasks.h"
+#include "scripting/run/tasks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

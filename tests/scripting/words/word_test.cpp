@@ -1,4 +1,4 @@
-#include "scripting/words/word.h"
+#include "scripting/run/word.h"
 
 #include <algorithm>
 #include <cctype>

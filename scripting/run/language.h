@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "scripting/words/word.h"
+#include "scripting/run/word.h"
 
 namespace reprise::scripting {
 

@@ -1,4 +1,4 @@
-#include "scripting/words/language.h"
+#include "scripting/run/language.h"
 
 namespace reprise::scripting {
 

@@ -1,4 +1,4 @@
-#include "scripting/words/actors.h"
+#include "scripting/run/actors.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scripting/words/tasks.h"
+#include "scripting/run/tasks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <lua.hpp>
 
-#include "scripting/words/step_context.h"
+#include "scripting/run/step_context.h"
 #include "world/digest.h"
 
 namespace reprise::scripting {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "world/sensor.h"
+#include "world/external/sensor.h"
 #include "world/tick.h"
 
 namespace reprise::world {

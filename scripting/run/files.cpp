@@ -1,4 +1,4 @@
-#include "scripting/words/files.h"
+#include "scripting/run/files.h"
 
 #include <fstream>
 #include <iterator>

@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "scripting/words/footprint.h"
+#include "scripting/run/footprint.h"
 #include "world/lanes/route_progress.h"
 #include "world/lanes/stop_lines.h"
 #include "world/tick.h"

@@ -1,10 +1,10 @@
-#include "scripting/words/run.h"
+#include "scripting/run/run.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "scripting/words/places.h"
+#include "scripting/run/places.h"
 #include "world/check.h"
 
 namespace reprise::scripting {

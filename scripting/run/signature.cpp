@@ -1,4 +1,4 @@
-#include "scripting/words/signature.h"
+#include "scripting/run/signature.h"
 
 #include "world/check.h"
 
@@ -6,7 +6,7 @@ namespace reprise::scripting {
 
 namespace {
 
-std::string trimmed(std::string_view text) {
+std::string without_blanks(std::string_view text) {
     const std::size_t first = text.find_first_not_of(' ');
     if (first == std::string_view::npos)
         return "";
@@ -37,7 +37,7 @@ std::vector<std::string> split_type(std::string_view type, char separator) {
         depth -= c == ')' || c == '}' || c == '>' ? 1 : 0;
         if (c != separator || depth != 0)
             continue;
-        if (std::string part = trimmed(type.substr(start, i - start)); !part.empty())
+        if (std::string part = without_blanks(type.substr(start, i - start)); !part.empty())
             parts.push_back(std::move(part));
         start = i + 1;
     }
@@ -52,8 +52,9 @@ Signature read_signature(std::string_view text) {
     for (const std::string& part : split_type(text.substr(1, end - 1), ',')) {
         Signature::Parameter parameter;
         const std::size_t colon = part.find(':');
-        parameter.name = trimmed(part.substr(0, colon));
-        parameter.type = colon == std::string::npos ? "any" : trimmed(part.substr(colon + 1));
+        parameter.name = without_blanks(part.substr(0, colon));
+        parameter.type =
+            colon == std::string::npos ? "any" : without_blanks(part.substr(colon + 1));
         parameter.optional = parameter.name.ends_with('?');
         if (parameter.optional)
             parameter.name.pop_back();

@@ -1,4 +1,4 @@
-#include "scripting/words/places.h"
+#include "scripting/run/places.h"
 
 #include <algorithm>
 #include <cmath>

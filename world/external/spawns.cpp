@@ -1,4 +1,4 @@
-#include "world/spawns.h"
+#include "world/external/spawns.h"
 
 namespace reprise::world {
 

@@ -1,4 +1,4 @@
-#include "scripting/words/streams.h"
+#include "scripting/run/streams.h"
 
 #include "world/digest.h"
 #include "world/random.h"

@@ -1,4 +1,4 @@
-#include "scripting/words/weathers.h"
+#include "scripting/run/weathers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/text.h"
 #include "scripting/lua/vm.h"
-#include "scripting/words/tasks.h"
+#include "scripting/run/tasks.h"
 #include "world/check.h"
 #include "world/weather.h"
 

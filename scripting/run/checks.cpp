@@ -1,4 +1,4 @@
-#include "scripting/words/checks.h"
+#include "scripting/run/checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/text.h"
-#include "scripting/words/caps.h"
-#include "scripting/words/language.h"
-#include "scripting/words/step_context.h"
-#include "scripting/words/tasks.h"
+#include "scripting/run/caps.h"
+#include "scripting/run/language.h"
+#include "scripting/run/step_context.h"
+#include "scripting/run/tasks.h"
 #include "world/blockage.h"
 #include "world/check.h"
 #include "world/digest.h"

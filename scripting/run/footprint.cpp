@@ -1,4 +1,4 @@
-#include "scripting/words/footprint.h"
+#include "scripting/run/footprint.h"
 
 #include <algorithm>
 #include <array>

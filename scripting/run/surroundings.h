@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scripting/words/actors.h"
+#include "scripting/run/actors.h"
 #include "world/lanes/route.h"
 #include "world/tick.h"
 #include "world/town.h"

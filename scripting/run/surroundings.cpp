@@ -1,4 +1,4 @@
-#include "scripting/words/surroundings.h"
+#include "scripting/run/surroundings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scripting/words/measures.h"
+#include "scripting/run/measures.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "scripting/words/step_context.h"
+#include "scripting/run/step_context.h"
 
 #include <fmt/format.h>
 
-#include "scripting/words/caps.h"
+#include "scripting/run/caps.h"
 #include "world/check.h"
 
 namespace reprise::scripting {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "scripting/words/actors.h"
+#include "scripting/run/actors.h"
 #include "world/town.h"
 
 namespace reprise::scripting {

@@ -1,4 +1,4 @@
-#include "world/external_drivers.h"
+#include "world/external/external_drivers.h"
 
 #include <algorithm>
 

@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "scripting/words/actors.h"
-#include "scripting/words/checks.h"
-#include "scripting/words/measures.h"
-#include "scripting/words/step_context.h"
-#include "scripting/words/streams.h"
-#include "scripting/words/surroundings.h"
-#include "scripting/words/tasks.h"
-#include "scripting/words/weathers.h"
+#include "scripting/run/actors.h"
+#include "scripting/run/checks.h"
+#include "scripting/run/measures.h"
+#include "scripting/run/step_context.h"
+#include "scripting/run/streams.h"
+#include "scripting/run/surroundings.h"
+#include "scripting/run/tasks.h"
+#include "scripting/run/weathers.h"
 #include "world/episode_generated.h"
 #include "world/lanes/junctions.h"
 #include "world/lanes/stop_lines.h"
