@@ -5,7 +5,7 @@
 
 #include "world/digest.h"
 #include "world/episode_generated.h"
-#include "world/external/spawns.h"
+#include "world/spawns.h"
 #include "world/town_generated.h"
 
 namespace reprise::world {

@@ -1,6 +1,6 @@
 #include "cli/pictures/recorded_rig.h"
 
-#include "world/external/spawns.h"
+#include "world/spawns.h"
 
 namespace reprise::cli {
 

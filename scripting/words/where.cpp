@@ -21,10 +21,10 @@ namespace reprise::scripting {
 
 namespace {
 
-constexpr double farthest_beside = 50;        // [m] from a lane's centre line
-constexpr double farthest_town = 1'000;       // [m] from any road
-constexpr double reach_of_traffic = 4;        // [m] of its bumper from a lane's centre line
-constexpr std::uint64_t search_cost = 2'000;  // [instructions] of a road by its place
+constexpr double farthest_beside = 50;             // [m] from a lane's centre line
+constexpr double farthest_town = 1'000;            // [m] from any road
+constexpr double reach_of_traffic = 4;             // [m] of its bumper from a lane's centre line
+constexpr std::uint64_t road_search_cost = 2'000;  // [instructions] of a road by its place
 
 constexpr std::array relations{"ahead_of", "behind", "beside"};
 
@@ -349,7 +349,7 @@ bool push_related(const Fields& fields) {
 
 std::optional<double> road_height(
     Run& run, lua_State* L, double x, double y, std::optional<double> near) {
-    run.vm.charge(L, search_cost);
+    run.vm.charge(L, road_search_cost);
     for (const double reach : {0.0, 20.0, 200.0, farthest_town}) {
         NearLane best;
         for (const std::uint32_t index : run.lanes.near({x, y, near.value_or(0)}, reach)) {

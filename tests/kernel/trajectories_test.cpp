@@ -15,42 +15,42 @@ namespace reprise::test {
 namespace {
 
 /// What the tick holds of an actor, whatever moves it.
-struct Seen {
+struct Sighting {
     Eigen::Vector3d position{0, 0, 0};
     double yaw = 0;
     double speed = 0;
     double pitch = 0;
 };
 
-std::optional<Seen> look(const KeptTick& tick, std::uint32_t actor) {
+std::optional<Sighting> look(const KeptTick& tick, std::uint32_t actor) {
     const world::TickView view = tick.recorded().view;
     if (const auto* vehicle = world::find(view.vehicles(), actor)) {
         const Eigen::Vector3d ahead =
             world::to_eigen(vehicle->orientation()) * Eigen::Vector3d::UnitX();
-        return Seen{world::to_eigen(vehicle->position()),
-                    std::atan2(ahead.y(), ahead.x()),
-                    world::to_eigen(vehicle->velocity()).dot(ahead),
-                    std::asin(ahead.z())};
+        return Sighting{world::to_eigen(vehicle->position()),
+                        std::atan2(ahead.y(), ahead.x()),
+                        world::to_eigen(vehicle->velocity()).dot(ahead),
+                        std::asin(ahead.z())};
     }
     if (const auto* car = world::find(view.cars(), actor))
-        return Seen{world::to_eigen(car->position()),
-                    static_cast<double>(car->yaw()),
-                    static_cast<double>(car->speed()),
-                    static_cast<double>(car->pitch())};
+        return Sighting{world::to_eigen(car->position()),
+                        static_cast<double>(car->yaw()),
+                        static_cast<double>(car->speed()),
+                        static_cast<double>(car->pitch())};
     if (const auto* walker = world::find(view.walkers(), actor))
-        return Seen{world::to_eigen(walker->position()),
-                    static_cast<double>(walker->yaw()),
-                    static_cast<double>(walker->speed()),
-                    0};
+        return Sighting{world::to_eigen(walker->position()),
+                        static_cast<double>(walker->yaw()),
+                        static_cast<double>(walker->speed()),
+                        0};
     return std::nullopt;
 }
 
 /// [i] is tick i + 1.
-std::vector<std::optional<Seen>> seen(const std::string& body,
-                                      double seconds,
-                                      std::uint32_t actor = 1) {
+std::vector<std::optional<Sighting>> seen(const std::string& body,
+                                          double seconds,
+                                          std::uint32_t actor = 1) {
     const world::Recording recording = on_straight_lanes(body, seconds);
-    std::vector<std::optional<Seen>> all;
+    std::vector<std::optional<Sighting>> all;
     for (const KeptTick& tick : run(recording))
         all.push_back(look(tick, actor));
     return all;
@@ -122,7 +122,7 @@ TEST_P(Trajectories, AreKeptToTheMillimetreAtTheirTimes) {
             << driver << i;
     }
     // Then it is left to itself: walkers stand, the others roll on from there at that speed.
-    const Seen behind = *ticks[101];
+    const Sighting behind = *ticks[101];
     const double speed = ticks[100]->speed;
     if (walks) {
         EXPECT_EQ(behind.speed, 0);
@@ -152,7 +152,7 @@ TEST(Trajectory, ClimbsWithTheGround) {
             4.2);
         const double climb = std::atan(48.0 / 600);
         for (std::size_t i = 10; i < 80; ++i) {
-            const Seen& ego = *ticks[i];
+            const Sighting& ego = *ticks[i];
             EXPECT_NEAR(ego.position.z(), ego.position.x() * 48 / 600, 0.02) << driver << i;
             EXPECT_NEAR(ego.pitch, climb, 0.005) << driver << i;
         }
@@ -252,8 +252,8 @@ TEST(Teleport, PutsEveryDriverThereAndKeepsItsSpeed) {
         const auto ticks = seen(
             spawn_driven_by(driver) + "wait(1) ego:teleport{ lane = 'main_2', s = 700 } wait(100)",
             3);
-        const Seen before = *ticks[19];
-        const Seen there = *ticks[20];
+        const Sighting before = *ticks[19];
+        const Sighting there = *ticks[20];
         // Nobody is at the wheel of the manual one: it brakes.
         EXPECT_NEAR(there.speed, before.speed, driver == std::string("manual") ? 0.6 : 0.1)
             << driver;
@@ -269,7 +269,7 @@ TEST(Teleport, ToAPoseWithASpeed) {
                                     "wait(1) ego:teleport{ x = 300, y = -5.3, heading_deg = 2, "
                                     "speed = 20 } wait(100)",
                                 3);
-        const Seen there = *ticks[20];
+        const Sighting there = *ticks[20];
         EXPECT_NEAR(there.speed, 20, driver == std::string("manual") ? 0.6 : 0.1) << driver;
         EXPECT_NEAR(there.position.x(), 301, 0.05) << driver;
         EXPECT_NEAR(there.position.y(), -5.3 + std::sin(0.035), 0.06) << driver;
@@ -317,7 +317,7 @@ TEST(SpawnByPose, StandsThereOnTheGround) {
                      "1 }} wait(100)",
                      driver),
                  0.5);
-        const Seen first = *ticks[0];
+        const Sighting first = *ticks[0];
         EXPECT_NEAR(first.position.x(), 300, 0.05) << driver;
         EXPECT_NEAR(first.position.y(), -304.4, 0.05) << driver;
         EXPECT_NEAR(first.position.z(), 24, 0.05) << driver;

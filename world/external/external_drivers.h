@@ -1,6 +1,6 @@
 #pragma once
 
-#include "world/external/spawns.h"
+#include "world/spawns.h"
 #include "world/recording.h"
 #include "world/tick.h"
 

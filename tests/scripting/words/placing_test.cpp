@@ -13,7 +13,7 @@ struct Mistake {
     const char* message;
 };
 
-constexpr const char* everybody =
+constexpr const char* cast_of_four =
     "local ego = spawn{ name = 'ego', model = 'sedan', lane = 'east_1', s = 20 } "
     "local child = spawn{ name = 'child', model = 'child', lane = 'east_0', s = 20 } "
     "local van = spawn{ name = 'van', model = 'van', driver = 'parked', lane = 'east_1', s = 60 } "
@@ -23,7 +23,7 @@ constexpr const char* everybody =
 
 void expect(const std::vector<Mistake>& table) {
     for (const auto& [body, message] : table)
-        EXPECT_EQ(test::mistake(std::string(everybody) + body),
+        EXPECT_EQ(test::mistake(std::string(cast_of_four) + body),
                   std::string("test.lua:2: ") + message)
             << body;
 }
@@ -76,13 +76,13 @@ TEST(PlacingMistakes, OfTrajectories) {
          "ego:follow(false)"},
     });
     EXPECT_THAT(
-        test::mistake(std::string(everybody) + "ego:follow{ { t = 0, x = 30, y = 0 }, { t = "
+        test::mistake(std::string(cast_of_four) + "ego:follow{ { t = 0, x = 30, y = 0 }, { t = "
                                                "2, x = 40, y = 0 } }"),
         testing::HasSubstr("m from (30.00, 0.00), where the trajectory is at 0.10 s: leave "
                            "out the point at t = 0, so that it begins where 'ego' is, or "
                            "say { teleport = true }"));
     EXPECT_THAT(
-        test::mistake(std::string(everybody) + "car:follow{ { t = 9, x = 100, y = 90 } }"),
+        test::mistake(std::string(cast_of_four) + "car:follow{ { t = 9, x = 100, y = 90 } }"),
         testing::HasSubstr("on no lane that leads its way: driver = 'traffic' has to drive on"));
 }
 
@@ -144,7 +144,7 @@ TEST(PlacingMistakes, OfPlaces) {
 
 /// The message of the first mistake of a script that follows this file.
 std::string mistake_in_csv(const std::string& text) {
-    test::Stage stage(test::running(everybody + std::string("ego:follow 'lead.csv' wait(1)")));
+    test::Stage stage(test::running(cast_of_four + std::string("ego:follow 'lead.csv' wait(1)")));
     world::FileT file;
     file.name = "lead.csv";
     file.text = text;
@@ -176,7 +176,7 @@ TEST(PlacingMistakes, OfFilesNameTheirLine) {
 }
 
 TEST(Follow, ReadsAFileInAnyOrderOfColumns) {
-    test::Stage stage(test::running(everybody + std::string("ego:follow 'lead.csv' wait(1)")));
+    test::Stage stage(test::running(cast_of_four + std::string("ego:follow 'lead.csv' wait(1)")));
     world::FileT file;
     file.name = "lead.csv";
     file.text = "\xef\xbb\xbfy, t ,x,heading_deg\r\n0,1,30,0\r\n0.5, 2, 40,\r\n";

@@ -1,4 +1,4 @@
-#include "world/external/spawns.h"
+#include "world/spawns.h"
 
 namespace reprise::world {
 
