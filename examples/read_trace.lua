@@ -5,7 +5,7 @@ local trace, reprise = arg[1], arg[2] or 'reprise'
 local function rows(fields)
     local pipe = assert(io.popen(("'%s' cat '%s' --format csv --fields %s"):format(reprise, trace, fields)))
     local names = {}
-    for name in pipe:read('l'):gmatch('[^,]+') do names[#names + 1] = name end
+    for heading in pipe:read('l'):gmatch('[^,]+') do names[#names + 1] = heading:match('^%S+') end  -- without its unit
     return function()
         local line = pipe:read('l')
         if not line then return pipe:close() and nil end

@@ -74,3 +74,25 @@ chromium --headless --no-sandbox --window-size=1280,800 --virtual-time-budget=50
     "file://$work/cut_in.html#t=4.2&actor=ego"
 jpeg "$work/show.png" "$here/show.jpg" 1280 80
 [ $# -eq 0 ] || map "$1/Town07.xodr" Town07 900
+
+# The ten scenarios of docs/scenarios.md, each at its instant.
+instants='
+cut_in_timed 4s ego
+ccrs 24s ego
+ccrb 4.5s ego
+occluded_child 7.4s ego
+red_light_runner 8.6s ego
+unprotected_left 7s ego
+overtake_cyclist 10.9s ego
+jam 26s ego
+lane_change_in_rain 8.8s ego
+platoon 20s second
+'
+echo "$instants" | while read -r name at actor; do
+    [ -n "$name" ] || continue
+    $reprise run "scenarios/$name.lua" -o "$work/$name.mcap" >/dev/null
+    $reprise render "$work/$name.mcap" --preset chase --actor "$actor" --overlay --from "$at" --to "$at" \
+        -o "$work/$name" --size 480x270
+done
+montage $(echo "$instants" | while read -r name _; do [ -z "$name" ] || echo "$work/$name"/*.png; done) \
+    -tile 2x -geometry +0+0 "$here/scenarios.jpg"

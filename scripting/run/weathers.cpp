@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <lua.hpp>
 
 #include "scripting/lua/arguments.h"
@@ -136,8 +137,10 @@ SaidWeather preset_weather(const std::string& who, const std::string& name) {
     const world::WeatherPreset* preset = world::find_weather(name);
     if (preset == nullptr)
         refuse(who,
-               fmt::format(
-                   "no weather '{}'{}", name, world::did_you_mean(name, world::weather_names())));
+               fmt::format("no weather '{}'{}; there are {}",
+                           name,
+                           world::did_you_mean(name, world::weather_names()),
+                           fmt::join(world::weather_names(), ", ")));
     return {preset->weather, preset->road_friction, false, preset->name};
 }
 

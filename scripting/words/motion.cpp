@@ -8,6 +8,7 @@
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/text.h"
 #include "scripting/words/handles.h"
+#include "scripting/run/places.h"
 #include "scripting/words/obedience.h"
 #include "scripting/words/vocabulary.h"
 #include "world/models/motion_limits.h"
@@ -239,7 +240,7 @@ std::uint32_t target_lane(Run& run, lua_State* L, const Body& body, const Actor&
     if (target != "left" && target != "right") {
         const std::uint32_t lane = run.lane_named(L, target);
         if (run.town.lanes[lane].kind != world::LaneKind::driving)
-            refuse("change_lane", "'" + target + "' is not a lane for cars");
+            refuse("change_lane", not_for_cars(run.town, run.town.lanes[lane]));
         return lane;
     }
     if (body.lane == world::none)

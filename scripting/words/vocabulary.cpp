@@ -12,8 +12,6 @@
 #include "scripting/lua/text.h"
 #include "scripting/run/caps.h"
 #include "scripting/run/run.h"
-#include "world/check.h"
-#include "world/weather.h"
 
 namespace reprise::scripting {
 
@@ -91,14 +89,6 @@ constexpr Word other_rows[] = {
 }  // namespace
 
 constinit const WordList other_words{Owner::global, "Chance, print", other_rows};
-
-std::string no_weather(const std::string& name) {
-    const std::vector<std::string> names = world::weather_names();
-    return fmt::format("no weather '{}'{}; there are {}",
-                       name,
-                       world::did_you_mean(name, names),
-                       fmt::join(names, ", "));
-}
 
 void add_vocabulary(lua_State* L) {
     add_header_words(L);

@@ -29,9 +29,6 @@ void add_motion_words(lua_State* L);     ///< motion.cpp: of these, speed and la
 void add_equipment_words(lua_State* L);  ///< equipment.cpp: lamps and doors
 void add_placing_words(lua_State* L);    ///< follow.cpp: those that put it somewhere
 
-/// "no weather 'hail'; there are clear_noon, ...", for messages.
-std::string no_weather(const std::string& name);
-
 /// What `driver =` may be, in the order of world::Driver.
 const std::vector<std::string>& driver_names();
 

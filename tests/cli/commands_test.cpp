@@ -329,12 +329,12 @@ TEST(Run, SaysWhoIsBlockedAndDoesNotPass) {
         end })");
     const Result run = reprise({"run", folder / "mine.lua", "-o", folder / "t.mcap"});
     EXPECT_EQ(run.code, 1) << run.out;
-    EXPECT_THAT(run.out, HasSubstr("2 is blocked since "));
+    EXPECT_THAT(run.out, HasSubstr("ego is blocked since "));
     EXPECT_THAT(run.out, HasSubstr(": vehicle 1 is "));
     EXPECT_THAT(run.out, HasSubstr("check failed: blocked: actor 2 since "));
     const Result info = reprise({"info", folder / "t.mcap"});
     EXPECT_THAT(info.out, HasSubstr("blocked"));
-    EXPECT_THAT(info.out, HasSubstr("ego (2) since "));
+    EXPECT_THAT(info.out, HasSubstr("ego since "));
 }
 
 TEST(Programs, TheThinOneLoadsNeitherSumoNorOpenCv) {

@@ -71,7 +71,7 @@ class Drivers : public testing::Test {
 
     void expect_equal(const std::string& trace, std::uint64_t ticks) const {
         EXPECT_THAT(run({"verify", trace}, 0),
-                    testing::HasSubstr(fmt::format("equal at every one of {} ticks", ticks)));
+                    testing::HasSubstr(fmt::format("equal at every one of {} tick", ticks)));
     }
 
     /// A copy of a trace, of `ticks` ticks, that says it ended so.

@@ -42,9 +42,9 @@ TEST_F(TrajectoryFiles, AreInTheTrace) {
 }
 
 TEST_F(TrajectoryFiles, ComeThroughStripAndExpand) {
-    run({"strip", "lead.mcap", "-o", "small.mcap"});
+    run({"strip", "lead.mcap", "--level", "inputs", "-o", "small.mcap"});
     run({"expand", "small.mcap", "-o", "whole.mcap"});
-    EXPECT_EQ(read_file(folder_ / "lead.mcap"), read_file(folder_ / "whole.mcap"));
+    EXPECT_TRUE(read_file(folder_ / "lead.mcap") == read_file(folder_ / "whole.mcap"));
 }
 
 TEST_F(TrajectoryFiles, OfABranchToo) {

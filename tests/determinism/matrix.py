@@ -65,6 +65,8 @@ CURVED = [  # real ones; that our car keeps its lane there is another question, 
     run_recipe(name, SCENARIOS / "free_drive.lua", "--town", NETS / path, "--seed", 7, "--for", 300, ends=(0, 1))
     for name, path in {"city": "DRT/osm.net.xml", "ring_road": "bs3d/bs.net.xml"}.items()
 ]
+# Every scenario that we ship, as it stands; a failed check (1) is an answer, too.
+STORIES = [run_recipe(f"scenario_{path.stem}", path, ends=(0, 1)) for path in sorted(SCENARIOS.glob("*.lua"))]
 # Commands that read a trace and make another thing of it are rows like all others: a recipe with `needs`.
 VERIFIED = Recipe("verified", ("verify", "{short}"), makes="", needs=(SHORT,))
 # Another program drives, here only: everywhere else its controls come from the trace, and make the same bytes again.
@@ -74,7 +76,7 @@ DRIVEN_VERIFIED = Recipe("driven_verified", ("verify", "{driven}"), makes="", ne
 RENDER = ("render", "{short}", "-o", "{out}", "--camera", "rgb,depth,semantic", "--size", "160x120", "--every", "60")
 PICTURES = Recipe("pictures", RENDER, program="reprise-render", makes="/", needs=(SHORT,))
 PORTABLE = Recipe("portable_pictures", (*RENDER, "--portable"), program="reprise-render", makes="/", needs=(SHORT,))
-RECIPES = {recipe.name: recipe for recipe in (SHORT, LONG, *CURVED, VERIFIED, DRIVEN, DRIVEN_AGAIN, DRIVEN_VERIFIED, PICTURES, PORTABLE)}
+RECIPES = {recipe.name: recipe for recipe in (SHORT, LONG, *CURVED, *STORIES, VERIFIED, DRIVEN, DRIVEN_AGAIN, DRIVEN_VERIFIED, PICTURES, PORTABLE)}
 
 
 @dataclass(frozen=True)
@@ -221,6 +223,8 @@ def rows(lab):
     table += [row_of(LONG, each, each.name in ("mask_no_fma", "mask_no_sse4")) for each in masks]
     table += [row_of(LONG, each) for each in around + emulated]
     table += [row_of(recipe, each) for recipe in CURVED for each in masks]
+    table += [row_of(recipe, each, each.name == "mask_no_fma") for recipe in STORIES for each in masks]
+    table += [row_of(recipe, each) for recipe in STORIES for each in around if each.name in ("no_aslr", "loaded")]
     table += [row_of(VERIFIED, each) for each in (PLAIN, *masks, *emulated)]
     table += [repeats(DRIVEN, 3, True)]
     table += [row_of(DRIVEN_AGAIN, each, each.name in ("no_aslr", "malloc_perturb", "one_cpu")) for each in around]

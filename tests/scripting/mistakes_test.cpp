@@ -189,7 +189,7 @@ TEST(Mistakes, OfHandles) {
                {"ego:walk{ to = { 1, 2 } }", "walk: 'ego' is no walker"},
                {"ego:control{}", "control: 'ego' has a driver: spawn it with driver = 'manual'"},
                {"ego:collided('car')",
-                "collided: no kind 'car': 'vehicle', 'walker', 'static' or an actor"},
+                "collided: no kind 'car': 'vehicle', 'walker', 'prop', 'static' or an actor"},
                {"ego:despawn() wait_ticks(2) ego:speed()",
                 "'ego' left the world in tick 2: ask ego:exists() first"},
            });

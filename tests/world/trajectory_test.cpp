@@ -31,9 +31,9 @@ TEST(Trajectory, NeverLeavesTheRangeBetweenTwoPoints) {
         for (double share = 0; share <= 1; share += 0.01) {
             const auto p = way.at(points[i].time() + share).position;
             const auto [low_x, high_x] =
-                std::minmax(points[i].position().x(), points[i + 1].position().x());
+                std::minmax({points[i].position().x(), points[i + 1].position().x()});
             const auto [low_y, high_y] =
-                std::minmax(points[i].position().y(), points[i + 1].position().y());
+                std::minmax({points[i].position().y(), points[i + 1].position().y()});
             EXPECT_GE(p.x(), low_x - 1e-12);
             EXPECT_LE(p.x(), high_x + 1e-12);
             EXPECT_GE(p.y(), low_y - 1e-12);

@@ -131,7 +131,8 @@ TEST(Weather, MistakesNameTheKeyAndTheRange) {
               "test.lua:1: scenario: 'friction' must be in (0, 2], as a factor on dry asphalt's "
               "grip, got 0.0");
     EXPECT_EQ(mistake("weather = { preset = 'clear_non' }"),
-              "test.lua:1: scenario: weather: no weather 'clear_non' (did you mean 'clear_noon'?)");
+              "test.lua:1: scenario: weather: no weather 'clear_non' (did you mean 'clear_noon'?); "
+              "there are clear_noon, hard_rain_sunset");
     EXPECT_EQ(mistake("weather = { { at = 3 } }"),
               "test.lua:1: scenario: weather, entry 1: the first one is the weather at the start: "
               "at = 0, without 'over'");

@@ -213,14 +213,14 @@ TEST(Looks, SayWhatIsWrong) {
     EXPECT_EQ(wrong("ego:around(-1)"), "test.lua:2: around: the distance must be in [0, 1000] m");
     EXPECT_EQ(
         wrong("ego:around(9, { kind = 'walkers' })"),
-        "test.lua:2: around: no kind 'walkers' (did you mean 'walker'?): 'vehicle', 'bicycle' or "
-        "'walker'");
+        "test.lua:2: around: no kind 'walkers' (did you mean 'walker'?): 'vehicle', 'bicycle', "
+        "'walker' or 'prop'");
     EXPECT_EQ(wrong("ego:around(9, { knd = 'walker' })"),
               "test.lua:2: around: unknown key 'knd' (did you mean 'kind'?)");
     EXPECT_THAT(wrong("ego:lateral_gap()"),
                 HasSubstr("test.lua:2: lateral_gap: an actor is needed as argument 2"));
     EXPECT_EQ(wrong("ego:offset 'east_3'"),
-              "test.lua:2: no lane 'east_3' in straight_road (did you mean 'east_0'?)");
+              "test.lua:2: no lane 'east_3' in straight_road (did you mean 'east_1'?)");
     EXPECT_EQ(wrong("ego:offset(3)"), "test.lua:2: offset: the lane must be a string, got 3");
     EXPECT_EQ(wrong("ttc(ego, ego, { same_lain = true })"),
               "test.lua:2: ttc: unknown key 'same_lain' (did you mean 'same_lane'?)");

@@ -134,7 +134,7 @@ TEST_F(RaiseRoads, CarsPassOverAndUnderAtOnePlace) {
     EXPECT_EQ(road->surface, ground::Surface::road);
     for (const towns::Criterion& criterion : towns::check_ground(town, ground))
         EXPECT_TRUE(criterion.passed()) << criterion.name << ": " << criterion.figure;
-    EXPECT_THAT(report_, HasSubstr("1 places where a road passes over another"));
+    EXPECT_THAT(report_, HasSubstr("1 place where a road passes over another"));
 }
 
 TEST_F(RaiseRoads, ABridgeOfAnotherSpeedBecomesATown) {
@@ -148,7 +148,7 @@ TEST_F(RaiseRoads, ABridgeOfAnotherSpeedBecomesATown) {
                      ? 1
                      : 0;
     EXPECT_GT(joins, 0);
-    EXPECT_THAT(report_, HasSubstr("1 places where a road passes over another"));
+    EXPECT_THAT(report_, HasSubstr("1 place where a road passes over another"));
 }
 
 TEST_F(RaiseRoads, RampsCanBeDriven) {
@@ -199,7 +199,7 @@ TEST_F(RaiseRoads, WhatCrossesNothingStaysFlat) {
     map.way({south, map.node(100, -100), map.node(100, 0)}, {{"highway", "residential"}});
     const world::TownT town = import(map.text());
     EXPECT_EQ(town.high.z(), 0);
-    EXPECT_THAT(report_, HasSubstr("1 ways in the map; 0 places"));
+    EXPECT_THAT(report_, HasSubstr("1 way in the map; 0 places"));
 }
 
 /// A grid of streets with bridges and tunnels from corner to corner, much too near to others: over

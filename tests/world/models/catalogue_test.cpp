@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "world/check.h"
+#include "world/models/prop_models.h"
 #include "world/tick.h"
 
 namespace reprise::world {
@@ -15,7 +16,8 @@ TEST(Catalogue, HasSixteenVehiclesAndFiftyWalkersOfDistinctNames) {
     EXPECT_EQ(vehicle_models().size(), 16U);
     EXPECT_EQ(walker_models().size(), 50U);
     const std::vector<std::string> names = model_names();
-    EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 66U);
+    EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(),
+              16U + 50U + prop_models().size());
     for (std::size_t i = 0; i < vehicle_models().size(); ++i)
         EXPECT_EQ(find_vehicle_model(vehicle_models()[i].name), i);
     for (std::size_t i = 0; i < walker_models().size(); ++i)
