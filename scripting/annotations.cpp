@@ -61,6 +61,7 @@ std::string declaration(const WordList& list, const Word& word) {
         text += fmt::format("---@return {}\n", type);
     const char* owner = list.owner == Owner::actor   ? "Actor:"
                         : list.owner == Owner::check ? "check."
+                        : list.owner == Owner::task  ? "Task:"
                                                      : "";
     return text + fmt::format("function {}{}({}) end\n", owner, word.name, names);
 }
@@ -76,6 +77,7 @@ std::string in_cell(std::string_view text) {
 std::string spoken(const WordList& list, const Word& word) {
     const char* owner = list.owner == Owner::actor   ? "ego:"
                         : list.owner == Owner::check ? "check."
+                        : list.owner == Owner::task  ? "task:"
                                                      : "";
     return std::string(owner) + word.name + word.signature;
 }
@@ -91,9 +93,7 @@ std::string annotations() {
         text += key_class(list);
     text +=
         "\n--- Who was spawned.\n---@class Actor\nlocal Actor = {}\n\n"
-        "--- What start() began.\n---@class Task\n---@field done fun(self: Task): boolean\n"
-        "---@field cancel fun(self: Task)\n"
-        "---@field wait fun(self: Task, options?: WaitOptions): boolean\n\ncheck = {}\n";
+        "--- What start() began.\n---@class Task\nlocal Task = {}\n\ncheck = {}\n";
     for (const WordList& list : vocabulary()) {
         text += fmt::format("\n-- {}\n", list.group);
         for (const Word& word : list.words)

@@ -296,7 +296,7 @@ class Lint {
 
     void look_at_method() {
         const std::string name(token().spelling);
-        static const Names of_tasks{"cancel", "done", "wait"};
+        const Names& of_tasks = language_.names.at(Owner::task);
         const Names& ours = language_.names.at(Owner::actor);
         if (of_tasks.count(name) != 0 || is(-3, "function") || ours.count(name) != 0 ||
             fields_given_.count(name) != 0 || libraries_.fields.at("string").count(name) != 0)

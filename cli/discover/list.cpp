@@ -115,6 +115,7 @@ Sheet weather_sheet() {
 std::string said(const scripting::WordList& list, const scripting::Word& word) {
     const char* owner = list.owner == Owner::actor   ? "ego:"
                         : list.owner == Owner::check ? "check."
+                        : list.owner == Owner::task  ? "task:"
                                                      : "";
     return std::string(owner) + word.name;
 }

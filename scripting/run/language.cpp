@@ -5,6 +5,7 @@ namespace reprise::scripting {
 std::vector<WordList> vocabulary() {
     return {header_words,
             task_words,
+            task_methods,
             spawn_words,
             actor_looks,
             sight_words,

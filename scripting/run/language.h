@@ -13,6 +13,7 @@ std::vector<KeyList> vocabulary_keys();
 // Its families, each defined where its words are, and all of them in vocabulary().
 extern const WordList header_words;
 extern const WordList task_words;
+extern const WordList task_methods;
 extern const WordList spawn_words;
 extern const WordList place_words;
 extern const WordList road_words;  ///< road_words.cpp

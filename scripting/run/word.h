@@ -20,8 +20,9 @@ struct Word {
     const char* meaning;  ///< one line, units in brackets
 };
 
-/// Who has the word: everybody (`wait`), an actor (`ego:speed`), the table `check`.
-enum class Owner : std::uint8_t { global, actor, check };
+/// Who has the word: everybody (`wait`), an actor (`ego:speed`), the table `check`, what `start`
+/// gives back (`task:cancel`).
+enum class Owner : std::uint8_t { global, actor, check, task };
 
 /// A family of words.
 struct WordList {

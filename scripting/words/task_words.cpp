@@ -216,17 +216,25 @@ constexpr Word task_rows[] = {
     {"time", bound<time>, "(): number", "[s] of the last tick"},
 };
 
+constexpr Word method_rows[] = {
+    {"done", bound<done>, "(): boolean", "has it ended?"},
+    {"cancel", acting<cancel>, "()", "it runs no more code, from now on"},
+    {"wait",
+     acting<wait_for>,
+     "(options?: WaitOptions): boolean",
+     "until it has ended: true; false after the timeout"},
+};
+
 }  // namespace
 
+constinit const WordList task_methods{Owner::task, "Tasks", method_rows};
 constinit const WordList task_words{Owner::global, "Time", task_rows};
 constinit const KeyList wait_keys{"WaitOptions", "wait_until", wait_key_rows};
 
 void add_task_words(lua_State* L) {
     luaL_newmetatable(L, task_type);
     lua_newtable(L);  // the methods
-    add_function(L, "done", bound<done>);
-    add_function(L, "cancel", acting<cancel>);
-    add_function(L, "wait", acting<wait_for>);
+    add_words(L, task_methods);
     refuse_unknown(L, "a task");
     lua_setfield(L, -2, "__index");
     lua_pushboolean(L, 0);

@@ -111,6 +111,7 @@ TEST(Annotations, DeclareEveryWordWithItsTypes) {
         for (const Word& word : list.words) {
             const char* owner = list.owner == Owner::actor   ? "Actor:"
                                 : list.owner == Owner::check ? "check."
+                                : list.owner == Owner::task  ? "Task:"
                                                              : "";
             EXPECT_THAT(text, HasSubstr(std::string("\nfunction ") + owner + word.name + "("));
         }

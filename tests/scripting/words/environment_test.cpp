@@ -95,7 +95,7 @@ TEST(Weather, GoesTheShorterWayRoundWithTheSun) {
 
 TEST(Weather, FollowsTheHeadersTimeline) {
     test::Stage stage(
-        "return scenario 'test' { weather = { { at = 0, rain_mm_h = 2 }, "
+        "return scenario 'test' { weather = { { at = 0, preset = 'clear_noon' }, "
         "{ at = 0.5, over = 0.2, rain_mm_h = 6 }, { at = 1, preset = 'hard_rain_sunset' } }, "
         "run = function() wait(3) end }");
     std::vector<std::uint64_t> ticks;
@@ -110,6 +110,17 @@ TEST(Weather, FollowsTheHeadersTimeline) {
     EXPECT_EQ(said[3].weather.rain(), 6.0F);
     EXPECT_EQ(said[4].weather, world::find_weather("hard_rain_sunset")->weather);
     EXPECT_EQ(said[4].road_friction, world::find_weather("hard_rain_sunset")->road_friction);
+}
+
+TEST(Weather, OfTheCommandLineHasNoTimeline) {
+    // The stage's episode is clear noon, as `run --weather clear_noon` would make it of this
+    // header.
+    test::Stage stage(
+        "return scenario 'test' { weather = { { at = 0, rain_mm_h = 2 }, { at = 0.5, rain_mm_h = 6 "
+        "} },"
+        " run = function() wait(3) end }");
+    stage.play(40);
+    EXPECT_TRUE(weathers(stage.commands).empty());
 }
 
 TEST(Weather, MistakesNameTheKeyAndTheRange) {
