@@ -17,6 +17,12 @@ class Teller {
   public:
     TraceStory story;
 
+    /// Who was there before the first tick of a slice.
+    void know(std::uint32_t id, const std::string& name) {
+        story.actors.push_back({id, name});
+        heard_.names().know(id, name);
+    }
+
     void hear(const world::TickView& tick) {
         for (world::Crash& crash : heard_.hear(tick))
             add(std::move(crash));
@@ -118,6 +124,9 @@ class Teller {
 
 TraceStory read_story(replay::TraceReader& trace, bool all) {
     Teller teller;
+    if (const auto slice = trace.slice())
+        for (const auto& [id, spawn] : slice->spawns)
+            teller.know(id, spawn.command.text);
     const std::uint64_t ticks = trace.ticks();
     const std::uint64_t first = trace.first();
     teller.story.whole = all || ticks <= 2 * chunk;

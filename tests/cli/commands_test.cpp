@@ -138,6 +138,13 @@ TEST_F(InfoOfACrash, TellsARunOnOneScreen) {
     EXPECT_THAT(reprise({"info", trace_, "--long"}).out, HasSubstr("libsumocpp "));
 }
 
+TEST_F(InfoOfACrash, NamesWhoWasThereBeforeASlice) {
+    ASSERT_EQ(reprise({"slice", trace_, "--ticks", "40..60", "-o", folder_ / "part.mcap"}).code, 0);
+    const Result info = reprise({"info", folder_ / "part.mcap"});
+    EXPECT_THAT(info.out, HasSubstr("ego hits van"));
+    EXPECT_THAT(info.out, HasSubstr("  actors    ego (1), van (2), "));
+}
+
 TEST_F(InfoOfACrash, IsJsonForPrograms) {
     const Result info = reprise({"info", trace_, "--json"});
     EXPECT_EQ(info.code, 0);

@@ -49,6 +49,10 @@ double approach(const Moving& self, const Moving& other) {
 
 }  // namespace
 
+void ActorNames::know(std::uint32_t id, const std::string& name) {
+    named_.insert_or_assign(id, Named{name, true});
+}
+
 void ActorNames::hear(const TickView& tick) {
     if (tick.tick->events() == nullptr)
         return;

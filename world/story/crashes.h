@@ -15,6 +15,9 @@ class ActorNames {
   public:
     void hear(const TickView& tick);
 
+    /// Of who was there before the first tick that is heard.
+    void know(std::uint32_t id, const std::string& name);
+
     /// "ego"; of the demand "a passing hatchback (1000012)"; of id 0 "something fixed".
     std::string name_of(std::uint32_t id) const;
 
@@ -55,6 +58,8 @@ class CrashStory {
     const std::vector<Crash>& open() const { return open_; }
 
     const ActorNames& names() const { return names_; }
+
+    ActorNames& names() { return names_; }
 
   private:
     Crash begun(const Event& event, std::uint64_t tick) const;

@@ -148,7 +148,9 @@ TEST_F(Imports, OutlinesOfSeveralWaysAreClosed) {
     const std::string report =
         import_town({write("rings.osm", map.text()), "", false, false}, empty("t"));
     EXPECT_THAT(report, HasSubstr("buildings: 2 with"));
-    EXPECT_THAT(report, HasSubstr("lost: areas, or parts of them, whose outline does not close in the map: 1"));
+    EXPECT_THAT(
+        report,
+        HasSubstr("lost: areas, or parts of them, whose outline does not close in the map: 1"));
     const Place place = read_place(bytes(folder_ / "t/rings.place.xml"), "rings.place.xml");
     std::multiset<long> areas;
     for (const world::DrawnBuildingT& building : place.buildings) {
