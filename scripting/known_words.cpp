@@ -39,8 +39,7 @@ struct Choices {
 };
 
 Choices choices_of(const Language& language, const std::string& type) {
-    static const Names no_text{
-        "number", "integer", "boolean", "Actor", "Task", "table", "table[]"};
+    static const Names no_text{"number", "integer", "boolean", "Actor", "Task", "table", "table[]"};
     Choices choices;
     for (const std::string& part : split_type(type, '|')) {
         if (part.front() == '\'') {

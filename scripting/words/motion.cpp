@@ -7,8 +7,8 @@
 
 #include "scripting/lua/arguments.h"
 #include "scripting/lua/text.h"
-#include "scripting/words/handles.h"
 #include "scripting/run/places.h"
+#include "scripting/words/handles.h"
 #include "scripting/words/obedience.h"
 #include "scripting/words/vocabulary.h"
 #include "world/models/motion_limits.h"

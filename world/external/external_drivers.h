@@ -1,7 +1,7 @@
 #pragma once
 
-#include "world/spawns.h"
 #include "world/recording.h"
+#include "world/spawns.h"
 #include "world/tick.h"
 
 namespace reprise::world {

@@ -77,7 +77,7 @@ TEST(PlacingMistakes, OfTrajectories) {
     });
     EXPECT_THAT(
         test::mistake(std::string(cast_of_four) + "ego:follow{ { t = 0, x = 30, y = 0 }, { t = "
-                                               "2, x = 40, y = 0 } }"),
+                                                  "2, x = 40, y = 0 } }"),
         testing::HasSubstr("m from (30.00, 0.00), where the trajectory is at 0.10 s: leave "
                            "out the point at t = 0, so that it begins where 'ego' is, or "
                            "say { teleport = true }"));
