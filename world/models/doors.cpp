@@ -1,6 +1,7 @@
 #include "world/models/doors.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace reprise::world {
 
@@ -44,7 +45,7 @@ DoorLeaf door_leaf(const VehicleModel& model,
     // Shut it points backwards along the side, and swings outwards.
     const Eigen::Isometry3d at_hinge =
         pose_vehicle * Eigen::Translation3d(hinge, side * (model.width / 2 - thickness / 2), 0);
-    const double yaw = side * (EIGEN_PI - angle);
+    const double yaw = side * (std::numbers::pi - angle);
     DoorLeaf leaf{at_hinge, {length / 2, thickness / 2, (top - sill) / 2}};
     leaf.pose = at_hinge * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
                 Eigen::Translation3d(length / 2, 0, (top + sill) / 2);
