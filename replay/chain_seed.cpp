@@ -37,6 +37,12 @@ world::Digest128 chain_seed(const world::Recording& recording) {
     hasher.add(episode.substeps);
     hasher.add(episode.max_ticks);
     hasher.add(episode.cars);
+    if (episode.walkers != 0) {  // runs without them have the seeds that they always had
+        hasher.add_text("walkers");
+        hasher.add(episode.walkers);
+        hasher.add(episode.walker_seed);
+        hasher.add(episode.jaywalkers);
+    }
     hasher.add(episode.road_friction);
     hasher.add(episode.weather);
     hasher.add_text(episode.weather_name);

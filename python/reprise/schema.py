@@ -1,6 +1,6 @@
 """Made by make_schema.py from world/*.fbs, remote/wire.fbs and world/models/vehicle_models.cpp: change those."""
 
-DIGEST = "7f0c4b6b0e319934"
+DIGEST = "019213e9a560f8dc"
 
 # name: (type, values)
 ENUMS = {'remote.Kind': ('uint',
@@ -27,7 +27,16 @@ ENUMS = {'remote.Kind': ('uint',
                       'not_evaluated': 6,
                       'finished': 7,
                       'blocked': 8,
-                      'collision_ended': 9}),
+                      'collision_ended': 9,
+                      'ran_red_light': 10,
+                      'ran_stop_sign': 11,
+                      'on_opposite_lane': 12,
+                      'on_sidewalk': 13,
+                      'left_road': 14,
+                      'speeding': 15,
+                      'wrong_way': 16,
+                      'wrecked': 17,
+                      'backed_off': 18}),
  'world.CommandKind': ('ubyte',
                        {'spawn': 0,
                         'despawn': 1,
@@ -436,7 +445,10 @@ TABLES = {'remote.Hello': {'version': (0, 'uint'),
                    'town_path': (15, 'string'),
                    'branches': (16, '[Branch]'),
                    'imported_from': (17, 'string'),
-                   'files': (18, '[File]')}}
+                   'files': (18, '[File]'),
+                   'walkers': (19, 'uint'),
+                   'walker_seed': (20, 'ulong'),
+                   'jaywalkers': (21, 'double')}}
 
 # Of the catalogue, which a tick's `model` is an index of: name, length, width, rear bumper to rear axle [m]
 VEHICLES = [('sedan', 4.7, 1.82, 1.0),
