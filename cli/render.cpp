@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/options/tick_option.h"
+#include "cli/options/tick_range.h"
 #include "cli/pictures/annotation.h"
 #include "cli/pictures/cameras.h"
 #include "cli/pictures/picture_output.h"
@@ -24,10 +25,10 @@ namespace {
 Ticks ticks_to_render(const RenderOptions& options, const replay::TraceReader& trace) {
     const std::uint64_t step_ns = trace.episode().step_ns;
     const bool film = !film_ending(options.output).empty();
+    const TickRange range = parse_ticks("--ticks", options.ticks, trace);
     Ticks ticks;
-    ticks.from =
-        std::max(trace.first(), parse_tick("--from", options.from, step_ns, trace.first()));
-    ticks.to = std::min(trace.last(), parse_tick("--to", options.to, step_ns, trace.last()));
+    ticks.from = std::max(range.first, parse_tick("--from", options.from, step_ns, range.first));
+    ticks.to = std::min(range.last, parse_tick("--to", options.to, step_ns, range.last));
     const std::string usual = film ? "1" : "1s";
     ticks.every = parse_tick("--every", options.every.empty() ? usual : options.every, step_ns, 0);
     if (ticks.every < 1)

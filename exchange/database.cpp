@@ -132,6 +132,8 @@ struct Database::Connection {
             for (const auto& one : tables)
                 names.insert(names.end(), one->table.columns().begin(), one->table.columns().end());
             suggestion = world::did_you_mean(column, names);
+            if (column == "lane_s")  // as records call it, each of another point
+                suggestion = " (it is rear_axle_s or front_s [m], of the front bumper)";
             if (suggestion.empty())
                 suggestion = "; without a statement, `reprise query T.mcap` lists the columns";
         }

@@ -28,6 +28,17 @@ CLI::Validator one_of(std::vector<std::string> words, const std::string& what) {
         "");
 }
 
+void add_ticks(CLI::App& command, std::string& ticks) {
+    command
+        .add_option("--ticks", ticks, "Only these, such as 100..200, 2.5s.. or ..10s (default all)")
+        ->type_name("A..B");
+}
+
+void add_actor(CLI::App& command, std::string& actor) {
+    command.add_option("--actor", actor, "Only what belongs to this actor: its name or its id")
+        ->type_name("NAME");
+}
+
 CLI::Validator whole_number() {
     return CLI::Validator(
         [](std::string& text) -> std::string {

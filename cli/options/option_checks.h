@@ -4,8 +4,9 @@
 #include <vector>
 
 namespace CLI {
+class App;
 class Validator;
-}
+}  // namespace CLI
 
 namespace reprise::cli {
 
@@ -14,6 +15,10 @@ std::string joined(const std::vector<std::string>& words);
 
 /// Accepts only words of the list, and suggests the nearest.
 CLI::Validator one_of(std::vector<std::string> words, const std::string& what);
+
+/// Adds --ticks A..B and --actor NAME: one spelling wherever ticks and an actor are chosen.
+void add_ticks(CLI::App& command, std::string& ticks);
+void add_actor(CLI::App& command, std::string& actor);
 
 /// Decimal digits only: what CLI11 reads as a number may also be octal, negative or too large.
 CLI::Validator whole_number();

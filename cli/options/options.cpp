@@ -37,6 +37,25 @@ void check_command(const CLI::App& app, const std::string& word) {
                            CLI::ExitCodes::ExtrasError);
 }
 
+/// " (did you mean '--ticks'?)" for the first word that looks like an option and is none of its
+/// command's.
+std::string option_meant(const CLI::App& app, int argc, char** argv) {
+    const CLI::App* command = &app;
+    while (!command->get_subcommands().empty())
+        command = command->get_subcommands().front();
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command->get_options())
+        for (const std::string& name : option->get_lnames())
+            names.push_back("--" + name);
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const std::string name = word.substr(0, word.find('='));
+        if (name.starts_with("--") && std::find(names.begin(), names.end(), name) == names.end())
+            return world::did_you_mean(name, names);
+    }
+    return "";
+}
+
 }  // namespace
 
 struct CommandLine::App {
@@ -96,9 +115,12 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0)
             return app.exit(error);
+        const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+        const std::string text =
+            error.what() + (extra ? option_meant(app, argc, argv) : std::string());
         std::fprintf(stderr,
                      "reprise: %s (reprise --help says more)\n",
-                     world::printable_lines(error.what()).c_str());
+                     world::printable_lines(text).c_str());
         return 2;
     }
     command = app.get_subcommands().front()->get_name();

@@ -170,9 +170,10 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
             "--fov", render.fov_deg, "Horizontal field of view (default 90; of a preset its own)")
         ->type_name("DEGREES")
         ->check(CLI::Range(1.0, 170.0));
-    command.add_option("--from", render.from, "First tick, or time such as 2.5s")
-        ->type_name("TICK");
-    command.add_option("--to", render.to, "Last tick, or time")->type_name("TICK");
+    add_ticks(command, render.ticks);
+    // As ticks were chosen before: they go on working, and nobody is told of them.
+    command.add_option("--from", render.from)->group("");
+    command.add_option("--to", render.to)->group("");
     command
         .add_option("--every",
                     render.every,
@@ -220,6 +221,8 @@ void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions&
     check_cameras(render.cameras);
     check_preset(command, render);
     check_output(render.output);
+    if (command.count("--ticks") > 0 && command.count("--from") + command.count("--to") > 0)
+        throw CLI::ValidationError("--ticks", "says what --from and --to said: without these");
     render.heading_up = words.up == "heading";
     for (const char* option :
          {"--camera", "--size", "--fov", "--mount", "--pitch", "--yaw", "--preset"})

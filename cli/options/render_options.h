@@ -20,7 +20,8 @@ struct RenderOptions {
     int width = 800;
     int height = 600;
     std::optional<double> fov_deg;
-    std::string from;   ///< tick, or seconds with an s behind; empty: the first
+    std::string ticks;  ///< A..B; empty: all
+    std::string from;   ///< as it was said before --ticks: tick or time; empty: the first
     std::string to;     ///< likewise; empty: the last
     std::string every;  ///< empty: as the rig does; without one 1s, of a film each tick
     std::string actor;  ///< its name or its id; empty: the first physics vehicle

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/options/option_checks.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -26,17 +27,6 @@ CLI::Validator word_of(std::vector<std::string> words) {
             return "'" + word + "' is none of " + all + world::did_you_mean(word, words);
         },
         "");
-}
-
-void add_ticks(CLI::App& command, std::string& ticks) {
-    command
-        .add_option("--ticks", ticks, "Only these, such as 100..200, 2.5s.. or ..10s (default all)")
-        ->type_name("A..B");
-}
-
-void add_actor(CLI::App& command, std::string& actor) {
-    command.add_option("--actor", actor, "Only what belongs to this actor: its name or its id")
-        ->type_name("NAME");
 }
 
 void add_cat(CLI::App& app, CatOptions& cat) {
@@ -142,6 +132,7 @@ void add_export(CLI::App& app, ExportOptions& options) {
         ->required()
         ->type_name("PATH");
     add_ticks(command, options.ticks);
+    add_actor(command, options.actor);
     command
         .add_option("--every",
                     options.every,

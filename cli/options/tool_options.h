@@ -53,6 +53,7 @@ struct ExportOptions {
     std::string format;
     std::string output;
     std::string ticks;
+    std::string actor;   ///< csv and jsonl: name or id; empty: all
     std::string every;   ///< empty: every tick; foxglove: 0.1s
     std::string images;  ///< foxglove only
 };

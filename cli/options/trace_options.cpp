@@ -62,6 +62,7 @@ void add_diff(CLI::App& app, DiffOptions& diff) {
                            : "expected a number of 0 or more such as 1e-6, got '" + text + "'";
             },
             ""));
+    add_actor(command, diff.actor);
     command.add_flag("--json", diff.json, "For programs: one JSON object");
     command.add_flag("--all", diff.all, "Every field in which the first differing tick differs");
     command.footer("Exit status: 0 equal (within the tolerance), 1 different, 2 bad input.");

@@ -26,6 +26,7 @@ struct DiffOptions {
     std::string expected;
     std::string found;
     std::optional<double> tolerance;
+    std::string actor;  ///< name or id; empty: all
     bool json = false;
     bool all = false;  ///< every differing field of the first differing tick
 };

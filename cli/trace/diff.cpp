@@ -10,8 +10,11 @@
 #include "cli/process/guard.h"
 #include "cli/process/reproduce.h"
 #include "cli/process/say.h"
+#include "replay/compare/actor_comparison.h"
 #include "replay/compare/divergence.h"
+#include "replay/table/actor_search.h"
 #include "replay/trace_reader.h"
+#include "world/check.h"
 #include "world/digest.h"
 #include "world/story/wording.h"
 
@@ -44,7 +47,26 @@ struct Comparison {
     std::optional<replay::Divergence> divergence;
     std::optional<replay::Tolerance> tolerance;  ///< what was given, and the largest within it
     std::vector<replay::StageDifference> all;    ///< when they were asked for
+    std::optional<std::uint32_t> actor;          ///< whom alone it is about
 };
+
+/// Who has that name or id in both traces.
+std::uint32_t same_actor(const DiffOptions& options,
+                         replay::TraceReader& expected,
+                         replay::TraceReader& found) {
+    const std::uint32_t id = replay::find_actor(expected, options.actor);
+    const std::uint32_t other = replay::find_actor(found, options.actor);
+    if (id != other)
+        throw world::Error(
+            fmt::format("--actor {}: that is {} in {} and {} in {}, and actors are "
+                        "compared by their id",
+                        options.actor,
+                        id,
+                        options.expected,
+                        other,
+                        options.found));
+    return id;
+}
 
 /// All that differs in the tick of the divergence, when both runs have it.
 std::vector<replay::StageDifference> all_of(const Comparison& result,
@@ -53,6 +75,11 @@ std::vector<replay::StageDifference> all_of(const Comparison& result,
     const std::uint64_t tick = result.divergence->tick;
     if (tick == 0 || tick > std::min(expected.ticks(), found.ticks()))
         return {};
+    if (result.actor)
+        return replay::all_differences(
+            replay::ActorTick(expected.recorded(tick), *result.actor).view(),
+            replay::ActorTick(found.recorded(tick), *result.actor).view(),
+            result.tolerance);
     return replay::all_differences(expected.recorded(tick), found.recorded(tick), result.tolerance);
 }
 
@@ -60,9 +87,14 @@ Comparison compare(const DiffOptions& options,
                    replay::TraceReader& expected,
                    replay::TraceReader& found) {
     Comparison result;
-    if (options.tolerance) {
+    if (options.tolerance)
         result.tolerance.emplace(replay::Tolerance{*options.tolerance});
-        result.divergence = replay::compare(expected, found, *result.tolerance);
+    replay::Tolerance* const tolerance = result.tolerance ? &*result.tolerance : nullptr;
+    if (!options.actor.empty()) {
+        result.actor = same_actor(options, expected, found);
+        result.divergence = replay::compare(expected, found, *result.actor, tolerance);
+    } else if (tolerance != nullptr) {
+        result.divergence = replay::compare(expected, found, *tolerance);
     } else {
         result.divergence = replay::compare(expected, found);
     }
@@ -97,27 +129,35 @@ void print_all(const Comparison& result) {
             field.distance.empty() ? "" : "  (" + field.distance + ")");
 }
 
-void print_text(const Comparison& result,
+void print_text(const DiffOptions& options,
+                const Comparison& result,
                 replay::TraceReader& expected,
                 replay::TraceReader& found) {
+    const std::string about = result.actor ? options.actor + " is " : "";
     if (result.divergence) {
         const std::string branched = replay::branch_text(expected.episode(), found.episode());
         if (!branched.empty() && result.divergence->tick > 0)
-            say("equal for {}; {}; first difference:\n",
+            say("{}equal for {}; {}; first difference:\n",
+                about,
                 world::count_of(result.divergence->tick - 1, "tick"),
                 branched);
         else
-            say("different\n");
+            say("{}different\n", about);
         say_lines(to_text(*result.divergence, expected.episode().step_ns));
         if (!result.all.empty())
             print_all(result);
     } else if (result.tolerance) {
-        say("equal within tolerance {:g}: {}, {}\n",
+        say("{}equal within tolerance {:g}: {}, {}\n",
+            about,
             result.tolerance->bound,
             world::count_of(expected.ticks(), "tick"),
             largest(*result.tolerance));
         if (const std::string note = start_difference(expected, found); !note.empty())
             say("  note      {}\n", note);
+    } else if (result.actor) {
+        say("{}equal: {}\n",
+            about,
+            world::count_of(std::min(expected.ticks(), found.ticks()), "tick"));
     } else {
         say("equal: {}, chain {}\n",
             world::count_of(expected.ticks(), "tick"),
@@ -179,6 +219,8 @@ void print_json(const DiffOptions& options,
          replay::build_differences(expected.episode().fingerprint, found.episode().fingerprint))
         out["builds"].push_back(
             {{"key", line.key}, {"expected", line.expected}, {"found", line.found}});
+    if (result.actor)
+        out["actor"] = {{"name", options.actor}, {"id", *result.actor}};
     if (result.tolerance)
         out["tolerance"] = {{"bound", result.tolerance->bound},
                             {"largest", result.tolerance->largest},
@@ -208,7 +250,7 @@ int diff(const DiffOptions& options) {
     if (options.json)
         print_json(options, result, expected, found);
     else
-        print_text(result, expected, found);
+        print_text(options, result, expected, found);
     return result.divergence ? exit_differs : exit_good;
 }
 

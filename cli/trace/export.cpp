@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include "cli/process/say.h"
 #include "cli/trace/level_note.h"
 #include "exchange/foxglove.h"
+#include "replay/table/actor_search.h"
 #include "replay/table/json_lines.h"
 #include "replay/table/kept.h"
 #include "replay/table/table.h"
@@ -33,24 +35,39 @@ struct TableFile {
     std::unique_ptr<Output> output;
 };
 
-/// Files of those tables of which the trace has anything.
+using Actor = std::optional<std::uint32_t>;  ///< nobody: all
+
+/// Lanes and actors; of one actor its row.
+void export_whole_tables(replay::TraceReader& trace, const Actor& actor, const fs::path& folder) {
+    for (const std::string& name : replay::whole_table_names()) {
+        replay::WholeTable table = read_whole_table(trace, name);
+        if (actor && name == "actors")
+            std::erase_if(table.rows, [&](const std::vector<replay::Value>& row) {
+                return row.front() != replay::Value(std::int64_t{*actor});
+            });
+        Output output((folder / (name + ".csv")).string());
+        output.text = to_csv(table);
+        output.finish();
+    }
+}
+
+/// Files of those tables of which the trace has anything; of one actor those that tell of actors.
 void export_csv(replay::TraceReader& trace,
                 const TickRange& range,
                 std::uint64_t every,
+                const Actor& actor,
                 const fs::path& folder) {
     NewFolder made(folder);
-    for (const std::string& name : replay::whole_table_names()) {
-        Output output((folder / (name + ".csv")).string());
-        output.text = to_csv(read_whole_table(trace, name));
-        output.finish();
-    }
+    export_whole_tables(trace, actor, folder);
     world::ActorNames names;
     std::vector<TableFile> files;
     for (const std::string& name : replay::Table::names()) {
-        if (kept(trace.level(), name) == replay::Kept::nothing)
+        if (kept(trace.level(), name) == replay::Kept::nothing ||
+            (actor && !replay::Table::has_actors(name)))
             continue;
         TableFile file{
-            replay::Table(name, {}, trace.episode().step_ns, {&trace.recording().town, &names}),
+            replay::Table(
+                name, {{}, actor}, trace.episode().step_ns, {&trace.recording().town, &names}),
             std::make_unique<Output>((folder / (name + ".csv")).string())};
         append_csv_header(file.table, file.output->text);
         files.push_back(std::move(file));
@@ -76,8 +93,9 @@ void export_csv(replay::TraceReader& trace,
 void export_jsonl(replay::TraceReader& trace,
                   const TickRange& range,
                   std::uint64_t every,
+                  const Actor& actor,
                   const std::string& path) {
-    const replay::JsonLines lines({}, trace.episode().step_ns);
+    const replay::JsonLines lines({{}, actor}, trace.episode().step_ns);
     Output output(path);
     for (std::uint64_t index = range.first; index <= range.last; index += every) {
         const replay::RecordedTick tick = trace.recorded(index);
@@ -118,6 +136,8 @@ int export_trace(const ExportOptions& options) {
     refuse_overwriting(options.trace, options.output);
     if (options.format != "foxglove" && !options.images.empty())
         throw world::Error("--images: only --to foxglove takes pictures");
+    if (options.format == "foxglove" && !options.actor.empty())
+        throw world::Error("--actor: only of --to csv and --to jsonl; scenes show everybody");
     replay::TraceReader trace(options.trace);
     const TickRange range = parse_ticks("--ticks", options.ticks, trace);
     const std::uint64_t every = interval(options, trace.episode().step_ns);
@@ -125,11 +145,14 @@ int export_trace(const ExportOptions& options) {
         export_foxglove(trace, range, every, options);
         return exit_good;
     }
+    Actor actor;
+    if (!options.actor.empty())
+        actor = replay::find_actor(trace, options.actor);
     print_level_note(trace);
     if (options.format == "csv")
-        export_csv(trace, range, every, options.output);
+        export_csv(trace, range, every, actor, options.output);
     else
-        export_jsonl(trace, range, every, options.output);
+        export_jsonl(trace, range, every, actor, options.output);
     say(stderr,
         "{}: {}\n",
         options.output,

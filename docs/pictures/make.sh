@@ -40,7 +40,7 @@ town2 8 shops 560 0,3,3.2 14 -1 72
 '
 
 picture() {  # one line of spots
-    $reprise render "$work/$1.mcap" -o "$work/frames" --weather clear_noon --actor "$2" --from "$4" --to "$4" \
+    $reprise render "$work/$1.mcap" -o "$work/frames" --weather clear_noon --actor "$2" --ticks "$4" \
         --mount="$5" --yaw="$6" --pitch="$7" --fov "$8" --size 1600x900
     jpeg "$work/frames/$(printf %06d "$4").png" "$here/$1_$3.jpg" 1200 82
     rm -r "$work/frames"
@@ -61,7 +61,7 @@ cd "$here/../.."
 
 $reprise run scenarios/child_runs_out.lua -o "$work/child.mcap"
 for preset in chase top driver orbit; do
-    $reprise render "$work/child.mcap" -o "$work/$preset" --preset $preset --overlay --size 480x360 --from 106t --to 106t
+    $reprise render "$work/child.mcap" -o "$work/$preset" --preset $preset --overlay --size 480x360 --ticks 106t
 done
 montage "$work"/chase/*.png "$work"/top/*.png "$work"/driver/*.png "$work"/orbit/*.png \
     -tile 2x -geometry 480x360 -strip -quality 80 "$here/presets.jpg"
@@ -91,7 +91,7 @@ platoon 20s second
 echo "$instants" | while read -r name at actor; do
     [ -n "$name" ] || continue
     $reprise run "scenarios/$name.lua" -o "$work/$name.mcap" >/dev/null
-    $reprise render "$work/$name.mcap" --preset chase --actor "$actor" --overlay --from "$at" --to "$at" \
+    $reprise render "$work/$name.mcap" --preset chase --actor "$actor" --overlay --ticks "$at" \
         -o "$work/$name" --size 480x270
 done
 montage $(echo "$instants" | while read -r name _; do [ -z "$name" ] || echo "$work/$name"/*.png; done) \

@@ -1,6 +1,6 @@
 -- Every pedestrian of the catalogue, as pedestrians.jpg shows them:
 --     reprise run docs/pictures/pedestrians.lua --town docs/pictures/plaza.net.xml -o p.mcap
---     reprise render p.mcap -o p --from 40 --to 40 --actor 1 --mount=-29,0,3.2 --yaw 180 --pitch -11 \
+--     reprise render p.mcap -o p --ticks 40 --actor 1 --mount=-29,0,3.2 --yaw 180 --pitch -11 \
 --         --size 1800x620 --fov 58
 return scenario 'pedestrians' {
     town = 'plaza', duration = 3, seed = 14,

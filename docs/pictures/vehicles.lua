@@ -1,6 +1,6 @@
 -- Every vehicle of the catalogue side by side, as vehicles.jpg shows them:
 --     reprise run docs/pictures/vehicles.lua --town docs/pictures/plaza.net.xml -o v.mcap
---     reprise render v.mcap -o v --from 2 --to 2 --actor 1 --mount=-27.5,1,4.2 --yaw 180 --pitch -7 \
+--     reprise render v.mcap -o v --ticks 2 --actor 1 --mount=-27.5,1,4.2 --yaw 180 --pitch -7 \
 --         --size 1800x440 --fov 68
 return scenario 'vehicles' {
     town = 'plaza', duration = 3, seed = 14,

@@ -36,6 +36,14 @@ def add_names(trace: Trace, noun: str, table: np.ndarray, columns: dict[str, Any
         sizes = np.array([row[1:] for row in schema.VEHICLES])[models]
         columns["model_name"] = [schema.VEHICLES[model][0] for model in models]
         columns["length [m]"], columns["width [m]"] = sizes[:, 0], sizes[:, 1]
+    if noun == "vehicles":
+        measured = trace.table("measurements")  # one for each vehicle, in the same order
+        if not np.array_equal(table["id"], measured["actor"]):
+            return
+        lanes = [lane.name for lane in trace.town.lanes]
+        columns["lane_name"] = [lanes[lane] if lane < len(lanes) else None for lane in measured["lane"]]
+        columns["rear_axle_s [m]"] = measured["lane_s"]
+        columns["front_s [m]"] = measured["lane_s"] + sizes[:, 0] - sizes[:, 2]
     if noun in ("measurements", "cars"):
         lanes = [lane.name for lane in trace.town.lanes]
         columns["lane_name"] = [lanes[lane] if lane < len(lanes) else None for lane in table["lane"]]

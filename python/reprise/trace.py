@@ -254,7 +254,7 @@ class Trace:
         """A PNG of one tick, made by `reprise render`; options as its own: size='400x300', mount='1,0,1.4', actor=2."""
         with tempfile.TemporaryDirectory() as folder:
             command = [reprise, "render", str(self.path), "-o", f"{folder}/out", "--camera", camera]
-            command += ["--from", str(tick), "--to", str(tick)] + (["--weather", weather] if weather else [])
+            command += ["--ticks", str(tick)] + (["--weather", weather] if weather else [])
             for name, value in options.items():
                 command += [f"--{name}", str(value)]
             done = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -133,6 +133,26 @@ Value rear_axle_s(const TableNames&, const RecordedTick& tick, const void* eleme
     });
 }
 
+// Where a vehicle with mass is along its lane: what is measured of it in the same tick.
+const Measurement* measured(const RecordedTick& tick, const void* vehicle) {
+    return world::find(tick.view.measurements(), as<VehicleState>(vehicle).id());
+}
+
+Value lane_of_vehicle(const TableNames& names, const RecordedTick& tick, const void* element) {
+    const Measurement* found = measured(tick, element);
+    return found == nullptr ? Value() : lane_name<Measurement>(names, tick, found);
+}
+
+Value rear_axle_of_vehicle(const TableNames&, const RecordedTick& tick, const void* element) {
+    const Measurement* found = measured(tick, element);
+    return found == nullptr ? Value() : Value(found->lane_s());
+}
+
+Value front_of_vehicle(const TableNames& names, const RecordedTick& tick, const void* element) {
+    const Measurement* found = measured(tick, element);
+    return found == nullptr ? Value() : front_s(names, tick, found);
+}
+
 constexpr std::string_view rear_axle_column = "rear_axle_s";
 constexpr std::string_view front_column = "front_s";
 
@@ -141,7 +161,10 @@ std::vector<Derived> all_columns(std::string_view table) {
         return {{"name", name<VehicleState>},
                 {"model_name", model_name<VehicleState>},
                 {"length", length<VehicleState>},
-                {"width", width<VehicleState>}};
+                {"width", width<VehicleState>},
+                {"lane_name", lane_of_vehicle},
+                {std::string(rear_axle_column), rear_axle_of_vehicle},
+                {std::string(front_column), front_of_vehicle}};
     if (table == "measurements")
         return {{"name", name<Measurement>},
                 {"model_name", model_name<Measurement>},

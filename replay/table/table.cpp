@@ -189,6 +189,17 @@ bool Table::is_of_traffic(const std::string& name) {
     return list_of(name).owner == world::TrafficTypeTable();
 }
 
+bool Table::has_actors(const std::string& name) {
+    const List list = list_of(name);
+    if (list.owner == nullptr)
+        return false;
+    std::vector<bool> used;
+    const std::vector<Shape> shapes = shapes_of(*list.owner, {{list.field}, {}}, used);
+    return std::any_of(shapes.begin(), shapes.end(), [&](const Shape& shape) {
+        return shape.field.name == list.field && !shape.actors.empty();
+    });
+}
+
 Table::Table(const std::string& name,
              const Selection& selection,
              std::uint64_t step_ns,

@@ -27,6 +27,9 @@ class Table {
     /// Whether its rows lie in /sim/traffic.
     static bool is_of_traffic(const std::string& name);
 
+    /// Whether its rows belong to actors.
+    static bool has_actors(const std::string& name);
+
     /// Throws world::Error for a table or field that there is not. What `names` borrows must
     /// outlive it; without them the columns with names of actors and lanes are missing.
     Table(const std::string& name,

@@ -36,10 +36,8 @@ class Rendering : public testing::Test {
                                        weather,
                                        "--size",
                                        "320x240",
-                                       "--from",
-                                       "40",
-                                       "--to",
-                                       "80",
+                                       "--ticks",
+                                       "40..80",
                                        "--every",
                                        "40"});
         EXPECT_EQ(result.code, 0) << result.out;
@@ -59,10 +57,8 @@ class Rendering : public testing::Test {
                                        "hard_rain_sunset",
                                        "--size",
                                        "160x120",
-                                       "--from",
-                                       "40",
-                                       "--to",
-                                       "80",
+                                       "--ticks",
+                                       "40..80",
                                        "--every",
                                        "40"};
         words.insert(words.end(), more.begin(), more.end());
@@ -91,6 +87,26 @@ TEST_F(Rendering, GeometryIsEqualUnderEveryWeatherAndColourIsNot) {
         }
     }
     EXPECT_TRUE(trace == read_file(folder_ / "t.mcap")) << "rendering touched the trace";
+}
+
+TEST_F(Rendering, TicksAreChosenAsEverywhereAndAsTheyWereBefore) {
+    const auto files = [&](const std::vector<std::string>& more, int code = 0) {
+        const Folder out;
+        std::vector<std::string> words{
+            "render", folder_ / "t.mcap", "-o", out.path().string(), "--size", "32x24"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Result result = reprise(words);
+        EXPECT_EQ(result.code, code) << result.out;
+        return code == 0 ? testing::PrintToString(out.files()) : result.out;
+    };
+    const std::string some = files({"--ticks", "2s..3s", "--every", "10"});
+    EXPECT_THAT(some, testing::HasSubstr("000060.png"));
+    EXPECT_EQ(some, files({"--from", "40", "--to", "60", "--every", "10"}));
+    EXPECT_EQ(files({"--ticks", "50"}), "{ \"000050.png\" }");
+    EXPECT_THAT(files({"--ticks", "40..60", "--to", "60"}, 2),
+                testing::HasSubstr("--ticks: says what --from and --to said: without these"));
+    EXPECT_THAT(files({"--ticks", "90000.."}, 2), testing::HasSubstr("no such ticks"));
+    EXPECT_THAT(reprise({"render", "--help"}).out, testing::Not(testing::HasSubstr("--from")));
 }
 
 TEST_F(Rendering, WorksInAnEmptyFolder) {

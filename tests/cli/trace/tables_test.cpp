@@ -1,7 +1,9 @@
 // Tables that a person reads: names, units, lengths, one reference point.
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 #include <gmock/gmock.h>
 
@@ -174,6 +176,108 @@ TEST_F(Tables, AnExportHasThemToo) {
     EXPECT_EQ(result.code, 0) << result.out;
     for (const char* name : {"lanes", "actors", "vehicles", "events"})
         EXPECT_GT(rows_of(read_file(*folder / "out/" + name + ".csv")).size(), 1U) << name;
+}
+
+TEST_F(Tables, VehiclesTellWhereTheyAreAlongTheirLaneAsMeasurementsDo) {
+    const Row body = row("vehicles", "ego");
+    const Row measured = row("measurements", "ego");
+    for (const char* column : {"lane_name", "rear_axle_s [m]", "front_s [m]"}) {
+        ASSERT_TRUE(body.contains(column)) << column;
+        EXPECT_EQ(body.at(column), measured.at(column)) << column;
+    }
+    const Result sql =
+        reprise({"query", "a.mcap", "select lane_name, front_s - rear_axle_s > 2 from vehicles"},
+                folder->path());
+    EXPECT_THAT(sql.out, HasSubstr("east_1,1\n"));
+    const Result old = reprise({"query", "a.mcap", "select lane_s from vehicles"}, folder->path());
+    EXPECT_EQ(old.code, 2);
+    EXPECT_THAT(old.out, HasSubstr("no such column: lane_s (it is rear_axle_s or front_s [m]"));
+}
+
+TEST_F(Tables, AnExportOfOneActorHasItsRowsOnly) {
+    const auto made = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"export", "a.mcap"};
+        words.insert(words.end(), more.begin(), more.end());
+        return reprise(words, folder->path());
+    };
+    ASSERT_EQ(made({"--to", "csv", "-o", "one", "--actor", "lead"}).code, 0);
+    const auto rows = [&](const std::string& table) {
+        return rows_of(read_file(*folder / ("one/" + table + ".csv")));
+    };
+    EXPECT_EQ(rows("vehicles").size(), 0U) << "lead has no mass";
+    EXPECT_EQ(rows("cars").size(), 60U);
+    for (const Row& car : rows("cars"))
+        EXPECT_EQ(car.at("name"), "lead");
+    ASSERT_EQ(rows("actors").size(), 1U);
+    EXPECT_EQ(rows("actors").front().at("name"), "lead");
+    EXPECT_GT(rows("lanes").size(), 1U) << "what stands behind the numbers";
+    EXPECT_FALSE(std::filesystem::exists(*folder / "one/signals.csv")) << "they are nobody's";
+    // The same rows as those that cat tells.
+    EXPECT_EQ(read_file(*folder / "one/events.csv"), csv({"events", "--actor", "lead"}));
+    ASSERT_EQ(made({"--to", "jsonl", "-o", "one.jsonl", "--actor", "lead"}).code, 0);
+    EXPECT_EQ(read_file(*folder / "one.jsonl"),
+              reprise({"cat", "a.mcap", "--actor", "lead"}, folder->path()).out);
+}
+
+TEST_F(Tables, AnExportOfNobodySaysWhoThereIs) {
+    for (const auto& [format, actor, said] :
+         {std::tuple{"csv", "egon", "no actor 'egon' (did you mean 'ego'?)"},
+          std::tuple{"jsonl", "bicycle", "no actor 'bicycle'; the scenario's are lead, ego"},
+          std::tuple{"foxglove", "ego", "--actor: only of --to csv and --to jsonl"}}) {
+        const Result result = reprise(
+            {"export", "a.mcap", "--to", format, "-o", "nobody", "--actor", actor}, folder->path());
+        EXPECT_EQ(result.code, 2) << format;
+        EXPECT_THAT(result.out, HasSubstr(said)) << format;
+        EXPECT_FALSE(std::filesystem::exists(*folder / "nobody")) << format;
+    }
+}
+
+/// Another seed of the traffic: its cars differ from the start, who stands alone does not.
+TEST_F(Tables, ADiffOfOneActorIsAboutItAlone) {
+    write_file(*folder / "two.lua",
+               "return scenario 'two' { town = 'straight', duration = 3, params = { v = 12 },\n"
+               "run = function(p)\n"
+               "  local far = spawn{ name = 'far', model = 'sedan', driver = 'autopilot',\n"
+               "                     lane = 'east_0', s = 2000, speed = 10 }\n"
+               "  local ego = spawn{ name = 'ego', model = 'sedan', driver = 'autopilot',\n"
+               "                     lane = 'east_1', s = 100, speed = 12 }\n"
+               "  wait(1)\n  ego:set_speed(p.v)\n  wait(9)\nend }");
+    for (const char* v : {"12", "6"})
+        ASSERT_EQ(
+            reprise(
+                {"run", "two.lua", "-o", std::string(v) + ".mcap", "--set", std::string("v=") + v},
+                folder->path())
+                .code,
+            0);
+    const auto diff = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"diff", "12.mcap", "6.mcap"};
+        words.insert(words.end(), more.begin(), more.end());
+        return reprise(words, folder->path());
+    };
+    EXPECT_EQ(diff({}).code, 1);
+    const Result far = diff({"--actor", "far"});
+    EXPECT_EQ(far.code, 0) << far.out;
+    EXPECT_THAT(far.out, HasSubstr("far is equal: 60 ticks\n"));
+    const Result ego = diff({"--actor", "ego"});
+    EXPECT_EQ(ego.code, 1);
+    EXPECT_THAT(ego.out, HasSubstr("ego is different\ntick 21 (1.05 s), stage scenario, ego (2)"));
+    EXPECT_THAT(ego.out, HasSubstr("commands[0].speed"));
+    EXPECT_EQ(diff({"--actor", "2"}).out.substr(2), ego.out.substr(4)) << "by its id";
+    const Result all = diff({"--actor", "ego", "--all"});
+    EXPECT_THAT(all.out, HasSubstr("all differences of tick 21: "));
+    EXPECT_THAT(all.out, testing::Not(HasSubstr("digests.")));
+    EXPECT_EQ(diff({"--actor", "ego", "--tolerance", "1000"}).code, 0);
+    const Result json = diff({"--actor", "far", "--json"});
+    EXPECT_THAT(json.out, HasSubstr("\"result\": \"equal\""));
+    const Result nobody = diff({"--actor", "egon"});
+    EXPECT_EQ(nobody.code, 2);
+    EXPECT_THAT(nobody.out, HasSubstr("no actor 'egon' (did you mean 'ego'?)"));
+}
+
+TEST_F(Tables, AnOptionThatIsNoneNamesTheOneThatIs) {
+    const Result result = reprise({"stats", "a.mcap", "--tick", "3"}, folder->path());
+    EXPECT_EQ(result.code, 2);
+    EXPECT_THAT(result.out, HasSubstr("(did you mean '--ticks'?)"));
 }
 
 /// One spelling of options wherever an actor and ticks are chosen.
