@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <poll.h>
+#include <sstream>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -137,8 +138,23 @@ TEST(Words, OfThePageOfTheVocabularyExist) {
     }
 }
 
+/// Of what the language server reads: Lua, and of each comment its tag.
 TEST(Words, AreDeclaredForEditors) {
-    EXPECT_THAT(reprise({"list", "words", "--luals"}).out, testing::StartsWith("---@meta\n"));
+    const Folder folder;
+    EXPECT_EQ(typed("reprise list words --luals > words.lua && lua5.4 words.lua", folder).code, 0)
+        << "it is Lua, and does nothing";
+    const std::string text = read_file(folder / "words.lua");
+    EXPECT_THAT(text, testing::StartsWith("---@meta\n"));
+    for (const auto& row : nlohmann::json::parse(reprise({"list", "words", "--json"}).out)) {
+        std::string word = row["word"];
+        word.erase(0, word.find_last_of(".:") + 1);
+        EXPECT_THAT(text, ContainsRegex("function [A-Za-z_.:]*" + word + "\\(")) << row;
+    }
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("---@"))
+            EXPECT_THAT(line,
+                        ContainsRegex("^---@(meta|alias|class|field|param|return|type|overload)"));
 }
 
 TEST(New, WritesAScenarioThatRunsPassesAndHasNoMistake) {
