@@ -55,8 +55,9 @@ TEST(List, SaysWhichLaneIsASidewalkAndWhoItsNeighboursAre) {
     for (const json& lane : listed({"lanes", "town1"})) {
         const std::string name = lane["name"];
         EXPECT_NE(name.front(), ':') << "those inside junctions are for --all";
-        if (lane["kind"] == "driving")
+        if (lane["kind"] == "driving") {
             EXPECT_GT(lane["limit_kmh"], 20);
+        }
         if (name == "b1_b2_0") {
             sidewalk = true;
             EXPECT_EQ(lane["kind"], "sidewalk");
@@ -151,10 +152,12 @@ TEST(Words, AreDeclaredForEditors) {
         EXPECT_THAT(text, ContainsRegex("function [A-Za-z_.:]*" + word + "\\(")) << row;
     }
     std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);)
-        if (line.starts_with("---@"))
-            EXPECT_THAT(line,
-                        ContainsRegex("^---@(meta|alias|class|field|param|return|type|overload)"));
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("---@"))
+            continue;
+        EXPECT_THAT(line,
+                    ContainsRegex("^---@(meta|alias|class|field|param|return|type|overload)"));
+    }
 }
 
 TEST(New, WritesAScenarioThatRunsPassesAndHasNoMistake) {
