@@ -22,6 +22,17 @@ bool has_signal(const Link& link) {
     return link.signal() != none;
 }
 
+std::vector<std::uint32_t> lanes_with_signals(const TownT& town) {
+    std::vector<std::uint32_t> lanes;
+    for (std::uint32_t index = 0; index < town.lanes.size(); ++index) {
+        const LaneT& lane = town.lanes[index];
+        if (lane.kind == LaneKind::driving &&
+            std::any_of(lane.links.begin(), lane.links.end(), has_signal))
+            lanes.push_back(index);
+    }
+    return lanes;
+}
+
 /// How badly a lane fits a vehicle there. [m]
 double misfit(const LaneT& lane, const Eigen::Vector3d& p_world, double yaw) {
     const LaneProjection at = project(lane, p_world);
@@ -42,13 +53,12 @@ double misfit(const TownT& town, const Link& link, const Eigen::Vector3d& p_worl
 
 }  // namespace
 
-StopLines::StopLines(const TownT& town) {
+StopLines::StopLines(const TownT& town) : StopLines(town, lanes_with_signals(town)) {}
+
+StopLines::StopLines(const TownT& town, std::span<const std::uint32_t> lanes) {
     std::vector<BoxGrid::Entry> entries;
-    for (std::uint32_t index = 0; index < town.lanes.size(); ++index) {
+    for (const std::uint32_t index : lanes) {
         const LaneT& lane = town.lanes[index];
-        if (lane.kind != LaneKind::driving ||
-            std::none_of(lane.links.begin(), lane.links.end(), has_signal))
-            continue;
         const LanePoint end = point_at(lane, lane.length);
         const Eigen::Vector2d ahead = ahead_of(end.yaw);
         const Eigen::Vector3d middle =

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,12 +13,14 @@
 
 namespace reprise::world {
 
-/// The lines at which vehicles wait for a light: across the end of each lane for cars from where a
-/// link with a signal leads on.
+/// The lines at which vehicles stop: across the ends of lanes for cars.
 class StopLines {
   public:
-    /// Looks into `town`, which must outlive this.
+    /// Of the lanes from where a link with a signal leads on.
     explicit StopLines(const TownT& town);
+
+    /// Of these lanes; ascending.
+    StopLines(const TownT& town, std::span<const std::uint32_t> lanes);
 
     bool empty() const { return lines_.empty(); }
 
