@@ -15,6 +15,7 @@
 #include "cli/trace/diff.h"
 #include "cli/trace/info.h"
 #include "cli/trace/recover.h"
+#include "cli/trace/score.h"
 #include "cli/trace/slice.h"
 #include "cli/trace/stats.h"
 #include "cli/trace/strip.h"
@@ -58,6 +59,8 @@ int main(int argc, char** argv) {
             return merge(line.tools.merge);
         if (line.command == "stats")
             return stats(line.tools.stats);
+        if (line.command == "score")
+            return score(line.tools.score);
         if (line.command == "town")
             become("reprise-town", argv);
         if (line.command == "query" || line.command == "export" || line.command == "show")

@@ -78,6 +78,19 @@ void add_stats(CLI::App& app, StatsOptions& stats) {
     command.add_flag("--json", stats.json, "As JSON, SI units");
 }
 
+void add_score(CLI::App& app, ScoreOptions& score) {
+    CLI::App& command = add_command(
+        app, "score", "Say what those who drove did wrong, and score the drive", score.trace);
+    add_actor(command, score.actor);
+    command.add_flag("--json", score.json, "As JSON, SI units: every infraction, every factor");
+    command.footer(
+        "Infractions by the CARLA paper's rules, and by traffic's; kilometres between two of a "
+        "kind;\n"
+        "route completion; the driving scores of CARLA's Leaderboard. docs/scoring.md says what "
+        "counts.\n"
+        "Example: reprise score a.mcap --actor ego");
+}
+
 void add_slice(CLI::App& app, SliceOptions& slice) {
     CLI::App& command = add_command(app, "slice", "Cut some ticks out of a trace", slice.trace);
     command.add_option("--ticks", slice.ticks, "Which, such as 100..200, 2.5s.. or ..10s")
@@ -194,6 +207,7 @@ void add_tool_commands(CLI::App& app, ToolOptions& tools) {
     add_cat(app, tools.cat);
     add_get(app, tools.get);
     add_stats(app, tools.stats);
+    add_score(app, tools.score);
     add_slice(app, tools.slice);
     add_merge(app, tools.merge);
     add_query(app, tools.query);

@@ -31,6 +31,12 @@ struct StatsOptions {
     bool json = false;
 };
 
+struct ScoreOptions {
+    std::string trace;
+    std::string actor;  ///< name or id; empty: all
+    bool json = false;
+};
+
 struct SliceOptions {
     std::string trace;
     std::string ticks;
@@ -77,6 +83,7 @@ struct ToolOptions {
     CatOptions cat;
     GetOptions get;
     StatsOptions stats;
+    ScoreOptions score;
     SliceOptions slice;
     MergeOptions merge;
     QueryOptions query;
@@ -85,7 +92,7 @@ struct ToolOptions {
     ImportOptions import_from;
 };
 
-/// Adds cat, get, stats, slice, merge, query, export, show and import.
+/// Adds cat, get, stats, score, slice, merge, query, export, show and import.
 void add_tool_commands(CLI::App& app, ToolOptions& tools);
 
 }  // namespace reprise::cli

@@ -39,7 +39,7 @@ INNER = {
     "kernel": "drill physics .",
     "render": "shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look shade map views overlay film .",
     "scripting": "lua run words .",
-    "replay": "mcap . table compare golden",
+    "replay": "mcap . table compare golden score",
     "exchange": ". carla page",
     "cli": "options process fingerprint town trace golden external pictures discover .",
 }

@@ -49,6 +49,8 @@ TEST_F(Printed, TracesDoNothingToATerminal) {
           {"info", "h.mcap", "--json"},
           {"stats", "h.mcap"},
           {"stats", "h.mcap", "--json"},
+          {"score", "h.mcap"},
+          {"score", "h.mcap", "--json"},
           {"cat", "h.mcap"},
           {"cat", "h.mcap", "--fields", "events.text", "--format", "csv"},
           {"query", "h.mcap", "select * from events"},

@@ -68,6 +68,8 @@ TEST_P(Wording, OfEveryCommandIsLanguage) {
                                   "info b.mcap --long",
                                   "stats a.mcap",
                                   "stats b.mcap",
+                                  "score a.mcap",
+                                  "score b.mcap",
                                   "diff a.mcap b.mcap --all",
                                   "diff a.mcap a.mcap",
                                   "diff a.mcap a.mcap --tolerance 1e-6",

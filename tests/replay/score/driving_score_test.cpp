@@ -1,0 +1,98 @@
+// The formulas, on examples that can be done by hand.
+#include "replay/score/driving_score.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace reprise::test {
+namespace {
+
+using replay::driving_score;
+using replay::Infraction;
+using replay::InfractionKind;
+using replay::Leaderboard;
+using replay::LeaderboardCounts;
+using replay::VehicleScore;
+
+constexpr std::uint64_t step_ns = 50'000'000;
+
+Infraction lasting(InfractionKind kind, std::uint64_t first, std::uint64_t last) {
+    Infraction infraction;
+    infraction.kind = kind;
+    infraction.first = first;
+    infraction.last = last;
+    return infraction;
+}
+
+TEST(InfractionCount, TenSecondsOnTheSidewalkAreFive) {
+    const auto count = [](std::uint64_t ticks) {
+        return count_of(lasting(InfractionKind::sidewalk, 100, 99 + ticks), step_ns);
+    };
+    EXPECT_EQ(count(200), 5U);
+    EXPECT_EQ(count(201), 6U);
+    EXPECT_EQ(count(1), 1U);
+    EXPECT_EQ(count(40), 1U);
+    EXPECT_EQ(count(41), 2U);
+}
+
+TEST(InfractionCount, WhatHappensAtALineIsOne) {
+    for (const InfractionKind kind :
+         {InfractionKind::red_light, InfractionKind::stop_sign, InfractionKind::blocked})
+        EXPECT_EQ(count_of(lasting(kind, 1, 400), step_ns), 1U) << name_of(kind);
+}
+
+TEST(DrivingScore, OfACleanDriveIsItsCompletion) {
+    for (const Leaderboard each : {Leaderboard::multiplicative, Leaderboard::additive}) {
+        EXPECT_EQ(driving_score(each, {}, 1.0).score, 100);
+        EXPECT_EQ(driving_score(each, {}, 0.995).score, 100) << "99 % are the whole route";
+        EXPECT_DOUBLE_EQ(*driving_score(each, {}, 0.4).score, 40);
+        EXPECT_EQ(driving_score(each, {}, {}).score, std::nullopt) << "no route";
+        EXPECT_EQ(driving_score(each, {}, {}).penalty, 1);
+    }
+}
+
+/// A pedestrian, two cars and a red light on 80 % of the route, a tenth of it off the lane.
+TEST(DrivingScore, IsMadeAsTheLeaderboardSays) {
+    LeaderboardCounts counts;
+    counts.pedestrians = 1;
+    counts.vehicles = 2;
+    counts.red_lights = 1;
+    counts.off_lane = 0.1;
+    const auto older = driving_score(Leaderboard::multiplicative, counts, 0.8);
+    EXPECT_NEAR(older.penalty, 0.126, 1e-12) << "0.50 x 0.60 x 0.60 x 0.70";
+    EXPECT_NEAR(*older.completion, 0.72, 1e-12) << "0.8 x 0.9";
+    EXPECT_NEAR(*older.score, 9.072, 1e-12);
+    const auto newer = driving_score(Leaderboard::additive, counts, 0.8);
+    EXPECT_NEAR(newer.penalty, 0.9 / 3.8, 1e-12) << "0.9 / (1 + 1.0 + 2 x 0.7 + 0.4)";
+    EXPECT_NEAR(*newer.score, 80 * 0.9 / 3.8, 1e-12);
+    ASSERT_EQ(newer.factors.size(), 5U);
+    EXPECT_EQ(newer.factors[1].what, "vehicle");
+    EXPECT_EQ(newer.factors[1].count, 2U);
+    EXPECT_NEAR(newer.factors[1].value, 1.4, 1e-12);
+}
+
+TEST(LeaderboardCounts, WhoIsHitAgainSoonAndNearIsHitOnce) {
+    VehicleScore vehicle;
+    const auto hit = [&](std::uint32_t other, std::uint64_t tick, double x) {
+        Infraction infraction = lasting(InfractionKind::collision_vehicle, tick, tick + 3);
+        infraction.other = other;
+        infraction.position.x() = x;
+        vehicle.infractions.push_back(infraction);
+    };
+    hit(7, 100, 0);
+    hit(7, 200, 5);
+    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).vehicles, 1U) << "5 s and 5 m";
+    hit(7, 301, 5);
+    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).vehicles, 2U) << "later";
+    hit(7, 302, 20);
+    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).vehicles, 3U) << "elsewhere";
+    hit(8, 302, 20);
+    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).vehicles, 4U) << "somebody else";
+    vehicle.driven = 200;
+    vehicle.off_lane = 50;
+    EXPECT_DOUBLE_EQ(leaderboard_counts(vehicle, step_ns).off_lane, 0.25);
+}
+
+}  // namespace
+}  // namespace reprise::test
