@@ -17,9 +17,11 @@
 #include "towns/network/network_xml.h"
 #include "towns/network/out_of_place.h"
 #include "towns/network/place.h"
+#include "towns/network/shared_lanes.h"
 #include "world/check.h"
 #include "world/geometry2d.h"
 #include "world/models/vehicle_classes.h"
+#include "world/story/wording.h"
 #include "world/words.h"
 
 namespace reprise::towns {
@@ -313,7 +315,15 @@ Network load_network(const std::filesystem::path& path) {
                         path.string(),
                         word,
                         count);
-    if (!unknown.empty())
+    const std::size_t parted = part_shared_lanes(root);
+    if (parted > 0)
+        network.notes += fmt::format(
+            "{}: {} of several lanes that oncoming traffic may use as well (bidi): SUMO 1.15 "
+            "cannot "
+            "simulate that, so cars do not see the oncoming ones there\n",
+            path.string(),
+            world::count_of(parted, "road"));
+    if (!network.notes.empty())
         network.xml = to_text(document);
     network.place = place_beside(path, network.name);
     return network;

@@ -2,8 +2,10 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <unistd.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -153,6 +155,52 @@ TEST_F(NetworkFiles, ClassesOfNewerSumoVersionsAreTakenOutAndSaid) {
     const test::Loaded loaded{network, town};
     test::Stage stage(loaded, 5);
     EXPECT_EQ(stage.step().traffic.cars.size(), 5U);
+}
+
+/// A street, both of whose directions lie on the same ground, with so many lanes for each.
+std::string shared_street(int lanes) {
+    std::string net = "<net version=\"1.9\">";
+    for (const auto& [id, other, ends, points] :
+         {std::tuple("there", "back", "from=\"A\" to=\"B\"", "0,%Y 300,%Y"),
+          std::tuple("back", "there", "from=\"B\" to=\"A\"", "300,%Y 0,%Y")}) {
+        net += fmt::format("<edge id=\"{}\" {} bidi=\"{}\">", id, ends, other);
+        for (int i = 0; i < lanes; ++i)
+            net += fmt::format(
+                "<lane id=\"{0}_{1}\" index=\"{1}\" speed=\"13.89\" length=\"300\" shape=\"{2}\"/>",
+                id,
+                i,
+                replaced(points, "%Y", fmt::format("{}", 3 * i)));
+        net += "</edge>";
+    }
+    const auto incoming = [lanes](const std::string& edge) {
+        return lanes == 1 ? edge + "_0" : edge + "_0 " + edge + "_1";
+    };
+    return net + fmt::format(
+                     "<junction id=\"A\" type=\"dead_end\" x=\"0\" y=\"0\" incLanes=\"{}\" "
+                     "intLanes=\"\" shape=\"0,5 0,-3\"/>"
+                     "<junction id=\"B\" type=\"dead_end\" x=\"300\" y=\"0\" incLanes=\"{}\" "
+                     "intLanes=\"\" shape=\"300,5 300,-3\"/></net>",
+                     incoming("back"),
+                     incoming("there"));
+}
+
+TEST_F(NetworkFiles, LanesThatOncomingTrafficSharesDoNotEndARun) {
+    const Network network = load_network(write("shared.net.xml", shared_street(2)));
+    EXPECT_THAT(network.notes, HasSubstr("shared.net.xml: 1 road of several lanes that oncoming"));
+    EXPECT_THAT(network.xml, Not(HasSubstr("bidi")));
+    const test::Loaded loaded{network, read_town(network)};
+    test::Stage stage(loaded, 10);
+    stage.steps(400);  // SUMO 1.15 aborted in the first one
+    EXPECT_EQ(stage.draft().traffic.cars.size(), 10U);
+}
+
+TEST_F(NetworkFiles, WhereSumoKnowsOncomingTrafficItIsLeftToKnowIt) {
+    const Network network = load_network(write("narrow.net.xml", shared_street(1)));
+    EXPECT_EQ(network.notes, "");
+    EXPECT_THAT(network.xml, HasSubstr("bidi=\"back\""));
+    const test::Loaded loaded{network, read_town(network)};
+    test::Stage stage(loaded, 2);
+    stage.steps(400);
 }
 
 TEST_F(NetworkFiles, ALaneForUnknownClassesOnlyIsALaneForNobody) {
