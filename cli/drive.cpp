@@ -7,6 +7,7 @@
 #include "cli/external/wheel_program.h"
 #include "cli/run.h"
 #include "world/check.h"
+#include "world/lanes/density.h"
 #include "world/models/catalogue.h"
 #include "world/models/viewpoint.h"
 
@@ -53,19 +54,21 @@ world::Viewpoint viewpoint_of(const DriveOptions& options) {
 std::string scenario_text(const DriveOptions& options) {
     const world::Viewpoint view = viewpoint_of(options);
     // Words were looked up; the town's name, which is anything, goes in beside the text.
-    return fmt::format(drive_text,
-                       fmt::arg("cars", options.cars),
-                       fmt::arg("weather", options.weather),
-                       fmt::arg("goal", options.goal),
-                       fmt::arg("model", options.model),
-                       fmt::arg("latency", latency),
-                       fmt::arg("camera", options.camera),
-                       fmt::arg("width", options.width),
-                       fmt::arg("height", options.height),
-                       fmt::arg("every", options.every),
-                       fmt::arg("x", view.place.x()),
-                       fmt::arg("z", view.place.z()),
-                       fmt::arg("pitch", view.pitch * 180 / std::numbers::pi));
+    return fmt::format(
+        drive_text,
+        fmt::arg("cars",
+                 options.cars == world::auto_cars ? "'auto'" : fmt::format("{}", options.cars)),
+        fmt::arg("weather", options.weather),
+        fmt::arg("goal", options.goal),
+        fmt::arg("model", options.model),
+        fmt::arg("latency", latency),
+        fmt::arg("camera", options.camera),
+        fmt::arg("width", options.width),
+        fmt::arg("height", options.height),
+        fmt::arg("every", options.every),
+        fmt::arg("x", view.place.x()),
+        fmt::arg("z", view.place.z()),
+        fmt::arg("pitch", view.pitch * 180 / std::numbers::pi));
 }
 
 }  // namespace

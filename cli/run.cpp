@@ -13,6 +13,7 @@
 #include "cli/process/progress.h"
 #include "cli/process/reproduce.h"
 #include "cli/process/say.h"
+#include "cli/town/town_traffic.h"
 #include "cli/town/towns.h"
 #include "files/ending.h"
 #include "files/output_place.h"
@@ -27,6 +28,7 @@
 #include "world/check.h"
 #include "world/check_result.h"
 #include "world/digest.h"
+#include "world/lanes/density.h"
 #include "world/recording.h"
 #include "world/story/crashes.h"
 #include "world/story/wording.h"
@@ -44,12 +46,12 @@ bool is_trace(const fs::path& path) {
 
 /// What a recorded run started from; of this only its length may be another.
 world::Recording prepare_again(const RunOptions& options, replay::TraceReader& trace) {
-    if (options.town || options.seed || options.weather || options.friction ||
+    if (options.town || options.seed || options.weather || options.friction || options.cars ||
         !options.parameters.empty())
         throw world::Error(
             options.scenario +
             ": a recorded run is run again as it was: --town, --seed, --weather, "
-            "--friction and --set are for scenarios; to change them run its scenario");
+            "--friction, --cars and --set are for scenarios; to change them run its scenario");
     if (!options.drivers.empty())
         throw world::Error(options.scenario +
                            ": --driver: what the drivers of a recorded run did is in its trace; "
@@ -74,7 +76,8 @@ world::Recording prepare(const RunOptions& options) {
                                          options.seconds,
                                          options.parameters,
                                          options.weather,
-                                         options.friction};
+                                         options.friction,
+                                         options.cars};
     recording.episode =
         options.source.empty()
             ? scripting::load_episode(options.scenario, overrides)
@@ -84,6 +87,8 @@ world::Recording prepare(const RunOptions& options) {
     if (!network.notes.empty())
         say_lines(network.notes, stderr);
     recording.town = towns::read_town(network);
+    world::settle_cars(episode, recording.town);
+    tell_if_crowded(episode, recording.town);
     episode.town_path =
         episode.town;  // as it was named: equal runs write equal bytes in any folder
     episode.town = network.name;

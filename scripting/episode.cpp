@@ -163,7 +163,7 @@ world::EpisodeT episode_of_text(const std::string& name,
     episode.step_ns = step_ns;
     episode.substeps = substeps;
     episode.max_ticks = std::max<std::uint64_t>(1, ticks_of(duration, step_ns));
-    episode.cars = header.cars;
+    episode.cars = overrides.cars.value_or(header.cars);
     episode.road_friction = overrides.friction.value_or(header.weather.friction);
     episode.weather = header.weather.weather;
     episode.weather_name = header.weather.name;

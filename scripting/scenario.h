@@ -23,10 +23,12 @@ struct Overrides {
     std::vector<std::pair<std::string, std::string>> parameters;  ///< --set key=value
     std::optional<std::string> weather{};  ///< a preset, with its road friction
     std::optional<double> friction{};      ///< of the road, as a factor on dry asphalt's grip
+    std::optional<std::uint32_t> cars{};   ///< of the background traffic, or world::auto_cars
 };
 
 /// Runs the scenario file's header (not yet its `run` function) and returns all that the run starts
 /// from. `Episode.town` is as the scenario or the override names it: the caller finds the network.
+/// `Episode.cars` may be world::auto_cars: once the town is known, world::settle_cars.
 /// Throws world::Error, "cut_in.lua:12: ...", for a file that cannot be read, does not compile,
 /// or holds an unknown key, model, weather or parameter.
 world::EpisodeT load_episode(const std::filesystem::path& scenario_lua, const Overrides& overrides);

@@ -16,6 +16,7 @@
 #include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/check_result.h"
+#include "world/lanes/density.h"
 #include "world/recording.h"
 
 namespace reprise::cli {
@@ -95,6 +96,7 @@ std::vector<Finding> findings_of(const std::string& file, const LintOptions& opt
         recording.town = towns::read_town(network);
         recording.network = std::move(network.xml);
         recording.episode.town = network.name;
+        world::settle_cars(recording.episode, recording.town);
         has_town = true;
     } catch (const world::Error& error) {
         findings.push_back({0, error.what()});

@@ -11,6 +11,7 @@
 #include "scripting/scenario.h"
 #include "towns/town_reader.h"
 #include "world/check.h"
+#include "world/lanes/density.h"
 #include "world/lanes/road_place.h"
 #include "world/town.h"
 
@@ -81,7 +82,8 @@ std::vector<Cell> scenario_row(const fs::path& path) {
                 shown,
                 episode.town,
                 static_cast<double>(episode.max_ticks * episode.step_ns) * 1e-9,
-                static_cast<std::int64_t>(episode.cars),
+                episode.cars == world::auto_cars ? Cell{"auto"}
+                                                 : Cell{static_cast<std::int64_t>(episode.cars)},
                 fmt::format("{}", fmt::join(parameters, ", ")),
                 first_words(episode.scenario)};
     } catch (const world::Error& error) {

@@ -11,6 +11,7 @@
 #include "cli/external/serve_stage.h"
 #include "cli/external/serve_task.h"
 #include "cli/fingerprint/this_build.h"
+#include "cli/town/town_traffic.h"
 #include "cli/town/towns.h"
 #include "ground/mesh/build_ground.h"
 #include "remote/schema.h"
@@ -18,6 +19,7 @@
 #include "towns/town_reader.h"
 #include "world/check.h"
 #include "world/digest.h"
+#include "world/lanes/density.h"
 #include "world/printable.h"
 
 namespace reprise::cli {
@@ -162,10 +164,13 @@ Stage& Session::Parts::stage_for(world::EpisodeT episode) {
     world::EpisodeT& ours = town->recording.episode;
     episode.town_path = episode.town;
     episode.town = town->recording.town.name;
+    world::settle_cars(episode, town->recording.town);
     episode.town_digest = ours.town_digest;
     episode.fingerprint = this_build();
     if (!stage || ours != episode) {
         stage.reset();
+        if (ours.cars != episode.cars || ours.town != episode.town)
+            tell_if_crowded(episode, town->recording.town);
         ours = std::move(episode);
         const auto memory = static_cast<std::uint64_t>(options.memory_gb * 1e9);
         stage.emplace(Stage::Set{

@@ -69,7 +69,6 @@ void add_wheel(CLI::App& command, WheelOptions& wheel) {
 }  // namespace
 
 void add_drive(CLI::App& app, DriveOptions& drive, std::string& size) {
-    constexpr int most_cars = 10'000;
     CLI::App& command = *app.add_subcommand("drive", "Drive yourself, by keys, in live traffic");
     command.add_option("--town", drive.town, "Where: as run --town has it")
         ->type_name("NET")
@@ -82,9 +81,11 @@ void add_drive(CLI::App& app, DriveOptions& drive, std::string& size) {
         ->type_name("PRESET")
         ->transform(one_of(world::weather_names(), "weather"))
         ->capture_default_str();
-    command.add_option("--cars", drive.cars, "Other cars on the roads")
-        ->type_name("N")
-        ->check(CLI::Range(0, most_cars))
+    command
+        .add_option(
+            "--cars", drive.cars, "Other cars on the roads; auto: as many as the town carries")
+        ->type_name("N|auto")
+        ->transform(number_of_cars())
         ->capture_default_str();
     command.add_option("--seed", drive.seed, "Decides everything random, such as where you begin")
         ->type_name("N")

@@ -26,8 +26,8 @@ struct DriveOptions {
     std::string place = "driver";  ///< of the camera; or chase
     unsigned width = 256;          ///< [px]
     unsigned height = 144;
-    unsigned every = 2;  ///< [ticks] a picture: 10 a second
-    unsigned cars = 40;
+    unsigned every = 2;       ///< [ticks] a picture: 10 a second
+    std::uint32_t cars = 40;  ///< or world::auto_cars
     std::optional<std::uint64_t> seed;
     double seconds = 3600;  ///< simulated, at most
     bool goal = false;

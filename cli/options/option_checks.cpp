@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "world/check.h"
+#include "world/lanes/density.h"
 
 namespace reprise::cli {
 
@@ -48,6 +49,23 @@ CLI::Validator whole_number() {
             if (error != std::errc() || stop != end)
                 return "expected a whole number from 0 to 18446744073709551615, got '" + text + "'";
             text = std::to_string(value);  // without the leading zeros of an octal number
+            return "";
+        },
+        "");
+}
+
+CLI::Validator number_of_cars() {
+    return CLI::Validator(
+        [](std::string& text) -> std::string {
+            constexpr std::uint32_t most = 10'000;
+            std::uint32_t value = 0;
+            const char* end = text.data() + text.size();
+            const auto [stop, error] = std::from_chars(text.data(), end, value);
+            if (text == "auto")
+                value = world::auto_cars;
+            else if (error != std::errc() || stop != end || value > most)
+                return "expected a whole number from 0 to 10000, or auto, got '" + text + "'";
+            text = std::to_string(value);
             return "";
         },
         "");

@@ -23,4 +23,7 @@ void add_actor(CLI::App& command, std::string& actor);
 /// Decimal digits only: what CLI11 reads as a number may also be octal, negative or too large.
 CLI::Validator whole_number();
 
+/// A number of background cars; `auto` becomes world::auto_cars.
+CLI::Validator number_of_cars();
+
 }  // namespace reprise::cli

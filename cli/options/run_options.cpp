@@ -142,6 +142,13 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
                     "weather's")
         ->type_name("FACTOR")
         ->check(CLI::Range(0.05, 2.0));
+    command
+        .add_option("--cars",
+                    run.cars,
+                    "Another number of cars in the background traffic; auto: as many as the town "
+                    "carries")
+        ->type_name("N|auto")
+        ->transform(number_of_cars());
     add_drivers(command, run);
     add_level(command, run.level, {"full", "keyed", "core", "inputs"});
     command.add_flag("--watch",

@@ -27,6 +27,7 @@ struct RunOptions : DriverOptions {
     std::optional<double> seconds;
     std::optional<std::string> weather;  ///< a preset
     std::optional<double> friction;      ///< of the road
+    std::optional<std::uint32_t> cars;   ///< of the traffic, or world::auto_cars
     std::vector<std::pair<std::string, std::string>> parameters;
     std::string level = "full";  ///< how much of each tick is kept
     bool watch = false;          ///< again whenever the scenario is saved

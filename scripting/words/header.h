@@ -24,7 +24,7 @@ struct Header {
     bool has_duration = false;
     std::string of_world;  ///< a key that decides the world at the start, or ""
     std::uint64_t seed = 0;
-    std::uint32_t cars = 0;
+    std::uint32_t cars = 0;  ///< world::auto_cars: as many as the town carries
     std::map<std::string, Value> parameters;
     std::uint32_t line = 0;
     int run = 0;  ///< the function, in Lua's registry

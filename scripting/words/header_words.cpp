@@ -14,6 +14,7 @@
 #include "scripting/words/header.h"
 #include "scripting/words/vocabulary.h"
 #include "world/check.h"
+#include "world/lanes/density.h"
 
 namespace reprise::scripting {
 
@@ -96,11 +97,32 @@ void read_weather(lua_State* L, const Fields& fields, Header& header) {
     }
 }
 
+/// Of the background traffic: a number, or 'auto'.
+std::uint32_t read_cars(lua_State* L, const Fields& fields) {
+    fields.push("cars");
+    const bool is_text = lua_type(L, -1) == LUA_TSTRING;
+    lua_pop(L, 1);
+    if (is_text) {
+        const std::string said = fields.text("cars").value_or("");
+        if (said != "auto")
+            refuse("scenario",
+                   fmt::format("'cars' must be a whole number or 'auto', got '{}'", said));
+        return world::auto_cars;
+    }
+    const std::int64_t cars = fields.integer("cars").value_or(0);
+    if (cars < 0 || cars > most_cars)
+        refuse("scenario", fmt::format("'cars' must be in [0, {}]", most_cars));
+    return static_cast<std::uint32_t>(cars);
+}
+
 constexpr Key header_key_rows[] = {
     {"town", "string", "its name, or the path of a network; default 'town1', --town overrides"},
     {"duration", "number", "[s] the run's limit; default 60, --for overrides"},
     {"seed", "integer", "of everything that is drawn; default 0, --seed overrides"},
-    {"cars", "integer", "of the background traffic, 0 to 10,000; default 0"},
+    {"cars",
+     "integer|'auto'",
+     "of the background traffic, 0 to 10,000, or 'auto': as many as the town carries; default 0, "
+     "--cars overrides"},
     {"weather",
      "WeatherName|table|table[]",
      "a preset's name, numbers, or a timeline of { at =, over =, ... }; default 'clear_noon'"},
@@ -135,10 +157,7 @@ int take_table(lua_State* L) {
     if (seed < 0)
         refuse("scenario", "'seed' must not be below 0");
     header.seed = static_cast<std::uint64_t>(seed);
-    const std::int64_t cars = fields.integer("cars").value_or(0);
-    if (cars < 0 || cars > most_cars)
-        refuse("scenario", fmt::format("'cars' must be in [0, {}]", most_cars));
-    header.cars = static_cast<std::uint32_t>(cars);
+    header.cars = read_cars(L, fields);
     if (fields.has("params")) {
         fields.push("params");
         if (lua_type(L, -1) != LUA_TTABLE)

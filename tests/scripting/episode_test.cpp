@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "scripting/scenario.h"
+#include "tests/support/worlds.h"
 #include "world/check.h"
+#include "world/lanes/density.h"
 #include "world/weather.h"
 
 namespace reprise::scripting {
@@ -141,6 +143,23 @@ TEST_F(EpisodeFile, NamesTheParameterThatWasMeant) {
               "story.lua:1: --set x=1: the scenario has no parameters");
 }
 
+TEST_F(EpisodeFile, AutoCarsAreAsManyAsItsTownCarries) {
+    const std::string story = "return scenario 'x' { cars = 'auto', run = function() end }";
+    world::EpisodeT episode = load(story);
+    EXPECT_EQ(episode.cars, world::auto_cars);
+    // Two lanes of a kilometre each; the sidewalks beside them carry none.
+    const world::TownT road = test::straight_road(1000, 1);
+    world::settle_cars(episode, road);
+    EXPECT_EQ(episode.cars, world::cars_carried(road));
+    EXPECT_EQ(episode.cars, 70U);
+    // A number stays what it is, and the command line's counts.
+    Overrides overrides;
+    overrides.cars = 12;
+    episode = load(story, overrides);
+    world::settle_cars(episode, road);
+    EXPECT_EQ(episode.cars, 12U);
+}
+
 TEST_F(EpisodeFile, MistakesInTheHeaderNameTheirLine) {
     const auto header = [](const std::string& keys) {
         return "\nreturn scenario 'x' { " + keys + ", run = function() end }";
@@ -161,6 +180,9 @@ TEST_F(EpisodeFile, MistakesInTheHeaderNameTheirLine) {
         {header("seed = 1.5"), "story.lua:2: scenario: 'seed' must be a whole number, got 1.5"},
         {header("seed = -1"), "story.lua:2: scenario: 'seed' must not be below 0"},
         {header("cars = -1"), "story.lua:2: scenario: 'cars' must be in [0, 10000]"},
+        {header("cars = 'many'"),
+         "story.lua:2: scenario: 'cars' must be a whole number or 'auto', got 'many'"},
+        {header("cars = 1.5"), "story.lua:2: scenario: 'cars' must be a whole number, got 1.5"},
         {header("weather = 'claer_noon'"),
          "story.lua:2: scenario: no weather 'claer_noon' (did you mean 'clear_noon'?); there are "
          "clear_noon, hard_rain_sunset"},
