@@ -11,6 +11,7 @@
 #include "cli/process/say.h"
 #include "cli/process/temporary_folder.h"
 #include "cli/town/towns.h"
+#include "cli/town/trial_drives.h"
 #include "ground/mesh/build_ground.h"
 #include "ground/paint/markings.h"
 #include "process/held_signals.h"
@@ -20,6 +21,7 @@
 #include "towns/check/walk_check.h"
 #include "towns/check/walk_map.h"
 #include "towns/import/import_check.h"
+#include "world/lanes/density.h"
 #include "world/story/wording.h"
 #include "world/town.h"
 
@@ -205,8 +207,10 @@ void print_json(const Built& built, const std::vector<Criterion>& criteria, bool
 }  // namespace
 
 int town_check(const TownCheckOptions& options) {
-    const Built first = build(load_for_sumo(options.town));
-    const std::vector<Criterion> criteria = check(first, build(load_town(options.town)));
+    const towns::Network network = load_for_sumo(options.town);
+    const Built first = build(network);
+    std::vector<Criterion> criteria = check(first, build(load_town(options.town)));
+    criteria.push_back(check_driving(network, world::cars_carried(first.town)));
     const auto failed =
         std::count_if(criteria.begin(), criteria.end(), [](const Criterion& criterion) {
             return !criterion.passed();
