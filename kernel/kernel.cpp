@@ -8,6 +8,7 @@
 #include "ground/mesh/build_ground.h"
 #include "ground/obstacles.h"
 #include "kernel/blockages.h"
+#include "kernel/car_hits.h"
 #include "kernel/digests.h"
 #include "kernel/doors.h"
 #include "kernel/lamp_orders.h"
@@ -118,6 +119,7 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     const std::uint64_t step_ns = parts.episode.step_ns;
     measure(
         parts.town, parts.lanes, world::seconds(1, step_ns), parts.physics.impacts(), last, next);
+    note_hit_walkers(world::seconds(1, step_ns), last, next);
     const auto is_under_way = [&](const auto& vehicle) {
         return parts.roster.is_under_way(vehicle);
     };

@@ -20,6 +20,7 @@
 #include "traffic/demand.h"
 #include "traffic/insertion.h"
 #include "traffic/insertion_points.h"
+#include "traffic/lookout.h"
 #include "traffic/mirrors.h"
 #include "traffic/orders.h"
 #include "traffic/placements.h"
@@ -68,6 +69,7 @@ struct Background::Parts {
           placements(episode, town, lanes, graph, routes, insertion),
           spawns(episode, town, graph, points, insertion, placements),
           orders(episode, town, graph, routes),
+          lookout(episode, town, lanes, graph, orders),
           mirrors(town, lanes, graph, world::seconds(1, episode.step_ns)),
           reader(town, graph, world::seconds(1, episode.step_ns), episode.seed),
           signal_orders(town),
@@ -88,6 +90,7 @@ struct Background::Parts {
     Placements placements;
     ScriptedSpawns spawns;
     Orders orders;
+    Lookout lookout;
     Mirrors mirrors;
     CarReader reader;
     SignalOrders signal_orders;
@@ -185,6 +188,7 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     const auto beside_sumo = parts.place(next.tick.index);
     parts.routes.keep_ahead(parts.cars);
     parts.orders.follow(parts.cars, next.tick.index);
+    parts.lookout.advance(last, parts.cars, next.tick.index);
     parts.signal_orders.follow(next.tick.index);
     parts.mirrors.advance(last, parts.cars.all(), beside_sumo);
 

@@ -82,6 +82,8 @@ struct Car {
     std::uint64_t trajectory_start = 0;           ///< tick of its time 0
     std::vector<world::CommandT> waiting;         ///< orders for when SUMO drives it again
     std::uint64_t held_in = 0;                    ///< tick in which SUMO must hold its speed
+
+    bool held_back = false;  ///< by what it sees on its way; see lookout.h
 };
 
 }  // namespace reprise::traffic

@@ -77,7 +77,7 @@ CarDigest kept_of(const Car& car) {
              car.standing_ticks,
              car.last_lane,
              static_cast<std::uint32_t>(car.route.size()),
-             0}};
+             std::uint32_t{car.held_back}}};
 }
 
 }  // namespace

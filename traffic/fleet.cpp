@@ -93,6 +93,14 @@ std::string scripted_type(std::uint16_t model) {
     return fmt::format("s{}", model);
 }
 
+double comfortable_braking(std::uint16_t model) {
+    return manner_of(model).deceleration;
+}
+
+double emergency_braking(std::uint16_t model) {
+    return manner_of(model).emergency;
+}
+
 world::ClassSet model_class(std::uint16_t model) {
     return world::class_bit(world::vehicle_models()[model].sumo_class);
 }

@@ -15,6 +15,10 @@ std::string vehicle_types_xml();
 std::string demand_type(std::uint16_t model);
 std::string scripted_type(std::uint16_t model);
 
+/// What a driver of the model brakes with when nothing hurries, and at most. [m/s^2]
+double comfortable_braking(std::uint16_t model);
+double emergency_braking(std::uint16_t model);
+
 /// What may drive where the model's class is asked for.
 world::ClassSet model_class(std::uint16_t model);
 

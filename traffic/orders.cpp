@@ -25,6 +25,7 @@ constexpr int obeys_but_hits_nobody = 1 + 8 + 16;
 constexpr int sumo_default_speed_mode = 31;
 constexpr int gives_way = 8;
 constexpr int stops_at_red = 16;
+constexpr int limits_braking = 4;
 // No bit but 32: inside junctions, too, nobody goes first.
 constexpr int reacts_to_nothing = 32;
 
@@ -150,18 +151,26 @@ void Orders::free_speed(Car& car) const {
     Vehicle::setSpeedMode(car.sumo, speed_mode(car));
 }
 
-void Orders::follow_speed_order(Car& car, std::uint64_t tick) const {
+double Orders::ordered_speed(const Car& car, std::uint64_t tick) const {
     const SpeedOrder& order = *car.speed_order;
     const std::uint64_t done = std::min(tick - order.start, order.ticks);
     if (order.shape == world::Shape::linear) {
         const double share =
             order.ticks == 0 ? 1 : static_cast<double>(done) / static_cast<double>(order.ticks);
-        Vehicle::setSpeed(car.sumo, std::max(order.from + (order.to - order.from) * share, 0.0));
-        return;
+        return std::max(order.from + (order.to - order.from) * share, 0.0);
     }
     const world::Transition change{
         order.from, order.to, static_cast<double>(order.ticks) * step_, order.shape};
-    Vehicle::setSpeed(car.sumo, std::max(change.value(static_cast<double>(done) * step_), 0.0));
+    return std::max(change.value(static_cast<double>(done) * step_), 0.0);
+}
+
+int Orders::braking_mode(const Car& car) const {
+    return speed_mode(car) & ~limits_braking;
+}
+
+void Orders::let_go(const Car& car, std::uint64_t tick) const {
+    Vehicle::setSpeed(car.sumo, car.speed_order ? ordered_speed(car, tick) : -1);
+    Vehicle::setSpeedMode(car.sumo, speed_mode(car));
 }
 
 void Orders::take_lane(const world::CommandT& command, Car& car, std::uint64_t tick) const {
@@ -276,7 +285,7 @@ void Orders::follow(Cars& cars, std::uint64_t tick) const {
         if (car.ignores_lights)
             Vehicle::setSpeedMode(car.sumo, speed_mode(car));
         if (car.speed_order && car.held_in != tick)
-            follow_speed_order(car, tick);
+            Vehicle::setSpeed(car.sumo, ordered_speed(car, tick));
         if (car.lane_order && car.lane != none)
             follow_lane_order(car, tick);
         else if (car.keeps_lane && is_off_its_route(car)) {

@@ -34,6 +34,15 @@ class Orders {
     /// A car whose speed was held for a tick goes on as it was told before.
     void release(Car& car, std::uint64_t tick) const;
 
+    /// [m/s] that its order wants at the end of this tick.
+    double ordered_speed(const Car& car, std::uint64_t tick) const;
+
+    /// SUMO's speed mode of a car without an order that must brake as hard as it can.
+    int braking_mode(const Car& car) const;
+
+    /// A car that was held back goes on as it was told before, or as it likes.
+    void let_go(const Car& car, std::uint64_t tick) const;
+
     /// Asks of SUMO what the orders want in this tick; ends those that are carried out.
     void follow(Cars& cars, std::uint64_t tick) const;
 
@@ -42,7 +51,6 @@ class Orders {
     void take_braking(const world::CommandT& command, Car& car, std::uint64_t tick) const;
     void take_offset(const world::CommandT& command, Car& car, std::uint64_t tick) const;
     void free_speed(Car& car) const;
-    void follow_speed_order(Car& car, std::uint64_t tick) const;
     void take_lane(const world::CommandT& command, Car& car, std::uint64_t tick) const;
     void keep_lane(Car& car, bool keep) const;
     void take_route(const world::CommandT& command, Car& car) const;

@@ -23,6 +23,9 @@ const world::TickDraft& Stage::step(const std::vector<world::CommandT>& commands
     draft_.tick.commands = commands;
     background_->advance(last_.view(), draft_);
     draft_.tick.vehicles = vehicles;
+    draft_.tick.props = props;
+    draft_.tick.doors = doors;
+    draft_.traffic.walkers = walkers;
     last_ = world::seal(draft_, {});
     return draft_;
 }

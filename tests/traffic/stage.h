@@ -25,6 +25,12 @@ class Stage {
 
     void steps(int count);
 
+    /// Others that are there from now on, as the other stages would write them: traffic sees them
+    /// from the tick after the next on.
+    std::vector<world::WalkerState> walkers;
+    std::vector<world::PropState> props;
+    std::vector<world::Door> doors;
+
     /// The car in the last tick, or null.
     const world::CarState* car(std::uint32_t id) const;
 

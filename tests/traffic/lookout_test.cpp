@@ -1,0 +1,260 @@
+#include "traffic/lookout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/worlds.h"
+#include "tests/traffic/stage.h"
+#include "world/frames.h"
+#include "world/geometry2d.h"
+#include "world/models/catalogue.h"
+#include "world/models/doors.h"
+#include "world/models/prop_models.h"
+
+namespace reprise::traffic {
+namespace {
+
+using test::lane;
+using test::own_town;
+using test::spawn;
+using test::Stage;
+using world::Driver;
+
+constexpr std::uint32_t obstacle = 9;
+constexpr int two_minutes = 2400;
+
+/// An oriented box seen from above.
+struct Box {
+    Eigen::Vector2d centre;
+    Eigen::Vector2d direction;
+    Eigen::Vector2d half;
+};
+
+Box box_of_car(const world::CarState& car) {
+    const world::VehicleModel& model = world::vehicle_models()[car.model()];
+    const Eigen::Vector2d ahead = world::ahead_of(static_cast<double>(car.yaw()));
+    const Eigen::Vector2d rear(car.position().x(), car.position().y());
+    return {rear + (model.length / 2 - model.rear_overhang) * ahead,
+            ahead,
+            {model.length / 2, model.width / 2}};
+}
+
+/// By the separating axes of both.
+bool overlap(const Box& one, const Box& other) {
+    for (const Box* box : {&one, &other})
+        for (const Eigen::Vector2d& axis : {box->direction, world::turned_left(box->direction)}) {
+            const auto extent = [&](const Box& of) {
+                return of.half.x() * std::abs(of.direction.dot(axis)) +
+                       of.half.y() * std::abs(world::turned_left(of.direction).dot(axis));
+            };
+            if (std::abs((other.centre - one.centre).dot(axis)) >= extent(one) + extent(other))
+                return false;
+        }
+    return true;
+}
+
+world::WalkerState walker_on(const world::LaneT& lane, double s, double offset, bool down = false) {
+    const world::LanePoint at = world::point_at(lane, s);
+    const Eigen::Vector2d p = at.position.head<2>() + offset * world::left_of(at.yaw);
+    return {world::Vec3(p.x(), p.y(), at.position.z()),
+            static_cast<float>(at.yaw),
+            0,
+            0,
+            obstacle,
+            0,
+            down,
+            std::uint8_t{0},
+            0};
+}
+
+/// What stands in the way, and what is seen around it.
+class Scene {
+  public:
+    Scene(const char* town, const char* lane_name, std::uint32_t cars = 100)
+        : town_(own_town(town).town),
+          road_(lane(town_, lane_name)),
+          stage(own_town(town), cars) {
+        stage.steps(200);
+    }
+
+    const world::LaneT& road() const { return town_.lanes[road_]; }
+
+    /// The next place along the lane that nobody is near to.
+    double free_place(double s, double before) const {
+        while (s < road().length) {
+            const auto& all = stage.draft().traffic.cars;
+            if (std::none_of(all.begin(), all.end(), [&](const world::CarState& car) {
+                    const auto front = static_cast<double>(car.lane_s());
+                    return is_on_road(car) && front > s - before && front < s + 15;
+                }))
+                return s;
+            s += 5;
+        }
+        ADD_FAILURE() << "no free place";
+        return s;
+    }
+
+    void put_walker(double s, double offset, bool down = false) {
+        stage.walkers = {walker_on(road(), s, offset, down)};
+        const world::WalkerModel& model = world::walker_models()[0];
+        boxes_.push_back(box_on(s, offset, down ? model.height : 0.4, 0.4));
+        end_ = s;
+    }
+
+    void put_cone(double s) {
+        const std::uint16_t cone = world::find_prop_model("cone").value();
+        const world::LanePoint at = world::point_at(road(), s);
+        stage.props = {{world::to_vec3(at.position),
+                        world::Quat(0, 0, 0, 1),
+                        {},
+                        {},
+                        obstacle,
+                        cone,
+                        0}};
+        const world::PropModel& model = world::prop_models()[cone];
+        boxes_.push_back(box_on(s, 0, model.length, model.width));
+        end_ = s;
+    }
+
+    /// A scenario's car that stands there for good.
+    void park(const char* model, double s, double offset) {
+        world::CommandT command = spawn(obstacle, road_, s, 0, Driver::parked, offset);
+        command.model = world::find_vehicle_model(model).value();
+        stage.step({command});
+        boxes_.push_back(box_of_car(*stage.car(obstacle)));
+        end_ = s + 6;
+    }
+
+    void open_door(std::uint8_t door) {
+        const world::CarState& car = *stage.car(obstacle);
+        stage.doors = {{world::widest_door, obstacle, door, 0, 0}};
+        const world::DoorLeaf leaf = world::door_leaf(
+            world::vehicle_models()[car.model()],
+            world::pose(car.position(), static_cast<double>(car.yaw()), 0),
+            door,
+            world::widest_door);
+        boxes_.push_back({leaf.pose.translation().head<2>(),
+                          leaf.pose.linear().col(0).head<2>().normalized(),
+                          leaf.half.head<2>()});
+    }
+
+    /// A car with mass that has come to rest askew.
+    void put_wreck(double s, double offset, double turn) {
+        const world::LanePoint at = world::point_at(road(), s);
+        const Eigen::Vector2d p = at.position.head<2>() + offset * world::left_of(at.yaw);
+        vehicles_ = {test::vehicle_at(obstacle, p.x(), p.y(), at.yaw + turn)};
+        const world::VehicleModel& model = world::vehicle_models()[0];
+        const Eigen::Vector2d ahead = world::ahead_of(at.yaw + turn);
+        boxes_.push_back({p + (model.length / 2 - model.rear_overhang) * ahead,
+                          ahead,
+                          {model.length / 2, model.width / 2}});
+        end_ = s + 5;
+    }
+
+    void watch(int ticks) {
+        for (int i = 0; i < ticks; ++i) {
+            stage.step({}, vehicles_);
+            for (const world::CarState& car : stage.draft().traffic.cars)
+                look(car);
+        }
+    }
+
+    std::set<std::uint32_t> touched;
+    std::set<std::uint32_t> passed;  ///< went by, on whatever lane of its road
+
+  private:
+    bool is_on_road(const world::CarState& car) const {
+        return car.lane() != world::none && town_.lanes[car.lane()].edge == road().edge;
+    }
+
+    Box box_on(double s, double offset, double length, double width) const {
+        const world::LanePoint at = world::point_at(road(), s);
+        return {at.position.head<2>() + offset * world::left_of(at.yaw),
+                world::ahead_of(at.yaw),
+                {length / 2, width / 2}};
+    }
+
+    void look(const world::CarState& car) {
+        if (car.id() == obstacle)
+            return;
+        for (const Box& box : boxes_)
+            if (overlap(box_of_car(car), box))
+                touched.insert(car.id());
+        if (!is_on_road(car))
+            return;
+        const auto front = static_cast<double>(car.lane_s());
+        if (front < boxes_s() - 1)
+            before_.insert(car.id());
+        if (front > end_ + 8 && before_.contains(car.id()))
+            passed.insert(car.id());
+    }
+
+    double boxes_s() const { return end_ - 7; }
+
+    const world::TownT& town_;
+    std::uint32_t road_;
+    std::vector<Box> boxes_;
+    std::vector<world::VehicleState> vehicles_;
+    std::set<std::uint32_t> before_;
+    double end_ = 0;
+
+  public:
+    Stage stage;
+};
+
+struct Obstacle {
+    const char* name;
+    void (*put)(Scene& scene, double s);
+};
+
+struct Place {
+    const char* town;
+    const char* lane;
+    double s;
+    double before;  ///< [m] free behind the place
+    std::size_t pass;
+};
+
+constexpr Place three_lanes{"straight", "east_1", 1000, 250, 10};
+constexpr Place one_lane{"town1", "m1_b2_1", 30, 25, 0};
+
+class LookoutIn : public testing::TestWithParam<std::tuple<Place, Obstacle>> {};
+
+TEST_P(LookoutIn, NobodyTouchesWhatStandsInTheLaneForTwoMinutes) {
+    const auto& [place, what] = GetParam();
+    Scene scene(place.town, place.lane);
+    what.put(scene, scene.free_place(place.s, place.before));
+    scene.watch(two_minutes);
+    EXPECT_TRUE(scene.touched.empty()) << scene.touched.size() << " cars";
+    EXPECT_GE(scene.passed.size(), place.pass);
+    std::printf("passed %zu\n", scene.passed.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    ,
+    LookoutIn,
+    testing::Combine(
+        testing::Values(three_lanes, one_lane),
+        testing::Values(
+            Obstacle{"walker", [](Scene& scene, double s) { scene.put_walker(s, 0); }},
+            Obstacle{"walker_lying", [](Scene& scene, double s) { scene.put_walker(s, 0.5, true); }},
+            Obstacle{"cone", [](Scene& scene, double s) { scene.put_cone(s); }},
+            Obstacle{"van", [](Scene& scene, double s) { scene.park("van", s, 0); }},
+            Obstacle{"door",
+                     [](Scene& scene, double s) {
+                         scene.park("sedan", s, -2.2);
+                         scene.open_door(0);
+                     }},
+            Obstacle{"wreck", [](Scene& scene, double s) { scene.put_wreck(s, 0.8, 1.0); }})),
+    [](const auto& info) {
+        return std::string(std::get<0>(info.param).town) + "_" + std::get<1>(info.param).name;
+    });
+
+}  // namespace
+}  // namespace reprise::traffic

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "traffic/car.h"
+#include "world/tick.h"
+
+namespace reprise::traffic {
+
+/// What stands or moves on the ground, seen from above: an oriented box.
+struct Footprint {
+    Eigen::Vector2d centre;
+    Eigen::Vector2d direction;  ///< unit, along its length
+    double z = 0;               ///< [m] of the ground below it
+    double half_length = 0;
+    double half_width = 0;
+    Eigen::Vector2d velocity;
+    double clearance = 0;  ///< [m] that one who passes leaves beside it
+    std::uint32_t id = 0;
+};
+
+/// All in the last tick that SUMO does not know, or only as a point in the middle of a lane:
+/// walkers, props, open doors, vehicles with mass, and those of `cars` that SUMO does not drive.
+/// Long ones in pieces, so that each is short against the bends of a road. In the order of their
+/// kinds, and of their ids.
+void gather_footprints(const world::TickView& last,
+                       std::span<const Car> cars,
+                       std::vector<Footprint>& footprints);
+
+}  // namespace reprise::traffic

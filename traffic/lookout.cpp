@@ -1,0 +1,163 @@
+#include "traffic/lookout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <libsumo/libsumo.h>
+
+#include "traffic/fleet.h"
+#include "world/models/catalogue.h"
+#include "world/units.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+using world::none;
+
+constexpr double reaction = 1;      // [s] as SUMO's tau
+constexpr double standing_gap = 1.5;  // [m] less than SUMO keeps behind cars that it knows
+constexpr double steepest_way = 0.45;  // [m] aside for each metre driven, of one who pulls out
+constexpr double starting = 3;  // [m/s^2] no car of the fleet starts quicker
+constexpr double spare_braking = 1.1;
+
+/// The speed from which a car still stops within `gap` metres of one that drives at `speed` and
+/// brakes as hard. Krauss, "Microscopic Modeling of Traffic Flow", 1998, ch. 2.
+double safe_speed(double gap, double speed, double deceleration) {
+    const double delay = deceleration * reaction;
+    return -delay +
+           std::sqrt(delay * delay + speed * speed + 2 * deceleration * std::max(gap, 0.0));
+}
+
+}  // namespace
+
+/// The way of one car's body, and what is found on it.
+struct Lookout::Corridor {
+    double speed;       ///< [m/s] of the car
+    double half_width;  ///< [m]
+    double aside;       ///< [m] left of its lane's middle
+    double wanted_aside;
+    double reach;  ///< [m] that it looks ahead
+    double z;
+    double comfortable;  ///< [m/s^2]
+    double hardest;      ///< [m/s^2]
+    double step;         ///< [s]
+    std::uint32_t id;
+    double allowed = world::infinity;  ///< [m/s]
+
+    /// Where its middle is when the bumper has come so far.
+    double aside_at(double distance) const {
+        const double off = aside - wanted_aside;
+        const double left = std::max(std::abs(off) - steepest_way * std::max(distance, 0.0), 0.0);
+        return wanted_aside + std::copysign(left, off);
+    }
+
+    void meet(double distance, double right, double left, double its_speed) {
+        const double middle = aside_at(distance);
+        if (left < middle - half_width || right > middle + half_width)
+            return;
+        const double gap = distance - standing_gap;
+        double wanted = safe_speed(gap, its_speed, comfortable);
+        // Who is surprised brakes as hard as it takes.
+        const double needed = (speed * speed - its_speed * its_speed) / (2 * std::max(gap, 0.1));
+        const double braking = std::clamp(spare_braking * needed, comfortable, hardest);
+        wanted = std::max({wanted, speed - braking * step, 0.0});
+        allowed = std::min(allowed, wanted);
+    }
+};
+
+/// `start` [m] from the front bumper to the lane's start, `aside` [m] that the lane lies left of
+/// the car's own.
+void Lookout::look_on(std::uint32_t lane, double start, double aside, Corridor& corridor) const {
+    constexpr double nose = 0.3;  // [m] what begins further behind the bumper is beside the car
+    for (const Obstruction& one : obstructions_.on(lane)) {
+        const double distance = start + one.begin;
+        if (one.id == corridor.id || distance < -nose || distance > corridor.reach ||
+            std::abs(one.z - corridor.z) > world::level_clearance + corridor.reach * 0.1)
+            continue;
+        corridor.meet(distance, one.right + aside, one.left + aside, one.speed);
+    }
+}
+
+/// This lane, and those behind it on the car's route.
+void Lookout::look_along(std::uint32_t lane,
+                         double start,
+                         const Car& car,
+                         Corridor& corridor) const {
+    look_on(lane, start, 0, corridor);
+    const world::LaneT& here = town_->lanes[lane];
+    const double end = start + here.length;
+    if (end > corridor.reach)
+        return;
+    const std::uint32_t edge = graph_->edge_of(lane);
+    if (here.kind == world::LaneKind::internal) {
+        if (!here.links.empty()) {
+            const world::Link& link = here.links.front();
+            look_along(link.via() != none ? link.via() : link.to(), end, car, corridor);
+        }
+        return;
+    }
+    const auto at = std::find(car.route.begin(), car.route.end(), edge);
+    if (at == car.route.end() || at + 1 == car.route.end())
+        return;
+    for (const world::Link& link : here.links)
+        if (link.to() != none && graph_->edge_of(link.to()) == *(at + 1))
+            look_along(link.via() != none ? link.via() : link.to(), end, car, corridor);
+}
+
+double Lookout::allowed_speed(const Car& car) const {
+    constexpr double easy_braking = 2;  // [m/s^2] nobody begins to brake earlier
+    const world::VehicleModel& model = world::vehicle_models()[car.model];
+    const Eigen::Vector3d& front = car.trail.front();
+    Corridor corridor{};
+    corridor.speed = car.speed;
+    corridor.half_width = model.width / 2;
+    corridor.wanted_aside = car.offset;
+    corridor.reach = 10 + (reaction + car.speed / (2 * easy_braking)) * car.speed;
+    corridor.z = front.z();
+    corridor.comfortable = comfortable_braking(car.model);
+    corridor.hardest = emergency_braking(car.model);
+    corridor.step = step_;
+    corridor.id = car.id;
+    corridor.allowed = world::infinity;
+    const world::LaneT& lane = town_->lanes[car.lane];
+    const world::LaneProjection at = world::project(lane, front);
+    corridor.aside = at.t;
+    look_along(car.lane, -at.s, car, corridor);
+    // A body that has not left the next lane yet, or not come from it.
+    for (const std::uint32_t beside : {lane.left, lane.right}) {
+        if (beside == none || obstructions_.on(beside).empty())
+            continue;
+        const world::LaneProjection there = world::project(town_->lanes[beside], front);
+        look_on(beside, -there.s, at.t - there.t, corridor);
+    }
+    return corridor.allowed;
+}
+
+void Lookout::hold_back(Car& car, double speed, std::uint64_t tick) const {
+    using libsumo::Vehicle;
+    if (car.speed_order)
+        speed = std::min(speed, orders_->ordered_speed(car, tick));
+    else if (!car.held_back || car.ignores_lights)
+        Vehicle::setSpeedMode(car.sumo, orders_->braking_mode(car));
+    Vehicle::setSpeed(car.sumo, speed);
+    car.held_back = true;
+}
+
+void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tick) {
+    obstructions_.look(last, cars.all());
+    for (Car& car : cars.all()) {
+        if (car.sumo.empty() || car.origin == Origin::parked || car.lane == none ||
+            car.held_in == tick || (car.speed_order && !car.speed_order->reacts))
+            continue;
+        const double allowed = obstructions_.empty() ? world::infinity : allowed_speed(car);
+        if (allowed < car.speed + starting * step_) {
+            hold_back(car, allowed, tick);
+        } else if (car.held_back) {
+            car.held_back = false;
+            orders_->let_go(car, tick);
+        }
+    }
+}
+
+}  // namespace reprise::traffic

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+
+#include "traffic/cars.h"
+#include "traffic/obstructions.h"
+#include "traffic/orders.h"
+#include "traffic/road_graph.h"
+#include "world/episode_generated.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::traffic {
+
+/// SUMO's cars look where they drive: they brake for what SUMO does not know.
+///
+/// MUST    stop before everything that is in the way of a car's body, as well as its brakes allow;
+///         change nothing where nothing is in the way.
+/// ASSUMES that a car follows its lane, and comes back to its middle within a few metres.
+/// GOES    from the lane of each car along the lanes of its route, as far as it needs to stop; of
+///         what is there each allows a speed (Krauss: to stop behind it with a second's reaction),
+///         and the least is told to SUMO when it is less than the car would drive.
+/// KEEPS   with each car, whether it is held back.
+class Lookout {
+  public:
+    /// All of them must outlive this.
+    Lookout(const world::EpisodeT& episode,
+            const world::TownT& town,
+            const world::LaneMap& lanes,
+            const RoadGraph& graph,
+            const Orders& orders)
+        : town_(&town),
+          graph_(&graph),
+          orders_(&orders),
+          obstructions_(town, lanes),
+          step_(world::seconds(1, episode.step_ns)) {}
+
+    /// Before SUMO's step, behind the orders.
+    void advance(const world::TickView& last, Cars& cars, std::uint64_t tick);
+
+  private:
+    struct Corridor;
+
+    double allowed_speed(const Car& car) const;
+    void look_along(std::uint32_t lane, double start, const Car& car, Corridor& corridor) const;
+    void look_on(std::uint32_t lane, double start, double aside, Corridor& corridor) const;
+    void hold_back(Car& car, double speed, std::uint64_t tick) const;
+
+    const world::TownT* town_;
+    const RoadGraph* graph_;
+    const Orders* orders_;
+    Obstructions obstructions_;
+    double step_;  ///< [s]
+};
+
+}  // namespace reprise::traffic

@@ -1,0 +1,90 @@
+#include "traffic/obstructions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "world/geometry2d.h"
+#include "world/units.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+constexpr double beside_the_lane = 0.2;  // [m] beyond its edge it takes no room of it
+constexpr double foresight = 0.7;        // [s] of a walker's way
+constexpr double least_walk = 0.3;       // [m/s] slower ones stand
+
+/// Half the extent of a box in a direction.
+double half_extent(const Footprint& box, const Eigen::Vector2d& direction) {
+    return box.half_length * std::abs(box.direction.dot(direction)) +
+           box.half_width * std::abs(world::cross(box.direction, direction));
+}
+
+}  // namespace
+
+void Obstructions::add(const Footprint& footprint) {
+    const Eigen::Vector3d place(footprint.centre.x(), footprint.centre.y(), footprint.z);
+    const Eigen::Vector2d way = footprint.velocity.norm() < least_walk
+                                    ? Eigen::Vector2d(0, 0)
+                                    : Eigen::Vector2d(footprint.velocity * foresight);
+    const double radius = std::hypot(footprint.half_length, footprint.half_width);
+    const double reach = radius + beside_the_lane + way.norm();
+    for (const std::uint32_t index : lanes_->near(place, reach)) {
+        const world::LaneT& lane = town_->lanes[index];
+        if (!world::is_for_cars(lane))
+            continue;
+        const world::LaneProjection at = world::project(lane, place);
+        if (std::abs(at.t) > lane.width / 2 + reach)
+            continue;
+        const world::LanePoint on = world::point_at(lane, at.s);
+        if (std::abs(on.position.z() - place.z()) > world::level_clearance)
+            continue;
+        const Eigen::Vector2d ahead = world::ahead_of(on.yaw);
+        const Eigen::Vector2d offset = footprint.centre - on.position.head<2>();
+        const Eigen::Vector2d left = world::turned_left(ahead);
+        const double s = at.s + offset.dot(ahead);
+        const double t = offset.dot(left);
+        const double half = half_extent(footprint, ahead);
+        const double half_across = half_extent(footprint, left);
+        const double aside = way.dot(left);
+        Obstruction one;
+        one.right = t - half_across + std::min(aside, 0.0);
+        one.left = t + half_across + std::max(aside, 0.0);
+        one.begin = s - half;
+        one.end = s + half;
+        const double edge = lane.width / 2 + beside_the_lane;
+        if (one.right > edge || one.left < -edge || one.end < 0 || one.begin > lane.length)
+            continue;
+        one.right -= footprint.clearance;
+        one.left += footprint.clearance;
+        one.lane = index;
+        one.speed = std::max(footprint.velocity.dot(ahead), 0.0);
+        one.z = place.z();
+        one.id = footprint.id;
+        all_.push_back(one);
+    }
+}
+
+void Obstructions::look(const world::TickView& last, std::span<const Car> cars) {
+    gather_footprints(last, cars, footprints_);
+    all_.clear();
+    for (const Footprint& footprint : footprints_)
+        add(footprint);
+    std::stable_sort(all_.begin(), all_.end(), [](const Obstruction& one, const Obstruction& other) {
+        return std::tie(one.lane, one.begin) < std::tie(other.lane, other.begin);
+    });
+}
+
+std::span<const Obstruction> Obstructions::on(std::uint32_t lane) const {
+    const auto first = std::lower_bound(
+        all_.begin(), all_.end(), lane, [](const Obstruction& one, std::uint32_t wanted) {
+            return one.lane < wanted;
+        });
+    auto last = first;
+    while (last != all_.end() && last->lane == lane)
+        ++last;
+    return {first, last};
+}
+
+}  // namespace reprise::traffic
