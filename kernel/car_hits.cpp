@@ -45,10 +45,8 @@ std::optional<Touch> touch(const world::CarState& car,
     if (distance > person.shoulder_width / 2)
         return std::nullopt;
     // Outwards from the box; ahead when the walker is inside already.
-    const Eigen::Vector2d outwards = distance > 0
-                                         ? Eigen::Vector2d((out.x() * ahead + out.y() * left) /
-                                                           distance)
-                                         : ahead;
+    const Eigen::Vector2d outwards =
+        distance > 0 ? Eigen::Vector2d((out.x() * ahead + out.y() * left) / distance) : ahead;
     const double car_speed = static_cast<double>(car.speed()) * ahead.dot(outwards);
     const double closing = car_speed - walker_velocity.dot(outwards);
     if (car_speed < least_car_speed || closing <= 0)
@@ -106,9 +104,8 @@ void note_hit_walkers(double step_seconds, const world::TickView& last, world::T
         for (; at != cars.end() && (*at)->position().x() <= x + longest_half_car; ++at) {
             if (std::abs((*at)->position().y() - y) > longest_half_car)
                 continue;
-            const Eigen::Vector2d velocity =
-                static_cast<double>(walker.speed()) *
-                world::ahead_of(static_cast<double>(walker.yaw()));
+            const Eigen::Vector2d velocity = static_cast<double>(walker.speed()) *
+                                             world::ahead_of(static_cast<double>(walker.yaw()));
             const auto hit = touch(**at, walker, velocity);
             if (!hit)
                 continue;

@@ -208,6 +208,7 @@ std::uint64_t Background::digest() const {
     parts_->signals.add_to(hasher);
     parts_->signal_orders.add_to(hasher);
     parts_->mirrors.add_to(hasher);
+    parts_->lookout.add_to(hasher);
     return hasher.digest64();
 }
 

@@ -41,6 +41,12 @@ struct LaneOrder {
     std::uint64_t until = 0;
 };
 
+/// On its way around what blocks its lane: through the oncoming one; see passing.h.
+struct PassOrder {
+    std::uint32_t lane = world::none;  ///< its own
+    double end = 0;                    ///< [m] along that: from there on it comes back
+};
+
 /// A car that traffic owns. Positions are world, metres.
 struct Car {
     std::uint32_t id = 0;
@@ -84,6 +90,7 @@ struct Car {
     std::uint64_t held_in = 0;                    ///< tick in which SUMO must hold its speed
 
     bool held_back = false;  ///< by what it sees on its way; see lookout.h
+    std::optional<PassOrder> pass;
 };
 
 }  // namespace reprise::traffic

@@ -134,6 +134,10 @@ void Cars::add_to(world::Hasher& hasher) const {
         }
         if (car.offset_order)
             add_offset(hasher, *car.offset_order, car.offset);
+        if (car.pass) {
+            hasher.add(car.pass->lane);
+            hasher.add(car.pass->end);
+        }
         if (car.trajectory) {
             car.trajectory->add_to(hasher);
             hasher.add(car.trajectory_start);

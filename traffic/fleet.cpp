@@ -82,11 +82,20 @@ std::string vehicle_types_xml() {
         xml += type_xml(demand_type(i), i, vehicle_class, moody);
         xml += type_xml(scripted_type(i), i, "passenger", even);
     }
+    xml += fmt::format(
+        R"(<vType id="{}" vClass="passenger" length="{}" width="1.8" minGap="0" sigma="0"/>)"
+        "\n",
+        stand_in_type(),
+        stand_in_length);
     return xml + "</additional>\n";
 }
 
 std::string demand_type(std::uint16_t model) {
     return fmt::format("d{}", model);
+}
+
+std::string stand_in_type() {
+    return "stand-in";
 }
 
 std::string scripted_type(std::uint16_t model) {

@@ -15,6 +15,10 @@ std::string vehicle_types_xml();
 std::string demand_type(std::uint16_t model);
 std::string scripted_type(std::uint16_t model);
 
+/// The type of what blocks a lane (see stand_ins.h).
+std::string stand_in_type();
+inline constexpr double stand_in_length = 0.5;  ///< [m]
+
 /// What a driver of the model brakes with when nothing hurries, and at most. [m/s^2]
 double comfortable_braking(std::uint16_t model);
 double emergency_braking(std::uint16_t model);

@@ -15,12 +15,14 @@ namespace {
 
 constexpr double longest_piece = 2.5;      // [m]
 constexpr double least_prop_height = 0.2;  // [m] what is lower passes below a car
+constexpr double far_aside = 0.6;          // [m] from where SUMO believes a car
 constexpr double beside_walkers = 0.4;     // [m]
 constexpr double beside_things = 0.1;      // [m]
 
 /// In pieces of equal length.
 void add_pieces(const Footprint& whole, std::vector<Footprint>& footprints) {
-    const int count = std::max(1, static_cast<int>(std::ceil(2 * whole.half_length / longest_piece)));
+    const int count =
+        std::max(1, static_cast<int>(std::ceil(2 * whole.half_length / longest_piece)));
     Footprint piece = whole;
     piece.half_length = whole.half_length / count;
     for (int i = 0; i < count; ++i) {
@@ -35,6 +37,7 @@ void add_car(std::uint32_t id,
              const Eigen::Vector3d& rear,
              const Eigen::Vector2d& direction,
              const Eigen::Vector2d& velocity,
+             bool drives,
              std::vector<Footprint>& footprints) {
     const world::VehicleModel& model = world::vehicle_models()[model_index];
     Footprint body;
@@ -45,6 +48,7 @@ void add_car(std::uint32_t id,
     body.z = rear.z();
     body.velocity = velocity;
     body.clearance = beside_things;
+    body.drives = drives;
     body.id = id;
     add_pieces(body, footprints);
 }
@@ -129,14 +133,16 @@ void gather_footprints(const world::TickView& last,
                 world::to_eigen(vehicle.position()),
                 level_direction(vehicle.orientation()),
                 {vehicle.velocity().x(), vehicle.velocity().y()},
+                vehicle.id() < world::first_background_id,  // else a wreck
                 footprints);
     for (const Car& car : cars)
-        if (car.origin == Origin::parked || car.sumo.empty())
+        if (car.origin == Origin::parked || car.sumo.empty() || std::abs(car.offset) > far_aside)
             add_car(car.id,
                     car.model,
                     car.rear,
                     world::ahead_of(car.yaw),
                     car.speed * world::ahead_of(car.yaw),
+                    car.origin != Origin::parked,
                     footprints);
     add_walkers(last.walkers(), footprints);
     add_props(last.props(), footprints);

@@ -20,13 +20,14 @@ struct Footprint {
     double half_width = 0;
     Eigen::Vector2d velocity;
     double clearance = 0;  ///< [m] that one who passes leaves beside it
+    bool drives = false;   ///< a vehicle with mass, or on a trajectory: SUMO has a copy of it
     std::uint32_t id = 0;
 };
 
 /// All in the last tick that SUMO does not know, or only as a point in the middle of a lane:
-/// walkers, props, open doors, vehicles with mass, and those of `cars` that SUMO does not drive.
-/// Long ones in pieces, so that each is short against the bends of a road. In the order of their
-/// kinds, and of their ids.
+/// walkers, props, open doors, vehicles with mass, and those of `cars` that SUMO does not drive or
+/// that are aside of their lane. Long ones in pieces, so that each is short against the bends of a
+/// road. In the order of their kinds, and of their ids.
 void gather_footprints(const world::TickView& last,
                        std::span<const Car> cars,
                        std::vector<Footprint>& footprints);

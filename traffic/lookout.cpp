@@ -6,6 +6,7 @@
 #include <libsumo/libsumo.h>
 
 #include "traffic/fleet.h"
+#include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/units.h"
 
@@ -15,10 +16,10 @@ namespace {
 
 using world::none;
 
-constexpr double reaction = 1;      // [s] as SUMO's tau
-constexpr double standing_gap = 1.5;  // [m] less than SUMO keeps behind cars that it knows
+constexpr double reaction = 1;         // [s] as SUMO's tau
+constexpr double least_gap = 0.5;      // [m] for which everybody brakes as hard as it takes
 constexpr double steepest_way = 0.45;  // [m] aside for each metre driven, of one who pulls out
-constexpr double starting = 3;  // [m/s^2] no car of the fleet starts quicker
+constexpr double starting = 3;         // [m/s^2] no car of the fleet starts quicker
 constexpr double spare_braking = 1.1;
 
 /// The speed from which a car still stops within `gap` metres of one that drives at `speed` and
@@ -37,7 +38,8 @@ struct Lookout::Corridor {
     double half_width;  ///< [m]
     double aside;       ///< [m] left of its lane's middle
     double wanted_aside;
-    double reach;  ///< [m] that it looks ahead
+    double most_gap;  ///< [m] that it leaves behind what it stops for
+    double reach;     ///< [m] that it looks ahead
     double z;
     double comfortable;  ///< [m/s^2]
     double hardest;      ///< [m/s^2]
@@ -52,14 +54,15 @@ struct Lookout::Corridor {
         return wanted_aside + std::copysign(left, off);
     }
 
-    void meet(double distance, double right, double left, double its_speed) {
+    void meet(double distance, double right, double left, const Obstruction& other) {
         const double middle = aside_at(distance);
         if (left < middle - half_width || right > middle + half_width)
             return;
-        const double gap = distance - standing_gap;
-        double wanted = safe_speed(gap, its_speed, comfortable);
+        double wanted =
+            safe_speed(distance - std::min(other.gap, most_gap), other.speed, comfortable);
         // Who is surprised brakes as hard as it takes.
-        const double needed = (speed * speed - its_speed * its_speed) / (2 * std::max(gap, 0.1));
+        const double room = std::max(distance - least_gap, 0.1);
+        const double needed = (speed * speed - other.speed * other.speed) / (2 * room);
         const double braking = std::clamp(spare_braking * needed, comfortable, hardest);
         wanted = std::max({wanted, speed - braking * step, 0.0});
         allowed = std::min(allowed, wanted);
@@ -75,7 +78,7 @@ void Lookout::look_on(std::uint32_t lane, double start, double aside, Corridor& 
         if (one.id == corridor.id || distance < -nose || distance > corridor.reach ||
             std::abs(one.z - corridor.z) > world::level_clearance + corridor.reach * 0.1)
             continue;
-        corridor.meet(distance, one.right + aside, one.left + aside, one.speed);
+        corridor.meet(distance, one.right + aside, one.left + aside, one);
     }
 }
 
@@ -105,14 +108,42 @@ void Lookout::look_along(std::uint32_t lane,
             look_along(link.via() != none ? link.via() : link.to(), end, car, corridor);
 }
 
-double Lookout::allowed_speed(const Car& car) const {
+/// SUMO's cars on both lanes, for one who passes something: to SUMO it is still in its own lane.
+void Lookout::look_at_cars(const Cars& cars, double s, const Car& car, Corridor& corridor) const {
+    const world::LanePoint on = world::point_at(town_->lanes[car.lane], s);
+    const Eigen::Vector2d ahead = world::ahead_of(on.yaw);
+    for (const Car& other : cars.all()) {
+        if (other.id == car.id || other.origin == Origin::parked)
+            continue;
+        const world::VehicleModel& model = world::vehicle_models()[other.model];
+        const Eigen::Vector2d direction = world::ahead_of(other.yaw);
+        const Eigen::Vector2d offset = other.rear.head<2>() +
+                                       (model.length / 2 - model.rear_overhang) * direction -
+                                       on.position.head<2>();
+        const double half = model.length / 2 * std::abs(direction.dot(ahead)) +
+                            model.width / 2 * std::abs(world::cross(direction, ahead));
+        const double half_across = model.width / 2 * std::abs(direction.dot(ahead)) +
+                                   model.length / 2 * std::abs(world::cross(direction, ahead));
+        const double distance = offset.dot(ahead) - half;
+        const double aside = world::cross(ahead, offset);
+        if (distance < -0.3 || distance > corridor.reach)
+            continue;
+        Obstruction one;
+        one.speed = std::max(other.speed * direction.dot(ahead), 0.0);
+        one.gap = 2;
+        corridor.meet(distance, aside - half_across, aside + half_across, one);
+    }
+}
+
+double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     constexpr double easy_braking = 2;  // [m/s^2] nobody begins to brake earlier
     const world::VehicleModel& model = world::vehicle_models()[car.model];
     const Eigen::Vector3d& front = car.trail.front();
     Corridor corridor{};
     corridor.speed = car.speed;
     corridor.half_width = model.width / 2;
-    corridor.wanted_aside = car.offset;
+    corridor.wanted_aside = car.offset_order ? car.offset_order->change.to : car.offset;
+    corridor.most_gap = car.pass ? 1 : world::infinity;
     corridor.reach = 10 + (reaction + car.speed / (2 * easy_braking)) * car.speed;
     corridor.z = front.z();
     corridor.comfortable = comfortable_braking(car.model);
@@ -124,6 +155,8 @@ double Lookout::allowed_speed(const Car& car) const {
     const world::LaneProjection at = world::project(lane, front);
     corridor.aside = at.t;
     look_along(car.lane, -at.s, car, corridor);
+    if (car.pass)
+        look_at_cars(cars, at.s, car, corridor);
     // A body that has not left the next lane yet, or not come from it.
     for (const std::uint32_t beside : {lane.left, lane.right}) {
         if (beside == none || obstructions_.on(beside).empty())
@@ -138,7 +171,7 @@ void Lookout::hold_back(Car& car, double speed, std::uint64_t tick) const {
     using libsumo::Vehicle;
     if (car.speed_order)
         speed = std::min(speed, orders_->ordered_speed(car, tick));
-    else if (!car.held_back || car.ignores_lights)
+    else
         Vehicle::setSpeedMode(car.sumo, orders_->braking_mode(car));
     Vehicle::setSpeed(car.sumo, speed);
     car.held_back = true;
@@ -146,12 +179,22 @@ void Lookout::hold_back(Car& car, double speed, std::uint64_t tick) const {
 
 void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tick) {
     obstructions_.look(last, cars.all());
+    stand_ins_.advance(obstructions_.all(), cars, tick);
     for (Car& car : cars.all()) {
         if (car.sumo.empty() || car.origin == Origin::parked || car.lane == none ||
             car.held_in == tick || (car.speed_order && !car.speed_order->reacts))
             continue;
-        const double allowed = obstructions_.empty() ? world::infinity : allowed_speed(car);
-        if (allowed < car.speed + starting * step_) {
+        if (car.pass)
+            passing_.follow(car, tick);
+        double allowed = obstructions_.empty() ? world::infinity : allowed_speed(car, cars);
+        if (car.held_back && !car.pass && allowed < Passing::speed) {
+            passing_.begin(car, cars, last, tick);
+            if (car.pass)
+                allowed = allowed_speed(car, cars);
+        }
+        if (car.pass)
+            allowed = std::min(allowed, Passing::speed);
+        if (car.pass || allowed < car.speed + starting * step_) {
             hold_back(car, allowed, tick);
         } else if (car.held_back) {
             car.held_back = false;

@@ -5,7 +5,9 @@
 #include "traffic/cars.h"
 #include "traffic/obstructions.h"
 #include "traffic/orders.h"
+#include "traffic/passing.h"
 #include "traffic/road_graph.h"
+#include "traffic/stand_ins.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"
 #include "world/town.h"
@@ -33,15 +35,24 @@ class Lookout {
           graph_(&graph),
           orders_(&orders),
           obstructions_(town, lanes),
-          step_(world::seconds(1, episode.step_ns)) {}
+          step_(world::seconds(1, episode.step_ns)),
+          stand_ins_(town, graph, step_),
+          passing_(town, obstructions_, step_) {}
+
+    Lookout(const Lookout&) = delete;
+    Lookout& operator=(const Lookout&) = delete;
 
     /// Before SUMO's step, behind the orders.
     void advance(const world::TickView& last, Cars& cars, std::uint64_t tick);
 
+    /// Beside what the cars keep; nothing where nothing is in the way.
+    void add_to(world::Hasher& hasher) const { stand_ins_.add_to(hasher); }
+
   private:
     struct Corridor;
 
-    double allowed_speed(const Car& car) const;
+    double allowed_speed(const Car& car, const Cars& cars) const;
+    void look_at_cars(const Cars& cars, double s, const Car& car, Corridor& corridor) const;
     void look_along(std::uint32_t lane, double start, const Car& car, Corridor& corridor) const;
     void look_on(std::uint32_t lane, double start, double aside, Corridor& corridor) const;
     void hold_back(Car& car, double speed, std::uint64_t tick) const;
@@ -51,6 +62,8 @@ class Lookout {
     const Orders* orders_;
     Obstructions obstructions_;
     double step_;  ///< [s]
+    StandIns stand_ins_;
+    Passing passing_;
 };
 
 }  // namespace reprise::traffic

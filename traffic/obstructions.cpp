@@ -14,6 +14,7 @@ namespace {
 constexpr double beside_the_lane = 0.2;  // [m] beyond its edge it takes no room of it
 constexpr double foresight = 0.7;        // [s] of a walker's way
 constexpr double least_walk = 0.3;       // [m/s] slower ones stand
+constexpr double along_its_lane = 0.8;   // cosine: who stands across a lane is not on its way
 
 /// Half the extent of a box in a direction.
 double half_extent(const Footprint& box, const Eigen::Vector2d& direction) {
@@ -61,6 +62,10 @@ void Obstructions::add(const Footprint& footprint) {
         one.lane = index;
         one.speed = std::max(footprint.velocity.dot(ahead), 0.0);
         one.z = place.z();
+        const bool askew = std::abs(footprint.direction.dot(ahead)) < along_its_lane;
+        one.lasts = (!footprint.drives || askew) && footprint.velocity.norm() < least_walk;
+        // Behind vehicles that SUMO has a copy of, less than SUMO keeps.
+        one.gap = one.lasts ? 5.5 : footprint.drives ? 1.5 : 4;
         one.id = footprint.id;
         all_.push_back(one);
     }
@@ -71,9 +76,10 @@ void Obstructions::look(const world::TickView& last, std::span<const Car> cars) 
     all_.clear();
     for (const Footprint& footprint : footprints_)
         add(footprint);
-    std::stable_sort(all_.begin(), all_.end(), [](const Obstruction& one, const Obstruction& other) {
-        return std::tie(one.lane, one.begin) < std::tie(other.lane, other.begin);
-    });
+    std::stable_sort(
+        all_.begin(), all_.end(), [](const Obstruction& one, const Obstruction& other) {
+            return std::tie(one.lane, one.begin) < std::tie(other.lane, other.begin);
+        });
 }
 
 std::span<const Obstruction> Obstructions::on(std::uint32_t lane) const {

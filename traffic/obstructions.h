@@ -19,6 +19,8 @@ struct Obstruction {
     double left = 0;   ///< to here
     double speed = 0;  ///< [m/s] along the lane, 0 for what comes towards us
     double z = 0;
+    bool lasts = false;  ///< stands or lies still, and is not somebody who waits to drive on
+    double gap = 0;      ///< [m] that one who stops behind it leaves
     std::uint32_t id = 0;
 };
 

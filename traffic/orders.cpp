@@ -26,6 +26,7 @@ constexpr int sumo_default_speed_mode = 31;
 constexpr int gives_way = 8;
 constexpr int stops_at_red = 16;
 constexpr int limits_braking = 4;
+constexpr int keeps_safe_gap = 1;
 // No bit but 32: inside junctions, too, nobody goes first.
 constexpr int reacts_to_nothing = 32;
 
@@ -165,7 +166,8 @@ double Orders::ordered_speed(const Car& car, std::uint64_t tick) const {
 }
 
 int Orders::braking_mode(const Car& car) const {
-    return speed_mode(car) & ~limits_braking;
+    // Who passes something drives, to SUMO, through it.
+    return speed_mode(car) & ~(limits_braking + (car.pass ? keeps_safe_gap : 0));
 }
 
 void Orders::let_go(const Car& car, std::uint64_t tick) const {
