@@ -2,17 +2,12 @@
 // runs a scenario, the script plays a second time on the very same ticks, and the same script
 // without its tasks and checks a third time. All three see the same world, so the difference of the
 // last two is what watching costs.
-#include <algorithm>
-#include <ctime>
-#include <numeric>
-#include <string>
-#include <vector>
-
 #include <benchmark/benchmark.h>
 
 #include "kernel/kernel.h"
 #include "scripting/scenario.h"
 #include "tests/bench/drive.h"
+#include "tests/bench/timer.h"
 
 namespace {
 
@@ -20,35 +15,6 @@ using namespace reprise;
 
 constexpr int warm_up = 200;  // ticks until queues have formed
 constexpr int measured = 1000;
-
-/// Time of CPU that the thread takes: on a busy machine others do not count.
-class Watch {
-  public:
-    template <typename Work>
-    void time(const Work& work) {
-        const double begin = now();
-        work();
-        times_.push_back(now() - begin);
-    }
-
-    double sum() const { return std::accumulate(times_.begin(), times_.end(), 0.0); }
-
-    double median() const {
-        std::vector<double> sorted = times_;
-        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-        std::nth_element(sorted.begin(), middle, sorted.end());
-        return *middle;
-    }
-
-  private:
-    static double now() {
-        timespec now{};
-        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-        return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-    }
-
-    std::vector<double> times_;  ///< [s]
-};
 
 /// A script that plays along and is not heard.
 class Listener {
@@ -62,7 +28,7 @@ class Listener {
         time.time([&] { scenario_.advance(last, unheard); });
     }
 
-    Watch time;
+    bench::ThreadTimer time;
 
   private:
     scripting::Scenario scenario_;
@@ -77,7 +43,7 @@ void Scripting(benchmark::State& state) {
     const world::Recording recording = bench::in_town1("tests/bench/scripted.lua");
     world::Recording silent = recording;
     for (world::ParameterT& parameter : silent.episode.parameters)
-        parameter.value = "0";
+        parameter.value.assign(1, '0');  // GCC 12 warns of a literal here
     const world::LaneMap lanes(recording.town);
     for (auto _ : state) {
         kernel::Kernel kernel(recording);
@@ -85,7 +51,7 @@ void Scripting(benchmark::State& state) {
         Listener without(silent, lanes);
         const world::SealedTick nothing = genesis();
         world::TickView last = nothing.view();
-        Watch step;
+        bench::ThreadTimer step;
         for (int i = 0; i < warm_up + measured; ++i) {
             if (i == warm_up) {
                 step = {};
