@@ -121,7 +121,7 @@ std::optional<std::string> Language::mistake_in(const std::string& text,
             return std::nullopt;
         try {
             if (choices.edge)
-                lane_or_edge_named(*town, text);
+                stop_named(*town, text);
             else
                 lane_named(*town, text);
         } catch (const world::Error& error) {

@@ -150,12 +150,15 @@ std::uint32_t lane_named(const TownT& town, const std::string& name) {
     throw world::Error(fmt::format("no lane '{}' in {}{}", name, town.name, hint_of(name, names)));
 }
 
-std::uint32_t lane_or_edge_named(const TownT& town, const std::string& name) {
+StopLanes stop_named(const TownT& town, const std::string& name) {
     if (const auto lane = world::find_lane(town, name))
-        return *lane;
+        return {*lane};
+    StopLanes lanes;
     for (std::uint32_t index = 0; index < town.lanes.size(); ++index)
         if (town.lanes[index].edge == name && town.lanes[index].kind == LaneKind::driving)
-            return index;
+            lanes.push_back(index);
+    if (!lanes.empty())
+        return lanes;
     std::vector<std::string> names;
     for (const LaneT& lane : town.lanes) {
         if (lane.kind != LaneKind::driving)

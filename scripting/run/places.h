@@ -9,6 +9,9 @@
 
 namespace reprise::scripting {
 
+/// Lanes any of which will do; ascending.
+using StopLanes = std::vector<std::uint32_t>;
+
 /// What a scenario asks of a lane. Unset: any.
 struct LaneWish {
     double length = 0;         ///< [m] at least
@@ -31,8 +34,9 @@ std::string not_for_cars(const world::TownT& town, const world::LaneT& lane);
 /// The lane of this name, or throws: "no lane 'b1_b2_9' in town1 (did you mean 'b1_b2_1'?)".
 std::uint32_t lane_named(const world::TownT& town, const std::string& name);
 
-/// A lane by its name, or an edge by its name: its rightmost lane for cars.
-std::uint32_t lane_or_edge_named(const world::TownT& town, const std::string& name);
+/// A stop of a route: a lane by its name, or an edge by its name, all lanes for cars of it from the
+/// right.
+StopLanes stop_named(const world::TownT& town, const std::string& name);
 
 /// A place beside the road, opposite a point: across all lanes of both directions, and one metre
 /// on.

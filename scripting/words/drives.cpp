@@ -5,6 +5,7 @@
 #include "scripting/lua/text.h"
 #include "scripting/run/caps.h"
 #include "scripting/run/places.h"
+#include "scripting/run/stops.h"
 #include "scripting/words/handles.h"
 #include "scripting/words/obedience.h"
 #include "scripting/words/vocabulary.h"
@@ -20,6 +21,7 @@ using world::CommandKind;
 using world::Driver;
 
 constexpr lua_Integer few_stops = 10;  ///< of a route that anybody would write
+constexpr std::uint64_t leg_cost = 5;  ///< [instructions] a lane, of a way from stop to stop
 
 /// A car that is sent somewhere: another program's, too, which reads in the tick where to.
 Actor& sent_car(Run& run, lua_State* L, const char* who) {
@@ -27,28 +29,41 @@ Actor& sent_car(Run& run, lua_State* L, const char* who) {
     return actor.driver == Driver::external ? actor : driver_of_car(run, L, who);
 }
 
-/// From here on it is watched how much of the way it has driven.
-void note_route(
-    Run& run, lua_State* L, Actor& actor, const std::vector<std::uint32_t>& stops, double last_s) {
-    actor.route.reset();
-    run.forget_way(actor);
+/// Where it is, if on a lane for cars.
+std::optional<world::LanePlace> place_of(Run& run, const Actor& actor) {
     const Body body = run.look_at(actor);
     if (body.lane == world::none || !world::is_for_cars(run.town.lanes[body.lane]))
+        return std::nullopt;
+    return world::LanePlace{body.lane, world::project(run.town.lanes[body.lane], body.position).s};
+}
+
+world::Planner planner_for(const Run& run, const Actor& actor) {
+    return world::Planner(
+        run.town, actor.keeps_lane ? world::LaneChanges::none : world::LaneChanges::allowed);
+}
+
+/// From here on it is watched how much of the way it has driven.
+void note_route(Run& run,
+                lua_State* L,
+                Actor& actor,
+                std::optional<world::LanePlace> here,
+                const std::vector<std::uint32_t>& stops) {
+    actor.route.reset();
+    run.forget_way(actor);
+    if (!here)
         return;
-    run.vm.charge(L, stops.size() * run.town.lanes.size() * 5);
-    const auto changes = actor.keeps_lane ? world::LaneChanges::none : world::LaneChanges::allowed;
-    const world::LanePlace here{body.lane,
-                                world::project(run.town.lanes[body.lane], body.position).s};
-    auto route = world::plan_over(world::Planner(run.town, changes), here, stops, last_s);
+    run.vm.charge(L, stops.size() * run.town.lanes.size() * leg_cost);
+    auto route = world::plan_over(
+        planner_for(run, actor), *here, stops, run.town.lanes[stops.back()].length);
     if (route)
         actor.route.emplace(std::move(*route));
 }
 
-int set_route(Run& run, lua_State* L) {
-    Actor& actor = sent_car(run, L, "set_route");
+/// The list of lanes and edges that is the second argument.
+std::vector<StopLanes> stops_at(Run& run, lua_State* L) {
     if (lua_type(L, 2) != LUA_TTABLE || lua_rawlen(L, 2) == 0)
         refuse("set_route", "needs a list of lanes or edges: ego:set_route{ 'a1_b1', 'b1_b2' }");
-    std::vector<std::uint32_t> lanes;
+    std::vector<StopLanes> stops;
     const auto count = static_cast<lua_Integer>(lua_rawlen(L, 2));
     if (count > static_cast<lua_Integer>(longest_route))
         refuse("set_route", fmt::format("a route of more than {} lanes and edges", longest_route));
@@ -59,15 +74,25 @@ int set_route(Run& run, lua_State* L) {
         // The kernel plans a way from each to the next.
         if (i > few_stops)
             run.vm.charge(L, run.town.lanes.size() * 20);
-        lanes.push_back(
-            lane_or_edge_named(run.town, text_at(L, -1, "set_route", fmt::format("entry {}", i))));
-        if (const world::LaneT& stop = run.town.lanes[lanes.back()]; !world::is_for_cars(stop))
+        stops.push_back(
+            stop_named(run.town, text_at(L, -1, "set_route", fmt::format("entry {}", i))));
+        if (const world::LaneT& stop = run.town.lanes[stops.back().front()];
+            !world::is_for_cars(stop))
             refuse("set_route", fmt::format("entry {}: {}", i, not_for_cars(run.town, stop)));
         lua_pop(L, 1);
     }
+    return stops;
+}
+
+int set_route(Run& run, lua_State* L) {
+    Actor& actor = sent_car(run, L, "set_route");
+    const std::vector<StopLanes> stops = stops_at(run, L);
+    const std::optional<world::LanePlace> here = place_of(run, actor);
+    run.vm.charge(L, searches_for(stops) * run.town.lanes.size() * leg_cost);
+    std::vector<std::uint32_t> lanes = choose_lanes(run.town, planner_for(run, actor), here, stops);
     world::CommandT& command = run.say(L, CommandKind::set_route, actor.id);
     command.s = run.town.lanes[lanes.back()].length;
-    note_route(run, L, actor, lanes, command.s);
+    note_route(run, L, actor, here, lanes);
     command.lanes = std::move(lanes);
     return 0;
 }
