@@ -73,6 +73,8 @@ void Run::observe() {
         if (actor.is_walker() || actor.driver == world::Driver::parked)
             return;
         if (!stop_lines.empty()) {
+            if (actor.displaced_at != 0 && actor.displaced_at + 1 == now())
+                actor.lights.lose_sight();
             const double farthest = 2 * std::abs(body.speed) * step + 2;
             actor.lights.observe(
                 town, stop_lines, last, body.position, body.yaw, body.front, farthest);

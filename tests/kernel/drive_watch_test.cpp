@@ -111,6 +111,27 @@ TEST(RanRed, NobodyDoesWhoObeysLights) {
     EXPECT_THAT(lines_of(ticks), ElementsAre());
 }
 
+TEST(RanRed, IsDrivenNotTeleported) {
+    const auto lines = lines_of(run(in_town("junctions",
+                                            R"(
+        local lane = pick_junction{ lit = true, arms = 4 }.arms[1].incoming[1]
+        local before, behind = lane_length(lane) - 4.5, lane_length(lane) - 3  -- the bumper is 3.7 m ahead
+        local car = spawn{ model = 'sedan', driver = 'manual', lane = lane, s = before }
+        set_signal(lane, 'red')
+        wait(1)
+        car:teleport{ lane = lane, s = behind }
+        wait(1)
+        print(car:ran_red())
+        car:teleport{ lane = lane, s = before }
+        wait(1)
+        car:control{ throttle = 0.5 }
+        wait_until(function() return car:s() > behind end, { timeout = 5 })
+        wait_ticks(2)
+        print(car:ran_red()))",
+                                            20)));
+    EXPECT_THAT(lines, ElementsAre("false", "true"));
+}
+
 TEST(LeftRoad, IsWhereAWheelLeavesIt) {
     const auto lines = lines_of(run(on_straight_lanes(R"(
         local car = spawn{ model = 'sedan', driver = 'manual', lane = 'main_0', s = 100, speed = 10 }

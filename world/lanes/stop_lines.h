@@ -65,6 +65,13 @@ class RedLightWatch {
                  double front,
                  double farthest);
 
+    /// It was put elsewhere since it was observed: it has crossed nothing on the way there, and
+    /// which turning it was about to take stays unknown.
+    void lose_sight() {
+        p_front_.reset();
+        lane_ = none;
+    }
+
     bool ran_red() const { return ran_red_; }
 
     /// Does it wait to see which way it takes?

@@ -167,6 +167,20 @@ TEST(RedLightWatch, LetsWhoIsPutElsewhereBe) {
     EXPECT_FALSE(car.ran_red());
 }
 
+TEST(RedLightWatch, LetsWhoIsPutAFewStepsOnBe) {
+    Car car({red, red, red});
+    car.stand({46, -1.75}, 0);
+    car.watch.lose_sight();
+    car.stand({47, -1.75}, 0);
+    EXPECT_FALSE(car.ran_red());
+    Car undecided({red, green, green});
+    undecided.drive({30, -1.75}, {49, -1.75}, 0);
+    EXPECT_TRUE(undecided.watch.is_undecided());
+    undecided.watch.lose_sight();
+    undecided.drive({55, -1.75}, {80, -1.75}, 0);
+    EXPECT_FALSE(undecided.ran_red()) << "it was put onto the way straight on";
+}
+
 TEST(RedLightWatch, LetsWhoPassesBesideTheLinesBe) {
     Car car({red, red, red});
     car.drive({30, 6}, {70, 6}, 0);
