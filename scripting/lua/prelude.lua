@@ -38,11 +38,16 @@ local steer_together = _steer_together
 _steer_together = nil
 
 --- Steers the speed of `a` so that it comes to its point when `b` comes to its own; returns when either
---- is there, or they hit each other: did they meet, and how many seconds apart.
+--- is there, or they hit each other, or it gives up: did they meet, and how many seconds apart.
 function arrive_together(a, b, point, options)
     local met, apart, left_a, left_b
+    local began, moved = tick(), tick()
     while true do
-        local done, now_met, now_apart, now_a, now_b = steer_together(a, b, point, options, left_a, left_b)
+        local done, now_met, now_apart, now_a, now_b, moves =
+            steer_together(a, b, point, options, left_a, left_b, began, moved)
+        if moves then
+            moved = tick()
+        end
         if now_apart then
             met, apart, left_a, left_b = now_met, now_apart, now_a, now_b
         end

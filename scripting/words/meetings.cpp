@@ -24,20 +24,22 @@ namespace {
 constexpr Key arrive_key_rows[] = {
     {"speed", "number", "[m/s] when they arrive"},
     {"speed_kmh", "number", "[km/h] the same"},
+    {"timeout", "number", "[s] to give up after; default never, unless both stand for a minute"},
 };
 
 using world::CommandKind;
 using world::Driver;
 
 constexpr const char* arrival = "arrive_together";
-constexpr double met_within = 0.1;     // [s] apart, at most
-constexpr double slowest_mover = 0.1;  // [m/s] below it nobody comes nearer
-constexpr double fastest_walk = 12;    // [m/s]
-constexpr double fastest_drive = 60;   // [m/s]
-constexpr double change_of_speed = 3;  // [m/s^2]
-constexpr double foresight = 0.5;      // [s] of a speed that is on its way to another one
-constexpr double beside_lane = 0.5;    // [m] a point may lie beyond a lane's edge
-constexpr double lost_way = 5;         // [m] that a way grows by who has left it for a moment
+constexpr double met_within = 0.1;        // [s] apart, at most
+constexpr double slowest_mover = 0.1;     // [m/s] below it nobody comes nearer
+constexpr double fastest_walk = 12;       // [m/s]
+constexpr double fastest_drive = 60;      // [m/s]
+constexpr double change_of_speed = 3;     // [m/s^2]
+constexpr double foresight = 0.5;         // [s] of a speed that is on its way to another one
+constexpr double beside_lane = 0.5;       // [m] a point may lie beyond a lane's edge
+constexpr double lost_way = 5;            // [m] that a way grows by who has left it for a moment
+constexpr double patience_standing = 60;  // [s] with both of them
 
 /// Where one of them is to come.
 struct Goal {
@@ -226,41 +228,66 @@ void say_speed(Run& run, lua_State* L, const Comer& comer, SpeedIn to) {
     command.shape = command.duration > 0 ? world::Shape::linear : world::Shape::sinusoidal;
 }
 
-/// (a, b, point, options, left_a, left_b): one tick. Returns whether either is there, whether they
-/// meet as it stands, how far apart in time they are, and what is left for both. Nothing but true
-/// where they have hit each other on the way: what was said last holds.
+/// Where its way says that it is? Who has left the way for good comes to no point.
+bool is_on_way(const Run& run, const Comer& comer, const Goal& goal) {
+    const double away = (goal.p_world - comer.body.position).head<2>().norm();
+    return away <= std::max(comer.left, 0.0) + lost_way + std::abs(comer.body.speed) * run.step;
+}
+
+/// (..., began, moved): since when it is tried, and the last tick in which one of both moved.
+bool gives_up(const Run& run, lua_State* L, const Fields& options) {
+    const std::optional<double> timeout = options.number("timeout");
+    if (timeout && (*timeout < 0 || *timeout > 1e9))
+        refuse(arrival, "'timeout' must be in [0, 1e9] s");
+    const auto since = [&](int index) {
+        return run.now() - static_cast<std::uint64_t>(lua_tointeger(L, index));
+    };
+    return (timeout && since(7) >= ticks_of(*timeout, run.episode.step_ns)) ||
+           since(8) >= ticks_of(patience_standing, run.episode.step_ns);
+}
+
+/// (a, b, point, options, left_a, left_b, began, moved): one tick. Returns whether it is over,
+/// whether they meet as it stands, how far apart in time they are, what is left for both, and
+/// whether one of them moves. Nothing but true where they have hit each other on the way: what was
+/// said last holds.
 int steer_together(Run& run, lua_State* L) {
-    lua_settop(L, 6);
+    lua_settop(L, 8);
     const Actor& steered = driven(run, L, arrival);
     if (steered.is_walker() && !steered.walks)
         refuse(arrival, "'" + steered.name + "' stands: tell it first where to walk");
     const Fields options(L, 4, arrival, names_of(arrive_key_rows), true);
     const std::optional<double> final_speed = options.speed();
-    const Comer a = comer_at(run, L, 1, goal_of(run, L, 3, "a"), left_before(L, 5));
-    const Comer b = comer_at(run, L, 2, goal_of(run, L, 3, "b"), left_before(L, 6));
+    const Goal goal_a = goal_of(run, L, 3, "a");
+    const Goal goal_b = goal_of(run, L, 3, "b");
+    const Comer a = comer_at(run, L, 1, goal_a, left_before(L, 5));
+    const Comer b = comer_at(run, L, 2, goal_b, left_before(L, 6));
     if (a.actor == b.actor)
         refuse(arrival, "needs two actors");
     if (left_before(L, 5) && a.actor->contacts.others.count(b.actor->id) != 0) {
         lua_pushboolean(L, 1);
         return 1;
     }
-    const bool done = std::min(a.time(), b.time()) <= run.step || a.left <= 0 || b.left <= 0;
-    const double apart = std::abs(a.time() - b.time());
-    if (!done && !std::isinf(b.time()))
+    const bool there = std::min(a.time(), b.time()) <= run.step || a.left <= 0 || b.left <= 0;
+    const bool over = there || gives_up(run, L, options);
+    const bool both_come = is_on_way(run, a, goal_a) && is_on_way(run, b, goal_b);
+    const double apart = both_come ? std::abs(a.time() - b.time()) : world::infinity;
+    if (!over && !std::isinf(b.time()))
         say_speed(run, L, a, wanted(a.left, a.body.speed, b.time(), final_speed));
-    lua_pushboolean(L, done ? 1 : 0);
-    lua_pushboolean(L, apart <= met_within ? 1 : 0);  // not for NaN: both stand
+    lua_pushboolean(L, over ? 1 : 0);
+    lua_pushboolean(L, there && apart <= met_within ? 1 : 0);  // not for NaN: both stand
     lua_pushnumber(L, std::isnan(apart) ? world::infinity : apart);
     lua_pushnumber(L, a.left);
     lua_pushnumber(L, b.left);
-    return 5;
+    lua_pushboolean(L, std::isinf(a.time()) && std::isinf(b.time()) ? 0 : 1);
+    return 6;
 }
 
 constexpr Word meeting_rows[] = {
     {"arrive_together",
      nullptr,
      "(a: Actor, b: Actor, point: table, options?: ArriveOptions): boolean, number",
-     "steers a so that both come to the point at once; waits: met within 0.1 s, and how far apart"},
+     "steers a so that both come to the point at once; waits: met within 0.1 s, and how far apart; "
+     "false where it gives up"},
 };
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "replay/trace_writer.h"
 #include "tests/kernel/whole_run.h"
 #include "world/frames.h"
+#include "world/town.h"
 
 namespace reprise::test {
 
@@ -374,6 +375,25 @@ TEST(ArriveTogether, WithinATenthOfASecond) {
                 EXPECT_NEAR(time_of_passing(a, p_a), time_of_passing(b, {362.86, 165.25}), 0.1)
                     << s << more << options;
             }
+}
+
+TEST(ArriveTogether, DoesNotMeetWhoHasLeftTheWayToItsPoint) {
+    // The other one turns off before it comes to its point straight on.
+    const world::Recording recording =
+        in_town("junctions",
+                "local a = spawn{ model = 'sedan', lane = 'x_stop_x_lit_1', s = 10, speed = 8 }\n"
+                "local b = spawn{ model = 'sedan', lane = 't_lit_x_lit_1', s = 20, speed = 10 }\n"
+                "b:hold_speed(8) b:route_to{ lane = 'x_lit_x_stop_1' }\n"
+                "local s = lane_length 'x_lit_x_right_first_1' - 10\n"
+                "print(arrive_together(a, b, { a = { lane = 'x_stop_x_lit_1', s = 120 },\n"
+                "    b = { lane = 'x_lit_x_right_first_1', s = s } }))",
+                60);
+    std::vector<std::string> lines;
+    for (const KeptTick& tick : run(recording))
+        for (const world::Event* event : *tick.recorded().view.tick->events())
+            if (event->kind() == world::EventKind::printed)
+                lines.push_back(event->text()->str());
+    EXPECT_EQ(lines, std::vector<std::string>{"false inf"});
 }
 
 TEST(Motion, VerifiesToTheByte) {

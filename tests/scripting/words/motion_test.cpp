@@ -124,6 +124,32 @@ TEST(MotionWords, OfPointsToMeetAt) {
               "test.lua:2: arrive_together: no way leads 'suv' to its point");
 }
 
+TEST(ArriveTogether, GivesUpAfterItsTimeoutOrWhenBothHaveStoodForAMinute) {
+    const auto play = [](const std::string& options) {
+        test::Stage stage(test::running(
+            "local a = spawn{ model = 'sedan', lane = 'east_1', s = 20 }\n"
+            "local b = spawn{ model = 'suv', lane = 'west_1', s = 20 }\n"
+            "local met, apart = arrive_together(a, b, { a = { lane = 'east_1', s = 200 },\n"
+            "    b = { lane = 'west_1', s = 200 } }" +
+            options + ")\nprint(met, apart, time())"));
+        return stage.play(1400);
+    };
+    // Asked from tick 1 on, in which both are there: a tick is 0.05 s.
+    EXPECT_THAT(play(", { timeout = 2 }"), testing::ElementsAre("false inf 2.0"));
+    EXPECT_THAT(play(""), testing::ElementsAre(testing::StartsWith("false inf 60")));
+    EXPECT_EQ(mistake(ego, "arrive_together(ego, ego, { 100, 0 }, { timeout = -1 })"), "");
+}
+
+TEST(ArriveTogether, EndsWithAnErrorWhereOneOfThemLeavesTheWorld) {
+    EXPECT_EQ(
+        mistake(ego,
+                "local b = spawn{ name = 'b', model = 'suv', lane = 'west_1', s = 20, speed = 1 }\n"
+                "start(function() wait(1) b:despawn() end)\n"
+                "arrive_together(ego, b, { a = { lane = 'east_1', s = 399 },\n"
+                "    b = { lane = 'west_1', s = 399 } })"),
+        "");
+}
+
 TEST(MotionWords, BecomeCommands) {
     test::Stage stage(test::running(std::string(ego) + R"(
         ego:hold_speed() ego:hold_speed_kmh(36, { over = 4 }) ego:hold_speed(false)
