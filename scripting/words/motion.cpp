@@ -174,14 +174,19 @@ int free_speed(Run& run, lua_State* L) {
     return 0;
 }
 
+/// `false` in the place of a value lifts an order: a command that says no more.
+bool lifts(Run& run, lua_State* L, CommandKind order, const Actor& actor) {
+    if (!lua_isboolean(L, 2) || lua_toboolean(L, 2) != 0)
+        return false;
+    run.say(L, order, actor.id);
+    return true;
+}
+
 /// Without an argument the speed that it has; false lifts it.
 int hold(Run& run, lua_State* L, const char* who, double unit) {
     const Actor& actor = driver_of_car(run, L, who);
-    const bool lifts = lua_isboolean(L, 2) && lua_toboolean(L, 2) == 0;
-    if (lifts) {
-        run.say(L, CommandKind::hold_speed, actor.id);
+    if (lifts(run, L, CommandKind::hold_speed, actor))
         return 0;
-    }
     const double speed = lua_isnoneornil(L, 2) ? std::max(body_of(run.last, actor)->speed, 0.0)
                                                : speed_at(L, who, unit);
     const Change change = speed_change_at(L, 3, actor, who);
@@ -204,10 +209,8 @@ int hold_speed_kmh(Run& run, lua_State* L) {
 int brake(Run& run, lua_State* L) {
     constexpr double of_traffic = 9;  // [m/s^2] see traffic/orders.cpp
     const Actor& actor = driver_of_car(run, L, "brake");
-    if (lua_isboolean(L, 2) && lua_toboolean(L, 2) == 0) {
-        run.say(L, CommandKind::brake, actor.id);
+    if (lifts(run, L, CommandKind::brake, actor))
         return 0;
-    }
     const double deceleration = number_at(L, 2, "brake", "the deceleration in m/s^2");
     const double most = actor.driver == Driver::traffic
                             ? of_traffic
