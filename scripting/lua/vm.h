@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scripting/lua/memory.h"
 
@@ -130,7 +131,7 @@ class Vm {
     Run* run = nullptr;        ///< none while only the header is read
     Header* header = nullptr;  ///< where `scenario` puts what it is given
 
-    const void* actor_type = nullptr;  ///< the metatable that handles of actors have
+    std::vector<const void*> actor_handles;  ///< the userdata of each actor, by its id; null: none
 
     bool in_branch = false;  ///< the script takes over from another: set before it is read
 

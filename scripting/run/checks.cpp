@@ -150,7 +150,6 @@ void Checks::look(StepContext& context, Entry& entry) {
     const int type = lua_type(L, -1);
     const double value = lua_tonumber(L, -1);
     const bool holds = lua_toboolean(L, -1) != 0;
-    const std::string got = type == LUA_TNUMBER ? text_of(L, -1) : lua_typename(L, type);
     lua_pop(L, 1);
     if (!has_limit(entry.kind)) {
         entry.evaluated = true;
@@ -165,7 +164,7 @@ void Checks::look(StepContext& context, Entry& entry) {
                         context.vm.script(),
                         entry.line,
                         entry.name,
-                        got));
+                        type == LUA_TNUMBER ? number_text(value) : lua_typename(L, type)));
     entry.evaluated = true;
     judge(context, entry, value);
 }

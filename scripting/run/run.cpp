@@ -57,13 +57,15 @@ Gap Run::gap(const Actor& a, const Actor& b) {
 }
 
 std::optional<InTheWay> Run::in_the_way(const Actor& actor, double range) {
-    const std::vector<Neighbour>& all = everybody();
+    if (in_the_way_at_ != now())
+        in_the_way_.clear();
+    in_the_way_at_ = now();
     const auto [found, is_new] = in_the_way_.try_emplace(actor.id);
     if (is_new) {
         std::span<const world::Route::Piece> route;
         if (actor.route)
             route = actor.route->to_come();
-        found->second = find_ahead(town, all, look_at(actor), actor.id, route, range);
+        found->second = find_ahead(town, last, look_at(actor), actor.id, route, range);
     }
     return found->second;
 }
@@ -92,7 +94,6 @@ const std::vector<Neighbour>& Run::everybody() {
     if (everybody_at_ != now()) {
         everybody_at_ = now();
         everybody_ = scripting::everybody(last);
-        in_the_way_.clear();
     }
     return everybody_;
 }

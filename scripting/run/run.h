@@ -71,7 +71,8 @@ struct Run : StepContext {
   private:
     std::map<std::pair<std::uint32_t, std::uint32_t>, Gap> gaps_;  ///< of this tick, by ids
     std::uint64_t gaps_at_ = 0;                                    ///< tick
-    std::map<std::uint32_t, std::optional<InTheWay>> in_the_way_;  ///< likewise, into everybody_
+    std::map<std::uint32_t, std::optional<InTheWay>> in_the_way_;  ///< likewise
+    std::uint64_t in_the_way_at_ = 0;                              ///< tick
     std::vector<Neighbour> everybody_;
     std::optional<std::uint64_t> everybody_at_;  ///< tick
     std::optional<std::vector<std::vector<world::JunctionArm>>> arms_;

@@ -32,10 +32,13 @@ const char* model_name(const Neighbour& neighbour);
 /// Everybody in a tick: vehicles with mass, cars, walkers, each by id. O(all), 20 ns each.
 std::vector<Neighbour> everybody(const world::TickView& tick);
 
+/// How many they are.
+std::size_t count_everybody(const world::TickView& tick);
+
 /// Who is in the way of a vehicle that goes on along its lane where it is in it.
 struct InTheWay {
     double gap = 0;  ///< [m] from its front bumper to him, not below 0
-    const Neighbour* who = nullptr;
+    Neighbour who;
 };
 
 /// What must it do?   Find whoever stands or drives in the strip that the vehicle will cover: as
@@ -46,7 +49,7 @@ struct InTheWay {
 /// How?               Where lanes part it follows `route` (lanes to come), else the way with the
 ///                    least turn. Boxes are measured by their shadows along and across the lane.
 std::optional<InTheWay> find_ahead(const world::TownT& town,
-                                   std::span<const Neighbour> all,
+                                   const world::TickView& tick,
                                    const Body& body,
                                    std::uint32_t id,
                                    std::span<const world::Route::Piece> route,

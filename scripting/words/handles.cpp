@@ -1,6 +1,7 @@
 #include "scripting/words/handles.h"
 
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -25,14 +26,16 @@ constexpr const char* handle_list = "handles";  // id -> handle
 constexpr std::uint64_t lane_cost = 50;  // [instructions] of a lane that a search for a way passed
 constexpr std::uint64_t patience = 100;  // [ticks] for an actor to appear
 
-/// 0 when the argument is no handle.
+/// 0 when the argument is no handle. Of all userdata the first four bytes can be read: tasks have
+/// eight.
 std::uint32_t handle_id(lua_State* L, int index) {
     const void* held = lua_touserdata(L, index);
-    if (held == nullptr || lua_getmetatable(L, index) == 0)
+    if (held == nullptr)
         return 0;
-    const bool is_actor = lua_topointer(L, -1) == Vm::of(L).actor_type;
-    lua_pop(L, 1);
-    return is_actor ? *static_cast<const std::uint32_t*>(held) : 0;
+    std::uint32_t id = 0;
+    std::memcpy(&id, held, sizeof id);
+    const std::vector<const void*>& handles = Vm::of(L).actor_handles;
+    return id < handles.size() && handles[id] == held ? id : 0;
 }
 
 Actor& self(Run& run, lua_State* L) {
@@ -247,7 +250,12 @@ void push_handle(lua_State* L, std::uint32_t actor) {
     luaL_getsubtable(L, LUA_REGISTRYINDEX, handle_list);
     if (lua_rawgeti(L, -1, actor) == LUA_TNIL) {
         lua_pop(L, 1);
-        *static_cast<std::uint32_t*>(lua_newuserdatauv(L, sizeof actor, 0)) = actor;
+        auto* const handle = static_cast<std::uint32_t*>(lua_newuserdatauv(L, sizeof actor, 0));
+        *handle = actor;
+        std::vector<const void*>& handles = Vm::of(L).actor_handles;
+        if (handles.size() <= actor)
+            handles.resize(actor + 1);
+        handles[actor] = handle;
         luaL_setmetatable(L, handle_type);
         lua_pushvalue(L, -1);
         lua_rawseti(L, -3, actor);
@@ -304,7 +312,6 @@ int wait_for_presence(Run& run, lua_State* L, int (*again)(lua_State*, int, std:
 
 void add_handle_words(lua_State* L) {
     luaL_newmetatable(L, handle_type);
-    Vm::of(L).actor_type = lua_topointer(L, -1);
     lua_newtable(L);  // the methods
     add_words(L, actor_looks);
     add_look_words(L);

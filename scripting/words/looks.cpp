@@ -159,17 +159,16 @@ int around(Run& run, lua_State* L) {
 /// Metres, and what is there: its name and kind. Nil when the way is clear.
 int gap_ahead(Run& run, lua_State* L) {
     const Actor& actor = vehicle_at(run, L, "gap_ahead");
-    const auto& all = run.everybody();
-    run.vm.charge(L, way_cost + all.size() * glance_cost);
+    run.vm.charge(L, way_cost + count_everybody(run.last) * glance_cost);
     const auto found = run.in_the_way(actor, clear_way);
     if (!found) {
         lua_pushnil(L);
         return 1;
     }
-    const std::string name = name_of(run, *found->who);
+    const std::string name = name_of(run, found->who);
     lua_pushnumber(L, found->gap);
     lua_pushlstring(L, name.data(), name.size());
-    lua_pushstring(L, name_of(found->who->kind));
+    lua_pushstring(L, name_of(found->who.kind));
     return 3;
 }
 
