@@ -48,6 +48,12 @@ bool is_right(Turn turn) {
     return turn == Turn::right || turn == Turn::partially_right;
 }
 
+bool must_give_way(const Gate& gate, SignalColor color) {
+    if (color == SignalColor::off)
+        return gate.yields;
+    return color == SignalColor::green_minor || color == SignalColor::stop;
+}
+
 /// Before the junction: does the traffic of that lane go before us?
 bool goes_first(const ConflictPoint& conflict,
                 SignalColor their_color,
@@ -175,9 +181,9 @@ bool Gatekeeper::must_stop(const world::TickView& last,
     if (needed > yellow_braking)
         return false;
     bool stop = !has_room(ego, gate, overlaps);
-    if (must_give_way(gate, color, ego, to_line)) {
-        const bool sign = color == SignalColor::stop && gate.serial != stopped_gate_;
-        const bool give_way = sign || !has_gap(last, ego, way, gate);
+    if (must_give_way(gate, color)) {
+        const bool give_way =
+            must_halt(gate, color, ego, to_line) || !has_gap(last, ego, way, gate);
         if (gate.serial != waiting_gate_) {
             waiting_gate_ = gate.serial;
             waited_ticks_ = 0;
@@ -200,15 +206,14 @@ bool Gatekeeper::stops_at_yellow(const Gate& gate, double needed) {
     return yellow_stop_;
 }
 
-bool Gatekeeper::must_give_way(const Gate& gate,
-                               SignalColor color,
-                               const Ego& ego,
-                               double to_line) {
-    if (color == SignalColor::stop && ego.speed < 0.1 && to_line < 4)
+/// Once, whether somebody comes or not: a sign, where no light says otherwise.
+bool Gatekeeper::must_halt(const Gate& gate, SignalColor color, const Ego& ego, double to_line) {
+    const bool sign = color == SignalColor::off && gate.has_stop_sign && !ignores_lights_;
+    if (color != SignalColor::stop && !sign)
+        return false;
+    if (ego.speed < 0.1 && to_line < 4)
         stopped_gate_ = gate.serial;
-    if (color == SignalColor::off)
-        return gate.yields;
-    return color == SignalColor::green_minor || color == SignalColor::stop;
+    return gate.serial != stopped_gate_;
 }
 
 bool Gatekeeper::has_room(const Ego& ego,

@@ -15,8 +15,9 @@ namespace reprise::drivers {
 
 /// Decides at the end of every lane whether to enter the junction behind it.
 ///
-/// MUST    stop at red; at yellow where that is comfortable; give way where the link says so; leave
-///         the junction free when there is no room behind it.
+/// MUST    stop at red; at yellow where that is comfortable; at a stop sign, whoever comes; give
+/// way
+///         where the link says so; leave the junction free when there is no room behind it.
 /// ASSUMES others accelerate no harder than 2 m/s^2 and hold their lane; lamps that are on tell
 ///         where a car turns.
 /// GOES    through the gates ahead, nearest first, until one says stop.
@@ -48,7 +49,7 @@ class Gatekeeper {
                    std::span<const Overlap> overlaps,
                    double step);
     bool stops_at_yellow(const Gate& gate, double needed);
-    bool must_give_way(const Gate& gate, world::SignalColor color, const Ego& ego, double to_line);
+    bool must_halt(const Gate& gate, world::SignalColor color, const Ego& ego, double to_line);
     bool has_room(const Ego& ego, const Gate& gate, std::span<const Overlap> overlaps) const;
     bool has_gap(const world::TickView& last,
                  const Ego& ego,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "world/check.h"
+#include "world/lanes/junctions.h"
 
 namespace reprise::drivers {
 
@@ -21,7 +22,8 @@ bool leads_somewhere(const world::TownT& town, const Link& link) {
 LaneGraph::LaneGraph(const world::TownT& town)
     : town_(&town),
       exit_(town.lanes.size(), world::none),
-      incoming_(town.junctions.size()) {
+      incoming_(town.junctions.size()),
+      has_stop_sign_(world::lanes_with_stop_sign(town)) {
     for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
         const LaneT& lane = town.lanes[i];
         if (lane.kind != LaneKind::driving)

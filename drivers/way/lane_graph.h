@@ -59,6 +59,9 @@ class LaneGraph {
     /// The lane behind the junction for one who is on this internal lane, or none.
     std::uint32_t exit(std::uint32_t internal_lane) const { return exit_[internal_lane]; }
 
+    /// Does a stop sign stand at the end of this lane's road?
+    bool has_stop_sign(std::uint32_t lane) const { return has_stop_sign_[lane]; }
+
     /// Driving lanes that end at a junction, ascending.
     std::span<const std::uint32_t> incoming(std::uint32_t junction) const;
 
@@ -86,6 +89,7 @@ class LaneGraph {
     std::vector<Continuation> continuation_;
     std::vector<std::uint32_t> exit_;
     std::vector<std::vector<std::uint32_t>> incoming_;
+    std::vector<bool> has_stop_sign_;
 };
 
 }  // namespace reprise::drivers

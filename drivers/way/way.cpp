@@ -264,6 +264,7 @@ void Way::append_junction(std::uint32_t lane, std::uint32_t link_index) {
     gate.to = link.to();
     gate.turn = link.turn();
     gate.yields = link.yields();
+    gate.has_stop_sign = gate.yields && graph_->has_stop_sign(lane);
     for (const std::uint32_t internal : graph_->inside(link))
         append_straight(internal, 0);
     gate.exit_s = path_.end();

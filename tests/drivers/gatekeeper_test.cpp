@@ -19,7 +19,10 @@ constexpr double north = std::numbers::pi / 2;
 class Approach {
   public:
     explicit Approach(bool yields, std::uint32_t signal = world::none)
-        : town_(with_signal(test::junction_road(yields), signal)),
+        : Approach(with_signal(test::junction_road(yields), signal)) {}
+
+    explicit Approach(world::TownT town)
+        : town_(std::move(town)),
           graph_(town_),
           way_(graph_, 7, 1),
           gatekeeper(town_) {
@@ -72,6 +75,16 @@ world::CarState crossing_car(double distance, double speed) {
 world::SealedTick tick_of(std::vector<world::CarState> cars,
                           std::vector<world::SignalColor> signals = {}) {
     return test::tick_with({}, std::move(cars), std::move(signals));
+}
+
+/// junction_road with a stop sign at the end of the eastbound lane.
+world::TownT signed_road(bool yields) {
+    world::TownT town = test::junction_road(yields);
+    world::Prop sign;
+    sign.mutate_kind(world::PropKind::stop_sign);
+    sign.mutable_position() = world::Vec3(199, -3, 0);
+    town.props.push_back(sign);
+    return town;
 }
 
 }  // namespace
@@ -129,6 +142,19 @@ TEST(Gatekeeper, StopsAtAStopSignThoughNobodyIsThereAndGoesOnOnceItStood) {
     EXPECT_LT(approach.allowed(6, 0, sign), world::infinity) << "it stood too far before the line";
     EXPECT_EQ(approach.allowed(1, 0, sign), world::infinity);
     EXPECT_EQ(approach.allowed(0.5, 1, sign), world::infinity) << "once is enough";
+}
+
+TEST(Gatekeeper, HaltsOnceWhereASignStandsBesideALaneThatGivesWay) {
+    Approach approach(signed_road(true));
+    const world::SealedTick nobody = tick_of({});
+    EXPECT_EQ(approach.allowed(31, 10, nobody), stop_acceleration(30, 10, 2, approach.style));
+    EXPECT_LT(approach.allowed(1.5, 1.5, nobody), 0) << "rolling is not standing";
+    EXPECT_EQ(approach.allowed(1, 0, nobody), world::infinity);
+    Approach ignores(signed_road(true));
+    ignores.gatekeeper.ignore_lights(true);
+    EXPECT_EQ(ignores.allowed(31, 10, nobody), world::infinity);
+    EXPECT_EQ(Approach(signed_road(false)).allowed(31, 10, nobody), world::infinity)
+        << "the sign is for another road";
 }
 
 TEST(Gatekeeper, CreepsOnAfterTwelveSecondsOfGivingWay) {

@@ -75,6 +75,15 @@ bool stands_at(const Prop& sign, const LanePoint& end) {
            std::abs(wrap_angle(sign.yaw() - end.yaw)) < one_street;
 }
 
+/// Is one of them for who drives on these lanes, the rightmost of which comes first?
+bool any_stands_at(const std::vector<Prop>& signs,
+                   const TownT& town,
+                   const std::vector<std::uint32_t>& lanes) {
+    const LanePoint end = end_of(town.lanes[lanes.front()]);
+    return std::any_of(
+        signs.begin(), signs.end(), [&](const Prop& sign) { return stands_at(sign, end); });
+}
+
 /// Straight on; where no way leads straight on, whichever way.
 bool must_give_way(const TownT& town, const std::vector<std::uint32_t>& incoming) {
     bool straight = false;
@@ -95,9 +104,7 @@ JunctionArm arm_of(const TownT& town, const std::vector<Prop>& signs, const Side
     arm.yaw = incoming.yaw;
     arm.incoming = incoming.lanes;
     arm.yields = must_give_way(town, arm.incoming);
-    const LanePoint end = end_of(town.lanes[arm.incoming.front()]);
-    arm.stop_sign = std::any_of(
-        signs.begin(), signs.end(), [&](const Prop& sign) { return stands_at(sign, end); });
+    arm.stop_sign = any_stands_at(signs, town, arm.incoming);
     return arm;
 }
 
@@ -180,6 +187,19 @@ std::vector<std::vector<JunctionArm>> arms_of_junctions(const TownT& town) {
         arms.push_back(join(
             town, signs, sides(town, edges, into[i], true), sides(town, edges, out_of[i], false)));
     return arms;
+}
+
+std::vector<bool> lanes_with_stop_sign(const TownT& town) {
+    std::vector<bool> found(town.lanes.size(), false);
+    const std::vector<Prop> signs = stop_signs(town);
+    if (signs.empty())
+        return found;
+    for (const auto& [edge, lanes] : lanes_by_edge(town)) {
+        const bool has_sign = any_stands_at(signs, town, lanes);
+        for (const std::uint32_t lane : lanes)
+            found[lane] = has_sign;
+    }
+    return found;
 }
 
 std::vector<CrossingPlace> crossings_of(const TownT& town, const LaneMap& lanes) {

@@ -22,6 +22,9 @@ struct JunctionArm {
 /// The streets of each junction, counter-clockwise from east: [junction][arm]. O(lanes log lanes).
 std::vector<std::vector<JunctionArm>> arms_of_junctions(const TownT& town);
 
+/// [lane] Does a stop sign stand at the end of its road? O(roads * signs).
+std::vector<bool> lanes_with_stop_sign(const TownT& town);
+
 /// A pedestrian crossing.
 struct CrossingPlace {
     std::uint32_t lane = 0;  ///< index in town.lanes
