@@ -17,7 +17,7 @@ using world::Turn;
 /// Two lanes east, `in`, up to a junction: from the right one on to the right one of `east` or
 /// south, from the left one on to the left one of `east` or north. From the left one of `east` one
 /// gets to `far`.
-enum Lane : std::uint32_t { in_1, in_2, east_1, east_2, far_1, north_1, south_1, vias };
+enum Lane : std::uint32_t { east_1, east_2, far_1, in_1, in_2, north_1, south_1 };
 
 world::TownT crossroads() {
     const auto road = [](const char* name, double x, double y, double to_x, double to_y) {
@@ -26,11 +26,11 @@ world::TownT crossroads() {
     };
     world::TownT town;
     town.name = "crossroads";
-    town.lanes = {road("in_1", 0, -5, 300, -5),
-                  road("in_2", 0, -2, 300, -2),
-                  road("east_1", 320, -5, 620, -5),
+    town.lanes = {road("east_1", 320, -5, 620, -5),  // by name, as in every town
                   road("east_2", 320, -2, 620, -2),
                   road("far_1", 640, -2, 900, -2),
+                  road("in_1", 0, -5, 300, -5),
+                  road("in_2", 0, -2, 300, -2),
                   road("north_1", 312, 10, 312, 300),
                   road("south_1", 308, -15, 308, -300)};
     for (const std::uint32_t right : {in_1, east_1}) {
@@ -42,7 +42,7 @@ world::TownT crossroads() {
         const world::Vec3 end = town.lanes[to].centre.front();
         const auto via = static_cast<std::uint32_t>(town.lanes.size());
         town.lanes.push_back(
-            test::lane(":" + std::to_string(via), world::LaneKind::internal, {begin, end}));
+            test::lane("via_" + std::to_string(via), world::LaneKind::internal, {begin, end}));
         town.lanes[via].links = {world::Link(to, world::none, world::none, turn, false, 0)};
         town.lanes[from].links.emplace_back(to, via, world::none, turn, false, std::uint16_t{0});
     };

@@ -137,7 +137,11 @@ TEST(ArriveTogether, GivesUpAfterItsTimeoutOrWhenBothHaveStoodForAMinute) {
     // Asked from tick 1 on, in which both are there: a tick is 0.05 s.
     EXPECT_THAT(play(", { timeout = 2 }"), testing::ElementsAre("false inf 2.0"));
     EXPECT_THAT(play(""), testing::ElementsAre(testing::StartsWith("false inf 60")));
-    EXPECT_EQ(mistake(ego, "arrive_together(ego, ego, { 100, 0 }, { timeout = -1 })"), "");
+    EXPECT_EQ(mistake(ego,
+                      "local b = spawn{ model = 'suv', lane = 'west_1', s = 20 }\n"
+                      "arrive_together(ego, b, { a = { lane = 'east_1', s = 200 },\n"
+                      "    b = { lane = 'west_1', s = 200 } }, { timeout = -1 })"),
+              "test.lua:3: arrive_together: 'timeout' must be in [0, 1e9] s");
 }
 
 TEST(ArriveTogether, EndsWithAnErrorWhereOneOfThemLeavesTheWorld) {
@@ -147,7 +151,7 @@ TEST(ArriveTogether, EndsWithAnErrorWhereOneOfThemLeavesTheWorld) {
                 "start(function() wait(1) b:despawn() end)\n"
                 "arrive_together(ego, b, { a = { lane = 'east_1', s = 399 },\n"
                 "    b = { lane = 'west_1', s = 399 } })"),
-        "");
+        "test.lua:4: 'b' left the world in tick 21: ask b:exists() first");
 }
 
 TEST(MotionWords, BecomeCommands) {
