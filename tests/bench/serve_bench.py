@@ -6,6 +6,7 @@ The variable REPRISE names the program; PYTHONPATH holds python/. Other options 
 gets what it would write. No test; nothing depends on its figures.
 """
 import argparse
+import contextlib
 import json
 import multiprocessing
 import os
@@ -63,6 +64,43 @@ def environment(pipe, seed, cores):
             pipe.send(timed(lambda: sim.run(lambda seen: control, steps)))
 
 
+class Environments:
+    """Such processes, which end with the block. Whoever of them is gone is told as an error, and not waited for."""
+
+    def __init__(self, work, places):
+        self.pipes, self.children = [], []
+        for seed, cores in enumerate(places):
+            pipe, theirs = multiprocessing.Pipe()
+            child = multiprocessing.Process(target=work, args=(theirs, seed, cores))
+            child.start()
+            theirs.close()  # only the child has it: the pipe ends with it
+            self.pipes.append(pipe)
+            self.children.append(child)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for pipe, child in zip(self.pipes, self.children):
+            with contextlib.suppress(BrokenPipeError):
+                pipe.send(0)
+            child.join()
+
+    def rate(self, which, steps):
+        """Ticks a second of all of these together."""
+        for number in which:
+            self.pipes[number].send(steps)
+        return len(which) * steps / max(self._answer(number) for number in which)
+
+    def _answer(self, number):
+        try:
+            return self.pipes[number].recv()
+        except EOFError:
+            self.children[number].join()
+            ended = f"environment {number} ended with exit code {self.children[number].exitcode}"
+            raise ChildProcessError(ended) from None
+
+
 def plain(folder, count):
     """Ticks a second of all of so many runs at once in which nobody drives: what the machine has to give."""
     def ended(words):
@@ -80,26 +118,14 @@ def measure_vector(steps=400, turns=9):
     uses both: the next tick is begun while its driver thinks. Beside them two plain runs at once over one: two
     environments can hardly be more than that."""
     cores = os.sched_getaffinity(0)
-    pipes, workers = zip(*(multiprocessing.Pipe() for _ in range(3)))
     places = (cores, cores, {min(cores)})
-    children = [multiprocessing.Process(target=environment, args=each) for each in zip(workers, range(3), places)]
-    for child in children:
-        child.start()
-
-    def rate(these):
-        for pipe in these:
-            pipe.send(steps)
-        return len(these) * steps / max(pipe.recv() for pipe in these)
-
-    rate(pipes)  # until queues have formed
-    with tempfile.TemporaryDirectory() as place:
+    with Environments(environment, places) as environments, tempfile.TemporaryDirectory() as place:
+        environments.rate((0, 1, 2), steps)  # until queues have formed
         folder = pathlib.Path(place)
         (folder / "alone.lua").write_text(SCENARIO % (TICKS * 0.05, "manual"))
-        turns = [(rate(pipes[:2]), rate(pipes[turn % 2 :][:1]), rate(pipes[2:]), plain(folder, 2), plain(folder, 1))
+        turns = [(environments.rate((0, 1), steps), environments.rate((turn % 2,), steps),
+                  environments.rate((2,), steps), plain(folder, 2), plain(folder, 1))
                  for turn in range(turns)]  # fmt: skip
-    for pipe, child in zip(pipes, children):
-        pipe.send(0)
-        child.join()
     two, one, on_a_core, plain_two, plain_one = (median(column) for column in zip(*turns))
     ratios, of_core, of_plain = ([both[i] / both[i + j] for both in turns] for i, j in ((0, 1), (0, 2), (3, 1)))
     return {"ticks/s_two": two, "ticks/s_one": one, "ticks/s_one_on_a_core": on_a_core, "ticks/s_plain_two": plain_two,
