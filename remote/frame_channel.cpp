@@ -1,5 +1,6 @@
 #include "remote/frame_channel.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
@@ -20,7 +21,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "frames are sent as they lie in memory");
 
-constexpr double glance = 0.1;  // [s]
+constexpr double glance = 0.1;              // [s]
+constexpr std::size_t longest_ahead = 256;  // [bytes] of a body; a control is shorter
 
 struct Header {
     std::uint32_t size = 0;
@@ -147,7 +149,10 @@ FrameChannel::FrameChannel(int descriptor, std::size_t largest)
 
 FrameChannel::FrameChannel(FrameChannel&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
-      largest_(other.largest_) {}
+      largest_(other.largest_),
+      reads_whole_messages_(other.reads_whole_messages_),
+      last_size_(other.last_size_),
+      ahead_(std::move(other.ahead_)) {}
 
 FrameChannel::~FrameChannel() {
     if (descriptor_ >= 0)
@@ -198,10 +203,17 @@ void FrameChannel::send(Kind kind,
     }
 }
 
-void FrameChannel::read(void* target, std::size_t size, const Wait& wait, Descriptor& came_along) {
-    auto* at = static_cast<char*>(target);
-    while (size > 0) {
-        iovec part{at, size};
+bool FrameChannel::has_input() const {
+    pollfd one{descriptor_, POLLIN, 0};
+    return !ahead_.empty() || poll(&one, 1, 0) > 0;
+}
+
+std::size_t FrameChannel::read_some(void* target,
+                                    std::size_t most,
+                                    const Wait& wait,
+                                    Descriptor& came_along) {
+    for (;;) {
+        iovec part{target, most};
         msghdr message{};
         message.msg_iov = &part;
         message.msg_iovlen = 1;
@@ -219,8 +231,19 @@ void FrameChannel::read(void* target, std::size_t size, const Wait& wait, Descri
         }
         if (const int number = DescriptorRoom::taken(message); number >= 0)
             came_along = Descriptor(number);
+        return static_cast<std::size_t>(came);
+    }
+}
+
+void FrameChannel::read(void* target, std::size_t size, const Wait& wait, Descriptor& came_along) {
+    auto* at = static_cast<std::uint8_t*>(target);
+    const auto kept = static_cast<std::ptrdiff_t>(std::min(size, ahead_.size()));
+    at = std::copy_n(ahead_.begin(), kept, at);
+    ahead_.erase(ahead_.begin(), ahead_.begin() + kept);
+    for (std::size_t left = size - static_cast<std::size_t>(kept); left > 0;) {
+        const std::size_t came = read_some(at, left, wait, came_along);
         at += came;
-        size -= static_cast<std::size_t>(came);
+        left -= came;
     }
 }
 
@@ -228,7 +251,19 @@ Frame FrameChannel::receive(const Patience& patience) {
     const Wait wait(patience);
     Header header;
     Descriptor came_along;
+    if (reads_whole_messages_ && ahead_.empty()) {
+        ahead_.resize(sizeof(header) + last_size_);
+        std::size_t came = 0;
+        try {
+            came = read_some(ahead_.data(), ahead_.size(), wait, came_along);
+        } catch (const ChannelFault&) {
+            ahead_.clear();
+            throw;
+        }
+        ahead_.resize(came);
+    }
     read(&header, sizeof(header), wait, came_along);
+    last_size_ = std::min<std::size_t>(header.size, longest_ahead);
     if (header.size > largest_)
         throw ChannelFault(
             fmt::format("said a message of {} bytes, where {} is the most", header.size, largest_));

@@ -67,6 +67,13 @@ class FrameChannel {
     /// table of its kind.
     Frame receive(const Patience& patience = {});
 
+    /// The other end says one message at a time, and nobody else reads this socket: from now on a
+    /// message as long as the last is taken in one call. What is read too far is kept.
+    void read_whole_messages() { reads_whole_messages_ = true; }
+
+    /// Whether there is something to receive.
+    bool has_input() const;
+
     int descriptor() const { return descriptor_; }
 
     /// Whether open files can be handed over: between processes of one machine only.
@@ -76,11 +83,15 @@ class FrameChannel {
     friend void wait_for_any_input(std::span<const int> descriptors, const Patience& patience);
     struct Wait;
 
-    /// `came_along` gets a descriptor that comes with the bytes.
+    /// What there is, once there is something. `came_along` gets a descriptor that comes with it.
+    std::size_t read_some(void* target, std::size_t most, const Wait& wait, Descriptor& came_along);
     void read(void* target, std::size_t size, const Wait& wait, Descriptor& came_along);
 
     int descriptor_;
     std::size_t largest_;
+    bool reads_whole_messages_ = false;
+    std::size_t last_size_ = 0;        ///< [bytes] of the last body, as far as it is read ahead
+    std::vector<std::uint8_t> ahead_;  ///< read, and of no message yet
 };
 
 }  // namespace reprise::remote

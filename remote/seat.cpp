@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <cstring>
 #include <deque>
-#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <utility>
@@ -33,11 +32,6 @@ namespace reprise::remote {
 namespace {
 
 constexpr std::size_t largest_answer = 64 << 10;  // [bytes]
-
-bool has_input(int descriptor) {
-    pollfd one{descriptor, POLLIN, 0};
-    return poll(&one, 1, 0) > 0;
-}
 
 }  // namespace
 
@@ -70,7 +64,7 @@ struct Seat::Parts {
     bool is_in_vain() {
         if (door)
             door->turn_others_away();
-        return program && channel && program->wait(0) && !has_input(channel->descriptor());
+        return program && channel && program->wait(0) && !channel->has_input();
     }
 
     /// What became of it: how its program ended says more than a socket that is closed.
@@ -139,10 +133,10 @@ struct Seat::Parts {
 
     /// While the driver thinks, frames of later ticks come, and are handed on.
     std::optional<Lost> wait_for_answer() {
-        while (!unshown.empty()) {
+        while (!unshown.empty() && !channel->has_input()) {
             const std::array<int, 2> both{channel->descriptor(), rig->descriptor()};
             wait_for_any_input(both, patience);
-            if (has_input(channel->descriptor()))
+            if (channel->has_input())
                 break;
             if (auto gone = show_finished())
                 return gone;
@@ -169,6 +163,7 @@ Seat::Seat(const SeatPlan& plan, Patience patience) : parts_(std::make_unique<Pa
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
         throw world::Error(std::string("--driver: no socket: ") + std::strerror(errno));
     parts.channel.emplace(ends[0], largest_answer);
+    parts.channel->read_whole_messages();
     const FrameChannel theirs(ends[1], largest_answer);  // closed here once the program has it
     parts.program.emplace(plan.command, theirs.descriptor(), "REPRISE_DRIVER=fd:%d");
 }

@@ -1,8 +1,10 @@
 #include "remote/frame_channel.h"
 
 #include <array>
+#include <cstring>
 #include <sys/socket.h>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -84,6 +86,49 @@ TEST(FrameChannel, RefusesAnUnknownKind) {
     const auto builder = goodbye("why");
     pair.near->send(static_cast<Kind>(77), {builder.GetBufferPointer(), builder.GetSize()});
     EXPECT_THAT(fault_of_receiving(*pair.far), HasSubstr("kind 77"));
+}
+
+TEST(FrameChannel, ThatReadsWholeMessagesLosesNoneOfWhatItReadTooFar) {
+    for (const bool whole : {false, true}) {
+        Pair pair;
+        if (whole)
+            pair.far->read_whole_messages();
+        // A long one, after which three short ones fit into what is taken at once.
+        const std::vector<std::string> said{
+            std::string(150, 'a'), "b", "c", "d", std::string(900, 'e'), "f"};
+        for (const std::string& reason : said) {
+            const auto builder = goodbye(reason);
+            pair.near->send(Kind::goodbye, {builder.GetBufferPointer(), builder.GetSize()});
+        }
+        for (const std::string& reason : said) {
+            EXPECT_TRUE(pair.far->has_input());
+            EXPECT_EQ(pair.far->receive().as<Goodbye>().reason()->str(), reason);
+        }
+        EXPECT_FALSE(pair.far->has_input());
+        EXPECT_EQ(fault_of_receiving(*pair.far, 0.01), "said nothing in time");
+        const auto last = goodbye("last");
+        pair.near->send(Kind::goodbye, {last.GetBufferPointer(), last.GetSize()});
+        EXPECT_EQ(pair.far->receive().as<Goodbye>().reason()->str(), "last");
+    }
+}
+
+TEST(FrameChannel, ThatReadsWholeMessagesTakesThemInPieces) {
+    Pair pair;
+    pair.far->read_whole_messages();
+    const auto builder = goodbye("a word");
+    std::vector<std::uint8_t> bytes(8 + builder.GetSize());
+    const std::array<std::uint32_t, 2> header{builder.GetSize(),
+                                              static_cast<std::uint32_t>(Kind::goodbye)};
+    std::memcpy(bytes.data(), header.data(), sizeof(header));
+    std::memcpy(bytes.data() + 8, builder.GetBufferPointer(), builder.GetSize());
+    for (int message = 0; message < 2; ++message) {
+        std::thread writer([&] {
+            for (const std::uint8_t byte : bytes)
+                ASSERT_EQ(send(pair.near->descriptor(), &byte, 1, 0), 1);
+        });
+        EXPECT_EQ(pair.far->receive().as<Goodbye>().reason()->str(), "a word");
+        writer.join();
+    }
 }
 
 }  // namespace
