@@ -1,8 +1,10 @@
 // What it costs that another program drives, with 100 cars: the built-in driver, and the same
 // control said by this process itself, by a driver in C++, and by drivers in Python without and
 // with cameras. Each drives a run in a process of its own, in turns of a few ticks; beside them
-// bare round trips of the same bytes. Figures are medians of ticks, and of turns of the
-// difference to what nobody was asked in.
+// bare round trips of the same bytes. What asking adds is the difference between ticks in which it
+// is asked and others of the same run, in turns of five: two processes that do the same differ by
+// 40 us a tick, two turns of one by 5. Figures are medians of ticks, and of laps of that
+// difference.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -27,6 +29,7 @@ namespace {
 using namespace reprise;
 
 constexpr int warm_up = 200;  // [ticks] until queues have formed, without drivers
+constexpr unsigned turn = 5;  // [ticks]
 constexpr std::uint32_t actor = 1;
 const std::string source = REPRISE_SOURCE;
 const std::string python = "PYTHONPATH=" + source + "/python exec /usr/bin/python3 -B " + source +
@@ -71,21 +74,38 @@ class Run {
             throw std::runtime_error(lost->reason);
     }
 
+    /// So many ticks in which it is asked, and as many in which nobody is.
     bench::Lap run(unsigned ticks) {
-        bench::Timer each;  // one slow tick of a busy machine does not count
-        bench::Best lap;
-        lap.time([&] {
-            for (unsigned i = 0; i < ticks; ++i)
-                each.time([&] { step(ask()); });
-        });
+        Ticks asked, alone;
+        for (unsigned done = 0; done < ticks; done += turn) {
+            take_turn(asked, [&] { return ask(); });
+            take_turn(alone, [&] { return idle(tick_->view()); });
+        }
         const auto bytes = tick_->tick_bytes().size() + tick_->traffic_bytes().size();
-        return {each.median(),
-                lap.cpu / ticks,
+        return {asked.each.median(),
+                asked.cpu / ticks,
                 static_cast<double>(bytes),
-                tick_->view().tick->digests()->chain()};
+                tick_->view().tick->digests()->chain(),
+                alone.each.median(),
+                alone.cpu / ticks};
     }
 
   private:
+    struct Ticks {
+        bench::Timer each;  ///< one slow tick of a busy machine does not count
+        double cpu = 0;     ///< [s] of all
+    };
+
+    template <class Ask>
+    void take_turn(Ticks& ticks, const Ask& who) {
+        bench::Best all;
+        all.time([&] {
+            for (unsigned i = 0; i < turn; ++i)
+                ticks.each.time([&] { step(who()); });
+        });
+        ticks.cpu += all.cpu;
+    }
+
     void step(const world::Control& control) { tick_ = &kernel_.step({&control, 1}); }
 
     /// As a run asks a driver.
@@ -137,12 +157,12 @@ struct Course {
     double adds_cpu_us = 0;  ///< of the process that simulates
 };
 
-Course course_of(const std::vector<bench::Lap>& laps, const std::vector<bench::Lap>& alone) {
+Course course_of(const std::vector<bench::Lap>& laps) {
     std::vector<double> wall, adds, adds_cpu;
-    for (std::size_t i = 0; i < laps.size(); ++i) {
-        wall.push_back(1e6 * laps[i].wall);
-        adds.push_back(1e6 * (laps[i].wall - alone[i].wall));
-        adds_cpu.push_back(1e6 * (laps[i].cpu - alone[i].cpu));
+    for (const bench::Lap& lap : laps) {
+        wall.push_back(1e6 * lap.wall);
+        adds.push_back(1e6 * (lap.wall - lap.alone));
+        adds_cpu.push_back(1e6 * (lap.cpu - lap.alone_cpu));
     }
     return {median(wall), median(adds), median(adds_cpu)};
 }
@@ -167,7 +187,7 @@ Laps drive(const Plans& plans, unsigned rounds, unsigned ticks) {
 }
 
 double ticks_a_second(const Laps& laps, const char* name) {
-    return 1e6 / course_of(laps.at(name), laps.at("alone")).tick_us;
+    return 1e6 / course_of(laps.at(name)).tick_us;
 }
 
 void Driver(benchmark::State& state) {
@@ -187,12 +207,13 @@ void Driver(benchmark::State& state) {
     for (const auto& [name, own] : laps)
         if (name != "built_in" && own.back().chain != laps["alone"].back().chain)
             state.SkipWithError("the drivers did not drive alike");
-    const auto course = [&](const char* name) { return course_of(laps[name], laps["alone"]); };
+    const auto course = [&](const char* name) { return course_of(laps[name]); };
     state.counters["ticks/s_built_in"] = ticks_a_second(laps, "built_in");
     state.counters["ticks/s_alone"] = ticks_a_second(laps, "alone");
     state.counters["ticks/s_cpp"] = ticks_a_second(laps, "cpp");
     state.counters["ticks/s_python"] = ticks_a_second(laps, "python");
     state.counters["observation_B"] = laps["alone"].back().bytes;
+    state.counters["nobody_us"] = course("alone").adds_us;  // how far two equal turns are apart
     state.counters["bare_us"] = course("bare").adds_us;
     state.counters["cpp_us"] = course("cpp").adds_us;
     state.counters["cpp_waiting_us"] = course("cpp_waiting").adds_us;

@@ -20,6 +20,8 @@ struct Lap {
     double cpu = 0;    ///< [s] of a tick, mean, of the process that simulates
     double bytes = 0;  ///< of the last tick and its traffic
     world::Digest128 chain;
+    double alone = 0;      ///< [s] of a tick of the same run without what is measured, median
+    double alone_cpu = 0;  ///< [s] of such a tick, mean
 };
 
 /// A copy of this process that simulates when it is asked to: there is one kernel a process, and
