@@ -11,7 +11,7 @@ namespace reprise::cli {
 
 namespace {
 
-constexpr double shown = 3;  // [s] a line stays
+constexpr double stays = 3;  // [s] a line stays
 constexpr std::size_t most_lines = 5;
 constexpr double kmh = 3.6;
 
@@ -21,7 +21,7 @@ Story::Story(replay::TraceReader& trace)
     : trace_(trace),
       read_(trace.first() - 1),
       moment_(static_cast<std::uint64_t>(
-          std::llround(shown * 1e9 / static_cast<double>(trace.episode().step_ns)))) {}
+          std::llround(stays * 1e9 / static_cast<double>(trace.episode().step_ns)))) {}
 
 void Story::read_to(std::uint64_t tick) {
     while (read_ < tick) {

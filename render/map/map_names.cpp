@@ -55,7 +55,7 @@ std::optional<std::string> writable(const std::string& name) {
 }
 
 /// A road, with the place for its letters.
-struct Written {
+struct StreetName {
     std::optional<std::string> street;  ///< its name
     std::optional<std::string> edge;    ///< what scripts call it
     double length = 0;                  ///< [m]
@@ -77,8 +77,8 @@ std::map<std::string, const world::LaneT*> middle_lanes(const world::TownT& town
 }
 
 /// Both directions of a road share a name, and the middle between them.
-std::vector<Written> names_of_edges(const world::TownT& town) {
-    std::vector<Written> names;
+std::vector<StreetName> names_of_edges(const world::TownT& town) {
+    std::vector<StreetName> names;
     std::set<std::string> seen;
     for (const auto& [edge, middle] : middle_lanes(town)) {
         if (!seen.insert(edge).second)
@@ -100,9 +100,10 @@ std::vector<Written> names_of_edges(const world::TownT& town) {
                          at.position.head<2>(),
                          upside_down ? world::wrap_angle(angle + std::numbers::pi) : angle});
     }
-    std::stable_sort(names.begin(), names.end(), [](const Written& one, const Written& other) {
-        return one.length > other.length;
-    });
+    std::stable_sort(
+        names.begin(), names.end(), [](const StreetName& one, const StreetName& other) {
+            return one.length > other.length;
+        });
     return names;
 }
 
@@ -129,7 +130,7 @@ void draw_names(const world::TownT& town, MapCanvas& canvas) {
     // The longest of a street carries its name as well; others repeat it far from there only.
     constexpr double again = 450;  // [pixels] of a sheet of 1600
     std::map<std::string, std::vector<Eigen::Vector2d>> written;
-    for (const Written& name : names_of_edges(town)) {
+    for (const StreetName& name : names_of_edges(town)) {
         const double room = 0.9 * name.length * canvas.pixels_per_metre();
         const auto write = [&](const std::string& text) {
             return canvas.text_width(text, height) <= room &&

@@ -14,14 +14,14 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-using Outline = std::vector<Vector2f>;
+using Corners = std::vector<Vector2f>;
 
 Vector3f at_height(const Vector2f& p, float z) {
     return {p.x(), p.y(), z};
 }
 
 /// Slopes from all sides, where the outline is plain enough; else false.
-bool add_hips(BuildingSite& site, const Outline& outline) {
+bool add_hips(BuildingSite& site, const Corners& outline) {
     constexpr double overhang = 0.4;
     constexpr float thick = .16F;
     world::Loop loop;
@@ -39,7 +39,7 @@ bool add_hips(BuildingSite& site, const Outline& outline) {
 }
 
 /// A deck below the walls' upper end, and a coping along them.
-void add_deck(BuildingSite& site, const Outline& outline, float eaves) {
+void add_deck(BuildingSite& site, const Corners& outline, float eaves) {
     ground::Area area(Eigen::Vector2d::Zero());
     world::Loop loop;
     for (const Vector2f& p : outline)
@@ -71,7 +71,7 @@ void add_deck(BuildingSite& site, const Outline& outline, float eaves) {
 }
 
 /// In plan, relative to `foot`, without repeated points; counter-clockwise.
-Outline outline_of(const world::DrawnBuildingT& building, const Eigen::Vector3d& foot) {
+Corners outline_of(const world::DrawnBuildingT& building, const Eigen::Vector3d& foot) {
     world::Loop loop;
     for (const world::Vec3& corner : building.outline) {
         const Eigen::Vector2d p = world::in_plan(corner) - foot.head<2>();
@@ -82,7 +82,7 @@ Outline outline_of(const world::DrawnBuildingT& building, const Eigen::Vector3d&
         loop.pop_back();
     if (world::signed_area(loop) < 0)
         std::reverse(loop.begin(), loop.end());
-    Outline outline;
+    Corners outline;
     for (const Eigen::Vector2d& p : loop)
         outline.push_back(p.cast<float>());
     return outline;
@@ -99,7 +99,7 @@ void add_drawn_building(Mesh& mesh,
     Eigen::Vector3d foot = world::to_eigen(building.outline.front());
     for (const world::Vec3& corner : building.outline)
         foot.z() = std::min(foot.z(), corner.z());
-    const Outline outline = outline_of(building, foot);
+    const Corners outline = outline_of(building, foot);
     if (outline.size() < 3)
         return;
     const world::BuildingModel& model =
