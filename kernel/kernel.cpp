@@ -111,6 +111,7 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     // 5. physics: everything with mass, in equal substeps
     parts.doors.swing(world::seconds(1, parts.episode.step_ns), next);
     parts.physics.advance(last, next);
+    parts.roster.take_over(parts.physics.wrecks(), next);
     parts.lamps.light_vehicles(next);
     close(Stage::physics, next);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "drivers/pedals.h"
 #include "world/check.h"
 #include "world/digest.h"
@@ -102,12 +104,18 @@ void Roster::apply_commands(const world::TickView& last, world::TickDraft& next,
         if (command.kind == world::CommandKind::spawn) {
             if (has_mass(command.driver))
                 spawn(last, command, next, physics);
+            else
+                names_[command.actor] = command.text;
             continue;
         }
         const auto found = entries_.find(command.actor);
         if (found == entries_.end())
             continue;
         Entry& entry = found->second;
+        if (entry.wrecked_at != 0 && command.kind != world::CommandKind::despawn) {
+            refuse(command, entry, next);
+            continue;
+        }
         if (entry.autopilot)
             give_order(*entry.autopilot, command);
         switch (command.kind) {
@@ -138,6 +146,37 @@ void Roster::despawn(const world::CommandT& command, world::TickDraft& next, Phy
     despawned.position = physics.remove_vehicle(command.actor);
     next.tick.events.push_back(despawned);
     entries_.erase(command.actor);
+}
+
+void Roster::take_over(std::span<const Wreck> wrecks, world::TickDraft& next) {
+    for (const Wreck& wreck : wrecks) {
+        const world::VehicleState& vehicle = *world::find(next.tick.vehicles, wreck.id);
+        Entry entry{vehicle.model(), std::nullopt, wreck_control(wreck.id, wreck.speed)};
+        entry.scripted = true;
+        entry.wrecked_at = next.tick.index;
+        const auto at = std::lower_bound(
+            next.tick.controls.begin(),
+            next.tick.controls.end(),
+            wreck.id,
+            [](const world::Control& control, std::uint32_t id) { return control.actor() < id; });
+        next.tick.controls.insert(at, entry.control);
+        entries_.insert_or_assign(wreck.id, std::move(entry));
+    }
+}
+
+/// Nobody drives a wreck.
+void Roster::refuse(const world::CommandT& command, Entry& entry, world::TickDraft& next) const {
+    const std::uint32_t bit = 1U << static_cast<std::uint32_t>(command.kind);
+    if (command.kind == world::CommandKind::set_lamps ||
+        command.kind == world::CommandKind::set_doors || (entry.told & bit) != 0)
+        return;
+    entry.told |= bit;
+    world::EventT refused = event(world::EventKind::printed, command.actor, command);
+    refused.text = fmt::format("{}: {} is a wreck since {:.2f} s: nobody drives it",
+                               world::EnumNameCommandKind(command.kind),
+                               names_.at(command.actor),
+                               world::seconds(entry.wrecked_at, episode_->step_ns));
+    next.tick.events.push_back(std::move(refused));
 }
 
 void Roster::spawn(const world::TickView& last,
@@ -333,6 +372,9 @@ void Roster::apply_controls(std::span<const world::Control> controls,
         else if (!entry.autopilot && !entry.scripted && entry.rolls_until > 0 &&
                  next.tick.index > entry.rolls_until)
             entry.control = parked_control(id);  // nobody took the wheel
+        if (entry.wrecked_at != 0 && in_last_tick)
+            entry.control =
+                wreck_control(id, world::to_eigen(find(last.vehicles(), id)->velocity()).norm());
         entry.control.mutate_actor(id);
         next.tick.controls.push_back(entry.control);
     }
@@ -367,6 +409,10 @@ std::uint64_t Roster::digest() const {
             hasher.add(entry.follows_until);
         if (entry.autopilot)
             hasher.add(entry.autopilot->digest());
+        if (entry.wrecked_at != 0) {
+            hasher.add(entry.wrecked_at);
+            hasher.add(entry.told);
+        }
     }
     return hasher.digest64();
 }

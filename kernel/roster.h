@@ -4,9 +4,11 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "drivers/driver.h"
 #include "kernel/physics/physics.h"
+#include "kernel/physics/wreck.h"
 #include "world/episode_generated.h"
 #include "world/obstacle.h"
 #include "world/tick.h"
@@ -34,6 +36,11 @@ class Roster {
                         const world::TickView& last,
                         world::TickDraft& next);
 
+    /// Behind the physics: those that have become vehicles in this tick, with their controls. From
+    /// now on they are the roster's. Nobody drives them: what the scenario says to one but despawn,
+    /// lamps and doors is answered by a printed line, once for each word.
+    void take_over(std::span<const Wreck> wrecks, world::TickDraft& next);
+
     /// Does the driver of this vehicle want to get on? The autopilot until its road ends or it
     /// is told to stand. A scenario that drives by itself: while it gives throttle. Whoever else
     /// drives: once the vehicle has moved or is given throttle. Never with the hand brake on.
@@ -56,8 +63,11 @@ class Roster {
         /// Last tick in which a trajectory says where it is; 0: none.
         std::uint64_t follows_until = 0;
         std::uint64_t moved_at = 0;  ///< tick in which it was put elsewhere or given another speed
+        std::uint64_t wrecked_at = 0;  ///< tick; 0: it is none
+        std::uint32_t told = 0;        ///< a wreck: bit for each CommandKind that was answered
     };
 
+    void refuse(const world::CommandT& command, Entry& entry, world::TickDraft& next) const;
     void carry_out(const world::CommandT& command,
                    Entry& entry,
                    std::uint64_t tick,
@@ -92,6 +102,7 @@ class Roster {
     const world::TownT* town_;
     drivers::RoadMap map_;
     std::map<std::uint32_t, Entry> entries_;
+    std::map<std::uint32_t, std::string> names_;  ///< of the scenario's cars without mass
 };
 
 }  // namespace reprise::kernel

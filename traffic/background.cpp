@@ -79,6 +79,7 @@ struct Background::Parts {
     void carry_out(const world::TickView& last, world::TickDraft& next);
     void give(const world::CommandT& command, Car& car, std::uint64_t tick);
     std::vector<world::VehicleState> place(std::uint64_t tick);
+    std::vector<std::uint32_t> hand_over(const world::TickView& last);
     void drop_arrived(world::TickDraft& next);
 
     SumoProcess process;
@@ -153,6 +154,17 @@ std::vector<world::VehicleState> Background::Parts::place(std::uint64_t tick) {
     return beside_sumo;
 }
 
+/// Cars that something has hit are vehicles with mass by now. Returns their ids, sorted.
+std::vector<std::uint32_t> Background::Parts::hand_over(const world::TickView& last) {
+    std::vector<std::uint32_t> wrecks;
+    for (const world::VehicleState& vehicle : last.vehicles())
+        if (const Car* car = cars.find(vehicle.id())) {
+            wrecks.push_back(vehicle.id());
+            cars.hand_over(static_cast<std::size_t>(car - cars.all().data()));
+        }
+    return wrecks;
+}
+
 /// SUMO takes vehicles out at the end of their routes.
 void Background::Parts::drop_arrived(world::TickDraft& next) {
     std::vector<std::string> arrived = libsumo::Simulation::getArrivedIDList();
@@ -179,6 +191,8 @@ Background::~Background() = default;
 void Background::advance(const world::TickView& last, world::TickDraft& next) {
     Parts& parts = *parts_;
 
+    const std::vector<std::uint32_t> wrecks = parts.hand_over(last);
+
     // What the scenario says, then who leaves, then who comes.
     parts.carry_out(last, next);
     parts.demand.remove_leaving(parts.cars, last, next);
@@ -190,7 +204,7 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     parts.orders.follow(parts.cars, next.tick.index);
     parts.lookout.advance(last, parts.cars, next.tick.index);
     parts.signal_orders.follow(next.tick.index);
-    parts.mirrors.advance(last, parts.cars.all(), beside_sumo);
+    parts.mirrors.advance(last, parts.cars.all(), beside_sumo, wrecks);
 
     libsumo::Simulation::step();
 

@@ -107,6 +107,12 @@ void Cars::remove_from_sumo(std::size_t index, world::TickDraft& next) {
     remove(index, next);
 }
 
+void Cars::hand_over(std::size_t index) {
+    if (!cars_[index].sumo.empty())
+        libsumo::Vehicle::remove(cars_[index].sumo);
+    cars_.erase(cars_.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
 /// Gathered first: a digest of many small pieces costs more than of few large ones.
 void Cars::add_to(world::Hasher& hasher) const {
     std::vector<CarDigest> kept;

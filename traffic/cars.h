@@ -34,6 +34,9 @@ class Cars {
     /// As `remove`, and out of SUMO, where SUMO has it.
     void remove_from_sumo(std::size_t index, world::TickDraft& next);
 
+    /// As `remove_from_sumo`, without an event: from now on it is somebody else's.
+    void hand_over(std::size_t index);
+
     /// All that decides what the cars do next: their motion, trails, routes and orders.
     void add_to(world::Hasher& hasher) const;
 

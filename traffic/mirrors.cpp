@@ -246,7 +246,8 @@ void Mirrors::keep_order(const Mirror& mirror,
 
 void Mirrors::advance(const world::TickView& last,
                       std::span<const Car> cars,
-                      std::span<const world::VehicleState> beside_sumo) {
+                      std::span<const world::VehicleState> beside_sumo,
+                      std::span<const std::uint32_t> wrecks) {
     std::span<const world::VehicleState> vehicles = last.vehicles();
     std::vector<world::VehicleState> all;
     if (!beside_sumo.empty()) {
@@ -268,7 +269,8 @@ void Mirrors::advance(const world::TickView& last,
         const Target target = target_of(vehicle);
         // A car's own id is SUMO's until the end of the step.
         const bool is_car = world::find(beside_sumo, vehicle.id()) != nullptr;
-        const std::string name = sumo_id(vehicle.id()) + (is_car ? "f" : "");
+        const bool was_car = std::binary_search(wrecks.begin(), wrecks.end(), vehicle.id());
+        const std::string name = sumo_id(vehicle.id()) + (is_car ? "f" : was_car ? "w" : "");
         Mirror& mirror = find_or_add(vehicle, name, target);
         try {
             enter_again(mirror, vehicle);

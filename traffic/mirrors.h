@@ -30,10 +30,12 @@ class Mirrors {
     /// Brings SUMO's copies in line with the last tick: new ones, moved ones, gone ones. About 10
     /// us a vehicle on a road; 40 us in a junction or off the way that was expected. `cars` are
     /// those of traffic, sorted by id.
-    /// `beside_sumo`, sorted by id: cars of traffic's that SUMO does not drive now.
+    /// `beside_sumo`, sorted by id: cars of traffic's that SUMO does not drive now. `wrecks`: ids
+    /// of vehicles that were SUMO's cars in the last tick.
     void advance(const world::TickView& last,
                  std::span<const Car> cars,
-                 std::span<const world::VehicleState> beside_sumo = {});
+                 std::span<const world::VehicleState> beside_sumo = {},
+                 std::span<const std::uint32_t> wrecks = {});
 
     /// SUMO took this vehicle out of the simulation; it is put back at the next advance.
     void forget(const std::string& sumo);

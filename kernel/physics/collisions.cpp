@@ -110,6 +110,18 @@ void Collisions::add(std::uint32_t actor,
     }
 }
 
+std::vector<std::pair<std::uint32_t, std::uint32_t>> Collisions::touching() const {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
+    for (const Pair& pair : touches())
+        all.emplace_back(pair.actor, pair.other);
+    return all;
+}
+
+void Collisions::forget(std::uint32_t actor) {
+    std::erase_if(pairs_,
+                  [&](const Pair& pair) { return pair.actor == actor || pair.other == actor; });
+}
+
 /// The pairs that touch in this tick. Ground and obstacles are both the static world: they follow
 /// each other in the order, and become one.
 std::vector<Collisions::Pair> Collisions::touches() const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernel/physics/bullet.h"
@@ -39,6 +40,12 @@ class Collisions {
 
     /// For impulses that do not come from Bullet, and are touches whatever their size.
     void add(std::uint32_t actor, std::uint32_t other, double impulse, const btVector3& position);
+
+    /// Who touched whom so far in this tick, (actor, other), sorted.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> touching() const;
+
+    /// As if it had touched nobody in this tick.
+    void forget(std::uint32_t actor);
 
     /// Ends the tick: appends the events of contacts that end, then of those that begin, each
     /// sorted by (actor, other). In the run's last tick all end.

@@ -135,6 +135,15 @@ void DoorBoxes::move(std::span<const std::unique_ptr<Vehicle>> vehicles) {
                     box->place(pose_of(*vehicle));
 }
 
+void DoorBoxes::drop(std::uint32_t actor) {
+    std::erase_if(boxes_, [&](const auto& box) {
+        const bool is_its = box->door.actor() == actor;
+        if (is_its)
+            world_->removeRigidBody(box->body.get());
+        return is_its;
+    });
+}
+
 void DoorBoxes::add_to(world::Hasher& hasher) const {
     for (const auto& box : boxes_) {
         hasher.add(box->door.actor());

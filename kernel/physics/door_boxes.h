@@ -28,6 +28,9 @@ class DoorBoxes {
     /// Before a substep: those on vehicles with mass go where these are.
     void move(std::span<const std::unique_ptr<Vehicle>> vehicles);
 
+    /// Those of a car that becomes a vehicle with mass: they hang on that from the next tick on.
+    void drop(std::uint32_t actor);
+
     void add_to(world::Hasher& hasher) const;
 
   private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "world/check.h"
 #include "world/frames.h"
 #include "world/models/catalogue.h"
 
@@ -19,27 +20,32 @@ double nearest_squared(std::span<const btVector3> centres, const world::Vec3& p)
     return nearest;
 }
 
-/// Middle of the box, for a car's frame (ground below the rear axle).
+/// Middle of the box, in a car's frame (ground below the rear axle).
+Eigen::Translation3d middle_of(std::uint16_t model) {
+    const world::VehicleModel& m = world::vehicle_models()[model];
+    return {m.length / 2 - m.rear_overhang,
+            0,
+            NearCars::clearance + (m.height - NearCars::clearance) / 2};
+}
+
 btTransform box_pose(const world::CarState& car) {
-    const world::VehicleModel& m = world::vehicle_models()[car.model()];
-    const Eigen::Translation3d middle(m.length / 2 - m.rear_overhang,
-                                      0,
-                                      NearCars::clearance + (m.height - NearCars::clearance) / 2);
     const double yaw = static_cast<double>(car.yaw());
     const double pitch = static_cast<double>(car.pitch());
-    return to_bullet(world::pose(car.position(), yaw, pitch) * middle);
+    return to_bullet(world::pose(car.position(), yaw, pitch) * middle_of(car.model()));
 }
 
 }  // namespace
 
 struct NearCars::Box {
     std::uint32_t id = 0;
+    std::uint16_t model = 0;
     btVector3 from;
     btVector3 way;  ///< in this tick
     btQuaternion turn_from;
     btQuaternion turn_way;  ///< added to turn_from, then normalised
     bool moves = false;
     bool wanted = false;  ///< stays in this tick
+    bool is_out = false;  ///< taken out of Bullet's world for the rest of the tick
     std::unique_ptr<btRigidBody> body;
 };
 
@@ -92,6 +98,7 @@ void NearCars::choose(std::span<const world::CarState> last,
 void NearCars::enter(const world::CarState& car) {
     auto box = std::make_unique<Box>();
     box->id = car.id();
+    box->model = car.model();
     btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shapes_[car.model()].get());
     info.m_friction = 0.6;
     info.m_restitution = 0.3;
@@ -130,11 +137,67 @@ void NearCars::aim(Box& box, const world::CarState* before, const world::CarStat
 
 void NearCars::move(double share) {
     for (const auto& box : boxes_) {
-        if (!box->moves)
+        if (!box->moves || box->is_out)
             continue;
         const btQuaternion turn = box->turn_from + box->turn_way * share;
         box->body->setWorldTransform(btTransform(turn.normalized(), box->from + box->way * share));
     }
+}
+
+// --- One that becomes a body with mass.
+
+std::vector<std::unique_ptr<NearCars::Box>>::iterator NearCars::place(std::uint32_t id) {
+    const auto at = std::lower_bound(
+        boxes_.begin(), boxes_.end(), id, [](const auto& box, std::uint32_t wanted) {
+            return box->id < wanted;
+        });
+    REPRISE_CHECK(at != boxes_.end() && (*at)->id == id, "near car " + std::to_string(id));
+    return at;
+}
+
+std::optional<NearCars::Way> NearCars::way(std::size_t index) const {
+    const Box& box = *boxes_[index];
+    if (box.is_out)
+        return std::nullopt;
+    return Way{box.id, box.model, shapes_[box.model]->getHalfExtentsWithMargin(), box.way.length()};
+}
+
+btTransform NearCars::pose_at(std::size_t index, double share) const {
+    const Box& box = *boxes_[index];
+    const btQuaternion turn = box.turn_from + box.turn_way * share;
+    return btTransform(turn.normalized(), box.from + box.way * share);
+}
+
+Eigen::Isometry3d NearCars::car_at(std::size_t index, double share) const {
+    const btTransform pose = pose_at(index, share);
+    return world::pose(to_vec3(pose.getOrigin()), to_quat(pose.getRotation())) *
+           middle_of(boxes_[index]->model).inverse();
+}
+
+NearCars::Motion NearCars::motion(std::size_t index, double step) const {
+    Motion motion;
+    btTransformUtil::calculateVelocity(
+        pose_at(index, 0), pose_at(index, 1), step, motion.velocity, motion.spin);
+    return motion;
+}
+
+void NearCars::take_out(std::size_t index) {
+    Box& box = *boxes_[index];
+    world_->removeRigidBody(box.body.get());
+    box.is_out = true;
+}
+
+void NearCars::put_back(std::uint32_t id) {
+    Box& box = **place(id);
+    const auto index = static_cast<std::size_t>(place(id) - boxes_.begin());
+    box.body->setWorldTransform(pose_at(index, 1));
+    box.body->setInterpolationWorldTransform(pose_at(index, 1));
+    world_->addRigidBody(box.body.get());
+    box.is_out = false;
+}
+
+void NearCars::forget(std::uint32_t id) {
+    boxes_.erase(place(id));
 }
 
 void NearCars::add_to(world::Hasher& hasher) const {

@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/displaced.h"
@@ -41,6 +44,38 @@ class NearCars {
 
     std::size_t size() const { return boxes_.size(); }
 
+    /// A box in this tick, and the car that it stands for.
+    struct Way {
+        std::uint32_t id = 0;
+        std::uint16_t model = 0;
+        btVector3 half;     ///< of the box
+        double length = 0;  ///< [m] that its middle moves in the tick
+    };
+
+    /// Of a box that is in Bullet's world; null for one that is out. By index, in id order.
+    std::optional<Way> way(std::size_t index) const;
+
+    /// Where its middle is after `share` of the tick.
+    btTransform pose_at(std::size_t index, double share) const;
+
+    /// The car's own frame (ground below the rear axle) there.
+    Eigen::Isometry3d car_at(std::size_t index, double share) const;
+
+    /// How it moves in the tick of `step` seconds.
+    struct Motion {
+        btVector3 velocity;  ///< [m/s] of the box's middle
+        btVector3 spin;      ///< [rad/s]
+    };
+
+    Motion motion(std::size_t index, double step) const;
+
+    /// For the rest of the tick the box is not there: a body with mass stands for the car.
+    void take_out(std::size_t index);
+
+    /// End of the tick: who was taken out is a box again, where the tick ends, or is forgotten.
+    void put_back(std::uint32_t id);
+    void forget(std::uint32_t id);
+
     void add_to(world::Hasher& hasher) const;
 
   private:
@@ -48,6 +83,7 @@ class NearCars {
 
     void enter(const world::CarState& car);
     void aim(Box& box, const world::CarState* last, const world::CarState& next);
+    std::vector<std::unique_ptr<Box>>::iterator place(std::uint32_t id);
 
     btDynamicsWorld* world_;
     std::vector<std::unique_ptr<btBoxShape>> shapes_;  ///< [i] of vehicle_models()[i]

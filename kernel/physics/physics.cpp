@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/collisions.h"
 #include "kernel/physics/convex_pair.h"
@@ -17,6 +19,7 @@
 #include "kernel/physics/stance.h"
 #include "kernel/physics/vehicle.h"
 #include "kernel/physics/walker_hits.h"
+#include "kernel/physics/wrecks.h"
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/models/catalogue.h"
@@ -117,6 +120,7 @@ struct Physics::World {
           cars(bullet.world),
           props(bullet.world),
           collisions(episode.step_ns),
+          wrecks(bullet.world, ground, step),
           doors(bullet.world) {
         REPRISE_CHECK(substeps >= 1, std::to_string(substeps) + " substeps");
     }
@@ -138,6 +142,7 @@ struct Physics::World {
     void choose_neighbours(const world::TickView& last, const world::TickDraft& next);
     void wake_props(const world::TickView& last, const world::TickDraft& next);
     void make_substep(int index, double road_friction);
+    void hand_over(world::TickDraft& next) const;
     void write(world::TickT& tick);
 
     std::uint64_t seed;
@@ -151,7 +156,8 @@ struct Physics::World {
     WalkerHits walkers;
     Props props;
     Collisions collisions;
-    std::vector<std::unique_ptr<Vehicle>> vehicles;  ///< sorted by id
+    Vehicles vehicles;
+    Wrecks wrecks;
     DoorBoxes doors;
     std::vector<btVector3> centres;  ///< of the vehicles, at the start of the tick
 };
@@ -246,6 +252,7 @@ void Physics::advance(const world::TickView& last, world::TickDraft& next) {
     w.props.set_road_friction(next.tick.road_friction);
     for (const auto& vehicle : w.vehicles)
         vehicle->aim(next.tick.index, w.step);
+    w.wrecks.begin(w.cars, w.vehicles, w.props);
     // Without a vehicle or a prop that moves nothing can happen.
     if (!w.vehicles.empty() || w.props.any_awake())
         for (int i = 1; i <= w.substeps; ++i)
@@ -253,7 +260,9 @@ void Physics::advance(const world::TickView& last, world::TickDraft& next) {
     for (const auto& vehicle : w.vehicles)
         if (vehicle->is_guided())
             vehicle->settle(w.step);
+    w.wrecks.decide(w.collisions, w.cars, w.vehicles);
     w.write(next.tick);
+    w.hand_over(next);
 }
 
 void Physics::World::choose_neighbours(const world::TickView& last, const world::TickDraft& next) {
@@ -298,6 +307,12 @@ void Physics::World::make_substep(int index, double road_friction) {
         else
             vehicle->drive(road_friction, substep);
     }
+    const double share_before = static_cast<double>(index - 1) / substeps;
+    for (Vehicle* hit : wrecks.stand_in(share_before, share, cars, vehicles, props)) {
+        doors.drop(hit->id());
+        hit->set_control(wreck_control(hit->id(), hit->body().getLinearVelocity().length()));
+        hit->drive(road_friction, substep);
+    }
     walkers.test(share, vehicles, collisions);
     cars.move(share);
     doors.move(vehicles);
@@ -326,6 +341,27 @@ void Physics::World::write(world::TickT& tick) {
             return event.kind == world::EventKind::finished;
         });
     collisions.write(tick.index, is_last, tick.events);
+}
+
+/// Wrecks are traffic no longer.
+void Physics::World::hand_over(world::TickDraft& next) const {
+    for (const Wreck& wreck : wrecks.made()) {
+        const world::CarState car = *world::find(next.traffic.cars, wreck.id);
+        std::erase_if(next.traffic.cars, [&](const auto& one) { return one.id() == wreck.id; });
+        std::erase_if(next.traffic.looks, [&](const auto& one) { return one.actor() == wreck.id; });
+        world::EventT event;
+        event.kind = world::EventKind::wrecked;
+        event.actor = wreck.id;
+        event.other = wreck.by;
+        event.position = car.position();
+        event.value = wreck.speed;
+        event.text = fmt::format("is hit at {:.1f} m/s, and a wreck from here on", wreck.speed);
+        next.tick.events.push_back(std::move(event));
+    }
+}
+
+std::span<const Wreck> Physics::wrecks() const {
+    return world_->wrecks.made();
 }
 
 void Physics::nudge(std::uint32_t id, std::string_view field, std::int64_t units) {

@@ -9,6 +9,7 @@
 
 #include "ground/mesh/ground.h"
 #include "kernel/physics/impact.h"
+#include "kernel/physics/wreck.h"
 #include "world/episode_generated.h"
 #include "world/obstacle.h"
 #include "world/tick.h"
@@ -19,7 +20,8 @@ namespace reprise::kernel {
 
 /// Everything with mass: Bullet in double precision, one world, single-threaded, no sleeping,
 /// bodies in id order. Ground, kerbs, buildings, trees are static; SUMO's and parked cars are
-/// kinematic boxes near physics vehicles (kernel/physics/near_cars.h); walkers are upright
+/// kinematic boxes near physics vehicles (kernel/physics/near_cars.h) until something hits them
+/// (kernel/physics/wrecks.h); walkers are upright
 /// cylinders that vehicles run into (kernel/physics/walker_hits.h); props are boxes that may be
 /// pushed around (kernel/physics/props.h). What becomes an event:
 /// kernel/physics/collisions.h. The car model is documented in kernel/physics/vehicle.h. Costs for
@@ -69,6 +71,11 @@ class Physics {
     /// equal substeps, steps Bullet, and writes next.tick.vehicles, wheels and props (sorted) and
     /// the events of collisions that begin and end.
     void advance(const world::TickView& last, world::TickDraft& next);
+
+    /// Cars without mass that became vehicles in the last advance(); sorted by id. They are in
+    /// next.tick.vehicles, no longer in next.traffic.cars, and hold until remove_vehicle. See
+    /// kernel/physics/wrecks.h.
+    std::span<const Wreck> wrecks() const;
 
     /// What hit whom in the tick of the last advance(); sorted by (actor, other).
     std::span<const Impact> impacts() const;

@@ -14,6 +14,7 @@ constexpr int rest_ticks = 20;       ///< [ticks] a second of the usual step
 constexpr double rest_speed = 0.03;  ///< [m/s]
 constexpr double rest_rate = 0.05;   ///< [rad/s]
 constexpr double drop = 0.01;        ///< [m] above the ground at its spawn
+constexpr double heavy_mass = 50;    ///< [kg]
 constexpr double lowest = -1000;     ///< [m] whoever fell off the world falls no further
 
 /// A box of the prop, in its frame.
@@ -165,6 +166,21 @@ void Props::wake(std::span<const Mover> movers) {
 bool Props::any_awake() const {
     return std::any_of(
         things_.begin(), things_.end(), [](const auto& thing) { return thing->awake; });
+}
+
+std::vector<Props::Heavy> Props::heavy() const {
+    std::vector<Heavy> all;
+    for (const auto& thing : things_) {
+        if (!thing->awake || thing->data.mass < heavy_mass)
+            continue;
+        const btVector3 half =
+            btVector3(thing->data.length, thing->data.width, thing->data.height) / 2;
+        const btTransform foot = thing->pose();
+        all.push_back({thing->id,
+                       {btTransform(foot.getBasis(), foot(btVector3(0, 0, half.z()))), half},
+                       thing->body->getLinearVelocity()});
+    }
+    return all;
 }
 
 void Props::add_centres(std::vector<btVector3>& centres) const {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "kernel/physics/box_gap.h"
 #include "kernel/physics/bullet.h"
 #include "world/models/prop_models.h"
 #include "world/tick.h"
@@ -45,6 +46,15 @@ class Props {
 
     /// Is one of them in Bullet's world?
     bool any_awake() const;
+
+    /// Those that are awake and heavy enough to wreck a car: 50 kg, a person's weight, and more.
+    struct Heavy {
+        std::uint32_t id = 0;
+        PlacedBox box;
+        btVector3 velocity;
+    };
+
+    std::vector<Heavy> heavy() const;
 
     /// Where those are that are awake: cars near them must be there, too.
     void add_centres(std::vector<btVector3>& centres) const;

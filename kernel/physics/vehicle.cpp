@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "kernel/drill/nudge.h"
+#include "kernel/physics/box_gap.h"
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/ground.h"
 #include "kernel/physics/tyres.h"
@@ -83,7 +84,7 @@ void Vehicle::Chassis::hang_wheels(const world::CarModel& model) {
         const bool left = i % 2 == 0;
         const double x = (front ? m.wheelbase : 0) - model.com_ahead;
         const double share = (front ? model.front_share : 1 - model.front_share) / 2;
-        btWheelInfo& wheel = car.addWheel(btVector3(x, (left ? 0.5 : -0.5) * m.track, height),
+        btWheelInfo& wheel = car.addWheel(btVector3(x, (left ? 0.5 : -0.5) * model.track, height),
                                           btVector3(0, 0, -1),
                                           btVector3(0, -1, 0),
                                           wheel_travel + sag,
@@ -113,10 +114,12 @@ Vehicle::Vehicle(std::uint32_t id,
                  btDynamicsWorld& bullet,
                  const Ground& ground,
                  const Eigen::Isometry3d& pose_world_vehicle,
-                 double speed)
+                 double speed,
+                 Balance balance)
     : id_(id),
       model_index_(model),
-      model_(world::car_model(world::vehicle_models()[model])),
+      model_(balance == Balance::kept ? world::car_model(world::vehicle_models()[model])
+                                      : world::unbalanced_model(world::vehicle_models()[model])),
       ground_(&ground) {
     put_down(bullet, pose_world_vehicle, speed);
 }
@@ -147,6 +150,12 @@ btRigidBody& Vehicle::body() const {
     return chassis_->body;
 }
 
+PlacedBox Vehicle::box() const {
+    const btTransform& pose = body().getCenterOfMassTransform();
+    return {btTransform(pose.getBasis(), pose(to_bullet(model_.box_centre))),
+            to_bullet(model_.box_half)};
+}
+
 void Vehicle::set_control(const world::Control& control) {
     control_ = control;
 }
@@ -159,7 +168,8 @@ void Vehicle::steer(double step) {
     if (turn == 0)
         return;
     steering_angle_ += turn;
-    const world::AckermannAngles angles = world::ackermann(steering_angle_, m.wheelbase, m.track);
+    const world::AckermannAngles angles =
+        world::ackermann(steering_angle_, m.wheelbase, model_.track);
     chassis_->car.setSteeringValue(angles.left, 0);
     chassis_->car.setSteeringValue(angles.right, 1);
 }
@@ -238,6 +248,25 @@ void Vehicle::set_speed(double speed) {
     body().setAngularVelocity(spin);
 }
 
+void Vehicle::move_as(const btVector3& velocity, const btVector3& spin, const btVector3& middle) {
+    const btTransform& pose = body().getCenterOfMassTransform();
+    body().setLinearVelocity(velocity + spin.cross(pose.getOrigin() - middle));
+    body().setAngularVelocity(spin);
+    const btVector3 foot = pose(btVector3(-model_.com_ahead, 0, -model_.com_height));
+    last_velocity_ = to_vec3(velocity + spin.cross(foot - middle));
+}
+
+void Vehicle::tip_over() {
+    if (!world::is_two_wheeler(model_.catalogue->body))
+        return;
+    constexpr double push = 0.6;  // [rad/s] a tenth of a metre a second at the rider's head
+    const btVector3 ahead = body().getCenterOfMassTransform().getBasis().getColumn(0);
+    const double leans = ahead.dot(body().getAngularVelocity());
+    // Upright it may fall either way: by its id.
+    const bool to_right = leans != 0 ? leans > 0 : id_ % 2 == 0;
+    body().setAngularVelocity(body().getAngularVelocity() + ahead * (to_right ? push : -push));
+}
+
 /// Takes the body from forces and gives it back to them. Bullet sorts its bodies by what moves them
 /// when they enter. A guided one meets whatever stands, too: nothing gives way, but it is noticed.
 void Vehicle::hold(bool guided) {
@@ -304,7 +333,7 @@ void Vehicle::roll_wheels(double step) {
                                      -m.max_steering_angle,
                                      m.max_steering_angle);
         const world::AckermannAngles angles =
-            world::ackermann(steering_angle_, m.wheelbase, m.track);
+            world::ackermann(steering_angle_, m.wheelbase, model_.track);
         car.setSteeringValue(angles.left, 0);
         car.setSteeringValue(angles.right, 1);
     }
@@ -312,7 +341,7 @@ void Vehicle::roll_wheels(double step) {
     for (int i = 0; i < 4; ++i) {
         btWheelInfo& wheel = car.m_wheelInfo[i];
         car.rayCast(wheel);
-        const double left = (i % 2 == 0 ? 0.5 : -0.5) * m.track;
+        const double left = (i % 2 == 0 ? 0.5 : -0.5) * model_.track;
         const double ahead = i < 2 ? m.wheelbase : 0;
         const double along = (speed - turn_rate * left) * std::cos(wheel.m_steering) +
                              turn_rate * ahead * std::sin(wheel.m_steering);

@@ -14,10 +14,15 @@
 
 class btDynamicsWorld;
 class btRigidBody;
+class btVector3;
 
 namespace reprise::kernel {
 
 class Ground;
+struct PlacedBox;
+
+/// Does somebody keep a two-wheeler upright? Cars need nobody.
+enum class Balance : std::uint8_t { kept, lost };
 
 /// The car model. A rigid body on four massless wheels, each a ray downwards with spring and damper
 /// (Bullet's btRaycastVehicle), on tyres of our own (kernel/physics/tyres.h); its numbers are in
@@ -55,7 +60,8 @@ class Vehicle {
             btDynamicsWorld& world,
             const Ground& ground,
             const Eigen::Isometry3d& pose_world_vehicle,
-            double speed);
+            double speed,
+            Balance balance = Balance::kept);
     ~Vehicle();
     Vehicle(const Vehicle&) = delete;
     Vehicle& operator=(const Vehicle&) = delete;
@@ -67,6 +73,9 @@ class Vehicle {
     std::uint16_t model_index() const { return model_index_; }
 
     btRigidBody& body() const;
+
+    /// Its collision box, where it is.
+    PlacedBox box() const;
 
     /// World, of the origin, after the last tick.
     const world::Vec3& position() const { return last_position_; }
@@ -87,6 +96,12 @@ class Vehicle {
 
     /// [m/s] along its heading, at once; turning as its wheels stand.
     void set_speed(double speed);
+
+    /// As a car without mass moves whose `middle` (world) has this velocity.
+    void move_as(const btVector3& velocity, const btVector3& spin, const btVector3& middle);
+
+    /// A two-wheeler that nobody balances begins to fall, to the side to which it leans already.
+    void tip_over();
 
     /// Before the substeps of the tick that ends at `tick`: does it follow, and where to?
     void aim(std::uint64_t tick, double step);

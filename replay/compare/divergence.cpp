@@ -46,6 +46,7 @@ std::size_t stage_of(const world::Event& event) {
     if (event.kind() == world::EventKind::blocked)
         return 5;
     const bool of_a_crash = event.kind() == world::EventKind::collision ||
+                            event.kind() == world::EventKind::wrecked ||
                             event.kind() == world::EventKind::collision_ended;
     if (event.actor() >= world::first_background_id && !of_a_crash)
         return 2;

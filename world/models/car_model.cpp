@@ -59,6 +59,7 @@ CarModel car_model(const VehicleModel& m) {
     const Kind kind = kind_of(m.body);
     CarModel car;
     car.catalogue = &m;
+    car.track = m.track;
     car.com_ahead = kind.front_share * m.wheelbase;
     car.com_height = kind.com_height;
     car.front_share = kind.front_share;
@@ -78,6 +79,24 @@ CarModel car_model(const VehicleModel& m) {
     const double yaw = m.mass * car.com_ahead * (m.wheelbase - car.com_ahead);
     const double roll = m.mass / 12 * (m.width * m.width + m.height * m.height);
     car.inertia = {roll, 0.95 * yaw, yaw};
+    return car;
+}
+
+CarModel unbalanced_model(const VehicleModel& m) {
+    CarModel car = car_model(m);
+    if (!is_two_wheeler(m.body))
+        return car;
+    // With the rider on it: V. Cossalter, "Motorcycle Dynamics", 2nd ed., 3.2 (0.5 to 0.7 m);
+    // D. G. Wilson, "Bicycling Science", 4th ed., ch. 8 (about 1 m).
+    const double com_height = m.body == BodyStyle::motorcycle ? 0.65 : 1.0;
+    car.track = 0;
+    car.box_centre.z() += car.com_height - com_height;
+    car.com_height = com_height;
+    car.brake_deceleration = 3;  // a hand's, not an emergency's: it does not turn over its front
+    const double l2 = m.length * m.length;
+    const double w2 = m.width * m.width;
+    const double h2 = m.height * m.height;
+    car.inertia = Eigen::Vector3d(w2 + h2, l2 + h2, l2 + w2) * (m.mass / 12);
     return car;
 }
 

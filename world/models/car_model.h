@@ -14,6 +14,7 @@ namespace reprise::world {
 /// origin in the centre of mass.
 struct CarModel {
     const VehicleModel* catalogue;
+    double track;        ///< between the wheel centres of an axle [m]
     double com_ahead;    ///< of the rear axle [m]
     double com_height;   ///< above the ground at rest [m]
     double front_share;  ///< of the weight, on the front axle
@@ -28,6 +29,10 @@ struct CarModel {
 };
 
 CarModel car_model(const VehicleModel& model);
+
+/// The same when nobody keeps its balance. A two-wheeler's wheels are in one line then, and its
+/// centre of mass is as high as with its rider: it falls over. A car is what it is.
+CarModel unbalanced_model(const VehicleModel& model);
 
 inline constexpr double gravity = 9.81;       ///< [m/s^2]
 inline constexpr double air_density = 1.225;  ///< [kg/m^3] ICAO standard atmosphere, sea level

@@ -82,6 +82,10 @@ const world::VehicleState& ProvingGround::step(const world::Control& control) {
     next.tick.index = next_.tick.index + 1;
     next.tick.road_friction = road_friction;
     next.tick.controls = {control};
+    // As the traffic stage: who has become a vehicle is none of its cars.
+    std::erase_if(cars, [&](const world::CarState& car) {
+        return world::find(next_.tick.vehicles, car.id()) != nullptr;
+    });
     next.traffic.cars = cars;
     next.traffic.walkers = walkers;
     last_.emplace(world::seal(next_, {}));

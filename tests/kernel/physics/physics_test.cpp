@@ -56,7 +56,8 @@ double impulse_against(ProvingGround& ground, std::uint32_t other, int ticks) {
     for (int tick = 0; tick < ticks; ++tick) {
         ground.step(coasting());
         for (const kernel::Impact& impact : ground.physics().impacts()) {
-            EXPECT_EQ(impact.actor, 1u);
+            if (impact.actor != 1)
+                continue;  // of a car that is a body since it was hit
             EXPECT_EQ(impact.other, other);
             sum += impact.impulse;
         }
@@ -74,7 +75,7 @@ TEST(Physics, CollisionImpulseIsTheMomentumThatTheVehicleLost) {
     const double after = velocity_of_mass(ground.vehicle()).x();
     const double resistance =
         sedan_model().rolling_resistance * sedan().mass * world::gravity * 1.0;
-    EXPECT_GT(impulse, 10'000);
+    EXPECT_GT(impulse, 7'000);
     EXPECT_NEAR(impulse, sedan().mass * (before - after), 0.02 * impulse + resistance);
 }
 
@@ -82,18 +83,19 @@ TEST(Physics, HitOnAMovingCarCountsTheRelativeSpeed) {
     ProvingGround ground;
     ground.add_vehicle("sedan", 12);
     double impulse = 0;
-    for (int tick = 0; tick < 60; ++tick) {
+    for (int tick = 0; tick < 60 && impulse == 0; ++tick) {
         ground.cars = {car_at(9, 7 + 8 * tick * tick_seconds, 0, 0, 8)};
         impulse += impulse_against(ground, 9, 1);
     }
-    // From 12 to 8 m/s, and up to a third of that back.
-    const double plastic = sedan().mass * 4;
+    // Both have mass: from 12 and 8 m/s to what they have in common, and up to a third of that
+    // back.
+    const double struck = world::vehicle_models()[ground.tick().tick.vehicles.back().model()].mass;
+    const double plastic = 4 / (1 / sedan().mass + 1 / struck);
     EXPECT_GT(impulse, 0.85 * plastic);
     EXPECT_LT(impulse, 1.35 * plastic);
-    EXPECT_LT(speed_of(ground.vehicle()), 8.1);
 }
 
-TEST(Physics, CarFromBehindPushesAStandingVehicleToItsSpeed) {
+TEST(Physics, CarFromBehindSharesItsMomentumWithAStandingVehicle) {
     ProvingGround ground;
     ground.add_vehicle("sedan", 0);
     // It comes from beyond the distance at which boxes enter Bullet.
@@ -101,8 +103,10 @@ TEST(Physics, CarFromBehindPushesAStandingVehicleToItsSpeed) {
         ground.cars = {car_at(9, -90 + 15 * tick * tick_seconds, 0, 0, 15)};
         ground.step(coasting());
     }
-    EXPECT_GT(speed_of(ground.vehicle()), 13);
-    EXPECT_LT(speed_of(ground.vehicle()), 18);
+    const double struck = world::vehicle_models()[ground.tick().tick.vehicles.back().model()].mass;
+    const double shared = 15 * struck / (struck + sedan().mass);
+    EXPECT_GT(speed_of(ground.vehicle()), 0.9 * shared);
+    EXPECT_LT(speed_of(ground.vehicle()), 1.2 * shared);
 }
 
 TEST(Physics, CarThatIsPutElsewhereHasNoSpeed) {

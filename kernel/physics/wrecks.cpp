@@ -1,0 +1,153 @@
+#include "kernel/physics/wrecks.h"
+
+#include <algorithm>
+
+namespace reprise::kernel {
+
+namespace {
+
+/// [m] What may come between where somebody is expected and where he is: a push within the tick.
+constexpr double push_room = 2;
+
+}  // namespace
+
+std::vector<Wrecks::Pusher> Wrecks::pushers(const Vehicles& vehicles, const Props& props) const {
+    std::vector<Pusher> all;
+    const auto add = [&](std::uint32_t id, const PlacedBox& box, const btVector3& velocity) {
+        all.push_back({id, box, box.half.length() + velocity.length() * step_});
+    };
+    for (const auto& vehicle : vehicles)
+        add(vehicle->id(), vehicle->box(), vehicle->body().getLinearVelocity());
+    for (const Props::Heavy& prop : props.heavy())
+        add(prop.id, prop.box, prop.velocity);
+    return all;
+}
+
+void Wrecks::find_near(const NearCars& cars, std::span<const Pusher> pushers) {
+    near_.clear();
+    for (std::size_t i = 0; i < cars.size(); ++i) {
+        const auto way = cars.way(i);
+        if (!way)
+            continue;
+        const btVector3 here = cars.pose_at(i, 0).getOrigin();
+        const double room = way->half.length() + way->length + push_room;
+        if (std::any_of(pushers.begin(), pushers.end(), [&](const Pusher& pusher) {
+                const double both = room + pusher.room;
+                return pusher.box.pose.getOrigin().distance2(here) < both * both;
+            }))
+            near_.push_back(i);
+    }
+}
+
+void Wrecks::begin(const NearCars& cars, const Vehicles& vehicles, const Props& props) {
+    trials_.clear();
+    made_.clear();
+    heavy_props_.clear();
+    for (const Props::Heavy& prop : props.heavy())
+        heavy_props_.push_back(prop.id);
+    find_near(cars, pushers(vehicles, props));
+}
+
+std::vector<Vehicle*> Wrecks::stand_in(
+    double before, double after, NearCars& cars, Vehicles& vehicles, const Props& props) {
+    std::vector<Vehicle*> stand_ins;
+    if (near_.empty())
+        return stand_ins;
+    for (bool again = true; again;) {
+        again = false;
+        const std::vector<Pusher> all = pushers(vehicles, props);
+        if (!trials_.empty())
+            find_near(cars, all);  // who is hit may go anywhere
+        for (const std::size_t index : near_) {
+            const PlacedBox from{cars.pose_at(index, before), cars.way(index)->half};
+            const PlacedBox to{cars.pose_at(index, after), from.half};
+            const double room = from.half.length() + cars.way(index)->length + reach;
+            if (std::none_of(all.begin(), all.end(), [&](const Pusher& pusher) {
+                    const double both = room + pusher.room;
+                    return pusher.box.pose.getOrigin().distance2(from.pose.getOrigin()) <
+                               both * both &&
+                           (gap_between(from, pusher.box) < reach ||
+                            gap_between(to, pusher.box) < reach);
+                }))
+                continue;
+            stand_ins.push_back(&replace(index, before, cars, vehicles));
+            again = true;
+        }
+    }
+    return stand_ins;
+}
+
+Vehicle& Wrecks::replace(std::size_t index, double share, NearCars& cars, Vehicles& vehicles) {
+    const NearCars::Way car = *cars.way(index);
+    const NearCars::Motion motion = cars.motion(index, step_);
+    const Eigen::Isometry3d pose_world_vehicle = cars.car_at(index, share);
+    const btVector3 middle = cars.pose_at(index, share).getOrigin();
+    cars.take_out(index);
+    auto vehicle = std::make_unique<Vehicle>(
+        car.id, car.model, *world_, *ground_, pose_world_vehicle, 0, Balance::lost);
+    vehicle->move_as(motion.velocity, motion.spin, middle);
+    const auto at = std::lower_bound(
+        vehicles.begin(), vehicles.end(), car.id, [](const auto& other, std::uint32_t id) {
+            return other->id() < id;
+        });
+    const auto trial = std::lower_bound(
+        trials_.begin(), trials_.end(), car.id, [](const Trial& other, std::uint32_t id) {
+            return other.id < id;
+        });
+    trials_.insert(trial, {car.id, motion.velocity.length(), 0});
+    return **vehicles.insert(at, std::move(vehicle));
+}
+
+/// Who hit it, of those who may: what had mass before, and those who were hit by that. 0: nobody.
+std::uint32_t Wrecks::hit_by(const Trial& trial,
+                             const Touching& touching,
+                             const Vehicles& vehicles) const {
+    for (const auto& [actor, other] : touching) {
+        if (actor != trial.id)
+            continue;
+        const std::uint32_t pusher = other;
+        const auto stands_in = std::find_if(
+            trials_.begin(), trials_.end(), [&](const Trial& one) { return one.id == pusher; });
+        const bool was_hit = stands_in != trials_.end() && stands_in->by != 0;
+        const bool had_mass =
+            stands_in == trials_.end() &&
+            (std::any_of(vehicles.begin(),
+                         vehicles.end(),
+                         [&](const auto& vehicle) { return vehicle->id() == pusher; }) ||
+             std::binary_search(heavy_props_.begin(), heavy_props_.end(), pusher));
+        if (was_hit || had_mass)
+            return pusher;
+    }
+    return 0;
+}
+
+void Wrecks::decide(Collisions& collisions, NearCars& cars, Vehicles& vehicles) {
+    if (trials_.empty())
+        return;
+    const Touching touching = collisions.touching();
+    for (bool again = true; again;) {
+        again = false;
+        for (Trial& trial : trials_) {
+            if (trial.by != 0)
+                continue;
+            trial.by = hit_by(trial, touching, vehicles);
+            again = again || trial.by != 0;
+        }
+    }
+    for (const Trial& trial : trials_) {
+        const auto vehicle = std::find_if(vehicles.begin(), vehicles.end(), [&](const auto& each) {
+            return each->id() == trial.id;
+        });
+        if (trial.by != 0) {
+            made_.push_back({trial.id, trial.speed, trial.by});
+            cars.forget(trial.id);
+            (*vehicle)->tip_over();
+            continue;
+        }
+        collisions.forget(trial.id);
+        vehicles.erase(vehicle);
+        cars.put_back(trial.id);
+    }
+}
+
+}  // namespace reprise::kernel
