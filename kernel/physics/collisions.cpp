@@ -15,7 +15,8 @@ Collisions::Pair& Collisions::pair(std::uint32_t actor, std::uint32_t other, boo
             return key_of(p) < k;
         });
     if (at == pairs_.end() || key_of(*at) != key)
-        at = pairs_.insert(at, {actor, other, ground, false, false, 0, 0, btVector3(0, 0, 0)});
+        at = pairs_.insert(
+            at, {actor, other, ground, false, false, btVector3(0, 0, 0), 0, 0, btVector3(0, 0, 0)});
     return *at;
 }
 
@@ -25,10 +26,12 @@ void Collisions::gather(const btDispatcher& dispatcher) {
         const btPersistentManifold& manifold =
             *const_cast<btDispatcher&>(dispatcher).getManifoldByIndexInternal(i);
         double sum = 0;
+        btVector3 push(0, 0, 0);  // on the first of the two
         int strongest = 0;
         for (int k = 0; k < manifold.getNumContacts(); ++k) {
             const double impulse = manifold.getContactPoint(k).m_appliedImpulse;
             sum += impulse;
+            push += manifold.getContactPoint(k).m_normalWorldOnB * impulse;
             if (impulse > manifold.getContactPoint(strongest).m_appliedImpulse)
                 strongest = k;
         }
@@ -44,7 +47,7 @@ void Collisions::gather(const btDispatcher& dispatcher) {
             if (self.getUserIndex() != vehicle_body)
                 continue;
             Pair& both = pair(actor_of(self), actor_of(other), other.getUserIndex() == ground_body);
-            both.impulse += sum;
+            both.push += side == 0 ? push : -push;
             both.mirrored =
                 other.getUserIndex() == vehicle_body && actor_of(other) < actor_of(self);
             if (point.m_appliedImpulse > both.strongest) {
@@ -91,7 +94,8 @@ void Collisions::gather_unyielding(const btPersistentManifold& manifold) {
         both.mirrored =
             other.getUserIndex() == vehicle_body && actor_of(other) < actor_of(*bodies[side]);
         if (impulse > both.strongest) {
-            both.impulse = both.strongest = impulse;
+            both.push = worst->m_normalWorldOnB * (side == 0 ? impulse : -impulse);
+            both.strongest = impulse;
             both.position = worst->getPositionWorldOnB();
         }
     }
@@ -126,7 +130,8 @@ void Collisions::forget(std::uint32_t actor) {
 /// each other in the order, and become one.
 std::vector<Collisions::Pair> Collisions::touches() const {
     const auto counts = [](const Pair& pair) {
-        return pair.always || pair.impulse >= (pair.ground ? least_ground_impulse : least_impulse);
+        const double impulse = pair.impulse + pair.push.length();
+        return pair.always || impulse >= (pair.ground ? least_ground_impulse : least_impulse);
     };
     std::vector<Pair> touches;
     for (auto pair = pairs_.begin(); pair != pairs_.end(); ++pair) {
@@ -136,10 +141,12 @@ std::vector<Collisions::Pair> Collisions::touches() const {
         if (next != pairs_.end() && next->actor == both.actor && next->other == both.other) {
             is_touch = is_touch || counts(*next);
             both.impulse += next->impulse;
+            both.push += next->push;
             if (next->strongest > both.strongest)
                 both.position = next->position;
             pair = next;
         }
+        both.impulse += both.push.length();
         if (is_touch)
             touches.push_back(both);
     }

@@ -19,7 +19,10 @@ namespace reprise::kernel {
 /// is 0); of two with mass, `actor` is the one with the lower id. Touches with gaps of less than
 /// half a second belong together. collision: value is the impulse of that tick [N s], position the
 /// contact point with the largest. collision_ended: value and position are those of the worst tick,
-/// duration [s] is from the first touch to the last. Wheels are rays and touch nothing.
+/// duration [s] is from the first touch to the last. The impulse of a tick is the size of the sum
+/// of all that the two gave each other at their points of contact, along the normals: what one
+/// takes from the other's momentum. Who is wedged in pushes to both sides, which is none. Wheels
+/// are rays and touch nothing.
 ///
 /// No touch: less than 20 N s in a tick (1.5 ton at 1 cm/s); against the ground less than 200 N s
 /// (a bumper that scrapes over a kerb). Ground and obstacles together are one touch, of all their
@@ -62,9 +65,10 @@ class Collisions {
         std::uint32_t actor = 0;
         std::uint32_t other = 0;
         bool ground = false;
-        bool always = false;    ///< a touch even if small
-        bool mirrored = false;  ///< the same as the pair of its other, whose id is lower
-        double impulse = 0;
+        bool always = false;      ///< a touch even if small
+        bool mirrored = false;    ///< the same as the pair of its other, whose id is lower
+        btVector3 push{0, 0, 0};  ///< [N s] on the actor
+        double impulse = 0;       ///< [N s] what has no direction; of a touch: all
         double strongest = 0;
         btVector3 position;  ///< of the strongest
     };

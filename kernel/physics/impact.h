@@ -8,7 +8,7 @@ namespace reprise::kernel {
 struct Impact {
     std::uint32_t actor = 0;
     std::uint32_t other = 0;  ///< 0: the static world
-    double impulse = 0;       ///< [N s] sum over the tick's substeps of the normal impulses
+    double impulse = 0;       ///< [N s] size of the sum of the normal impulses in the tick
 };
 
 }  // namespace reprise::kernel
