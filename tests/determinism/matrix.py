@@ -65,6 +65,9 @@ CURVED = [  # real ones; that our car keeps its lane there is another question, 
     run_recipe(name, SCENARIOS / "free_drive.lua", "--town", NETS / path, "--seed", 7, "--for", 300, ends=(0, 1))
     for name, path in {"city": "DRT/osm.net.xml", "ring_road": "bs3d/bs.net.xml"}.items()
 ]
+# Cars of traffic's and parked ones that become bodies in the middle of a tick, and one who falls.
+CRASHES = run_recipe("crashes", HERE / "crashes.lua")
+CRASHES_VERIFIED = Recipe("crashes_verified", ("verify", "{crashes}"), makes="", needs=(CRASHES,))
 # Every scenario that we ship, as it stands; a failed check (1) is an answer, too.
 STORIES = [run_recipe(f"scenario_{path.stem}", path, ends=(0, 1)) for path in sorted(SCENARIOS.glob("*.lua"))]
 # Commands that read a trace and make another thing of it are rows like all others: a recipe with `needs`.
@@ -76,7 +79,7 @@ DRIVEN_VERIFIED = Recipe("driven_verified", ("verify", "{driven}"), makes="", ne
 RENDER = ("render", "{short}", "-o", "{out}", "--camera", "rgb,depth,semantic", "--size", "160x120", "--every", "60")
 PICTURES = Recipe("pictures", RENDER, program="reprise-render", makes="/", needs=(SHORT,))
 PORTABLE = Recipe("portable_pictures", (*RENDER, "--portable"), program="reprise-render", makes="/", needs=(SHORT,))
-RECIPES = {recipe.name: recipe for recipe in (SHORT, LONG, *CURVED, *STORIES, VERIFIED, DRIVEN, DRIVEN_AGAIN, DRIVEN_VERIFIED, PICTURES, PORTABLE)}
+RECIPES = {recipe.name: recipe for recipe in (SHORT, LONG, CRASHES, CRASHES_VERIFIED, *CURVED, *STORIES, VERIFIED, DRIVEN, DRIVEN_AGAIN, DRIVEN_VERIFIED, PICTURES, PORTABLE)}
 
 
 @dataclass(frozen=True)
@@ -220,6 +223,10 @@ def rows(lab):
     table += [repeats(SHORT, 3, True), repeats(SHORT, 20)]
     table += [row_of(SHORT, each, True) for each in around]
     table += [row_of(SHORT, each) for each in emulated]
+    table += [repeats(CRASHES, 3, True), row_of(CRASHES_VERIFIED, PLAIN, True)]
+    table += [row_of(CRASHES, each, each.name in ("no_aslr", "malloc_perturb")) for each in around]
+    table += [row_of(CRASHES, each, each.name == "mask_no_fma") for each in masks]
+    table += [row_of(CRASHES, each) for each in emulated]
     table += [row_of(LONG, each, each.name in ("mask_no_fma", "mask_no_sse4")) for each in masks]
     table += [row_of(LONG, each) for each in around + emulated]
     table += [row_of(recipe, each) for recipe in CURVED for each in masks]
