@@ -8,7 +8,7 @@ namespace reprise::world {
 
 /// A two-wheeler is a narrow car here: four wheels on a track of 0.4 m, and a centre of mass so low
 /// that it slides before it tips. It neither leans (pictures show the lean that its speed and yaw
-/// rate ask for) nor falls over.
+/// rate ask for) nor falls over, unless something hits it: see unbalanced_model().
 ///
 /// Constants of one model, derived from the catalogue. SI; body frame: x ahead, y left, z up,
 /// origin in the centre of mass.
