@@ -78,7 +78,10 @@ Affine3d at(const Vector3d& place) {
 
 }  // namespace
 
-void hold(Posture& posture, const BodyProportions& body, const Carried& carried, bool rains) {
+void hold(Posture& posture,
+          const BodyProportions& body,
+          const world::Carried& carried,
+          bool rains) {
     const double h = body.height;
     const Eigen::Isometry3d trunk = posture.trunk();
     const double arm = 0.98 * (body.upper_arm + body.forearm);
@@ -98,7 +101,7 @@ void hold(Posture& posture, const BodyProportions& body, const Carried& carried,
 void add_carried(std::vector<FigurePart>& parts,
                  const Posture& posture,
                  const BodyProportions& body,
-                 const Carried& carried,
+                 const world::Carried& carried,
                  bool rains) {
     using Shape = FigurePart::Shape;
     const Affine3d trunk(posture.trunk());

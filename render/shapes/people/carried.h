@@ -10,13 +10,13 @@
 namespace reprise::render {
 
 /// Moves the hands to where they hold what is carried.
-void hold(Posture& posture, const BodyProportions& body, const Carried& carried, bool rains);
+void hold(Posture& posture, const BodyProportions& body, const world::Carried& carried, bool rains);
 
 /// The things themselves. The posture must be one that holds them.
 void add_carried(std::vector<FigurePart>& parts,
                  const Posture& posture,
                  const BodyProportions& body,
-                 const Carried& carried,
+                 const world::Carried& carried,
                  bool rains);
 
 /// The mesh of a thing, in metres. Frame: what hangs hangs from the origin, what stands on the

@@ -118,29 +118,6 @@ void dress_by_trade(Outfit& outfit, std::string_view name) {
     }
 }
 
-Carried carried_by(const world::WalkerModel& model, const Choice& choice) {
-    const std::string_view name = model.name;
-    const bool young = model.age == Age::child;
-    const bool sport = model.walking_speed > 2;
-    const bool free = !young && !sport;
-    const auto happens = [&](std::uint32_t salt, float share) {
-        return choice.share(salt) < share;
-    };
-    Carried carried;
-    carried.backpack = name == "backpacker" || name == "hiker" || name.starts_with("school") ||
-                       name == "courier" ||
-                       (happens(30, name.starts_with("student") ? 0.7F : 0.12F) && !sport);
-    carried.guitar_case = !carried.backpack && free && (name == "musician" || happens(31, 0.025F));
-    carried.rolling_bag = free && (name == "traveller" || happens(32, 0.05F));
-    carried.suitcase =
-        free && !carried.rolling_bag && happens(33, name == "manager" ? 0.5F : 0.04F);
-    carried.umbrella = free && happens(34, 0.30F);
-    carried.shopping_bags = free && !carried.umbrella && (name == "shopper" || happens(35, 0.10F));
-    carried.phone = model.age != Age::child && !sport && !carried.rolling_bag &&
-                    !carried.suitcase && happens(36, model.age == Age::teen ? 0.35F : 0.13F);
-    return carried;
-}
-
 void choose_clothes(Outfit& outfit, const world::WalkerModel& model, const Choice& choice) {
     outfit.shirt = choice.of(tops, 2);
     outfit.trousers = choice.of(bottoms, 3);
@@ -226,7 +203,7 @@ Outfit outfit_of(const world::WalkerModel& model, std::uint32_t look) {
     outfit.umbrella = choice.share(15) < 0.5F ? Color(.02F, .02F, .024F) : choice.of(brights, 14);
     outfit.stockings = choice.share(16) < 0.4F;
     dress_by_trade(outfit, model.name);
-    outfit.carried = carried_by(model, choice);
+    outfit.carried = world::carried_by(model, look);
     return outfit;
 }
 

@@ -4,20 +4,10 @@
 
 #include "render/shapes/fast_math.h"
 #include "render/shapes/material.h"
+#include "world/models/carried.h"
 #include "world/models/catalogue.h"
 
 namespace reprise::render {
-
-/// What a walker carries. Any number of them, as long as hands suffice.
-struct Carried {
-    bool phone = false;
-    bool shopping_bags = false;
-    bool guitar_case = false;
-    bool suitcase = false;
-    bool rolling_bag = false;
-    bool umbrella = false;  ///< open when it rains in the tick
-    bool backpack = false;
-};
 
 /// Colours of a walker's clothes, skin and hair, and what he carries: all from the bits of his
 /// look.
@@ -33,7 +23,7 @@ struct Outfit {
     Color umbrella;
     bool short_sleeves = false;
     bool stockings = false;
-    Carried carried;
+    world::Carried carried;
 
     const Color& color_of(Material material) const;
 };
