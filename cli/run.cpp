@@ -47,11 +47,13 @@ bool is_trace(const fs::path& path) {
 /// What a recorded run started from; of this only its length may be another.
 world::Recording prepare_again(const RunOptions& options, replay::TraceReader& trace) {
     if (options.town || options.seed || options.weather || options.friction || options.cars ||
+        options.walkers ||
         !options.parameters.empty())
         throw world::Error(
             options.scenario +
             ": a recorded run is run again as it was: --town, --seed, --weather, "
-            "--friction, --cars and --set are for scenarios; to change them run its scenario");
+            "--friction, --cars, --walkers and --set are for scenarios; to change them run its "
+            "scenario");
     if (!options.drivers.empty())
         throw world::Error(options.scenario +
                            ": --driver: what the drivers of a recorded run did is in its trace; "
@@ -77,7 +79,8 @@ world::Recording prepare(const RunOptions& options) {
                                          options.parameters,
                                          options.weather,
                                          options.friction,
-                                         options.cars};
+                                         options.cars,
+                                         options.walkers};
     recording.episode =
         options.source.empty()
             ? scripting::load_episode(options.scenario, overrides)

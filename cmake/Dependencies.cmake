@@ -32,7 +32,7 @@ include(PlainLibrary)
 # Headers only; those that read XML need expat and threads.
 reprise_plain_library(osmium osmium/io/xml_input.hpp)
 target_link_libraries(osmium INTERFACE EXPAT::EXPAT Threads::Threads)
-reprise_plain_library(recast recastnavigation/Recast.h NAMES Detour Recast)
+reprise_plain_library(recast recastnavigation/Recast.h NAMES DetourCrowd Detour Recast)
 reprise_plain_library(sumo libsumo/libsumo.h NAMES sumocpp)
 reprise_plain_library(opencv opencv2/core.hpp PATHS opencv4
                       NAMES opencv_core opencv_imgproc opencv_imgcodecs)

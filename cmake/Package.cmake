@@ -2,7 +2,7 @@
 # them. ./dev install puts it beside the programs; tests/package/ is somebody who uses it.
 include(CMakePackageConfigHelpers)
 set(client_rooms world process remote)
-set(kernel_rooms files ground towns scripting traffic drivers replay kernel)
+set(kernel_rooms files ground walkers towns scripting traffic drivers replay kernel)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Reprise)
 set(header_folder ${CMAKE_INSTALL_INCLUDEDIR}/reprise)
 

@@ -14,7 +14,7 @@ reprise_package_version(LIBM_VERSION musl-dev)
 string(PREPEND LIBM_VERSION "musl ")
 
 # Every room that a run's state comes out of, at any depth; tests/state_sources_test.sh counts after.
-set(REPRISE_STATE_ROOMS world ground towns scripting traffic drivers replay kernel)
+set(REPRISE_STATE_ROOMS world ground walkers towns scripting traffic drivers replay kernel)
 set(patterns)
 foreach(room IN LISTS REPRISE_STATE_ROOMS)
   foreach(ending cpp h fbs lua in)

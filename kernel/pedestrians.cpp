@@ -30,7 +30,16 @@ Pedestrians::Pedestrians(const world::EpisodeT& episode,
     : town_(&town),
       lanes_(&lanes),
       seed_(episode.seed),
-      step_(static_cast<double>(episode.step_ns) * 1e-9) {}
+      step_(static_cast<double>(episode.step_ns) * 1e-9) {
+    if (episode.walkers > 0)
+        crowd_ = std::make_unique<walkers::Crowd>(episode, town, lanes, walking_ground());
+}
+
+walkers::WalkingGround& Pedestrians::walking_ground() {
+    if (!walking_ground_)
+        walking_ground_ = std::make_unique<walkers::WalkingGround>(*town_);
+    return *walking_ground_;
+}
 
 Pedestrians::Walker* Pedestrians::find(std::uint32_t id) {
     const auto at = std::lower_bound(
@@ -64,6 +73,8 @@ void Pedestrians::advance(const world::TickView& last, world::TickDraft& next) {
                                           std::uint8_t{0},
                                           world::drawn_look(seed_, walker.id).look());
     }
+    if (crowd_)
+        crowd_->advance(last, next);
 }
 
 void Pedestrians::obey(const world::CommandT& command, world::TickDraft& next) {
@@ -82,6 +93,7 @@ void Pedestrians::obey(const world::CommandT& command, world::TickDraft& next) {
             walker->target = world::to_eigen(command.target);
             walker->wanted_speed = command.speed > 0 ? command.speed : own_speed;
             walker->walking = true;
+            take_way(command, *walker, next);
             break;
         case CommandKind::set_speed:
             walker->wanted_speed = std::max(command.speed, 0.0);
@@ -132,6 +144,29 @@ void Pedestrians::spawn(const world::CommandT& command, world::TickDraft& next) 
     event.text = command.text;
     event.line = command.line;
     next.tick.events.push_back(event);
+}
+
+/// Where the command says so, by the walk map: corner by corner. Where no way leads there,
+/// straight.
+void Pedestrians::take_way(const world::CommandT& command, Walker& walker, world::TickDraft& next) {
+    walker.way.clear();
+    if (!command.on)
+        return;
+    const auto way = walking_ground().streets().path(walker.position, walker.target);
+    if (!way || way->size() < 2) {
+        world::EventT event;
+        event.kind = world::EventKind::printed;
+        event.text = "walker " + std::to_string(walker.id) +
+                     ": walk_to: no way leads there on foot: goes straight";
+        event.line = command.line;
+        next.tick.events.push_back(std::move(event));
+        return;
+    }
+    for (std::size_t i = way->size(); i-- > 1;)  // the next one last
+        walker.way.push_back((*way)[i].position);
+    walker.way.front() = walker.target;
+    walker.target = walker.way.back();
+    walker.way.pop_back();
 }
 
 /// At a lane, s and offset, or at a pose.
@@ -220,10 +255,15 @@ void Pedestrians::walk(Walker& walker) const {
         walker.position.head<2>() += way * (distance / left);
         step_on(walker, distance, walker.speed);
     }
-    if (distance == left) {  // arrived
-        walker.speed = 0;
-        walker.walking = false;
+    if (distance < left)
+        return;
+    if (!walker.way.empty()) {  // round a corner
+        walker.target = walker.way.back();
+        walker.way.pop_back();
+        return;
     }
+    walker.speed = 0;  // arrived
+    walker.walking = false;
 }
 
 /// Of the road where cars drive, of the sidewalk beside it, of the last ground elsewhere.
@@ -240,6 +280,10 @@ double Pedestrians::ground_height(const Eigen::Vector3d& p_world) const {
 }
 
 void Pedestrians::nudge(std::uint32_t id, std::string_view field, std::int64_t units) {
+    if (double* number = crowd_ ? crowd_->number(id, field) : nullptr) {
+        *number = moved_by_units(*number, units);
+        return;
+    }
     Walker* walker = find(id);
     REPRISE_CHECK(walker != nullptr, "walker " + std::to_string(id));
     const auto move = [&](std::string_view name, double& number) {
@@ -270,7 +314,11 @@ std::uint64_t Pedestrians::digest() const {
             walker.trajectory->add_to(hasher);
             hasher.add(walker.trajectory_start);
         }
+        for (const Eigen::Vector3d& corner : walker.way)
+            hasher.add(world::to_vec3(corner));
     }
+    if (crowd_)
+        crowd_->add_to(hasher);
     return hasher.digest64();
 }
 

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "walkers/crowd.h"
+#include "walkers/walking_ground.h"
 #include "world/episode_generated.h"
 #include "world/models/gait.h"
 #include "world/tick.h"
@@ -15,9 +18,10 @@ namespace reprise::kernel {
 
 using world::walk_cycle_length;
 
-/// The walkers that a scenario spawns: each goes in a straight line to where it was told, at the
-/// speed it was told (reached with 2 m/s^2), and stops there; or is where a trajectory says. One
-/// that a vehicle with mass has hit lies where it was and does nothing more.
+/// The walkers that a scenario spawns: each goes in a straight line, or by the walk map, to where
+/// it was told, at the speed it was told (reached with 2 m/s^2), and stops there; or is where a
+/// trajectory says. One that a vehicle with mass has hit lies where it was and does nothing more.
+/// And those in the background that the episode asks for (walkers::Crowd).
 class Pedestrians {
   public:
     /// `town` and its `lanes` must outlive this.
@@ -53,6 +57,7 @@ class Pedestrians {
         double phase = 0;  ///< of the walk cycle, in [0, 1)
         bool walking = false;
         bool down = false;
+        std::vector<Eigen::Vector3d> way{};             ///< by the walk map: corners behind target
         std::optional<world::Trajectory> trajectory{};  ///< says where it is
         std::uint64_t trajectory_start = 0;             ///< tick of its time 0
     };
@@ -67,13 +72,17 @@ class Pedestrians {
     void follow(Walker& walker, std::uint64_t tick) const;
     void step_on(Walker& walker, double distance, double speed) const;
     void walk(Walker& walker) const;
+    void take_way(const world::CommandT& command, Walker& walker, world::TickDraft& next);
+    walkers::WalkingGround& walking_ground();
     double ground_height(const Eigen::Vector3d& p_world) const;
 
     const world::TownT* town_;
     const world::LaneMap* lanes_;
-    std::uint64_t seed_;           ///< of the looks
-    double step_;                  ///< [s]
-    std::vector<Walker> walkers_;  ///< sorted by id
+    std::uint64_t seed_;                                      ///< of the looks
+    double step_;                                             ///< [s]
+    std::vector<Walker> walkers_;                             ///< sorted by id
+    std::unique_ptr<walkers::WalkingGround> walking_ground_;  ///< once somebody needs it
+    std::unique_ptr<walkers::Crowd> crowd_;                   ///< where the episode asks for one
 };
 
 }  // namespace reprise::kernel

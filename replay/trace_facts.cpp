@@ -91,6 +91,11 @@ Facts run_facts(const world::EpisodeT& episode,
         {"weather", episode.weather_name},
         {"chain_seed", world::to_hex(seed_of_chain)},
     };
+    if (episode.walkers > 0) {
+        facts["walkers"] = std::to_string(episode.walkers);
+        facts["walker_seed"] = std::to_string(episode.walker_seed);
+        facts["jaywalkers"] = fmt::format("{}", episode.jaywalkers);
+    }
     if (!episode.imported_from.empty())
         facts["imported_from"] = episode.imported_from;
     if (level != Level::full)

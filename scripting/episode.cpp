@@ -164,6 +164,11 @@ world::EpisodeT episode_of_text(const std::string& name,
     episode.substeps = substeps;
     episode.max_ticks = std::max<std::uint64_t>(1, ticks_of(duration, step_ns));
     episode.cars = overrides.cars.value_or(header.cars);
+    episode.walkers = overrides.walkers.value_or(header.walkers);
+    if (episode.walkers > 0) {
+        episode.walker_seed = header.walker_seed.value_or(episode.seed);
+        episode.jaywalkers = header.jaywalkers;
+    }
     episode.road_friction = overrides.friction.value_or(header.weather.friction);
     episode.weather = header.weather.weather;
     episode.weather_name = header.weather.name;

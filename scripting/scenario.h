@@ -21,9 +21,10 @@ struct Overrides {
     std::optional<std::uint64_t> seed;
     std::optional<double> duration;                               ///< [s] the run's limit
     std::vector<std::pair<std::string, std::string>> parameters;  ///< --set key=value
-    std::optional<std::string> weather{};  ///< a preset, with its road friction
-    std::optional<double> friction{};      ///< of the road, as a factor on dry asphalt's grip
-    std::optional<std::uint32_t> cars{};   ///< of the background traffic, or world::auto_cars
+    std::optional<std::string> weather{};    ///< a preset, with its road friction
+    std::optional<double> friction{};        ///< of the road, as a factor on dry asphalt's grip
+    std::optional<std::uint32_t> cars{};     ///< of the background traffic, or world::auto_cars
+    std::optional<std::uint32_t> walkers{};  ///< in the background
 };
 
 /// Runs the scenario file's header (not yet its `run` function) and returns all that the run starts

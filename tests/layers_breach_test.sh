@@ -4,7 +4,7 @@ set -euo pipefail
 source=$1
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
-rooms="world process ground towns scripting traffic drivers replay exchange render kernel cli"
+rooms="world process ground walkers towns scripting traffic drivers replay exchange render kernel cli"
 (cd "$source" && cp -r --parents $rooms "$copy")
 check() { python3 -B "$source/tests/checks/layers.py" "$copy"; }
 check >/dev/null

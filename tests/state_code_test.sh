@@ -7,7 +7,7 @@ set -euo pipefail
 build=$1
 shift
 archives=("$@")
-((${#archives[@]})) || archives=("$build"/{world,scripting,traffic,kernel}/lib*.a
+((${#archives[@]})) || archives=("$build"/{world,walkers,scripting,traffic,kernel}/lib*.a
                                  "$build/generated/portable_math.o")
 
 # Fused multiply-add; approximations that differ by vendor; questions to the CPU; x87 arithmetic
@@ -31,7 +31,7 @@ done
 # The same flags for every file of these rooms.
 commands=$build/compile_commands.json
 for flag in -ffp-contract=off -march=x86-64; do
-    bad=$(grep -E '"command"' "$commands" | grep -E '/(world|scripting|traffic|kernel)/[a-z_]+\.cpp"?' |
+    bad=$(grep -E '"command"' "$commands" | grep -E '/(world|walkers|scripting|traffic|kernel)/[a-z_]+\.cpp"?' |
         grep -vc -- "$flag" || true)
     ((bad == 0)) || { echo "$bad files are compiled without $flag"; found=1; }
 done

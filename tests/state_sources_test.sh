@@ -4,7 +4,7 @@
 set -euo pipefail
 source=$(realpath "$1")
 list=$2/generated/state_sources.txt
-rooms="world ground towns scripting traffic drivers replay kernel"
+rooms="world ground walkers towns scripting traffic drivers replay kernel"
 (cd "$source" && find $rooms -name '*.cpp' -o -name '*.h' -o -name '*.fbs' -o -name '*.lua' -o -name '*.in') |
     sed "s|^|$source/|" | sort >"$list.wanted"
 diff <(sort "$list") "$list.wanted" || {

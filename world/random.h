@@ -21,7 +21,10 @@ enum class Purpose : std::uint32_t {
     plant,           ///< where which bush, hedge or tree grows
     furniture,       ///< where benches, bins, parked cars and the like stand
     spawn_point,     ///< which places of a lane are worth starting from
-    look             ///< an actor's paint or outfit; item: its id
+    look,            ///< an actor's paint or outfit; item: its id
+    walker,          ///< who a background walker is; tick: which question, item: the id
+    walker_place,    ///< where one appears; tick: which try, item: the id
+    walker_goal      ///< where one goes, and what he does there; tick: which draw, item: the id
 };
 
 /// A uniform number in [0, 1), as a pure function of its arguments: there is no generator to seed,

@@ -17,7 +17,8 @@ namespace {
 
 using Lines = std::vector<std::pair<std::string, std::string>>;
 
-constexpr std::array deciding{"libsumocpp", "libBullet", "libLinearMath", "liblua"};
+constexpr std::array deciding{
+    "libsumocpp", "libBullet", "libLinearMath", "liblua", "libDetour", "libRecast"};
 
 /// The notes of a loaded file: (name size, content size, type), name, content, each padded to 4.
 std::string build_id(const char* notes, std::size_t size) {

@@ -10,6 +10,7 @@
 
 #include "kernel/physics/bullet_check.h"
 #include "traffic/sumo_check.h"
+#include "walkers/steering.h"
 #include "world/arithmetic.h"
 #include "world/check.h"
 
@@ -75,6 +76,8 @@ void self_test() {
         refuse("Bullet computes with another libm than this program");
     if (!traffic::sumo_uses_our_maths())
         refuse("SUMO computes with another libm than this program");
+    if (!walkers::detour_uses_our_maths())
+        refuse("Detour computes with another libm than this program");
 }
 
 }  // namespace reprise::cli

@@ -25,9 +25,10 @@ struct RunOptions : DriverOptions {
     std::optional<std::string> town;
     std::optional<std::uint64_t> seed;
     std::optional<double> seconds;
-    std::optional<std::string> weather;  ///< a preset
-    std::optional<double> friction;      ///< of the road
-    std::optional<std::uint32_t> cars;   ///< of the traffic, or world::auto_cars
+    std::optional<std::string> weather;    ///< a preset
+    std::optional<double> friction;        ///< of the road
+    std::optional<std::uint32_t> cars;     ///< of the traffic, or world::auto_cars
+    std::optional<std::uint32_t> walkers;  ///< in the background
     std::vector<std::pair<std::string, std::string>> parameters;
     std::string level = "full";  ///< how much of each tick is kept
     bool watch = false;          ///< again whenever the scenario is saved

@@ -85,6 +85,8 @@ std::string run_command(const world::EpisodeT& episode, std::uint64_t ticks) {
     text += " --seed " + std::to_string(episode.seed);
     text += length(episode, ticks);
     text += weather(episode);
+    if (episode.walkers > 0 || episode.scenario.find("walkers") != std::string::npos)
+        text += " --walkers " + std::to_string(episode.walkers);
     for (const world::ParameterT& parameter : episode.parameters)
         text += " --set " + shell_word(parameter.key + "=" + setting(parameter.value));
     return text;

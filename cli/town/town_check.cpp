@@ -19,8 +19,8 @@
 #include "towns/check/ground_check.h"
 #include "towns/check/standing_check.h"
 #include "towns/check/walk_check.h"
-#include "towns/check/walk_map.h"
 #include "towns/import/import_check.h"
+#include "walkers/map/walk_map.h"
 #include "world/lanes/density.h"
 #include "world/story/wording.h"
 #include "world/town.h"
@@ -36,7 +36,7 @@ struct Built {
     world::TownT town;
     ground::GroundMesh ground;
     ground::GroundMesh markings;
-    towns::WalkMap walk_map;
+    walkers::WalkMap walk_map;
     std::vector<std::pair<std::string, double>> seconds;
 };
 
@@ -69,7 +69,7 @@ Built build(const towns::Network& network) {
     const double meshing = watch.lap();
     ground::GroundMesh markings = ground::build_markings(town);
     const double marking = watch.lap();
-    towns::WalkMap walk_map(ground);
+    walkers::WalkMap walk_map(ground);
     return {
         std::move(town),
         std::move(ground),

@@ -82,7 +82,15 @@ struct Screen {
         const world::EpisodeT& episode = trace.episode();
         row("scenario", fmt::format("{} ({})", episode.name, episode.scenario_path));
         row("town",
-            fmt::format("{}, {} of traffic", episode.town, world::count_of(episode.cars, "car")));
+            fmt::format("{}, {} of traffic{}",
+                        episode.town,
+                        world::count_of(episode.cars, "car"),
+                        episode.walkers == 0
+                            ? ""
+                            : fmt::format(", {} (seed {}, {:g} % cross anywhere)",
+                                          world::count_of(episode.walkers, "walker"),
+                                          episode.walker_seed,
+                                          100 * episode.jaywalkers)));
         row("weather",
             fmt::format("{}, road friction {}", episode.weather_name, episode.road_friction));
         row("seed", std::to_string(episode.seed));
@@ -316,6 +324,9 @@ void print_json(const std::string& path, replay::TraceReader& trace, const Trace
                    {"max_ticks", std::to_string(episode.max_ticks)},
                    {"seconds", world::seconds(trace.ticks(), episode.step_ns)},
                    {"traffic", episode.cars},
+                   {"walkers", episode.walkers},
+                   {"walker_seed", std::to_string(episode.walker_seed)},
+                   {"jaywalkers", episode.jaywalkers},
                    {"weather", episode.weather_name},
                    {"road_friction", episode.road_friction},
                    {"parameters", json_of(episode.parameters)},

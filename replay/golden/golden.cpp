@@ -315,6 +315,11 @@ std::vector<std::pair<std::string, std::string>> starts_of(const world::EpisodeT
         {"cars", std::to_string(episode.cars)},
         {"road_friction", decimal(episode.road_friction)},
         {"weather", readable(episode.weather_name)}};
+    if (episode.walkers > 0) {
+        starts.emplace_back("walkers", std::to_string(episode.walkers));
+        starts.emplace_back("walker_seed", std::to_string(episode.walker_seed));
+        starts.emplace_back("jaywalkers", decimal(episode.jaywalkers));
+    }
     for (const world::ParameterT& parameter : episode.parameters)
         starts.emplace_back("set " + parameter.key, readable(parameter.value));
     return starts;

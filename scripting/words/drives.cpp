@@ -159,15 +159,31 @@ Eigen::Vector3d point_at_top(lua_State* L, const char* who) {
     return point;
 }
 
-void say_walk(
-    Run& run, lua_State* L, Actor& actor, const Eigen::Vector3d& target, const Fields& fields) {
+void say_walk(Run& run,
+              lua_State* L,
+              Actor& actor,
+              const Eigen::Vector3d& target,
+              const Fields& fields,
+              bool by_map) {
     const double speed = fields.speed().value_or(0);  // 0: the model's own
     if (speed > 12)
         refuse(fields.who(), "nobody runs faster than 12 m/s");
     world::CommandT& command = run.say(L, CommandKind::walk, actor.id);
     command.target = world::to_vec3(target);
     command.speed = speed;
+    command.on = by_map;
     actor.walks = true;
+}
+
+/// By the walk map, or straight?
+bool goes_by_map(const Fields& fields) {
+    const std::string by = fields.text("by").value_or("straight");
+    if (by != "map" && by != "straight")
+        refuse(fields.who(),
+               fmt::format("'by' must be 'map' or 'straight', got '{}'{}",
+                           by,
+                           world::did_you_mean(by, {"map", "straight"})));
+    return by == "map";
 }
 
 Actor& walking(Run& run, lua_State* L, const char* who) {
@@ -190,6 +206,9 @@ constexpr Key walk_to_key_rows[] = {
     {"s", "number", "[m] along it; default 0"},
     {"offset", "number", "[m] to the left of its centre line; default 0"},
     {"across", "LaneName", "or the far side of this lane's road"},
+    {"by",
+     "'map'|'straight'",
+     "'map': by sidewalks and crossings, over the road where that saves a lot; default 'straight'"},
     {"speed", "number", "[m/s] default the model's own"},
     {"speed_kmh", "number", "[km/h] the same"},
 };
@@ -199,7 +218,7 @@ int walk(Run& run, lua_State* L) {
     const Fields fields(L, 2, "walk", names_of(walk_key_rows));
     fields.push("to");
     const Eigen::Vector3d target = point_at_top(L, "walk");
-    say_walk(run, L, actor, target, fields);
+    say_walk(run, L, actor, target, fields, false);
     return 0;
 }
 
@@ -224,7 +243,7 @@ int walk_to(Run& run, lua_State* L) {
         target = world::pose(world::to_vec3(at.position), at.yaw, 0) *
                  Eigen::Vector3d(0, fields.number("offset").value_or(0), 0);
     }
-    say_walk(run, L, actor, target, fields);
+    say_walk(run, L, actor, target, fields, goes_by_map(fields));
     return 0;
 }
 

@@ -25,6 +25,9 @@ struct Header {
     std::string of_world;  ///< a key that decides the world at the start, or ""
     std::uint64_t seed = 0;
     std::uint32_t cars = 0;  ///< world::auto_cars: as many as the town carries
+    std::uint32_t walkers = 0;
+    std::optional<std::uint64_t> walker_seed;  ///< none: `seed`
+    double jaywalkers = 0.1;                   ///< share of the walkers
     std::map<std::string, Value> parameters;
     std::uint32_t line = 0;
     int run = 0;  ///< the function, in Lua's registry

@@ -22,6 +22,7 @@ namespace {
 
 constexpr double longest_run = 86'400;  // [s] a day
 constexpr std::int64_t most_cars = 10'000;
+constexpr std::int64_t most_walkers = 2'000;
 
 bool is_word(const std::string& text) {
     constexpr const char* letters =
@@ -123,6 +124,11 @@ constexpr Key header_key_rows[] = {
      "integer|'auto'",
      "of the background traffic, 0 to 10,000, or 'auto': as many as the town carries; default 0, "
      "--cars overrides"},
+    {"walkers",
+     "integer",
+     "people on foot in the background, 0 to 2,000; default 0, --walkers overrides"},
+    {"walker_seed", "integer", "who they are and where they go; default the seed"},
+    {"jaywalkers", "number", "[0, 1] share of them that crosses the road anywhere; default 0.1"},
     {"weather",
      "WeatherName|table|table[]",
      "a preset's name, numbers, or a timeline of { at =, over =, ... }; default 'clear_noon'"},
@@ -134,6 +140,21 @@ constexpr Key header_key_rows[] = {
      "the run function's parameters with their defaults; --set overrides"},
     {"run", "fun(p: table<string, any>)", "what happens; its end is the run's end", true},
 };
+
+void read_walkers(const Fields& fields, Header& header) {
+    const std::int64_t walkers = fields.integer("walkers").value_or(0);
+    if (walkers < 0 || walkers > most_walkers)
+        refuse("scenario", fmt::format("'walkers' must be in [0, {}]", most_walkers));
+    header.walkers = static_cast<std::uint32_t>(walkers);
+    if (const auto seed = fields.integer("walker_seed")) {
+        if (*seed < 0)
+            refuse("scenario", "'walker_seed' must not be below 0");
+        header.walker_seed = static_cast<std::uint64_t>(*seed);
+    }
+    header.jaywalkers = fields.number("jaywalkers").value_or(header.jaywalkers);
+    if (header.jaywalkers < 0 || header.jaywalkers > 1)
+        refuse("scenario", "'jaywalkers' must be in [0, 1]: a share of the walkers");
+}
 
 /// The call with the table. Upvalue 1: the name. Returns the table as the mark of a scenario.
 int take_table(lua_State* L) {
@@ -147,7 +168,8 @@ int take_table(lua_State* L) {
     header.town = fields.text("town").value_or(header.town);
     read_weather(L, fields, header);
     header.has_duration = fields.has("duration");
-    for (const char* key : {"town", "seed", "cars", "weather", "friction"})
+    for (const char* key :
+         {"town", "seed", "cars", "walkers", "walker_seed", "jaywalkers", "weather", "friction"})
         if (fields.has(key))
             header.of_world = key;
     header.duration = fields.number("duration").value_or(header.duration);
@@ -158,6 +180,7 @@ int take_table(lua_State* L) {
         refuse("scenario", "'seed' must not be below 0");
     header.seed = static_cast<std::uint64_t>(seed);
     header.cars = read_cars(L, fields);
+    read_walkers(fields, header);
     if (fields.has("params")) {
         fields.push("params");
         if (lua_type(L, -1) != LUA_TTABLE)

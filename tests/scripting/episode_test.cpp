@@ -168,8 +168,8 @@ TEST_F(EpisodeFile, MistakesInTheHeaderNameTheirLine) {
         {header("duratoin = 3"),
          "story.lua:2: scenario: unknown key 'duratoin' (did you mean 'duration'?)"},
         {header("zz = 1, aa = 2"),
-         "story.lua:2: scenario: unknown key 'aa' (known: town, duration, seed, cars, weather, "
-         "friction, "
+         "story.lua:2: scenario: unknown key 'aa' (known: town, duration, seed, cars, walkers, "
+         "walker_seed, jaywalkers, weather, friction, "
          "params, run)"},
         {header("1"), "story.lua:2: scenario: every value needs its key: { key = value }"},
         {header("town = 3"), "story.lua:2: scenario: 'town' must be a string, got 3"},

@@ -15,7 +15,7 @@
 #include "towns/check/furniture_check.h"
 #include "towns/check/ground_check.h"
 #include "towns/check/walk_check.h"
-#include "towns/check/walk_map.h"
+#include "walkers/map/walk_map.h"
 #include "world/frames.h"
 #include "world/lane_starts.h"
 #include "world/town.h"
@@ -75,7 +75,7 @@ bool HeightFaultFinder::was_there(const Criterion& criterion, const Criterion::P
         const world::TownT town = read_town(flat_);
         const ground::GroundMesh ground = ground::build_ground(town);
         criteria_of_flat_ = towns::check_ground(town, ground);
-        criteria_of_flat_->push_back(check_walking(town, WalkMap(ground)));
+        criteria_of_flat_->push_back(check_walking(town, walkers::WalkMap(ground)));
         for (Criterion& each : towns::check_furniture(town))
             criteria_of_flat_->push_back(std::move(each));
     }
@@ -97,7 +97,7 @@ std::vector<HeightFault> HeightFaultFinder::faults(const std::string& xml) {
     find_low_roads(town, ground::GroundProbe(ground), found);
     std::vector<Criterion> criteria = towns::check_ground(town, ground);
     if (found.empty() && all_pass(criteria)) {
-        criteria.push_back(check_walking(town, WalkMap(ground)));
+        criteria.push_back(check_walking(town, walkers::WalkMap(ground)));
         for (Criterion& each : towns::check_furniture(town))
             criteria.push_back(std::move(each));
     }

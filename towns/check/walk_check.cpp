@@ -113,7 +113,7 @@ struct Walked {
     double on_road = 0;
 };
 
-void add_way(const std::vector<WalkMap::Step>& steps, Walked& walked) {
+void add_way(const std::vector<walkers::WalkMap::Step>& steps, Walked& walked) {
     for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
         const double metres = (steps[i + 1].position - steps[i].position).norm();
         walked.metres += metres;
@@ -140,7 +140,7 @@ std::string among(double looked_at, double all) {
 
 }  // namespace
 
-towns::Criterion check_walking(const world::TownT& town, const WalkMap& map) {
+towns::Criterion check_walking(const world::TownT& town, const walkers::WalkMap& map) {
     towns::Criterion connected{"sidewalks connected", 100, connected_limit, "%", true, "", {}};
     const Sidewalks sidewalks(town, largest_component(town));
     if (sidewalks.count() == 0) {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-namespace reprise::towns {
+namespace reprise::walkers {
 
 /// Calls the C function that gives back what Recast or Detour allocated.
 template <typename T, void (*release)(T*)>
@@ -14,4 +14,4 @@ struct Release {
 template <typename T, void (*release)(T*)>
 using Owned = std::unique_ptr<T, Release<T, release>>;
 
-}  // namespace reprise::towns
+}  // namespace reprise::walkers

@@ -1,7 +1,6 @@
 // Detour and Recast compute in single precision with nothing of the mathematics library but square
-// roots, which are exact everywhere; ways are the same on every machine. So far only observers ask
-// for ways, nothing of a run depends on them.
-#include "towns/check/walk_map.h"
+// roots, which are exact everywhere; ways are the same on every machine.
+#include "walkers/map/walk_map.h"
 
 #include <array>
 #include <cstring>
@@ -10,11 +9,11 @@
 #include <recastnavigation/DetourNavMesh.h>
 #include <recastnavigation/DetourNavMeshQuery.h>
 
-#include "towns/check/owned.h"
-#include "towns/check/walk_tiles.h"
+#include "walkers/map/owned.h"
+#include "walkers/map/walk_tiles.h"
 #include "world/check.h"
 
-namespace reprise::towns {
+namespace reprise::walkers {
 
 namespace {
 
@@ -119,8 +118,12 @@ std::vector<WalkMap::Step> WalkMap::Mesh::corners(const std::vector<dtPolyRef>& 
     return steps;
 }
 
-WalkMap::WalkMap(const ground::GroundMesh& ground) : mesh_(std::make_unique<Mesh>()) {
-    const WalkTiles source(ground);
+WalkMap::WalkMap(const ground::GroundMesh& ground,
+                 const TileRules& rules,
+                 std::span<const world::Obstacle> obstacles,
+                 std::span<const world::Loop> crossings)
+    : mesh_(std::make_unique<Mesh>()) {
+    const WalkTiles source(ground, rules, obstacles, crossings);
     if (source.columns() == 0)
         return;
     mesh_->start(source);
@@ -135,23 +138,67 @@ WalkMap& WalkMap::operator=(WalkMap&&) noexcept = default;
 
 std::optional<std::vector<WalkMap::Step>> WalkMap::path(const Eigen::Vector3d& from_world,
                                                         const Eigen::Vector3d& to_world) const {
-    if (mesh_->polygons == 0)
+    const std::optional<Place> from = nearest(from_world);
+    const std::optional<Place> to = nearest(to_world);
+    if (!from || !to)
         return std::nullopt;
-    Point from{};
-    Point to{};
-    const dtPolyRef first = mesh_->find(from_world, from);
-    const dtPolyRef last = mesh_->find(to_world, to);
-    if (first == 0 || last == 0)
-        return std::nullopt;
+    return path(*from, *to);
+}
+
+std::optional<std::vector<WalkMap::Step>> WalkMap::path(const Place& from, const Place& to) const {
+    const Point start = to_recast(from.position, mesh_->origin);
+    const Point end = to_recast(to.position, mesh_->origin);
     std::vector<dtPolyRef> way(most_polygons);
     int count = 0;
-    mesh_->query->findPath(
-        first, last, from.data(), to.data(), &mesh_->filter, way.data(), &count, most_polygons);
+    mesh_->query->findPath(from.polygon,
+                           to.polygon,
+                           start.data(),
+                           end.data(),
+                           &mesh_->filter,
+                           way.data(),
+                           &count,
+                           most_polygons);
     // Without a way Detour gives the way to the nearest place.
-    if (count == 0 || way[static_cast<std::size_t>(count) - 1] != last)
+    if (count == 0 || way[static_cast<std::size_t>(count) - 1] != to.polygon)
         return std::nullopt;
     way.resize(static_cast<std::size_t>(count));
-    return mesh_->corners(way, from, to);
+    return mesh_->corners(way, start, end);
+}
+
+std::optional<WalkMap::Place> WalkMap::nearest(const Eigen::Vector3d& p_world) const {
+    if (mesh_->polygons == 0)
+        return std::nullopt;
+    Point found{};
+    const dtPolyRef polygon = mesh_->find(p_world, found);
+    if (polygon == 0)
+        return std::nullopt;
+    return Place{polygon, from_recast(found.data(), mesh_->origin)};
+}
+
+WalkMap::Place WalkMap::slide(const Place& from, const Eigen::Vector3d& p_world) const {
+    constexpr int most_passed = 16;  // polygons
+    const Point start = to_recast(from.position, mesh_->origin);
+    const Point end = to_recast(p_world, mesh_->origin);
+    Point found = start;
+    std::array<dtPolyRef, most_passed> passed{};
+    int count = 0;
+    const dtStatus status = mesh_->query->moveAlongSurface(from.polygon,
+                                                           start.data(),
+                                                           end.data(),
+                                                           &mesh_->filter,
+                                                           found.data(),
+                                                           passed.data(),
+                                                           &count,
+                                                           most_passed);
+    if (dtStatusFailed(status) || count == 0)
+        return from;
+    return {passed[static_cast<std::size_t>(count) - 1], from_recast(found.data(), mesh_->origin)};
+}
+
+ground::Surface WalkMap::surface(const Place& place) const {
+    unsigned char area = walk_sidewalk;
+    mesh_->tiles->getPolyArea(place.polygon, &area);
+    return surface_of(area);
 }
 
 std::size_t WalkMap::polygons() const {
@@ -166,4 +213,4 @@ world::Digest128 WalkMap::digest() const {
     return mesh_->hasher.digest128();
 }
 
-}  // namespace reprise::towns
+}  // namespace reprise::walkers

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace reprise::towns {
+namespace reprise::walkers {
 
 /// Areas of the navigation mesh; where surfaces meet at one height the highest number wins, so that
 /// sidewalks do.
@@ -14,14 +14,31 @@ inline constexpr double walker_radius = 0.3;  ///< [m]
 inline constexpr double walker_height = 1.8;  ///< [m]
 inline constexpr double walker_climb = 0.3;   ///< [m] more than a kerb
 
-inline constexpr float tile_cell = 0.3F;  ///< [m] of Recast's cells; 0.15 m gave the same ways
-inline constexpr int tile_margin = 5;  ///< [cells] around a tile: its radius, and room for erosion
+/// How finely a map is made, and what counts as walkable.
+struct TileRules {
+    float cell = 0.3F;         ///< [m] of Recast's cells; 0.15 m gave the same ways
+    int radius = 1;            ///< [cells] taken off along every edge
+    float simplification = 1;  ///< [cells] by which an outline may be off
+    bool roads = true;         ///< else only sidewalks and crossings
+    bool heights = true;       ///< inside of polygons as well
+
+    int margin() const { return radius + 4; }  ///< [cells] around a tile: room for erosion
+};
+
+/// An upright convex prism.
+struct TileShape {
+    std::vector<float> corners;  ///< x, y, z
+    float low = 0;
+    float high = 0;
+};
 
 /// The triangles in and around a tile, in Recast's coordinates.
 struct TileTriangles {
     std::vector<float> vertices;  ///< x, y, z
     std::vector<int> corners;     ///< three for each triangle
     std::vector<unsigned char> areas;
+    std::vector<TileShape> holes;      ///< where something stands
+    std::vector<TileShape> crossings;  ///< what is crossing, whatever its triangles say
 
     int count() const { return static_cast<int>(areas.size()); }
 };
@@ -41,6 +58,8 @@ struct WalkTile {
     std::size_t polygons = 0;
 };
 
-WalkTile make_walk_tile(const TileTriangles& triangles, const TilePlace& place);
+WalkTile make_walk_tile(const TileTriangles& triangles,
+                        const TilePlace& place,
+                        const TileRules& rules);
 
-}  // namespace reprise::towns
+}  // namespace reprise::walkers

@@ -1,10 +1,13 @@
-#include "towns/check/walk_tiles.h"
+#include "walkers/map/walk_tiles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-namespace reprise::towns {
+#include "world/units.h"
+
+namespace reprise::walkers {
 
 namespace {
 
@@ -50,6 +53,10 @@ TileTriangles triangles_in(const ground::GroundMesh& ground,
     return triangles;
 }
 
+constexpr double narrowest =
+    0.15;                          ///< [m] half width of what stands there: seen by a cell's middle
+constexpr double step_over = 0.1;  ///< [m] what is lower is in nobody's way
+
 }  // namespace
 
 std::array<float, 3> to_recast(const Eigen::Vector3d& p_world, const Eigen::Vector3d& origin) {
@@ -63,7 +70,56 @@ Eigen::Vector3d from_recast(const float* p, const Eigen::Vector3d& origin) {
                                     static_cast<double>(p[1]));
 }
 
-WalkTiles::WalkTiles(const ground::GroundMesh& ground) : ground_(&ground) {
+WalkTiles::Shape WalkTiles::shape_of(const world::Obstacle& obstacle) {
+    Shape shape;
+    const Eigen::Vector2d middle = obstacle.position.head<2>();
+    shape.low = obstacle.position.z() - 0.5;
+    shape.high = obstacle.position.z() + 2 * obstacle.half.z() - obstacle.depth;
+    if (obstacle.shape == world::Obstacle::Shape::prism) {
+        for (const Eigen::Vector3d& corner : obstacle.corners)
+            shape.outline.emplace_back(middle + corner.head<2>());
+        return shape;
+    }
+    const Eigen::Vector2d ahead = world::ahead_of(obstacle.yaw);
+    const double length = std::max(obstacle.half.x(), narrowest);
+    const double width = std::max(obstacle.half.y(), narrowest);
+    for (const auto& [x, y] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}})
+        shape.outline.emplace_back(middle + x * length * ahead +
+                                   y * width * world::turned_left(ahead));
+    return shape;
+}
+
+/// What stands in and around a tile, and the crossings there.
+void WalkTiles::add_shapes(const world::Box& box, TileTriangles& triangles) const {
+    for (const std::uint32_t i : shapes_by_place_.near(box)) {
+        const Shape& shape = shapes_[i];
+        TileShape prism;
+        for (const Eigen::Vector2d& corner : shape.outline)
+            for (const float coordinate : to_recast({corner.x(), corner.y(), 0}, origin_))
+                prism.corners.push_back(coordinate);
+        prism.low = static_cast<float>(shape.low - origin_.z());
+        prism.high = static_cast<float>(shape.high - origin_.z());
+        (i < holes_ ? triangles.holes : triangles.crossings).push_back(std::move(prism));
+    }
+}
+
+WalkTiles::WalkTiles(const ground::GroundMesh& ground,
+                     const TileRules& rules,
+                     std::span<const world::Obstacle> holes,
+                     std::span<const world::Loop> crossings)
+    : ground_(&ground),
+      rules_(rules) {
+    for (const world::Obstacle& obstacle : holes)
+        if (2 * obstacle.half.z() - obstacle.depth > step_over)
+            shapes_.push_back(shape_of(obstacle));
+    holes_ = shapes_.size();
+    for (const world::Loop& crossing : crossings)
+        shapes_.push_back({crossing, -world::infinity, world::infinity});
+    std::vector<world::BoxGrid::Entry> by_box;
+    for (std::uint32_t i = 0; i < shapes_.size(); ++i)
+        by_box.push_back({world::box_around(shapes_[i].outline), i});
+    shapes_by_place_ = world::BoxGrid(by_box);
+
     std::vector<world::BoxGrid::Entry> entries;
     world::Box all;
     double lowest = std::numeric_limits<double>::infinity();
@@ -86,25 +142,26 @@ WalkTiles::WalkTiles(const ground::GroundMesh& ground) : ground_(&ground) {
     origin_ = {all.low.x(), all.high.y(), lowest};
     const double least_edge = std::sqrt(size.prod() / most_tiles);
     const int cells = std::max(
-        smallest_tile, static_cast<int>(std::ceil(least_edge / static_cast<double>(tile_cell))));
-    edge_ = cells * static_cast<double>(tile_cell);
+        smallest_tile, static_cast<int>(std::ceil(least_edge / static_cast<double>(rules_.cell))));
+    edge_ = cells * static_cast<double>(rules_.cell);
     columns_ = 1 + static_cast<int>(size.x() / edge_);
     rows_ = 1 + static_cast<int>(size.y() / edge_);
 }
 
 WalkTile WalkTiles::build(int column, int row) const {
-    const double border = tile_margin * static_cast<double>(tile_cell);
+    const double border = rules_.margin() * static_cast<double>(rules_.cell);
     const Eigen::Vector2d north_west = origin_.head<2>() + edge_ * Eigen::Vector2d(column, -row);
     world::Box box;
     box.take(north_west, border);
     box.take(north_west + Eigen::Vector2d(edge_, -edge_), border);
-    const TileTriangles triangles = triangles_in(*ground_, by_place_, box, origin_);
+    TileTriangles triangles = triangles_in(*ground_, by_place_, box, origin_);
     if (triangles.count() == 0)
         return {};
+    add_shapes(box, triangles);
     TilePlace place;
     place.column = column;
     place.row = row;
-    place.cells = static_cast<int>(std::lround(edge_ / static_cast<double>(tile_cell)));
+    place.cells = static_cast<int>(std::lround(edge_ / static_cast<double>(rules_.cell)));
     place.low = to_recast({box.low.x(), box.high.y(), 0}, origin_);
     place.high = to_recast({box.high.x(), box.low.y(), 0}, origin_);
     place.low[1] = place.high[1] = triangles.vertices[1];
@@ -113,7 +170,7 @@ WalkTile WalkTiles::build(int column, int row) const {
         place.high[1] = std::max(place.high[1], triangles.vertices[i]);
     }
     place.high[1] += static_cast<float>(walker_height) + 1;
-    return make_walk_tile(triangles, place);
+    return make_walk_tile(triangles, place, rules_);
 }
 
-}  // namespace reprise::towns
+}  // namespace reprise::walkers

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
 #include "ground/mesh/ground.h"
-#include "towns/check/walk_tile.h"
+#include "walkers/map/walk_tile.h"
 #include "world/geometry2d.h"
+#include "world/obstacle.h"
 
-namespace reprise::towns {
+namespace reprise::walkers {
 
 /// Recast's coordinates: x east, y up, z south, from `origin`; single precision.
 std::array<float, 3> to_recast(const Eigen::Vector3d& p_world, const Eigen::Vector3d& origin);
@@ -16,8 +19,12 @@ Eigen::Vector3d from_recast(const float* p, const Eigen::Vector3d& origin);
 /// the town.
 class WalkTiles {
   public:
-    /// Looks into `ground`, which must outlive it.
-    explicit WalkTiles(const ground::GroundMesh& ground);
+    /// Looks into `ground`, which must outlive it. `holes`: what stands there; `crossings`: where
+    /// the road is for walkers, as convex outlines.
+    WalkTiles(const ground::GroundMesh& ground,
+              const TileRules& rules,
+              std::span<const world::Obstacle> holes = {},
+              std::span<const world::Loop> crossings = {});
 
     const Eigen::Vector3d& origin() const { return origin_; }  ///< least corner of all ground
 
@@ -31,7 +38,22 @@ class WalkTiles {
     WalkTile build(int column, int row) const;
 
   private:
+    void add_shapes(const world::Box& box, TileTriangles& triangles) const;
+
+    /// In plan, with the heights between which it stands in the way.
+    struct Shape {
+        world::Loop outline;
+        double low = 0;
+        double high = 0;
+    };
+
+    static Shape shape_of(const world::Obstacle& obstacle);
+
     const ground::GroundMesh* ground_;
+    TileRules rules_;
+    std::vector<Shape> shapes_;  ///< holes, and behind them crossings
+    std::size_t holes_ = 0;
+    world::BoxGrid shapes_by_place_;
     world::BoxGrid by_place_;
     Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
     double edge_ = 0;
@@ -39,4 +61,4 @@ class WalkTiles {
     int rows_ = 0;
 };
 
-}  // namespace reprise::towns
+}  // namespace reprise::walkers

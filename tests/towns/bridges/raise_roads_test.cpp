@@ -20,9 +20,9 @@
 #include "towns/check/furniture_check.h"
 #include "towns/check/ground_check.h"
 #include "towns/check/walk_check.h"
-#include "towns/check/walk_map.h"
 #include "towns/import/town_import.h"
 #include "towns/town_reader.h"
+#include "walkers/map/walk_map.h"
 #include "world/frames.h"
 #include "world/town.h"
 
@@ -237,7 +237,7 @@ std::string crowded_city(unsigned seed) {
 std::vector<towns::Criterion> all_criteria(const world::TownT& town) {
     const ground::GroundMesh ground = ground::build_ground(town);
     std::vector<towns::Criterion> criteria = towns::check_ground(town, ground);
-    criteria.push_back(check_walking(town, WalkMap(ground)));
+    criteria.push_back(check_walking(town, walkers::WalkMap(ground)));
     for (const towns::Criterion& criterion : towns::check_furniture(town))
         criteria.push_back(criterion);
     return criteria;

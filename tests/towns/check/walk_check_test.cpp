@@ -1,126 +1,15 @@
-#include "towns/check/walk_map.h"
+#include "towns/check/walk_check.h"
 
 #include <gtest/gtest.h>
 
 #include "ground/mesh/build_ground.h"
 #include "tests/support/towns.h"
-#include "towns/check/walk_check.h"
-#include "world/check.h"
 
 namespace reprise::towns {
 namespace {
 
-using Eigen::Vector3d;
 using ground::GroundMesh;
-using ground::Surface;
-
-void add_rectangle(
-    GroundMesh& mesh, double x0, double y0, double x1, double y1, double z, Surface surface) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), {{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}});
-    mesh.triangles.push_back({first, first + 1, first + 2});
-    mesh.triangles.push_back({first, first + 2, first + 3});
-    mesh.surfaces.insert(mesh.surfaces.end(), 2, surface);
-}
-
-/// A road of 100 m by 7 m along x with sidewalks of 2.5 m on both sides, and a crossing at x = 40
-/// to 43 unless one does without.
-GroundMesh street(bool with_crossing, double z = 0) {
-    GroundMesh mesh;
-    add_rectangle(mesh, 0, -6, 100, -3.5, z + 0.15, Surface::sidewalk);
-    add_rectangle(mesh, 0, 3.5, 100, 6, z + 0.15, Surface::sidewalk);
-    if (with_crossing) {
-        add_rectangle(mesh, 0, -3.5, 40, 3.5, z, Surface::road);
-        add_rectangle(mesh, 40, -3.5, 43, 3.5, z, Surface::crossing);
-        add_rectangle(mesh, 43, -3.5, 100, 3.5, z, Surface::road);
-    } else {
-        add_rectangle(mesh, 0, -3.5, 100, 3.5, z, Surface::road);
-    }
-    return mesh;
-}
-
-double metres_on(const std::vector<WalkMap::Step>& steps, Surface surface) {
-    double metres = 0;
-    for (std::size_t i = 0; i + 1 < steps.size(); ++i)
-        if (steps[i].surface == surface)
-            metres += (steps[i + 1].position - steps[i].position).norm();
-    return metres;
-}
-
-TEST(WalkMap, TakesTheCrossingWhereItIsNotFar) {
-    const WalkMap map(street(true));
-    const auto way = map.path({30, -5, 0.15}, {30, 5, 0.15});
-    ASSERT_TRUE(way);
-    EXPECT_LT(metres_on(*way, Surface::road), 1);
-    EXPECT_NEAR(metres_on(*way, Surface::crossing), 7, 1.5);
-    EXPECT_LT((way->front().position - Vector3d(30, -5, 0.15)).norm(), 0.3);
-    EXPECT_LT((way->back().position - Vector3d(30, 5, 0.15)).norm(), 0.3);
-}
-
-TEST(WalkMap, CrossesTheRoadWhereThereIsNoCrossing) {
-    const auto way = WalkMap(street(false)).path({30, -5, 0.15}, {30, 5, 0.15});
-    ASSERT_TRUE(way);
-    EXPECT_NEAR(metres_on(*way, Surface::road), 7, 1.5);
-}
-
-TEST(WalkMap, StaysOnTheSidewalkAlongAStreet) {
-    const auto way = WalkMap(street(true)).path({2, 5, 0.15}, {98, 5, 0.15});
-    ASSERT_TRUE(way);
-    EXPECT_NEAR(metres_on(*way, Surface::sidewalk), 96, 0.5) << "over the border of two tiles";
-}
-
-TEST(WalkMap, KeepsStoreysApart) {
-    GroundMesh mesh = street(true);
-    const GroundMesh bridge = street(true, 6);
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), bridge.vertices.begin(), bridge.vertices.end());
-    for (auto triangle : bridge.triangles)
-        mesh.triangles.push_back({triangle[0] + first, triangle[1] + first, triangle[2] + first});
-    mesh.surfaces.insert(mesh.surfaces.end(), bridge.surfaces.begin(), bridge.surfaces.end());
-    const WalkMap map(mesh);
-    EXPECT_TRUE(map.path({10, 5, 6.15}, {90, 5, 6.15}));
-    EXPECT_TRUE(map.path({10, 5, 0.15}, {90, 5, 0.15}));
-    EXPECT_FALSE(map.path({10, 5, 0.15}, {90, 5, 6.15}));
-}
-
-TEST(WalkMap, SaysWhenThereIsNoWay) {
-    GroundMesh mesh = street(true);
-    add_rectangle(mesh, 0, 20, 100, 23, 0.15, Surface::sidewalk);
-    const WalkMap map(mesh);
-    EXPECT_FALSE(map.path({10, 5, 0.15}, {10, 21, 0.15})) << "an island";
-    EXPECT_FALSE(map.path({10, 5, 0.15}, {10, 60, 0.15})) << "nothing there";
-    EXPECT_FALSE(WalkMap(GroundMesh()).path({0, 0, 0}, {1, 1, 0}));
-}
-
-TEST(WalkMap, NobodyWalksOnTerrain) {
-    GroundMesh mesh;
-    add_rectangle(mesh, 0, 0, 50, 50, 0, Surface::terrain);
-    EXPECT_EQ(WalkMap(mesh).polygons(), 0U);
-}
-
-TEST(WalkMap, IsTheSameBytesEveryTime) {
-    const GroundMesh mesh = street(true);
-    const WalkMap map(mesh);
-    EXPECT_EQ(map.digest(), WalkMap(mesh).digest());
-    EXPECT_FALSE(map.digest() == WalkMap(street(false)).digest());
-    // Asking for ways leaves no trace.
-    const auto first = map.path({30, -5, 0.15}, {80, 5, 0.15});
-    map.path({5, 5, 0.15}, {90, -5, 0.15});
-    const auto second = map.path({30, -5, 0.15}, {80, 5, 0.15});
-    ASSERT_TRUE(first && second);
-    ASSERT_EQ(first->size(), second->size());
-    for (std::size_t i = 0; i < first->size(); ++i)
-        EXPECT_EQ((*first)[i].position, (*second)[i].position);
-}
-
-TEST(WalkMap, MeansTheSameFarFromTheOrigin) {
-    GroundMesh mesh = street(true);
-    for (Vector3d& vertex : mesh.vertices)
-        vertex += Vector3d(500000, -2000000, 300);
-    const auto way = WalkMap(mesh).path({500030, -2000005, 300.15}, {500030, -1999995, 300.15});
-    ASSERT_TRUE(way);
-    EXPECT_NEAR(metres_on(*way, Surface::crossing), 7, 1.5);
-}
+using walkers::WalkMap;
 
 TEST(WalkCheck, FindsTheSidewalksOfTown1Connected) {
     const world::TownT& town = test::own_town("town1").town;

@@ -1,0 +1,297 @@
+#include "walkers/crowd.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "ground/mesh/build_ground.h"
+#include "ground/mesh/ground_probe.h"
+#include "ground/obstacles.h"
+#include "tests/support/towns.h"
+#include "tests/support/worlds.h"
+#include "world/digest.h"
+#include "world/frames.h"
+#include "world/geometry2d.h"
+#include "world/models/catalogue.h"
+
+namespace reprise::walkers {
+namespace {
+
+constexpr double tick_seconds = 0.05;
+constexpr std::uint64_t green_ticks = 200;  // as Town 1's lights: 10 s of 50 s
+
+/// A crowd alone in a town of ours, under lights that change by the clock, without cars.
+class Scene {
+  public:
+    explicit Scene(unsigned walkers, double jaywalkers = 0.1, std::uint64_t seed = 3)
+        : town_(test::own_town("town1").town),
+          lanes_(town_) {
+        episode.walkers = walkers;
+        episode.walker_seed = seed;
+        episode.jaywalkers = jaywalkers;
+        crowd_.emplace(episode, town_, lanes_, ground());
+    }
+
+    /// Made once: it is a function of the town.
+    static WalkingGround& ground() {
+        static WalkingGround made(test::own_town("town1").town);
+        return made;
+    }
+
+    const std::vector<world::WalkerState>& step(const std::vector<world::EventT>& happened = {}) {
+        next.tick.events.insert(next.tick.events.end(), happened.begin(), happened.end());
+        last_.emplace(world::seal(next, {}));
+        world::TickDraft draft;
+        draft.tick.index = next.tick.index + 1;
+        for (const world::SignalT& signal : town_.signals) {
+            const std::uint64_t place = (draft.tick.index + signal.index * 350) % 1000;
+            draft.tick.signals.push_back(place < green_ticks ? world::SignalColor::green
+                                                             : world::SignalColor::red);
+        }
+        crowd_->advance(last_->view(), draft);
+        next = std::move(draft);
+        return next.traffic.walkers;
+    }
+
+    std::uint64_t digest() const {
+        world::Hasher hasher;
+        crowd_->add_to(hasher);
+        return hasher.digest64();
+    }
+
+    bool jaywalks(std::uint32_t id) const {
+        return draw_person(episode.walker_seed, id, episode.jaywalkers).jaywalks;
+    }
+
+    const world::TownT& town() const { return town_; }
+
+    const world::LaneMap& lanes() const { return lanes_; }
+
+  private:
+    const world::TownT& town_;
+    world::LaneMap lanes_;
+    std::optional<world::SealedTick> last_;
+    std::optional<Crowd> crowd_;
+
+  public:
+    world::EpisodeT episode = test::episode();
+    world::TickDraft next;
+};
+
+Eigen::Vector3d place_of(const world::WalkerState& walker) {
+    return world::to_eigen(walker.position());
+}
+
+/// Nobody's middle is in what stands there.
+bool is_inside(const world::Obstacle& obstacle, const Eigen::Vector3d& p) {
+    const Eigen::Vector2d gap = (p - obstacle.position).head<2>();
+    const double top = obstacle.position.z() + 2 * obstacle.half.z() - obstacle.depth;
+    if (p.z() > top || p.z() < obstacle.position.z() - 1)
+        return false;
+    if (obstacle.shape == world::Obstacle::Shape::cylinder)
+        return gap.norm() < obstacle.half.x();
+    const Eigen::Vector2d ahead = world::ahead_of(obstacle.yaw);
+    return std::abs(gap.dot(ahead)) < obstacle.half.x() &&
+           std::abs(world::cross(ahead, gap)) < obstacle.half.y();
+}
+
+/// `beyond` its ends, `within` its sides. [m]
+bool is_on(const world::LaneT& crossing, const Eigen::Vector3d& p, double beyond, double within) {
+    const Eigen::Vector2d from = world::in_plan(crossing.centre.front());
+    const Eigen::Vector2d way = world::in_plan(crossing.centre.back()) - from;
+    const Eigen::Vector2d ahead = way.normalized();
+    const double along = ahead.dot(p.head<2>() - from);
+    return along > -beyond && along < way.norm() + beyond &&
+           std::abs(world::cross(ahead, p.head<2>() - from)) < crossing.width / 2 - within;
+}
+
+/// On one, or in the gap between its end and the sidewalk's round corner.
+bool is_at_a_crossing(const world::TownT& town, const Eigen::Vector3d& p) {
+    return std::any_of(town.lanes.begin(), town.lanes.end(), [&](const world::LaneT& lane) {
+        return lane.kind == world::LaneKind::crossing && is_on(lane, p, 0.5, 0);
+    });
+}
+
+TEST(Crowd, KeepsToTheRulesForTwoMinutes) {
+    Scene scene(100);
+    const ground::GroundMesh mesh = ground::build_ground(scene.town());
+    const ground::GroundProbe probe(mesh);
+    const std::vector<world::Obstacle> obstacles = ground::obstacles_of(scene.town());
+    std::map<std::uint32_t, world::WalkerState> before;
+    std::map<std::uint32_t, std::set<std::uint32_t>> crossings;  // that somebody is on
+    int off_pavement = 0;
+    int inside = 0;
+    int at_red = 0;
+    int overlaps = 0;
+    int jumps = 0;
+    int on_crossings = 0;
+    double walked = 0;
+    std::uint64_t walking = 0;
+    std::vector<std::vector<world::SignalColor>> colors;
+    for (int tick = 1; tick <= 2400; ++tick) {
+        const auto& all = scene.step();
+        colors.push_back(scene.next.tick.signals);
+        ASSERT_EQ(all.size(), 100U);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const world::WalkerState& walker = all[i];
+            const Eigen::Vector3d p = place_of(walker);
+            // Where he may be. Once a second is enough to see it.
+            if (tick % 20 == 0) {
+                const auto below = probe.below(p + Eigen::Vector3d(0, 0, 0.5));
+                ASSERT_TRUE(below);
+                EXPECT_NEAR(below->z, p.z(), 0.02);
+                if (!scene.jaywalks(walker.id()))
+                    off_pavement += below->surface != ground::Surface::sidewalk &&
+                                    scene.lanes().walkable_at(p).empty() &&
+                                    !is_at_a_crossing(scene.town(), p);
+                for (const world::Obstacle& obstacle : obstacles)
+                    inside += is_inside(obstacle, p);
+            }
+            // Crossings with lights: stepped onto at green, or at most a second behind it.
+            std::set<std::uint32_t> now;
+            for (const auto& found : scene.lanes().walkable_at(p))
+                if (scene.town().lanes[found.lane].kind == world::LaneKind::crossing &&
+                    is_on(scene.town().lanes[found.lane], p, -0.1, 0.1))
+                    now.insert(found.lane);
+            bool stepped = false;
+            bool lit = false;
+            bool was_green = false;  // one of them: at corners they overlap
+            for (const std::uint32_t lane : now) {
+                stepped = stepped || (tick > 1 && !crossings[walker.id()].contains(lane));
+                for (std::size_t s = 0; s < scene.town().signals.size(); ++s) {
+                    const world::SignalT& signal = scene.town().signals[s];
+                    if (signal.lane != lane || !signal.for_walkers)
+                        continue;
+                    lit = true;
+                    for (std::size_t back = 0; back < 20 && back < colors.size(); ++back)
+                        was_green = was_green || colors[colors.size() - 1 - back][s] ==
+                                                     world::SignalColor::green;
+                }
+            }
+            if (stepped && crossings[walker.id()].empty()) {
+                ++on_crossings;
+                at_red += lit && !was_green;
+            }
+            crossings[walker.id()] = std::move(now);
+            // Others.
+            for (std::size_t other = i + 1; other < all.size(); ++other) {
+                const double room = (world::walker_models()[walker.model()].shoulder_width +
+                                     world::walker_models()[all[other].model()].shoulder_width) /
+                                    2;
+                overlaps += (place_of(all[other]) - p).head<2>().norm() < room - 0.005;
+            }
+            // Himself before.
+            if (const auto was = before.find(walker.id()); was != before.end()) {
+                const double way = (p - place_of(was->second)).head<2>().norm();
+                const double speed = static_cast<double>(walker.speed());
+                jumps += way > speed * tick_seconds + 0.05;
+                walked += way;
+                walking += speed > 0.1;
+            }
+            before[walker.id()] = walker;
+        }
+    }
+    EXPECT_EQ(off_pavement, 0);
+    EXPECT_EQ(inside, 0);
+    EXPECT_EQ(at_red, 0);
+    EXPECT_EQ(overlaps, 0);
+    EXPECT_EQ(jumps, 0);
+    EXPECT_GT(on_crossings, 100) << "it is no proof where nobody crosses";
+    EXPECT_GT(walked / (static_cast<double>(walking) * tick_seconds), 0.8) << "of those who walk";
+    EXPECT_GT(static_cast<double>(walking), 0.6 * 100 * 2400) << "most are on their way";
+}
+
+TEST(Crowd, IsTheSameForTheSameSeedAndAnotherForAnother) {
+    Scene one(60);
+    Scene same(60);
+    Scene other(60, 0.1, 4);
+    for (int tick = 0; tick < 300; ++tick) {
+        one.step();
+        same.step();
+        other.step();
+        ASSERT_EQ(one.digest(), same.digest()) << "tick " << tick;
+        ASSERT_NE(one.digest(), other.digest());
+    }
+    EXPECT_EQ(one.next.traffic.walkers, same.next.traffic.walkers);
+}
+
+TEST(Crowd, WhoIsHitLiesIsTakenAwayAndReplacedElsewhere) {
+    Scene scene(20);
+    scene.step();
+    const world::WalkerState victim = scene.next.traffic.walkers[7];
+    world::EventT hit;
+    hit.kind = world::EventKind::collision;
+    hit.actor = 1;
+    hit.other = victim.id();
+    scene.step({hit});
+    EXPECT_TRUE(scene.next.traffic.walkers[7].down());
+    const Eigen::Vector3d where = place_of(scene.next.traffic.walkers[7]);
+    int lay = 0;
+    bool gone = false;
+    for (int tick = 0; tick < 260 && !gone; ++tick) {
+        scene.step();
+        const auto& all = scene.next.traffic.walkers;
+        EXPECT_EQ(all.size(), 20U);
+        const world::WalkerState* found = world::find(all, victim.id());
+        gone = found == nullptr;
+        if (gone)
+            break;
+        ++lay;
+        EXPECT_TRUE(found->down());
+        EXPECT_EQ(place_of(*found), where);
+    }
+    ASSERT_TRUE(gone);
+    EXPECT_GE(lay * tick_seconds, 4.9);
+    EXPECT_LE(lay * tick_seconds, 10.1);
+    const world::WalkerState& fresh = scene.next.traffic.walkers.back();
+    EXPECT_EQ(fresh.id(), first_walker_id + 20);
+    EXPECT_FALSE(fresh.down());
+    std::vector<world::EventKind> kinds;
+    for (const world::EventT& event : scene.next.tick.events)
+        kinds.push_back(event.kind);
+    EXPECT_EQ(kinds, (std::vector{world::EventKind::despawned, world::EventKind::spawned}));
+}
+
+TEST(Crowd, JaywalkersCrossWhereThereIsNoCrossing) {
+    Scene scene(40, 1);
+    const ground::GroundMesh mesh = ground::build_ground(scene.town());
+    const ground::GroundProbe probe(mesh);
+    int on_road = 0;
+    for (int tick = 1; tick <= 1200; ++tick)
+        for (const world::WalkerState& walker : scene.step())
+            if (tick % 20 == 0) {
+                const auto below = probe.below(place_of(walker) + Eigen::Vector3d(0, 0, 0.5));
+                on_road += below && below->surface == ground::Surface::road;
+            }
+    EXPECT_GT(on_road, 10);
+}
+
+TEST(Crowd, SaysHowManyATownHasRoomFor) {
+    const world::TownT nothing = [] {
+        world::TownT town = test::straight_road();
+        for (world::LaneT& lane : town.lanes)
+            if (lane.kind == world::LaneKind::sidewalk)
+                lane.kind = world::LaneKind::other;
+        return town;
+    }();
+    const world::LaneMap lanes(nothing);
+    WalkingGround ground(nothing);
+    world::EpisodeT episode = test::episode();
+    episode.walkers = 5;
+    Crowd crowd(episode, nothing, lanes, ground);
+    const world::SealedTick last = test::tick_with({}, {}, {}, 0);
+    world::TickDraft next;
+    next.tick.index = 1;
+    crowd.advance(last.view(), next);
+    EXPECT_TRUE(next.traffic.walkers.empty());
+    ASSERT_EQ(next.tick.events.size(), 1U);
+    EXPECT_EQ(next.tick.events[0].text,
+              "walkers: 5 were asked for, " + nothing.name + " has room for 0");
+}
+
+}  // namespace
+}  // namespace reprise::walkers

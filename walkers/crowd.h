@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "walkers/gate.h"
+#include "walkers/neighbours.h"
+#include "walkers/person.h"
+#include "walkers/road_traffic.h"
+#include "walkers/steering.h"
+#include "walkers/walker_lights.h"
+#include "walkers/walking_ground.h"
+#include "world/episode_generated.h"
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::walkers {
+
+/// Ids of background walkers; those of background cars lie below. Never reused within an episode.
+inline constexpr std::uint32_t first_walker_id = 100'000'000;
+
+/// As many people on foot as the episode asks for, each on the way to somewhere.
+///
+/// MUST    depend on ticks and commands alone, to the bit; leave the pavement at crossings only
+///         (but for jaywalkers), step onto none at red, look before stepping onto a road; never
+///         overlap; go on.
+/// ASSUMES ticks come in order; traffic has written its part of the next one.
+/// GOES    one by one in the order of ids. First everybody says where to: along the way that the
+///         walk map gave, waiting at gates, around others as DetourCrowd's avoidance says. Then
+///         everybody takes a step, which is not taken where somebody stands by then.
+/// KEEPS   who they are, where, and their ways; the lights' usual times.
+class Crowd {
+  public:
+    /// All of them must outlive this.
+    Crowd(const world::EpisodeT& episode,
+          const world::TownT& town,
+          const world::LaneMap& lanes,
+          WalkingGround& ground);
+
+    /// Adds everybody to next.traffic.walkers, behind the scenario's walkers that are there by now,
+    /// and the events of those who come and go.
+    void advance(const world::TickView& last, world::TickDraft& next);
+
+    /// The unrounded number behind a recorded one, for a drill; null: not of this crowd.
+    double* number(std::uint32_t id, std::string_view field);
+
+    void add_to(world::Hasher& hasher) const;
+
+  private:
+    struct Walker {
+        std::uint32_t id = 0;
+        Person person;
+        WalkMap::Place place;
+        Eigen::Vector2d velocity{0, 0};  ///< [m/s]
+        double yaw = 0;
+        double phase = 0;                ///< of the walk cycle, in [0, 1)
+        std::vector<WalkMap::Step> way;  ///< empty: has none
+        std::size_t corner = 0;          ///< of the way, that he walks to
+        std::vector<Gate> gates;
+        std::size_t gate = 0;           ///< the next one of them
+        bool may_enter = false;         ///< the next gate, in this tick
+        std::uint32_t waited = 0;       ///< [ticks] at the next gate
+        std::uint32_t stuck = 0;        ///< [ticks] in somebody's way
+        std::uint64_t pause_until = 0;  ///< tick until which he stands and looks
+        std::uint64_t down_until = 0;   ///< 0: on his feet; else the tick of his removal
+        std::uint64_t draws = 0;        ///< of goals so far
+        std::uint32_t friend_of = 0;    ///< whom he walks beside; 0: nobody
+        Eigen::Vector2d wanted{0, 0};   ///< [m/s] in this tick
+        std::size_t body = 0;           ///< his of neighbours_
+    };
+
+    const WalkMap& map_of(const Person& person);
+    const Walker* find(std::uint32_t id) const;
+
+    void lay_down(const world::TickView& last, std::uint64_t tick);
+    void remove_hit(world::TickDraft& next);
+    void fill_up(const world::TickView& last, world::TickDraft& next);
+    bool add(const world::TickView& last, world::TickDraft& next);
+    bool add_friend(world::TickDraft& next);
+    void appear(Walker walker, world::TickDraft& next);
+    std::optional<Eigen::Vector3d> drawn_place(double metre_share, double side_share) const;
+
+    void plan(Walker& walker, std::uint64_t tick);
+    bool take_way(Walker& walker, const WalkMap::Place& goal);
+    void want(Walker& walker, std::uint64_t tick);
+    double speed_at_gate(Walker& walker, double speed);
+    void avoid(Walker& walker);
+    void step(Walker& walker, std::uint64_t tick);
+    bool is_allowed(const Walker& walker, const WalkMap::Place& place);
+    void write(const Walker& walker, world::TickDraft& next) const;
+
+    const world::EpisodeT* episode_;
+    const world::TownT* town_;
+    const world::LaneMap* lanes_;
+    WalkingGround* ground_;
+    double step_;  ///< [s]
+    std::vector<std::uint32_t> sidewalks_;
+    std::vector<double> ends_;  ///< [m] running sum of their lengths
+    RoadTraffic traffic_;
+    WalkerLights lights_;
+    Steering steering_;
+    Neighbours neighbours_;
+    std::vector<Body> around_;     ///< of one, while looking
+    std::vector<Walker> walkers_;  ///< by id
+    std::uint32_t next_id_ = first_walker_id;
+    std::uint64_t tries_ = 0;  ///< of places to appear at
+    unsigned plans_ = 0;       ///< made in this tick
+};
+
+}  // namespace reprise::walkers

@@ -1,0 +1,81 @@
+#include "walkers/neighbours.h"
+
+#include <algorithm>
+
+#include "world/check.h"
+
+namespace reprise::walkers {
+
+void Neighbours::add(const Body& body, bool of_car) {
+    if (bodies_.empty())
+        widest_ = 0;
+    bodies_.push_back({body, body.place.x(), of_car});
+    widest_ = std::max(widest_, body.radius);
+}
+
+void Neighbours::sort() {
+    std::stable_sort(bodies_.begin(), bodies_.end(), [](const Entry& one, const Entry& other) {
+        return one.x != other.x ? one.x < other.x : one.body.id < other.body.id;
+    });
+    by_id_.clear();
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i)
+        if (!bodies_[i].of_car)
+            by_id_.push_back(i);
+    std::sort(by_id_.begin(), by_id_.end(), [&](std::uint32_t one, std::uint32_t other) {
+        return bodies_[one].body.id < bodies_[other].body.id;
+    });
+}
+
+std::size_t Neighbours::index_of(std::uint32_t id) const {
+    const auto found = std::lower_bound(
+        by_id_.begin(), by_id_.end(), id, [&](std::uint32_t index, std::uint32_t wanted) {
+            return bodies_[index].body.id < wanted;
+        });
+    REPRISE_CHECK(found != by_id_.end() && bodies_[*found].body.id == id,
+                  "walker " + std::to_string(id));
+    return *found;
+}
+
+template <typename Visit>
+void Neighbours::visit(const Body& self, double reach, bool with_cars, Visit&& see) const {
+    const double wide = reach + drift;
+    auto entry = std::lower_bound(
+        bodies_.begin(), bodies_.end(), self.place.x() - wide, [](const Entry& one, double x) {
+            return one.x < x;
+        });
+    for (; entry != bodies_.end() && entry->x <= self.place.x() + wide; ++entry)
+        if (entry->body.id != self.id && (with_cars || !entry->of_car))
+            see(entry->body);
+}
+
+void Neighbours::around(const Body& self,
+                        double reach,
+                        bool with_cars,
+                        std::vector<Body>& found) const {
+    found.clear();
+    const auto distance = [&](const Body& body) { return (body.place - self.place).squaredNorm(); };
+    visit(self, reach, with_cars, [&](const Body& body) {
+        const double far = distance(body);
+        if (far < reach * reach && far > 1e-6)
+            found.push_back(body);
+    });
+    std::stable_sort(found.begin(), found.end(), [&](const Body& one, const Body& other) {
+        const double near = distance(one);
+        const double far = distance(other);
+        return near != far ? near < far : one.id < other.id;
+    });
+}
+
+bool Neighbours::is_clear(const Body& self, const Eigen::Vector2d& to, bool with_cars) const {
+    constexpr double touching = 0.02;  // [m] of air
+    bool clear = true;
+    visit(self, self.radius + widest_ + touching, with_cars, [&](const Body& body) {
+        const double room = self.radius + body.radius + touching;
+        const double now = (body.place - self.place).norm();
+        const double then = (body.place - to).norm();
+        clear = clear && (then >= room || then > now);
+    });
+    return clear;
+}
+
+}  // namespace reprise::walkers

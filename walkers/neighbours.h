@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "walkers/steering.h"
+
+namespace reprise::walkers {
+
+/// Everybody around, as round bodies, found by place. Bodies may move a little after they were
+/// sorted: less than `drift`.
+class Neighbours {
+  public:
+    static constexpr double drift = 0.5;  ///< [m]
+
+    void clear() { bodies_.clear(); }
+
+    /// `of_car`: only who is on the road keeps away from it.
+    void add(const Body& body, bool of_car);
+
+    /// By place. Behind it nobody is added.
+    void sort();
+
+    /// Of a body by its id; there is one.
+    std::size_t index_of(std::uint32_t id) const;
+
+    void move(std::size_t index, const Eigen::Vector2d& place) {
+        bodies_[index].body.place = place;
+    }
+
+    /// Those within `reach` of `self`, the nearest first, without `self` itself.
+    void around(const Body& self, double reach, bool with_cars, std::vector<Body>& found) const;
+
+    /// May `self` move to `to`: is nobody met there whom it was clear of, and nobody pushed?
+    bool is_clear(const Body& self, const Eigen::Vector2d& to, bool with_cars) const;
+
+  private:
+    struct Entry {
+        Body body;
+        double x = 0;  ///< [m] when it was sorted
+        bool of_car = false;
+    };
+
+    template <typename Visit>
+    void visit(const Body& self, double reach, bool with_cars, Visit&& see) const;
+
+    std::vector<Entry> bodies_;         ///< by (x, id)
+    std::vector<std::uint32_t> by_id_;  ///< indices of those that are no cars'
+    double widest_ = 0;                 ///< [m] radius
+};
+
+}  // namespace reprise::walkers

@@ -1,0 +1,182 @@
+#include "walkers/road_traffic.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "world/geometry2d.h"
+#include "world/models/catalogue.h"
+
+namespace reprise::walkers {
+
+namespace {
+
+constexpr double sight = 60;         // [m] up the road
+constexpr double longest_tail = 15;  // [m]
+constexpr std::size_t most_approaches = 64;
+constexpr double half_car = 1.25;  // [m] with what it needs beside it
+constexpr double standing = 0.5;   // [m/s]
+constexpr double painless = 2.0;   // [m/s^2] braking that nobody minds
+constexpr double before_us = 0.7;  // [s] that somebody wants to be off before a car comes
+constexpr double behind_it = 0.3;  // [s] and to step on behind it
+constexpr double stop_short = 2;   // [m] that a car stops before a walker
+
+/// Where a polyline crosses a segment: [m] along both.
+struct Meeting {
+    double along_lane = 0;
+    double along_way = 0;
+    double sine = 1;  ///< of the angle between
+};
+
+std::vector<Meeting> meetings(const world::LaneT& lane,
+                              const Eigen::Vector3d& from,
+                              const Eigen::Vector3d& to) {
+    constexpr double storey = 3;  // [m]
+    std::vector<Meeting> found;
+    const Eigen::Vector2d way = (to - from).head<2>();
+    const double length = way.norm();
+    double s = 0;
+    for (std::size_t i = 0; i + 1 < lane.centre.size(); ++i) {
+        const Eigen::Vector2d start = world::in_plan(lane.centre[i]);
+        const Eigen::Vector2d piece = world::in_plan(lane.centre[i + 1]) - start;
+        const double across = world::cross(way, piece);
+        const Eigen::Vector2d gap = start - from.head<2>();
+        const double share = across != 0 ? world::cross(gap, piece) / across : -1;
+        const double on_piece = across != 0 ? world::cross(gap, way) / across : -1;
+        if (share >= 0 && share <= 1 && on_piece >= 0 && on_piece < 1 &&
+            std::abs(lane.centre[i].z() - from.z()) < storey)
+            found.push_back({s + on_piece * piece.norm(),
+                             share * length,
+                             std::abs(across) / (length * piece.norm())});
+        s += piece.norm();
+    }
+    return found;
+}
+
+}  // namespace
+
+RoadTraffic::RoadTraffic(const world::TownT& town, const world::LaneMap& lanes)
+    : town_(&town),
+      lanes_(&lanes),
+      before_(town.lanes.size()),
+      behind_(town.lanes.size()) {
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
+        if (!world::is_for_cars(town.lanes[i]))
+            continue;
+        for (const world::Link& link : town.lanes[i].links) {
+            const std::uint32_t onto = link.via() != world::none ? link.via() : link.to();
+            if (onto == world::none || !world::is_for_cars(town.lanes[onto]))
+                continue;
+            before_[onto].push_back(i);
+            behind_[i].push_back(onto);
+        }
+    }
+}
+
+void RoadTraffic::add_approaches(std::uint32_t lane, double distance, Conflict& conflict) const {
+    const auto add = [&](std::uint32_t one, double far) {
+        const bool known = std::any_of(conflict.approaches.begin(),
+                                       conflict.approaches.end(),
+                                       [&](const auto& other) { return other.lane == one; });
+        if (!known && conflict.approaches.size() < most_approaches)
+            conflict.approaches.push_back({one, far});
+        return !known;
+    };
+    const std::size_t first = conflict.approaches.size();
+    add(lane, distance);
+    for (std::size_t i = first; i < conflict.approaches.size(); ++i) {
+        const auto [on, far] = conflict.approaches[i];
+        if (far < 0 || far >= sight)
+            continue;
+        for (const std::uint32_t onto : before_[on])
+            add(onto, far + town_->lanes[onto].length);
+    }
+    double tail = distance - town_->lanes[lane].length;
+    for (std::uint32_t on = lane; tail > -longest_tail && !behind_[on].empty();) {
+        on = behind_[on].front();
+        if (!add(on, tail))
+            break;
+        tail -= town_->lanes[on].length;
+    }
+}
+
+std::vector<Conflict> RoadTraffic::conflicts(const Eigen::Vector3d& from,
+                                             const Eigen::Vector3d& to) const {
+    constexpr double beside = 5;  // [m]
+    std::vector<Conflict> found;
+    const double reach = (to - from).norm() / 2 + beside;
+    for (const std::uint32_t i : lanes_->near((from + to) / 2, reach)) {
+        const world::LaneT& lane = town_->lanes[i];
+        if (!world::is_for_cars(lane))
+            continue;
+        for (const Meeting& meeting : meetings(lane, from, to)) {
+            Conflict conflict;
+            conflict.at = meeting.along_way;
+            conflict.half_width = half_car / std::max(meeting.sine, 0.5);
+            add_approaches(i, meeting.along_lane, conflict);
+            found.push_back(std::move(conflict));
+        }
+    }
+    std::stable_sort(found.begin(), found.end(), [](const Conflict& one, const Conflict& other) {
+        return one.at < other.at;
+    });
+    return found;
+}
+
+void RoadTraffic::look(const world::TickView& last, const world::TickDraft& next) {
+    comers_.clear();
+    for (const world::CarState& car : next.traffic.cars)
+        if (car.lane() != world::none)
+            comers_.push_back({car.lane(),
+                               static_cast<double>(car.lane_s()),
+                               static_cast<double>(car.speed()),
+                               world::vehicle_models()[car.model()].length,
+                               car.id()});
+    for (const world::VehicleState& vehicle : last.vehicles()) {
+        const world::Measurement* measured = world::find(last.measurements(), vehicle.id());
+        if (measured == nullptr || measured->lane() == world::none)
+            continue;
+        const world::VehicleModel& model = world::vehicle_models()[vehicle.model()];
+        comers_.push_back({measured->lane(),
+                           measured->lane_s() + model.length - model.rear_overhang,
+                           std::abs(measured->speed()),
+                           model.length,
+                           vehicle.id()});
+    }
+    std::sort(comers_.begin(), comers_.end(), [](const Comer& one, const Comer& other) {
+        return one.lane != other.lane ? one.lane < other.lane : one.id < other.id;
+    });
+}
+
+bool RoadTraffic::is_free(const Conflict& conflict,
+                          double enters,
+                          double leaves,
+                          bool trusting) const {
+    for (const Conflict::Approach& approach : conflict.approaches) {
+        auto comer = std::lower_bound(
+            comers_.begin(), comers_.end(), approach.lane, [](const Comer& one, auto wanted) {
+                return one.lane < wanted;
+            });
+        for (; comer != comers_.end() && comer->lane == approach.lane; ++comer) {
+            const double left = approach.distance - comer->s;  // [m] of its front to the place
+            if (left + comer->length < -1)
+                continue;  // is past it
+            if (left < 1 && comer->speed < standing)
+                return false;  // stands on it
+            if (left >= 1 && comer->speed < standing)
+                continue;
+            const double clears = (left + comer->length + 1) / std::max(comer->speed, standing);
+            if (clears + behind_it < enters)
+                continue;  // is past it by then
+            const double arrives = left / (comer->speed + 1);
+            if (arrives > leaves + before_us)
+                continue;  // comes later
+            const double room = left - stop_short;
+            if (trusting && room > 0 && comer->speed * comer->speed / (2 * room) < painless)
+                continue;
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace reprise::walkers

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "world/tick.h"
+#include "world/town.h"
+
+namespace reprise::walkers {
+
+/// A place on a lane that somebody's way crosses.
+struct Conflict {
+    double at = 0;          ///< [m] along the way over the road
+    double half_width = 0;  ///< [m] of what cars take up there, along that way
+
+    /// A lane from which cars come there: `distance` [m] from its start. Negative on lanes behind
+    /// the place, where the rear of a long car is still on it.
+    struct Approach {
+        std::uint32_t lane = 0;
+        double distance = 0;
+    };
+
+    std::vector<Approach> approaches;
+};
+
+/// Who drives where, at a tick, as somebody sees it who wants to cross.
+class RoadTraffic {
+  public:
+    /// They must outlive this.
+    RoadTraffic(const world::TownT& town, const world::LaneMap& lanes);
+
+    /// The lanes that a straight way over the road crosses, in its order. 50 us.
+    std::vector<Conflict> conflicts(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+
+    /// Takes in who is on the road: SUMO's cars as `next` has them, those with mass as `last` had.
+    void look(const world::TickView& last, const world::TickDraft& next);
+
+    /// Can somebody be in the way of cars from `enters` to `leaves` [s] from now? `trusting`: a car
+    /// that can stop without pain will.
+    bool is_free(const Conflict& conflict, double enters, double leaves, bool trusting) const;
+
+  private:
+    struct Comer {
+        std::uint32_t lane = 0;
+        double s = 0;  ///< [m] of its front
+        double speed = 0;
+        double length = 0;
+        std::uint32_t id = 0;
+    };
+
+    void add_approaches(std::uint32_t lane, double distance, Conflict& conflict) const;
+
+    const world::TownT* town_;
+    const world::LaneMap* lanes_;
+    std::vector<std::vector<std::uint32_t>> before_;  ///< [lane] lanes that lead onto it
+    std::vector<std::vector<std::uint32_t>> behind_;  ///< [lane]
+    std::vector<Comer> comers_;                       ///< by (lane, id)
+};
+
+}  // namespace reprise::walkers
