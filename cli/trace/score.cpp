@@ -122,11 +122,11 @@ void print_leaderboard(const VehicleScore& vehicle,
     const DrivingScore score =
         driving_score(leaderboard, leaderboard_counts(vehicle, context.step_ns), completion);
     std::string made_of =
-        completion ? fmt::format("{:.1f} % of the route", 100 * *completion) : "no route";
+        completion ? fmt::format("{:.1f} % of the route x ", 100 * *completion) : "no route; ";
     if (score.off_lane > 0)
         made_of += fmt::format(
-            " x {:.3f} ({:.1f} % off its lanes)", 1 - score.off_lane, 100 * score.off_lane);
-    say("  {:<24}{:>7}   {} x {}\n",
+            "{:.3f} ({:.1f} % off its lanes) x ", 1 - score.off_lane, 100 * score.off_lane);
+    say("  {:<24}{:>7}   {}{}\n",
         leaderboard == Leaderboard::additive ? "Leaderboard 2.1" : "Leaderboard 1.0, 2.0",
         score.score ? fmt::format("{:.1f}", *score.score) : "-",
         made_of,
