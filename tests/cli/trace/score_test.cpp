@@ -167,7 +167,7 @@ TEST_F(ScoreCommand, TheOppositeLaneCountsAndForLongItIsTheWrongWay) {
     expect_only(ego, {"opposite_lane", "wrong_way"});
     EXPECT_GE(ego["kinds"]["opposite_lane"]["count"], 5);
     EXPECT_GT(ego["off_lane"], 99);
-    EXPECT_LT(ego["off_lane"], 120);
+    EXPECT_LT(ego["off_lane"], 130) << "100 m beside, and the most of both changes";
 }
 
 TEST_F(ScoreCommand, SpeedingIsAboveTheLimitAndWhatSpeedMetersMayBeOff) {

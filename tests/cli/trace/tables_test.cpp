@@ -222,7 +222,7 @@ TEST_F(Tables, AnExportOfOneActorHasItsRowsOnly) {
 TEST_F(Tables, AnExportOfNobodySaysWhoThereIs) {
     for (const auto& [format, actor, said] :
          {std::tuple{"csv", "egon", "no actor 'egon' (did you mean 'ego'?)"},
-          std::tuple{"jsonl", "bicycle", "no actor 'bicycle'; the scenario's are lead, ego"},
+          std::tuple{"jsonl", "bicycle", "no actor 'bicycle'; the scenario's are ego, lead"},
           std::tuple{"foxglove", "ego", "--actor: only of --to csv and --to jsonl"}}) {
         const Result result = reprise(
             {"export", "a.mcap", "--to", format, "-o", "nobody", "--actor", actor}, folder->path());
