@@ -422,16 +422,17 @@ double Crowd::speed_at_gate(Walker& walker, double speed) {
     if (walker.gate >= walker.gates.size())
         return speed;
     const Gate& gate = walker.gates[walker.gate];
-    Pace pace{gate.progress(walker.place.position), speed, false};
+    Pace pace{gate.progress(walker.place.position), speed, Trust::none};
     if (on_road) {
-        pace.trusting = gate.marked;
+        pace.trust = gate.marked ? Trust::seen : Trust::none;
         return must_hold(gate, pace, traffic_) ? 0 : speed * 1.1;
     }
     const double left = (gate.from - walker.place.position).head<2>().norm();
     const bool is_next = walker.corner >= gate.first;
     if (!is_next || left > 1.5 + speed)
         return speed;
-    pace.trusting = gate.marked && (!gate.signals.empty() || walker.waited > asked);
+    if (gate.marked && (!gate.signals.empty() || walker.waited > asked))
+        pace.trust = gate.signals.empty() ? Trust::all : Trust::seen;
     pace.progress = std::min(pace.progress, 0.0);
     walker.may_enter = may_enter(gate, pace, lights_, traffic_);
     if (walker.may_enter) {

@@ -13,7 +13,7 @@ bool is_free_at(const Conflict& conflict, const Pace& pace, const RoadTraffic& t
     const double speed = std::max(pace.speed, least_pace);
     const double near = conflict.at - conflict.half_width - pace.progress;
     const double far = conflict.at + conflict.half_width - pace.progress;
-    return traffic.is_free(conflict, std::max(0.0, near / speed), far / speed, pace.trusting);
+    return traffic.is_free(conflict, std::max(0.0, near / speed), far / speed, pace.trust);
 }
 
 /// Or only past its mouth, on the sidewalk?

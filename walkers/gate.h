@@ -40,7 +40,7 @@ std::vector<Gate> gates_of(const std::vector<WalkMap::Step>& way,
 struct Pace {
     double progress = 0;  ///< [m] along the gate; negative before it
     double speed = 0;     ///< [m/s]
-    bool trusting = false;
+    Trust trust = Trust::none;
 };
 
 /// May somebody step onto the road? Only at green, and where no car is in the way all the way over.

@@ -20,6 +20,12 @@ constexpr double before_us = 0.7;  // [s] that somebody wants to be off before a
 constexpr double behind_it = 0.3;  // [s] and to step on behind it
 constexpr double stop_short = 2;   // [m] that a car stops before a walker
 
+bool seems_to_yield(double speed, double acceleration) {
+    constexpr double slow = 2;        // [m/s]
+    constexpr double braking = -0.3;  // [m/s^2]
+    return std::abs(speed) < slow || acceleration < braking;
+}
+
 /// Where a polyline crosses a segment: [m] along both.
 struct Meeting {
     double along_lane = 0;
@@ -130,6 +136,8 @@ void RoadTraffic::look(const world::TickView& last, const world::TickDraft& next
                                static_cast<double>(car.lane_s()),
                                static_cast<double>(car.speed()),
                                world::vehicle_models()[car.model()].length,
+                               seems_to_yield(static_cast<double>(car.speed()),
+                                              static_cast<double>(car.acceleration())),
                                car.id()});
     for (const world::VehicleState& vehicle : last.vehicles()) {
         const world::Measurement* measured = world::find(last.measurements(), vehicle.id());
@@ -140,6 +148,7 @@ void RoadTraffic::look(const world::TickView& last, const world::TickDraft& next
                            measured->lane_s() + model.length - model.rear_overhang,
                            std::abs(measured->speed()),
                            model.length,
+                           seems_to_yield(measured->speed(), measured->acceleration()),
                            vehicle.id()});
     }
     std::sort(comers_.begin(), comers_.end(), [](const Comer& one, const Comer& other) {
@@ -150,7 +159,7 @@ void RoadTraffic::look(const world::TickView& last, const world::TickDraft& next
 bool RoadTraffic::is_free(const Conflict& conflict,
                           double enters,
                           double leaves,
-                          bool trusting) const {
+                          Trust trust) const {
     for (const Conflict::Approach& approach : conflict.approaches) {
         auto comer = std::lower_bound(
             comers_.begin(), comers_.end(), approach.lane, [](const Comer& one, auto wanted) {
@@ -171,7 +180,8 @@ bool RoadTraffic::is_free(const Conflict& conflict,
             if (arrives > leaves + before_us)
                 continue;  // comes later
             const double room = left - stop_short;
-            if (trusting && room > 0 && comer->speed * comer->speed / (2 * room) < painless)
+            const bool trusted = trust == Trust::all || (trust == Trust::seen && comer->yields);
+            if (trusted && room > 0 && comer->speed * comer->speed / (2 * room) < painless)
                 continue;
             return false;
         }

@@ -23,6 +23,10 @@ struct Conflict {
     std::vector<Approach> approaches;
 };
 
+/// What somebody on foot expects of a car that can stop without pain: nothing; that it does when it
+/// is slow or brakes already; that it will.
+enum class Trust : std::uint8_t { none, seen, all };
+
 /// Who drives where, at a tick, as somebody sees it who wants to cross.
 class RoadTraffic {
   public:
@@ -35,9 +39,8 @@ class RoadTraffic {
     /// Takes in who is on the road: SUMO's cars as `next` has them, those with mass as `last` had.
     void look(const world::TickView& last, const world::TickDraft& next);
 
-    /// Can somebody be in the way of cars from `enters` to `leaves` [s] from now? `trusting`: a car
-    /// that can stop without pain will.
-    bool is_free(const Conflict& conflict, double enters, double leaves, bool trusting) const;
+    /// Can somebody be in the way of cars from `enters` to `leaves` [s] from now?
+    bool is_free(const Conflict& conflict, double enters, double leaves, Trust trust) const;
 
   private:
     struct Comer {
@@ -45,6 +48,7 @@ class RoadTraffic {
         double s = 0;  ///< [m] of its front
         double speed = 0;
         double length = 0;
+        bool yields = false;  ///< as far as one can see
         std::uint32_t id = 0;
     };
 

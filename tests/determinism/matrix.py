@@ -60,6 +60,8 @@ def run_recipe(name, *words, **more):
 # Ten seconds with everything in them; and five minutes, because shorter runs pass falsely: with the C library's
 # maths instead of ours the ten seconds are equal on all emulated CPUs; the long runs part ways, this one in tick 164.
 SHORT = run_recipe("short", HERE / "collision.lua")
+# A hundred people on foot for five minutes: Detour, its avoidance, lights and cars.
+ON_FOOT = run_recipe("on_foot", SCENARIOS / "free_drive.lua", "--seed", 7, "--walkers", 100, "--for", 300)
 LONG = run_recipe("long", SCENARIOS / "free_drive.lua", "--seed", 7, "--for", 300)
 CURVED = [  # real ones; that our car keeps its lane there is another question, so a failed check (1) is good enough
     run_recipe(name, SCENARIOS / "free_drive.lua", "--town", NETS / path, "--seed", 7, "--for", 300, ends=(0, 1))
@@ -79,7 +81,7 @@ DRIVEN_VERIFIED = Recipe("driven_verified", ("verify", "{driven}"), makes="", ne
 RENDER = ("render", "{short}", "-o", "{out}", "--camera", "rgb,depth,semantic", "--size", "160x120", "--every", "60")
 PICTURES = Recipe("pictures", RENDER, program="reprise-render", makes="/", needs=(SHORT,))
 PORTABLE = Recipe("portable_pictures", (*RENDER, "--portable"), program="reprise-render", makes="/", needs=(SHORT,))
-RECIPES = {recipe.name: recipe for recipe in (SHORT, LONG, CRASHES, CRASHES_VERIFIED, *CURVED, *STORIES, VERIFIED, DRIVEN, DRIVEN_AGAIN, DRIVEN_VERIFIED, PICTURES, PORTABLE)}
+RECIPES = {recipe.name: recipe for recipe in (SHORT, ON_FOOT, LONG, CRASHES, CRASHES_VERIFIED, *CURVED, *STORIES, VERIFIED, DRIVEN, DRIVEN_AGAIN, DRIVEN_VERIFIED, PICTURES, PORTABLE)}
 
 
 @dataclass(frozen=True)
@@ -229,6 +231,8 @@ def rows(lab):
     table += [row_of(CRASHES, each) for each in emulated]
     table += [row_of(LONG, each, each.name in ("mask_no_fma", "mask_no_sse4")) for each in masks]
     table += [row_of(LONG, each) for each in around + emulated]
+    table += [repeats(ON_FOOT, 3)]
+    table += [row_of(ON_FOOT, each) for each in masks + around + emulated]
     table += [row_of(recipe, each) for recipe in CURVED for each in masks]
     table += [row_of(recipe, each, each.name == "mask_no_fma") for recipe in STORIES for each in masks]
     table += [row_of(recipe, each) for recipe in STORIES for each in around if each.name in ("no_aslr", "loaded")]

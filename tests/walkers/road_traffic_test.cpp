@@ -21,7 +21,7 @@ class Crossing {
           conflicts(traffic_.conflicts({200, -3.5, 0}, {200, 3.5, 0})) {}
 
     /// Both lanes, at 1.4 m/s from the kerb.
-    bool is_free(const std::vector<world::CarState>& cars, bool trusting = false) {
+    bool is_free(const std::vector<world::CarState>& cars, Trust trust = Trust::none) {
         const world::SealedTick last = test::tick_with({});
         world::TickDraft next;
         next.traffic.cars = cars;
@@ -31,7 +31,7 @@ class Crossing {
             free = free && traffic_.is_free(conflict,
                                             (conflict.at - conflict.half_width) / 1.4,
                                             (conflict.at + conflict.half_width) / 1.4,
-                                            trusting);
+                                            trust);
         return free;
     }
 
@@ -75,8 +75,12 @@ TEST(RoadTraffic, LetsNobodyStepInFrontOfACar) {
 TEST(RoadTraffic, WhoTrustsInBrakesGoesWhereACarCanStop) {
     Crossing crossing;
     EXPECT_FALSE(crossing.is_free({crossing.car(180, 8)}));
-    EXPECT_TRUE(crossing.is_free({crossing.car(180, 8)}, true)) << "by 1.8 m/s2";
-    EXPECT_FALSE(crossing.is_free({crossing.car(180, 14)}, true)) << "by 5 m/s2";
+    EXPECT_TRUE(crossing.is_free({crossing.car(180, 8)}, Trust::all)) << "by 1.8 m/s2";
+    EXPECT_FALSE(crossing.is_free({crossing.car(180, 14)}, Trust::all)) << "by 5 m/s2";
+    EXPECT_FALSE(crossing.is_free({crossing.car(180, 8)}, Trust::seen)) << "does not brake";
+    world::CarState braking = crossing.car(180, 8);
+    braking.mutate_acceleration(-1);
+    EXPECT_TRUE(crossing.is_free({braking}, Trust::seen));
 }
 
 TEST(Person, IsDrawnOnceAndWhoLooksAtAPhoneIsSlower) {

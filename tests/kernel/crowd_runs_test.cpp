@@ -1,0 +1,111 @@
+// Background walkers in whole runs: live, recorded and made again.
+#include <filesystem>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "kernel/verify.h"
+#include "replay/trace_writer.h"
+#include "tests/kernel/whole_run.h"
+#include "walkers/crowd.h"
+
+namespace reprise::test {
+
+namespace {
+
+world::Recording street_life(unsigned walkers, double seconds) {
+    world::Recording recording = in_town1(
+        "spawn{ name = 'ego', model = 'sedan', driver = 'autopilot' } wait(600)", 20, seconds);
+    recording.episode.walkers = walkers;
+    recording.episode.walker_seed = 5;
+    recording.episode.jaywalkers = 0.2;
+    return recording;
+}
+
+TEST(CrowdRuns, VerifyFindsNothingInAMinuteOfAHundredWalkers) {
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("reprise_crowd_" + std::to_string(getpid()) + ".mcap");
+    const world::Recording recording = street_life(100, 30);
+    std::vector<KeptTick> live;
+    {
+        replay::TraceWriter trace(path, recording);
+        kernel::Kernel kernel(recording);
+        while (!kernel.finished()) {
+            const world::SealedTick& tick = kernel.step();
+            trace.append(tick);
+            live.emplace_back(tick);
+        }
+        trace.close(kernel.outcome());
+    }
+    replay::TraceReader trace(path);
+    ASSERT_EQ(trace.ticks(), 600U);
+    EXPECT_EQ(kernel::verify(trace), std::nullopt);
+    // Replay is live: the bytes of each tick.
+    for (std::uint64_t index = 1; index <= trace.ticks(); ++index) {
+        const replay::RecordedTick replayed = trace.recorded(index);
+        const replay::RecordedTick seen = live[index - 1].recorded();
+        ASSERT_EQ(replayed.view.walkers().size(), 100U);
+        ASSERT_TRUE(std::ranges::equal(replayed.traffic_bytes, seen.traffic_bytes)) << index;
+    }
+    std::filesystem::remove(path);
+}
+
+TEST(CrowdRuns, WalkersChangeNothingForThoseWhoDoNotMeetThem) {
+    // Nobody is asked for: the chain is the one without them, whatever the other numbers say.
+    world::Recording none = street_life(0, 2);
+    world::Recording plain = none;
+    plain.episode.walker_seed = 0;
+    plain.episode.jaywalkers = 0;
+    const std::vector<KeptTick> one = run(none);
+    const std::vector<KeptTick> other = run(plain);
+    ASSERT_EQ(one.size(), other.size());
+    for (std::size_t i = 0; i < one.size(); ++i)
+        ASSERT_TRUE(
+            std::ranges::equal(one[i].recorded().tick_bytes, other[i].recorded().tick_bytes));
+}
+
+TEST(CrowdRuns, BranchesOfIdsNeverMeet) {
+    const std::vector<KeptTick> ticks = run(street_life(30, 1));
+    for (const KeptTick& tick : ticks) {
+        for (const world::CarState& car : tick.recorded().view.cars())
+            EXPECT_LT(car.id(), walkers::first_walker_id);
+        for (const world::WalkerState& walker : tick.recorded().view.walkers())
+            EXPECT_GE(walker.id(), walkers::first_walker_id);
+    }
+}
+
+/// From one side of a road with a crossing to the other, told to go by the map or straight.
+std::vector<world::Vec3> way_of(const std::string& options) {
+    const std::string body =
+        "local w = spawn{ name = 'w', model = 'adult', x = 150, y = 88, heading_deg = 0 }\n"
+        "w:walk_to{ x = 150, y = 104" +
+        options + " }\nwait(600)";
+    world::Recording recording = in_town1(body, 0, 150);
+    std::vector<world::Vec3> way;
+    for (const KeptTick& tick : run(recording))
+        if (!tick.recorded().view.walkers().empty())
+            way.push_back(tick.recorded().view.walkers()[0].position());
+    return way;
+}
+
+TEST(CrowdRuns, AScriptedWalkerGoesByTheMapWhereItIsTold) {
+    const auto straight = way_of("");
+    const auto by_map = way_of(", by = 'map'");
+    for (const auto& way : {straight, by_map}) {
+        ASSERT_FALSE(way.empty());
+        EXPECT_NEAR(way.back().x(), 150, 0.1);
+        EXPECT_NEAR(way.back().y(), 104, 0.1);
+    }
+    const auto farthest = [](const std::vector<world::Vec3>& way) {
+        double far = 0;
+        for (const world::Vec3& p : way)
+            far = std::max(far, std::abs(p.x() - 150));
+        return far;
+    };
+    EXPECT_LT(farthest(straight), 0.1);
+    EXPECT_GT(farthest(by_map), 10) << "to a crossing and back";
+}
+
+}  // namespace
+
+}  // namespace reprise::test
