@@ -68,8 +68,9 @@ TEST(SignalOrders, AreShownForTheirTimeAndThenTheProgramGoesOnAsIfNothingHadBeen
                 ASSERT_TRUE(colors[i] == expected[i] || colors[i] == late[i])
                     << "signal " << i << " in tick " << tick;
         }
-        if (tick >= first + held + 1)
+        if (tick >= first + held + 1) {
             ASSERT_EQ(colors, expected) << "tick " << tick;
+        }
     }
 }
 
