@@ -18,6 +18,7 @@
 #include "traffic/car_reader.h"
 #include "traffic/cars.h"
 #include "traffic/demand.h"
+#include "traffic/detours.h"
 #include "traffic/insertion.h"
 #include "traffic/insertion_points.h"
 #include "traffic/lookout.h"
@@ -64,6 +65,7 @@ struct Background::Parts {
           graph(town, lane_classes(town)),
           points(town, graph),
           routes(graph, episode.seed),
+          detours(town, graph, routes, world::seconds(1, episode.step_ns)),
           insertion(town, graph, routes),
           demand(episode, town, graph, points, insertion),
           placements(episode, town, lanes, graph, routes, insertion),
@@ -86,6 +88,7 @@ struct Background::Parts {
     RoadGraph graph;
     InsertionPoints points;
     RoutePlanner routes;
+    Detours detours;
     Insertion insertion;
     Demand demand;
     Placements placements;
@@ -200,6 +203,7 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
 
     // Everybody's route and speed, and the physics vehicles where they will be.
     const auto beside_sumo = parts.place(next.tick.index);
+    parts.detours.take(parts.cars, next.tick.index);
     parts.routes.keep_ahead(parts.cars);
     parts.orders.follow(parts.cars, next.tick.index);
     parts.lookout.advance(last, parts.cars, next.tick.index);

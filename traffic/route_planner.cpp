@@ -31,6 +31,17 @@ void RoutePlanner::start(std::uint32_t lane, Car& car) const {
     extend(car);
 }
 
+std::uint32_t RoutePlanner::draw(const std::vector<std::uint32_t>& ways, Car& car) const {
+    const std::uint64_t item = (std::uint64_t{car.id} << 24U) + car.draws++;
+    return ways[world::draw_index(ways.size(), seed_, 0, world::Purpose::demand_route, item)];
+}
+
+void RoutePlanner::turn_off(const std::vector<std::uint32_t>& ways, Car& car) const {
+    car.last_lane = draw(ways, car);
+    car.route = {car.route.front(), graph_->edge_of(car.last_lane)};
+    extend(car);
+}
+
 void RoutePlanner::extend(Car& car) const {
     const world::ClassSet classes = classes_of(car);
     double planned = 0;
@@ -40,9 +51,7 @@ void RoutePlanner::extend(Car& car) const {
         car.dead_end = ways.empty();
         if (car.dead_end)
             return;
-        const std::uint64_t item = (std::uint64_t{car.id} << 24U) + car.draws++;
-        car.last_lane =
-            ways[world::draw_index(ways.size(), seed_, 0, world::Purpose::demand_route, item)];
+        car.last_lane = draw(ways, car);
         car.route.push_back(graph_->edge_of(car.last_lane));
         planned += graph_->edge(car.route.back()).length;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "traffic/cars.h"
 #include "traffic/road_graph.h"
@@ -22,6 +23,9 @@ class RoutePlanner {
     /// Goes on from car.last_lane, by `length` or as far as a dead end.
     void extend(Car& car) const;
 
+    /// From the end of the road that the car is on one of `ways` (lanes), and on from there.
+    void turn_off(const std::vector<std::uint32_t>& ways, Car& car) const;
+
     /// Tells SUMO the car's route.
     void send(const Car& car) const;
 
@@ -29,6 +33,8 @@ class RoutePlanner {
     void keep_ahead(Cars& cars) const;
 
   private:
+    std::uint32_t draw(const std::vector<std::uint32_t>& ways, Car& car) const;
+
     const RoadGraph* graph_;
     std::uint64_t seed_;
 };
