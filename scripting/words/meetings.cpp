@@ -274,7 +274,8 @@ int steer_together(Run& run, lua_State* L) {
     if (!over && !std::isinf(b.time()))
         say_speed(run, L, a, wanted(a.left, a.body.speed, b.time(), final_speed));
     lua_pushboolean(L, over ? 1 : 0);
-    lua_pushboolean(L, there && apart <= met_within ? 1 : 0);  // not for NaN: both stand
+    const bool gave_up = over && !there;
+    lua_pushboolean(L, !gave_up && apart <= met_within ? 1 : 0);  // not for NaN: both stand
     lua_pushnumber(L, std::isnan(apart) ? world::infinity : apart);
     lua_pushnumber(L, a.left);
     lua_pushnumber(L, b.left);
