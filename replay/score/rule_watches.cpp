@@ -98,14 +98,16 @@ std::optional<double> SpeedWatch::value(const Sight& sight) {
     const std::uint32_t index = sight.measured.lane();
     if (index >= town_.town.lanes.size())
         return std::nullopt;
-    // Inside of junctions SUMO's limit is what a bend allows, and no sign says it.
+    // Inside of junctions SUMO's limit is what a bend allows, and no sign says it; but one may
+    // speed up in it to what the street behind it allows.
     const world::LaneT& lane = town_.town.lanes[index];
+    double limit = lane.speed_limit;
     if (lane.kind == world::LaneKind::driving)
-        limit_ = lane.speed_limit;
-    if (!limit_)
-        return std::nullopt;
-    const double above = std::abs(sight.measured.speed()) - *limit_;
-    if (above <= std::max(meter_error, meter_error_share * *limit_))
+        limit_ = limit;
+    else
+        limit = std::max(limit, limit_.value_or(0));
+    const double above = std::abs(sight.measured.speed()) - limit;
+    if (above <= std::max(meter_error, meter_error_share * limit))
         return std::nullopt;
     return above;
 }
