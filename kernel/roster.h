@@ -7,8 +7,8 @@
 #include <string>
 
 #include "drivers/driver.h"
+#include "kernel/physics/impact.h"
 #include "kernel/physics/physics.h"
-#include "kernel/physics/wreck.h"
 #include "world/episode_generated.h"
 #include "world/obstacle.h"
 #include "world/tick.h"

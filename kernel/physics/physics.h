@@ -9,7 +9,6 @@
 
 #include "ground/mesh/ground.h"
 #include "kernel/physics/impact.h"
-#include "kernel/physics/wreck.h"
 #include "world/episode_generated.h"
 #include "world/obstacle.h"
 #include "world/tick.h"

@@ -9,10 +9,10 @@
 #include "kernel/physics/box_gap.h"
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/collisions.h"
+#include "kernel/physics/impact.h"
 #include "kernel/physics/near_cars.h"
 #include "kernel/physics/props.h"
 #include "kernel/physics/vehicle.h"
-#include "kernel/physics/wreck.h"
 
 namespace reprise::kernel {
 
