@@ -38,6 +38,7 @@ InsertionSearch search_in(std::uint64_t tick) {
     search.tries = first ? 200 : 12;
     search.margin = first ? 12 : 25;
     search.sight = first ? 0 : 60;
+    search.everywhere = first;
     return search;
 }
 
@@ -56,7 +57,10 @@ Demand::Demand(const world::EpisodeT& episode,
       step_(world::seconds(1, episode.step_ns)),
       at_home_(points.common_classes()) {}
 
-bool Demand::add_car(Cars& cars, std::span<const OccupiedBox> occupied, world::TickDraft& next) {
+bool Demand::add_car(Cars& cars,
+                     std::span<const OccupiedBox> occupied,
+                     double& scanned,
+                     world::TickDraft& next) {
     Car car;
     car.id = next_id_;
     InsertionSearch search = search_in(next.tick.index);
@@ -67,8 +71,10 @@ bool Demand::add_car(Cars& cars, std::span<const OccupiedBox> occupied, world::T
     search.car = model_class(car.model);
     search.seed = episode_->seed;
     search.item = draws_;
+    search.scanned = scanned;
     const auto point = points_->find(occupied, search);
     draws_ = search.item;
+    scanned = search.scanned;
     if (!point)
         return false;
     ++next_id_;
@@ -87,8 +93,16 @@ void Demand::fill_up(Cars& cars, const world::TickView& last, world::TickDraft& 
         return;
     std::vector<OccupiedBox> occupied = points_->occupied(all, last, next);
     // Ids only grow, and lie above the scenario's: the new car is the last one.
-    for (; count < episode_->cars && add_car(cars, occupied, next); ++count)
-        occupied.push_back(box_of(cars.all().back()));
+    double scanned = 0;
+    // Where a lorry finds no room a small car may.
+    for (int refused = 0; count < episode_->cars && refused < (next.tick.index == 1 ? 10 : 1);) {
+        if (add_car(cars, occupied, scanned, next)) {
+            occupied.push_back(box_of(cars.all().back()));
+            ++count;
+        } else {
+            ++refused;
+        }
+    }
     if (next.tick.index == 1 && count < episode_->cars) {
         world::EventT event;
         event.kind = world::EventKind::printed;

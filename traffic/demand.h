@@ -34,7 +34,10 @@ class Demand {
     void add_to(world::Hasher& hasher) const;
 
   private:
-    bool add_car(Cars& cars, std::span<const OccupiedBox> occupied, world::TickDraft& next);
+    bool add_car(Cars& cars,
+                 std::span<const OccupiedBox> occupied,
+                 double& scanned,
+                 world::TickDraft& next);
 
     const world::EpisodeT* episode_;
     const world::TownT* town_;

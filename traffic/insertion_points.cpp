@@ -13,6 +13,7 @@ namespace {
 
 constexpr double free_at_start = 1;  // [m] kept free at the start of a lane
 constexpr double free_at_end = 4;    // [m] and before its end
+constexpr double least_margin = 3;   // [m] between cars that stand in line
 
 Eigen::Vector2d direction(double yaw) {
     return {std::cos(yaw), std::sin(yaw)};
@@ -63,9 +64,23 @@ std::optional<InsertionPoint> InsertionPoints::find(std::span<const OccupiedBox>
         const auto point = at(drawn, search.car_length, search.car);
         // The first half of the tries asks for all the room that was wished, the rest for less.
         const double ease = std::min(1.0, 2.0 - 2.0 * i / search.tries);
-        constexpr double least = 3;  // [m]
-        const double margin = std::max(least, search.margin * ease);
+        const double margin = std::max(least_margin, search.margin * ease);
         if (point && is_free(*point, search.car_length, occupied, margin, search.sight * ease))
+            return point;
+    }
+    return search.everywhere ? scan(occupied, search) : std::nullopt;
+}
+
+std::optional<InsertionPoint> InsertionPoints::scan(std::span<const OccupiedBox> occupied,
+                                                    InsertionSearch& search) const {
+    constexpr double spacing = 0.5;  // [m]
+    for (double looked = 0; looked < ends_.back(); looked += spacing) {
+        const double drawn = search.scanned / ends_.back();
+        search.scanned += spacing;
+        if (search.scanned >= ends_.back())
+            search.scanned = 0;
+        const auto point = at(drawn, search.car_length, search.car);
+        if (point && is_free(*point, search.car_length, occupied, least_margin, search.sight))
             return point;
     }
     return std::nullopt;

@@ -44,6 +44,10 @@ struct InsertionSearch {
     int tries = 0;
     double margin = 0;  ///< [m] wished before and behind
     double sight = 0;   ///< [m] wished from every observer
+    /// When no draw hits: look at every place, from `scanned` on. [m] of all lanes one behind the
+    /// other; advanced, so that many cars one after the other look at each place once or twice.
+    bool everywhere = false;
+    double scanned = 0;
 };
 
 /// Finds room for new cars on the driving lanes, every metre as likely as the next.
@@ -52,7 +56,7 @@ class InsertionPoints {
     InsertionPoints(const world::TownT& town, const RoadGraph& graph);
 
     /// Draws points until one is free, at most `tries` times; the longer it takes, the less room is
-    /// asked for.
+    /// asked for. Then, if it is wished, tries every place.
     std::optional<InsertionPoint> find(std::span<const OccupiedBox> occupied,
                                        InsertionSearch& search) const;
 
@@ -74,6 +78,8 @@ class InsertionPoints {
                                       const world::TickDraft& next) const;
 
   private:
+    std::optional<InsertionPoint> scan(std::span<const OccupiedBox> occupied,
+                                       InsertionSearch& search) const;
     std::optional<InsertionPoint> at(double drawn, double car_length, world::ClassSet car) const;
     OccupiedBox box_at(const InsertionPoint& point, double car_length) const;
 
