@@ -12,7 +12,7 @@ namespace reprise::traffic {
 
 namespace {
 
-constexpr double too_long = 240;     // [s] of standing, after which a car is taken out
+constexpr double too_long = 100;     // [s] of standing, after which a car is taken out
 constexpr double out_of_sight = 80;  // [m] from every physics vehicle
 
 bool is_seen(const Eigen::Vector3d& p, const world::TickView& last, double sight) {
