@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "tests/traffic/stage.h"
+#include "world/lanes/density.h"
+
+namespace reprise::traffic {
+namespace {
+
+using test::own_town;
+using test::Stage;
+
+constexpr int minute = 1200;  // [ticks]
+
+/// What became of a run's background cars.
+struct Flow {
+    double mean_speed = 0;  ///< [m/s] of the last minute
+    int longest_halt = 0;   ///< [ticks] of one car
+};
+
+Flow flow_of(const char* town, std::uint32_t cars, std::uint64_t seed, int minutes) {
+    Stage stage(own_town(town), cars, seed);
+    Flow flow;
+    std::map<std::uint32_t, int> halted;
+    double sum = 0;
+    std::size_t count = 0;
+    for (int tick = 0; tick < minutes * minute; ++tick) {
+        for (const world::CarState& car : stage.step().traffic.cars) {
+            int& ticks = halted[car.id()];
+            ticks = car.speed() < 0.1F ? ticks + 1 : 0;
+            flow.longest_halt = std::max(flow.longest_halt, ticks);
+            if (tick >= (minutes - 1) * minute) {
+                sum += static_cast<double>(car.speed());
+                ++count;
+            }
+        }
+    }
+    flow.mean_speed = sum / static_cast<double>(count);
+    return flow;
+}
+
+TEST(Flow, TenMinutesOfSeventyCarsInTown2) {
+    const Flow flow = flow_of("town2", 70, 1, 10);
+    EXPECT_GT(flow.mean_speed, 2.5) << "9 km/h";
+    EXPECT_LT(flow.longest_halt, 2 * minute);
+}
+
+/// A car that stands where everybody comes onto a road: who wanted to go there takes another one,
+/// and lets those behind him go on.
+TEST(Flow, WhoFindsHisRoadFullTurnsOffElsewhere) {
+    const test::Loaded& town2 = own_town("town2");
+    Stage stage(town2, 30, 3);
+    world::CommandT stop = test::command(world::CommandKind::set_speed, 1);
+    stop.speed = 0;
+    stage.step({test::spawn(1, test::lane(town2.town, "b1_d1_1"), 1), stop});
+    std::map<std::uint32_t, int> halted;
+    int longest = 0;
+    for (int tick = 0; tick < 5 * minute; ++tick)
+        for (const world::CarState& car : stage.step().traffic.cars) {
+            int& ticks = halted[car.id()];
+            ticks = car.speed() < 0.1F && car.id() != 1 ? ticks + 1 : 0;
+            longest = std::max(longest, ticks);
+        }
+    EXPECT_LT(longest, minute);
+}
+
+TEST(Flow, AsManyCarsAsATownCarriesAreThereInTheFirstTick) {
+    for (const char* town : {"town1", "town2", "straight", "curves", "junctions"}) {
+        const std::uint32_t carried = world::cars_carried(own_town(town).town);
+        Stage stage(own_town(town), carried);
+        EXPECT_EQ(stage.step().traffic.cars.size(), carried) << town;
+    }
+}
+
+}  // namespace
+}  // namespace reprise::traffic
