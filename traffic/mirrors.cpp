@@ -201,12 +201,12 @@ void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Tar
 
 /// Inside a junction SUMO 1.15 puts a moved vehicle at its new position, but leaves the list of
 /// lanes behind that its tail lies on as it was, until the next step has moved everybody. When the
-/// tail has passed a whole lane of that list at once, those who look there for the tail make SUMO
-/// abort (an assertion of MSVehicle::getBackPositionOnLane). So then the vehicle enters its lane
-/// anew before the step, which makes the list again. Moved to the lane that it is on it would only
-/// get the position: it goes by way of the edge before, which leaves its route as it is. Not
-/// oftener than needed: for a tick its speed, to SUMO, is that of a jump to its place beside the
-/// centre line.
+/// tail has passed a whole lane of that list at once, or the front one, those who look there for
+/// the tail make SUMO abort (an assertion of MSVehicle::getBackPositionOnLane). So then the vehicle
+/// enters its lane anew before the step, which makes the list again. Moved to the lane that it is
+/// on it would only get the position: it goes by way of the edge before, which leaves its route as
+/// it is. Not oftener than needed: for a tick its speed, to SUMO, is that of a jump to its place
+/// beside the centre line.
 void Mirrors::enter_again(const Mirror& mirror, const world::VehicleState& vehicle) const {
     using libsumo::Vehicle;
     if (short_predecessors_.empty())
@@ -220,7 +220,7 @@ void Mirrors::enter_again(const Mirror& mirror, const world::VehicleState& vehic
     // The measures of the lanes differ from what is driven, by less than as much again.
     const double just = 0.1 + 2 * step_ * world::to_eigen(vehicle.velocity()).norm();
     if (std::none_of(predecessors.ends.begin(), predecessors.ends.end(), [tail, just](double end) {
-            return tail > -end && tail < -end + just;
+            return tail < -end + just;
         }))
         return;
     const std::uint32_t before = graph_->edge(graph_->edge_of(predecessors.lane)).lanes.front();
