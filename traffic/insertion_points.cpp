@@ -5,6 +5,7 @@
 
 #include "traffic/fleet.h"
 #include "world/models/catalogue.h"
+#include "world/models/prop_models.h"
 #include "world/models/vehicle_classes.h"
 
 namespace reprise::traffic {
@@ -140,6 +141,18 @@ std::vector<OccupiedBox> InsertionPoints::occupied(std::span<const Car> cars,
                          2 * std::atan2(vehicle.orientation().z(), vehicle.orientation().w()),
                          models[vehicle.model()].length,
                          true});
+    // Nobody appears on top of people and things.
+    constexpr double person = 0.6;
+    for (const world::WalkerState& walker : last.walkers())
+        boxes.push_back({{walker.position().x(), walker.position().y()},
+                         static_cast<double>(walker.yaw()),
+                         walker.down() ? 2.0 : person,
+                         false});
+    for (const world::PropState& prop : last.props())
+        boxes.push_back({{prop.position().x(), prop.position().y()},
+                         0,
+                         world::prop_models()[prop.model()].length,
+                         false});
     // Those that come in this very tick.
     for (const world::CommandT& command : next.tick.commands) {
         const bool comes = command.kind == world::CommandKind::spawn &&

@@ -71,8 +71,8 @@ class InsertionPoints {
                  double margin,
                  double sight) const;
 
-    /// All that stands or is about to stand on the road: `cars`, the physics vehicles of the last
-    /// tick, and those that a scenario spawns in this one.
+    /// All that stands or is about to stand on the road: `cars`, the physics vehicles, walkers and
+    /// props of the last tick, and those that a scenario spawns in this one.
     std::vector<OccupiedBox> occupied(std::span<const Car> cars,
                                       const world::TickView& last,
                                       const world::TickDraft& next) const;

@@ -150,7 +150,9 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     corridor.hardest = emergency_braking(car.model);
     corridor.step = step_;
     corridor.id = car.id;
-    corridor.allowed = world::infinity;
+    constexpr double longest_piece = 3;  // [m] from a footprint's middle to its end
+    if (!car.pass && !obstructions_.any_near(front.head<2>(), corridor.reach + longest_piece))
+        return world::infinity;
     const world::LaneT& lane = town_->lanes[car.lane];
     const world::LaneProjection at = world::project(lane, front);
     corridor.aside = at.t;
@@ -186,7 +188,7 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
             continue;
         if (car.pass)
             passing_.follow(car, tick);
-        double allowed = obstructions_.empty() ? world::infinity : allowed_speed(car, cars);
+        double allowed = allowed_speed(car, cars);
         if (car.held_back && !car.pass && allowed < Passing::speed) {
             passing_.begin(car, cars, last, tick);
             if (car.pass)

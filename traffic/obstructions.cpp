@@ -16,6 +16,11 @@ constexpr double foresight = 0.7;        // [s] of a walker's way
 constexpr double least_walk = 0.3;       // [m/s] slower ones stand
 constexpr double along_its_lane = 0.8;   // cosine: who stands across a lane is not on its way
 
+// Who is off every lane by a step or more need not be looked at in every tick.
+constexpr double small = 0.6;         // [m] half of what is looked at this way
+constexpr double longest_step = 2.5;  // [m]
+constexpr double most_clear = 2;      // [m]
+
 /// Half the extent of a box in a direction.
 double half_extent(const Footprint& box, const Eigen::Vector2d& direction) {
     return box.half_length * std::abs(box.direction.dot(direction)) +
@@ -24,18 +29,45 @@ double half_extent(const Footprint& box, const Eigen::Vector2d& direction) {
 
 }  // namespace
 
+bool Obstructions::is_still_off(const Footprint& footprint, const Eigen::Vector2d& tip) const {
+    const auto at = std::lower_bound(
+        off_.begin(), off_.end(), footprint.id, [](const Off& one, std::uint32_t id) {
+            return one.id < id;
+        });
+    return at != off_.end() && at->id == footprint.id &&
+           (footprint.centre - at->place).norm() < at->clear && (tip - at->tip).norm() < at->clear;
+}
+
 void Obstructions::add(const Footprint& footprint) {
     const Eigen::Vector3d place(footprint.centre.x(), footprint.centre.y(), footprint.z);
     const Eigen::Vector2d way = footprint.velocity.norm() < least_walk
                                     ? Eigen::Vector2d(0, 0)
                                     : Eigen::Vector2d(footprint.velocity * foresight);
     const double radius = std::hypot(footprint.half_length, footprint.half_width);
+    const bool is_small = radius < small && way.norm() < longest_step;
+    const Eigen::Vector2d tip = footprint.centre + way;
+    if (is_small && is_still_off(footprint, tip)) {
+        next_off_.push_back(*std::lower_bound(
+            off_.begin(), off_.end(), footprint.id, [](const Off& one, std::uint32_t id) {
+                return one.id < id;
+            }));
+        return;
+    }
     const double reach = radius + beside_the_lane + way.norm();
-    for (const std::uint32_t index : lanes_->near(place, reach)) {
+    double clear = most_clear;
+    const std::size_t before = all_.size();
+    for (const std::uint32_t index : lanes_->near(place, reach + (is_small ? most_clear : 0))) {
         const world::LaneT& lane = town_->lanes[index];
         if (!world::is_for_cars(lane))
             continue;
         const world::LaneProjection at = world::project(lane, place);
+        if (is_small) {
+            // Nearer than that no lane's surface is, at the place itself and at the tip.
+            const Eigen::Vector3d p_tip(tip.x(), tip.y(), place.z());
+            const double nearest =
+                std::min(at.distance, world::project(lane, p_tip).distance) - lane.width / 2;
+            clear = std::min(clear, nearest - radius - 2 * beside_the_lane);
+        }
         if (std::abs(at.t) > lane.width / 2 + reach)
             continue;
         const world::LanePoint on = world::point_at(lane, at.s);
@@ -69,11 +101,23 @@ void Obstructions::add(const Footprint& footprint) {
         one.id = footprint.id;
         all_.push_back(one);
     }
+    if (all_.size() > before)
+        places_.push_back(footprint.centre);
+    else if (is_small && clear > 0)
+        next_off_.push_back({footprint.id, footprint.centre, tip, clear});
+}
+
+bool Obstructions::any_near(const Eigen::Vector2d& p_world, double reach) const {
+    return std::any_of(places_.begin(), places_.end(), [&](const Eigen::Vector2d& place) {
+        return (place - p_world).squaredNorm() < reach * reach;
+    });
 }
 
 void Obstructions::look(const world::TickView& last, std::span<const Car> cars) {
     gather_footprints(last, cars, footprints_);
     all_.clear();
+    places_.clear();
+    next_off_.clear();
     for (const Footprint& footprint : footprints_)
         add(footprint);
     std::stable_sort(

@@ -28,9 +28,9 @@ struct Obstruction {
 ///
 /// MUST    find all whose footprint touches a lane, or will within a walker's next second.
 /// ASSUMES a lane is straight over the length of a footprint (see gather_footprints).
-/// GOES    the grid of lanes culls nearly all who are on sidewalks; what is left is seen from the
-///         lane's direction there. About 1 us a footprint.
-/// KEEPS   nothing from tick to tick but its buffers.
+/// GOES    who was off every lane is not looked at again before he could be on one; the others are
+///         seen from the direction of each lane around. About 1 us a look.
+/// KEEPS   nothing from tick to tick that changes a result.
 class Obstructions {
   public:
     /// Both must outlive this.
@@ -43,6 +43,9 @@ class Obstructions {
 
     bool empty() const { return all_.empty(); }
 
+    /// Does any of them begin within `reach` of there? Costs nothing beside a look at their lanes.
+    bool any_near(const Eigen::Vector2d& p_world, double reach) const;
+
     /// By lane, then along it.
     std::span<const Obstruction> all() const { return all_; }
 
@@ -50,12 +53,24 @@ class Obstructions {
     std::span<const Obstruction> on(std::uint32_t lane) const;
 
   private:
+    /// Somebody off every lane, and how far he may go before he could be on one.
+    struct Off {
+        std::uint32_t id = 0;
+        Eigen::Vector2d place;
+        Eigen::Vector2d tip;  ///< of his next second's way
+        double clear = 0;     ///< [m]
+    };
+
     void add(const Footprint& footprint);
+    bool is_still_off(const Footprint& footprint, const Eigen::Vector2d& tip) const;
 
     const world::TownT* town_;
     const world::LaneMap* lanes_;
     std::vector<Footprint> footprints_;
     std::vector<Obstruction> all_;
+    std::vector<Eigen::Vector2d> places_;  ///< of the footprints on lanes
+    std::vector<Off> off_;                 ///< sorted by id; decides nothing but the cost
+    std::vector<Off> next_off_;
 };
 
 }  // namespace reprise::traffic

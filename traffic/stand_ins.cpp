@@ -20,7 +20,6 @@ constexpr double half_car_width = 1;    // [m] what leaves that free on both sid
 constexpr double one_row = 15;          // [m] from the begin of one thing to that of the next
 constexpr double same_place = 0.5;      // [m]
 constexpr double stands_since = 1;      // [s]
-constexpr double for_good = 1e6;        // [s]
 
 }  // namespace
 
@@ -63,15 +62,8 @@ void StandIns::place(StandIn& one, const Cars& cars) {
     Vehicle::moveTo(one.sumo, lane.name, front);
     Vehicle::setSpeedMode(one.sumo, 0);
     Vehicle::setLaneChangeMode(one.sumo, 0);
+    // No stop of SUMO's: that would move scripted cars, too, which change lanes as told only.
     Vehicle::setSpeed(one.sumo, 0);
-    // Who is stopped, not only slow, is passed even by those who need its lane further on.
-    Vehicle::setStop(one.sumo,
-                     lane.edge,
-                     std::min(front + 0.1, lane.sumo_length),
-                     lane.index,
-                     for_good,
-                     libsumo::STOP_DEFAULT,
-                     std::max(rear - 0.1, 0.0));
 }
 
 void StandIns::advance(std::span<const Obstruction> obstructions,

@@ -13,7 +13,7 @@
 
 namespace reprise::traffic {
 
-/// What blocks a lane beside others, as SUMO sees it: a short vehicle that has stopped some metres
+/// What blocks a lane beside others, as SUMO sees it: a short vehicle that stands some metres
 /// before it. So SUMO's own lane changes lead around it, and from far enough away to pull out.
 ///
 /// MUST    stand for what lies or stands still in the middle of a lane that has a neighbour.

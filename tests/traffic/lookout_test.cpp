@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -229,6 +230,85 @@ TEST_P(LookoutIn, NobodyTouchesWhatStandsInTheLaneForTwoMinutes) {
     EXPECT_GE(scene.passed.size(), place.pass);
 }
 
+/// One on every sidewalk that is long enough, in its middle, walking along it.
+std::vector<world::WalkerState> walkers_on_sidewalks(const world::TownT& town, std::size_t count) {
+    std::vector<world::WalkerState> walkers;
+    for (std::size_t i = 0; walkers.size() < count; i = (i + 1) % town.lanes.size()) {
+        const world::LaneT& lane = town.lanes[i];
+        if (lane.kind != world::LaneKind::sidewalk || lane.length < 20)
+            continue;
+        const auto id = static_cast<std::uint32_t>(walkers.size() + 100);
+        const world::LanePoint at = world::point_at(lane, lane.length * 0.2 + id % 8);
+        walkers.emplace_back(world::to_vec3(at.position),
+                             static_cast<float>(at.yaw),
+                             1.4F,
+                             0.0F,
+                             id,
+                             std::uint16_t{0},
+                             false,
+                             std::uint8_t{0},
+                             0U);
+    }
+    return walkers;
+}
+
+TEST(Lookout, WalkersOnSidewalksChangeNothing) {
+    const auto& loaded = own_town("town1");
+    const auto digest = [&](const std::vector<world::WalkerState>& walkers) {
+        Stage stage(loaded, 100);
+        stage.walkers = walkers;
+        stage.steps(600);
+        return stage.digest();
+    };
+    EXPECT_EQ(digest(walkers_on_sidewalks(loaded.town, 100)), digest({}));
+}
+
+TEST(Lookout, RunsWithThingsInTheWayAreRepeatable) {
+    const auto digest = [] {
+        Scene scene("straight", "east_1");
+        scene.park("van", 1000, 0);
+        scene.put_walker(1500, 0);
+        scene.watch(600);
+        return scene.stage.digest();
+    };
+    EXPECT_EQ(digest(), digest());
+}
+
+TEST(Lookout, AWalkerWhoCrossesIsLetThrough) {
+    // Steps off the kerb when a car is 30 m away, and walks across at 1.4 m/s.
+    const auto& loaded = own_town("town1");
+    const std::uint32_t road = lane(loaded.town, "m1_b2_1");
+    const world::LaneT& way = loaded.town.lanes[road];
+    Stage stage(loaded, 0);
+    stage.step({spawn(1, road, 5, 13)});
+    double across = -way.width / 2 - 0.5;
+    double slowest = 100;
+    for (int i = 0; i < 200; ++i) {
+        across += 1.4 * 0.05;
+        world::WalkerState walker = walker_on(way, 45, across);
+        const double yaw = world::point_at(way, 45).yaw + std::acos(0.0);
+        walker = {walker.position(),
+                  static_cast<float>(yaw),
+                  1.4F,
+                  0,
+                  obstacle,
+                  0,
+                  false,
+                  std::uint8_t{0},
+                  0};
+        stage.walkers = {walker};
+        stage.step();
+        const world::CarState* car = stage.car(1);
+        ASSERT_NE(car, nullptr);
+        slowest = std::min(slowest, static_cast<double>(car->speed()));
+        const Box person{{walker.position().x(), walker.position().y()}, {1, 0}, {0.25, 0.25}};
+        ASSERT_FALSE(overlap(box_of_car(*car), person)) << "tick " << i;
+    }
+    EXPECT_LT(slowest, 5);
+    const world::CarState* car = stage.car(1);
+    EXPECT_TRUE(car->lane() != road || car->lane_s() > 50) << "drove on";
+}
+
 INSTANTIATE_TEST_SUITE_P(
     ,
     LookoutIn,
@@ -245,7 +325,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      scene.open_door(0);
                                  }},
                         Obstacle{"wreck",
-                                 [](Scene& scene, double s) { scene.put_wreck(s, 0.8, 1.0); }})),
+                                 [](Scene& scene, double s) { scene.put_wreck(s, 0, -0.9); }})),
     [](const auto& info) {
         return std::string(std::get<0>(info.param).town) + "_" + std::get<1>(info.param).name;
     });
