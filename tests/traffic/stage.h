@@ -38,6 +38,8 @@ class Stage {
 
     const world::TickDraft& draft() const { return draft_; }
 
+    world::TickView view() const { return last_.view(); }
+
     std::uint64_t tick() const { return draft_.tick.index; }
 
   private:
