@@ -15,12 +15,14 @@
 
 #include <libsumo/libsumo.h>
 
+#include "traffic/bends.h"
 #include "traffic/car_reader.h"
 #include "traffic/cars.h"
 #include "traffic/demand.h"
 #include "traffic/detours.h"
 #include "traffic/insertion.h"
 #include "traffic/insertion_points.h"
+#include "traffic/lane_change_pace.h"
 #include "traffic/lookout.h"
 #include "traffic/mirrors.h"
 #include "traffic/orders.h"
@@ -72,6 +74,8 @@ struct Background::Parts {
           spawns(episode, town, graph, points, insertion, placements),
           orders(episode, town, graph, routes),
           lookout(episode, town, lanes, graph, orders),
+          bends(town),
+          lane_change_pace(town),
           mirrors(town, lanes, graph, world::seconds(1, episode.step_ns)),
           reader(town, graph, world::seconds(1, episode.step_ns), episode.seed),
           signal_orders(town),
@@ -95,6 +99,8 @@ struct Background::Parts {
     ScriptedSpawns spawns;
     Orders orders;
     Lookout lookout;
+    Bends bends;
+    LaneChangePace lane_change_pace;
     Mirrors mirrors;
     CarReader reader;
     SignalOrders signal_orders;
@@ -206,6 +212,8 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     parts.detours.take(parts.cars, next.tick.index);
     parts.routes.keep_ahead(parts.cars);
     parts.orders.follow(parts.cars, next.tick.index);
+    parts.bends.follow(parts.cars);
+    parts.lane_change_pace.follow(parts.cars, next.tick.index);
     parts.lookout.advance(last, parts.cars, next.tick.index);
     parts.signal_orders.follow(next.tick.index);
     parts.mirrors.advance(last, parts.cars.all(), beside_sumo, wrecks);

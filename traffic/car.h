@@ -62,12 +62,17 @@ struct Car {
     double acceleration = 0;
     std::uint16_t lamps = 0;
     Eigen::Vector3d sumo_front = Eigen::Vector3d::Zero();  ///< where SUMO believes the bumper
-    Eigen::Vector2d slip = Eigen::Vector2d::Zero();  ///< [m] ahead and left of there; see smooth()
+    Eigen::Vector2d slip = Eigen::Vector2d::Zero();        ///< [m] shown minus SUMO's, world
     Trail trail;
     Eigen::Vector3d rear = Eigen::Vector3d::Zero();  ///< the origin: ground below the rear axle
     double yaw = 0;
     double pitch = 0;
     std::uint32_t standing_ticks = 0;
+
+    // What SUMO was told last of how it may drive.
+    double aside_wanted = 0;  ///< [m/s] sideways, by its last ordered change of lanes; 0: none
+    double aside_limit = -1;  ///< [m/s] sideways; negative: what its type says
+    double bend_limit = 0;    ///< [m/s] for a bend of its lane; 0: none
 
     // Where it goes: edges, the current one first; `last_lane` is where the plan ends.
     std::vector<std::uint32_t> route;

@@ -1,6 +1,6 @@
 // What it must do: read SUMO's cars after its step, and write them into the tick.
 // What it assumes: between two steps a car moves by speed times step along its lane (SUMO's Euler
-//   update), unless it changes lanes.
+//   update); what it does beside that is no driving.
 // How it goes: libsumo's getters, about 30 ns each, and none for what cannot have changed.
 // What it keeps: nothing beside the cars.
 #include "traffic/car_reader.h"
@@ -12,6 +12,7 @@
 
 #include <libsumo/libsumo.h>
 
+#include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 
 namespace reprise::traffic {
@@ -34,49 +35,36 @@ std::vector<bool> only_lanes_of_their_roads(const world::TownT& town) {
     return alone;
 }
 
-/// SUMO's bits: 1 right indicator, 2 left indicator, 8 brake light.
-std::uint16_t lamps_of(int signals) {
+/// SUMO's bits: 1 right indicator, 2 left indicator.
+std::uint16_t indicators_of(int signals) {
     int lamps = 0;
     if ((signals & 1) != 0)
         lamps |= world::lamp_right;
     if ((signals & 2) != 0)
         lamps |= world::lamp_left;
-    if ((signals & 8) != 0)
-        lamps |= world::lamp_brake;
     return static_cast<std::uint16_t>(lamps);
 }
 
-/// SUMO's cars jump when they change lanes on a curve (position along the lane is kept, though the
-/// lanes are not equally long) and when a change is cut short by a junction. Such a jump becomes a
-/// slip, which the car works off while it drives. It is measured along `lane_yaw`, the lane's
-/// direction there: along the car's own, a slip that is longer than the car would turn it ever
-/// further. Returns the bumper's place to show.
-Eigen::Vector3d smooth(
-    Car& car, const Eigen::Vector3d& sumo_front, bool new_lane, double lane_yaw, double step) {
-    const Eigen::Vector2d ahead(std::cos(lane_yaw), std::sin(lane_yaw));
-    const Eigen::Vector2d left(-ahead.y(), ahead.x());
-    if (new_lane) {
-        const double driven = car.speed * step;
-        const Eigen::Vector2d jump = (sumo_front - car.sumo_front).head<2>() - ahead * driven;
-        // A bend moves the bumper sideways, too: what one tick of driving can do is no jump.
-        const double along = jump.dot(ahead);
-        const double across = jump.dot(left);
-        constexpr double farthest = 8;  // [m]; further is a new place, not a jump
-        if (std::abs(along) > 0.05 + 0.1 * driven && jump.norm() < farthest)
-            car.slip.x() -= along;
-        if (std::abs(across) > 0.15 + 0.3 * driven && jump.norm() < farthest)
-            car.slip.y() -= across;
-    }
-    car.sumo_front = sumo_front;
-    if (car.slip.isZero(0))
-        return sumo_front;
-    // Shares of the speed, so that a standing car stands.
-    const double along = std::min(std::abs(car.slip.x()), 0.15 * car.speed * step);
-    const double across = std::min(std::abs(car.slip.y()), 0.10 * car.speed * step);
-    car.slip.x() -= std::copysign(along, car.slip.x());
-    car.slip.y() -= std::copysign(across, car.slip.y());
-    const Eigen::Vector2d shift = ahead * car.slip.x() + left * car.slip.y();
-    return sumo_front + Eigen::Vector3d(shift.x(), shift.y(), 0);
+/// The foot is on the brake from a deceleration that rolling and the engine do not give, until the
+/// car slows down no more; who stands holds it. SUMO's own lamp is that of its plan, which dawdling
+/// drivers change twice a second.
+bool brakes(const Car& car) {
+    constexpr double rolls_out = 0.8;  // [m/s^2]
+    constexpr double stands = 0.1;     // [m/s]
+    const bool braked = (car.lamps & world::lamp_brake) != 0;
+    return (car.speed < stands && car.acceleration < 0.2) ||
+           car.acceleration < (braked ? -0.1 : -rolls_out);
+}
+
+/// Can one tick of driving have moved the bumper by this, with the car heading that way? `driven`
+/// [m] at its speed. Bends and lane changes move it sideways, too.
+bool is_driven(const Eigen::Vector2d& moved, const Eigen::Vector2d& ahead, double driven) {
+    constexpr double rounding = 0.002;  // [m]
+    constexpr double sideways = 0.4;    // [m] at most
+    const double along = moved.dot(ahead);
+    const double across = std::abs(world::cross(ahead, moved));
+    return along > -rounding && moved.norm() < 1.1 * driven + 0.05 * (driven > 0) + rounding &&
+           across < std::min(0.7 * driven, sideways) + rounding;
 }
 
 }  // namespace
@@ -130,17 +118,54 @@ void CarReader::move_aside(Car& car, std::uint64_t tick) const {
         car.offset_order.reset();
 }
 
+/// SUMO's cars jump: where a change of lanes is cut short by a junction, on a curve where the lanes
+/// are not equally long, and to and fro where lanes are shorter than a tick's way. What driving
+/// cannot have done becomes a slip between the car shown and SUMO's, which it works off while it
+/// drives: a standing car stands. The slip is kept in the world's frame; in the lane's, each corner
+/// of the centre line would turn it, and the car with it.
+Eigen::Vector3d CarReader::without_jumps(Car& car, const Eigen::Vector3d& sumo_front) const {
+    const Eigen::Vector2d moved = (sumo_front - car.sumo_front).head<2>();
+    car.sumo_front = sumo_front;
+    double driven = car.speed * step_;
+    if (car.lane != none)
+        driven *= town_->lanes[car.lane].length / town_->lanes[car.lane].sumo_length;
+    const bool plausible = is_driven(moved, world::ahead_of(car.yaw), driven);
+    if (plausible && car.slip.isZero(0))
+        return sumo_front;
+
+    const double lane_yaw = lane_yaw_of(car);
+    const Eigen::Vector2d ahead = world::ahead_of(lane_yaw);
+    const Eigen::Vector2d left = world::turned_left(ahead);
+    constexpr double farthest = 8;  // [m]; further is a new place, not a jump
+    if (!plausible && !is_driven(moved, ahead, driven) && moved.norm() < farthest)
+        car.slip += std::clamp(moved.dot(ahead), 0.0, driven) * ahead - moved;
+    // Shares of the way driven; sideways such that the turn to it and back stays gentle.
+    constexpr double gentle = 7;  // [m^2/s^2] 2 m/s^2 sideways, times 3.5 m from bumper to axle
+    const double aside = std::min(0.2, gentle / std::max(car.speed * car.speed, 1.0));
+    const double along = car.slip.dot(ahead);
+    const double across = car.slip.dot(left);
+    car.slip -= std::copysign(std::min(std::abs(along), 0.2 * driven), along) * ahead;
+    car.slip -= std::copysign(std::min(std::abs(across), aside * driven), across) * left;
+    if (car.slip.squaredNorm() < 1e-12)
+        car.slip.setZero();
+    return sumo_front + Eigen::Vector3d(car.slip.x(), car.slip.y(), 0);
+}
+
+/// Of its lane, where its bumper is.
+double CarReader::lane_yaw_of(const Car& car) const {
+    if (car.lane == none)
+        return car.yaw;
+    const world::LaneT& on = town_->lanes[car.lane];
+    return world::point_at(on, car.lane_position * on.length / on.sumo_length).yaw;
+}
+
 /// The pose that the car shows, after its bumper.
-void CarReader::move_body(Car& car, bool new_lane) const {
-    const Eigen::Vector3d front = bumper_of(car);
-    double lane_yaw = car.yaw;
-    if (car.lane != none && (new_lane || !car.slip.isZero(0) || car.offset != 0)) {
-        const world::LaneT& on = town_->lanes[car.lane];
-        lane_yaw = world::point_at(on, car.lane_position * on.length / on.sumo_length).yaw;
-    }
-    Eigen::Vector3d shown = smooth(car, front, new_lane, lane_yaw, step_);
-    if (car.offset != 0)
+void CarReader::move_body(Car& car) const {
+    Eigen::Vector3d shown = without_jumps(car, bumper_of(car));
+    if (car.offset != 0) {
+        const double lane_yaw = lane_yaw_of(car);
         shown += car.offset * Eigen::Vector3d(-std::sin(lane_yaw), std::cos(lane_yaw), 0);
+    }
     car.trail.advance(shown);
     car.rear = car.trail.rear();
     const Eigen::Vector3d body = car.trail.front() - car.rear;
@@ -151,28 +176,34 @@ void CarReader::move_body(Car& car, bool new_lane) const {
 void CarReader::read_car(Car& car, std::uint64_t tick) const {
     const double speed = Vehicle::getSpeed(car.sumo);
     const double position = Vehicle::getLanePosition(car.sumo);
-    // On a road of one lane: a car that did not move is where it was, and one that moved by just
-    // its speed is on the same lane (entering another one would take off the length of the last).
-    const bool alone = car.lane != none && only_lane_of_road_[car.lane];
-    const bool stands = alone && speed == 0 && car.speed == 0 && position == car.lane_position;
-    const bool keeps_lane = alone && std::abs(position - car.lane_position - speed * step_) < 1e-6;
+    // A car that neither drives nor moved along its lane is where it was: see LaneChangePace. On a
+    // road of one lane, one that moved by just its speed is on the same lane (entering another one
+    // would take off the length of the last).
+    const bool stands =
+        car.lane != none && speed == 0 && car.speed == 0 && position == car.lane_position;
+    const bool keeps_lane = car.lane != none && only_lane_of_road_[car.lane] &&
+                            std::abs(position - car.lane_position - speed * step_) < 1e-6;
     car.lane_position = position;
-    // Lamps can wait: a quarter of the cars is asked in each tick, so they are at most 0.2 s old.
-    if (car.lane == none || (tick + car.id) % 4 == 0)
-        car.lamps = lamps_of(Vehicle::getSignals(car.sumo));
     car.acceleration = (speed - car.speed) / step_;
     car.speed = speed;
     car.standing_ticks = speed < 0.1 ? car.standing_ticks + 1 : 0;
+    // Indicators can wait: a quarter of the cars is asked in each tick, so they are at most 0.2 s
+    // old.
+    std::uint16_t lamps = car.lamps & (world::lamp_left | world::lamp_right);
+    if (car.lane == none || (tick + car.id) % 4 == 0)
+        lamps = indicators_of(Vehicle::getSignals(car.sumo));
+    if (brakes(car))
+        lamps |= world::lamp_brake;
+    car.lamps = lamps;
     if (stands)
         return;
     if (car.offset_order)
         move_aside(car, tick);
     const std::string lane =
         keeps_lane ? town_->lanes[car.lane].name : Vehicle::getLaneID(car.sumo);
-    const bool new_lane = car.lane == none || town_->lanes[car.lane].name != lane;
-    if (new_lane)
+    if (car.lane == none || town_->lanes[car.lane].name != lane)
         enter_lane(car, lane);
-    move_body(car, new_lane);
+    move_body(car);
 }
 
 void CarReader::read(Cars& cars, std::uint64_t tick) const {

@@ -29,7 +29,9 @@ class CarReader {
     void enter_lane(Car& car, std::string_view lane) const;
     Eigen::Vector3d bumper_of(const Car& car) const;
     void move_aside(Car& car, std::uint64_t tick) const;
-    void move_body(Car& car, bool new_lane) const;
+    double lane_yaw_of(const Car& car) const;
+    Eigen::Vector3d without_jumps(Car& car, const Eigen::Vector3d& sumo_front) const;
+    void move_body(Car& car) const;
 
     const world::TownT* town_;
     const RoadGraph* graph_;

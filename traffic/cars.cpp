@@ -49,12 +49,12 @@ void add_offset(world::Hasher& hasher, const OffsetOrder& order, double offset) 
 /// What every car keeps. Left out is what nothing is computed from (acceleration, pitch) or what
 /// follows (SUMO's name of a car).
 struct CarDigest {
-    std::array<double, 12> numbers;
+    std::array<double, 15> numbers;
     std::uint64_t trail;
     std::array<std::uint32_t, 8> indices;
 };
 
-static_assert(sizeof(CarDigest) == 136, "no padding");
+static_assert(sizeof(CarDigest) == 160, "no padding");
 
 CarDigest kept_of(const Car& car) {
     return {{car.rear.x(),
@@ -68,6 +68,9 @@ CarDigest kept_of(const Car& car) {
              car.sumo_front.z(),
              car.slip.x(),
              car.slip.y(),
+             car.aside_wanted,
+             car.aside_limit,
+             car.bend_limit,
              car.trail.travelled()},
             car.trail.points_digest(),
             {car.id,

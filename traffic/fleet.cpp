@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "traffic/lane_change_pace.h"
 #include "world/models/catalogue.h"
 #include "world/models/vehicle_classes.h"
 
@@ -56,7 +57,7 @@ std::string type_xml(const std::string& id,
     return fmt::format(
         R"(<vType id="{}" vClass="{}" length="{:.2f}" width="{:.2f}" height="{:.2f}" minGap="{:.1f}")"
         R"( accel="{:.1f}" decel="{:.1f}" emergencyDecel="{:.1f}" maxSpeed="{:.1f}" tau="1.0")"
-        R"( carFollowModel="Krauss" laneChangeModel="LC2013" lcOpposite="0" {}/>)"
+        R"( carFollowModel="Krauss" laneChangeModel="LC2013" lcOpposite="0" maxSpeedLat="{}" {}/>)"
         "\n",
         id,
         vehicle_class,
@@ -68,6 +69,7 @@ std::string type_xml(const std::string& id,
         manner.deceleration,
         manner.emergency,
         manner.top_speed,
+        LaneChangePace::usual,
         moods);
 }
 
@@ -128,6 +130,10 @@ std::uint16_t demand_model(double drawn, world::ClassSet at_home) {
             return i;
     }
     return 0;
+}
+
+double top_speed(std::uint16_t model) {
+    return manner_of(model).top_speed;
 }
 
 double origin_to_front(std::uint16_t model) {

@@ -30,6 +30,9 @@ world::ClassSet model_class(std::uint16_t model);
 /// `at_home`: the classes that the town's roads are open to; others do not come.
 std::uint16_t demand_model(double drawn, world::ClassSet at_home);
 
+/// [m/s] that a car of this model reaches at most.
+double top_speed(std::uint16_t model);
+
 /// Metres from the origin (rear axle) to the front bumper, which is where SUMO's positions lie.
 double origin_to_front(std::uint16_t model);
 

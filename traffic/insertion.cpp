@@ -47,6 +47,8 @@ void Insertion::insert(Car& car, const InsertionPoint& point, const std::string&
     car.lane_position = std::clamp(point.s / lane.length, 0.0, 1.0) * lane.sumo_length;
     Vehicle::moveTo(car.sumo, lane.name, car.lane_position);
     Vehicle::setPreviousSpeed(car.sumo, car.speed);
+    car.aside_limit = -1;
+    car.bend_limit = 0;
     car.trail.start(way_to(lane, point.s, origin_to_front(car.model)), origin_to_front(car.model));
     car.rear = car.trail.rear();
     car.sumo_front = car.trail.front();

@@ -267,8 +267,6 @@ void Orders::follow_lane_order(Car& car, std::uint64_t tick) const {
     const world::LaneT& here = town_->lanes[car.lane];
     if (target.edge != here.edge)
         return;
-    const double width = (target.width + here.width) / 2;
-    Vehicle::setMaxSpeedLat(car.sumo, width / std::max(order.duration, 1.0));
     Vehicle::changeLane(car.sumo, target.index, 1.0);
 }
 
@@ -278,6 +276,15 @@ bool Orders::is_off_its_route(const Car& car) const {
            town_->lanes[car.lane].kind == world::LaneKind::driving &&
            graph_->edge_of(car.lane) == car.route.front() &&
            !graph_->leads_to(car.lane, car.route[1]);
+}
+
+/// It stands at the end of its lane, where nothing but a jump to the next one would help: then it
+/// goes where its lane leads.
+bool Orders::waits_in_the_wrong_lane(const Car& car) const {
+    constexpr std::uint32_t patience = 40;  // ticks
+    constexpr double end = 15;              // [m]
+    return car.standing_ticks > patience && car.lane != none &&
+           car.lane_position > town_->lanes[car.lane].sumo_length - end;
 }
 
 void Orders::follow(Cars& cars, std::uint64_t tick) const {
@@ -290,7 +297,7 @@ void Orders::follow(Cars& cars, std::uint64_t tick) const {
             Vehicle::setSpeed(car.sumo, ordered_speed(car, tick));
         if (car.lane_order && car.lane != none)
             follow_lane_order(car, tick);
-        else if (car.keeps_lane && is_off_its_route(car)) {
+        else if ((car.keeps_lane || waits_in_the_wrong_lane(car)) && is_off_its_route(car)) {
             routes_->start(car.lane, car);
             routes_->send(car);
         }

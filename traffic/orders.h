@@ -58,6 +58,7 @@ class Orders {
     std::vector<std::uint32_t> way_on_lane(const world::CommandT& command, Car& car) const;
     void follow_lane_order(Car& car, std::uint64_t tick) const;
     bool is_off_its_route(const Car& car) const;
+    bool waits_in_the_wrong_lane(const Car& car) const;
 
     const world::EpisodeT* episode_;
     const world::TownT* town_;

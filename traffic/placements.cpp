@@ -109,14 +109,10 @@ bool Placements::enter_sumo(Car& car, std::uint64_t tick) const {
         routes_->send(car);
     }
     // It is shown where it was put; what SUMO has elsewhere, it works off.
-    const Eigen::Vector3d sumo_front = car.sumo_front;
-    const double lane_yaw = world::point_at(lane, s).yaw;
     const double length = origin_to_front(car.model);
     const Eigen::Vector3d ahead = ahead_of(shown);
     const Eigen::Vector3d front = shown.rear + ahead * length;
-    const Eigen::Vector2d shift = (front - sumo_front).head<2>();
-    car.slip = {shift.dot(Eigen::Vector2d(std::cos(lane_yaw), std::sin(lane_yaw))),
-                shift.dot(Eigen::Vector2d(-std::sin(lane_yaw), std::cos(lane_yaw)))};
+    car.slip = (front - car.sumo_front).head<2>();
     car.trail.start(front, -ahead, length);
     car.rear = shown.rear;
     car.yaw = shown.yaw;

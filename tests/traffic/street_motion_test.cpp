@@ -1,0 +1,77 @@
+// How SUMO's cars move as they are shown, told from the ticks alone. `street_motion TRACE ...`
+// tells the same of any trace.
+#include "tests/support/street_motion.h"
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "tests/traffic/stage.h"
+
+namespace reprise::test {
+namespace {
+
+constexpr double step = 0.05;  // [s]
+
+/// Two minutes: red lights, queues, turns, changes of lanes.
+const StreetMotion& busy(const std::string& town, std::uint32_t cars) {
+    static std::map<std::string, StreetMotion> seen;
+    const auto found = seen.find(town);
+    if (found != seen.end())
+        return found->second;
+    const Loaded& loaded = own_town(town);
+    Stage stage(loaded, cars);
+    StreetMotion motion(loaded.town, step);
+    for (int i = 0; i < 2400; ++i) {
+        stage.step();
+        motion.see(stage.view());
+    }
+    return seen.emplace(town, std::move(motion)).first->second;
+}
+
+double share(const StreetMotion::Count& count, const StreetMotion& motion) {
+    return static_cast<double>(count.times) / static_cast<double>(motion.car_ticks);
+}
+
+class StreetMotionOf : public testing::TestWithParam<std::pair<const char*, std::uint32_t>> {
+  protected:
+    const StreetMotion& motion = busy(GetParam().first, GetParam().second);
+};
+
+TEST_P(StreetMotionOf, StandingCarsStand) {
+    EXPECT_GT(motion.car_ticks, 90'000U);
+    EXPECT_EQ(motion.slides.times, 0U) << motion.text();
+    EXPECT_EQ(motion.spins.times, 0U) << motion.text();
+    EXPECT_LT(share(motion.sidesteps, motion), 2e-5) << motion.text();
+}
+
+TEST_P(StreetMotionOf, NobodyJumps) {
+    EXPECT_EQ(motion.jumps.times, 0U) << motion.text();
+    EXPECT_EQ(motion.backward.times, 0U) << motion.text();
+    EXPECT_EQ(motion.heading_steps.times, 0U) << motion.text();
+}
+
+/// What is left is inside junctions: SUMO lets those who turn left wait where others' paths end,
+/// for cars without a width. Its share is 0.1 to 0.3 a thousand over ten minutes.
+TEST_P(StreetMotionOf, NobodyDrivesThroughOthers) {
+    EXPECT_LT(share(motion.overlaps, motion), 6e-4) << motion.text();
+}
+
+TEST_P(StreetMotionOf, BendsAreTakenByTheirCurvature) {
+    EXPECT_LT(share(motion.hard_bends, motion), 0.005) << motion.text();
+}
+
+TEST_P(StreetMotionOf, BrakeLampsAreTrue) {
+    EXPECT_EQ(motion.dark_brakes.times, 0U) << motion.text();
+    EXPECT_EQ(motion.false_brakes.times, 0U) << motion.text();
+}
+
+INSTANTIATE_TEST_SUITE_P(Towns,
+                         StreetMotionOf,
+                         testing::Values(std::pair{"town1", 100U}, std::pair{"town2", 40U}),
+                         [](const auto& which) { return which.param.first; });
+
+}  // namespace
+}  // namespace reprise::test

@@ -1,0 +1,87 @@
+#include "traffic/lane_change_pace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <libsumo/libsumo.h>
+
+#include "world/models/catalogue.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+constexpr double crawl = 0.5;      // [m/s] slower than that nobody steers anywhere
+constexpr double steepest = 0.35;  // metres aside for each metre driven
+
+/// [m/s] sideways of one that stands or crawls. SUMO lets nobody go faster than it takes to end a
+/// change on this lane: one with free road gets what it will be able to do in a moment, or it would
+/// never start.
+double aside_while_waiting(const Car& car, const world::LaneT& lane, double usual) {
+    using libsumo::Vehicle;
+    constexpr double room = 1;        // [m] more than the gap that it keeps when standing
+    constexpr double next_to = 12;    // [m] before the lane's end there is no way left for a change
+    constexpr double nothing = 0.01;  // SUMO divides by it
+    if (lane.sumo_length - car.lane_position < next_to)
+        return usual;
+    if (Vehicle::getLateralLanePosition(car.sumo) == 0)
+        return nothing;
+    const auto [leader, gap] = Vehicle::getLeader(car.sumo, next_to);
+    return !leader.empty() && gap < room ? nothing : steepest;
+}
+
+/// [m/s] sideways at most. In few steps: each is told to SUMO.
+double steerable(double speed) {
+    constexpr double steps = 2;  // for each m/s
+    return steepest * std::floor(speed * steps) / steps;
+}
+
+}  // namespace
+
+LaneChangePace::LaneChangePace(const world::TownT& town) : town_(&town) {
+    for (const world::LaneT& lane : town.lanes)
+        has_neighbour_.push_back(lane.left != world::none || lane.right != world::none);
+}
+
+/// Is there way enough for all of a change, before the lane ends and before those who wait on it?
+/// Who begins without would stand across two lanes.
+bool LaneChangePace::has_way(const Car& car, const Cars& cars) const {
+    constexpr double slow = 3;    // [m/s] of a queue's cars
+    constexpr double margin = 4;  // [m]
+    const world::LaneT& lane = town_->lanes[car.lane];
+    const double wanted = std::max(lane.width / steepest, lane.width / usual * car.speed) + margin;
+    double way = lane.sumo_length - car.lane_position;
+    for (const Car& other : cars.all())
+        if (other.lane == car.lane && other.speed < slow && other.lane_position > car.lane_position)
+            way = std::min(way,
+                           other.lane_position - car.lane_position -
+                               world::vehicle_models()[other.model].length);
+    return way > wanted;
+}
+
+void LaneChangePace::follow(Cars& cars, std::uint64_t tick) const {
+    constexpr int as_it_likes = 1621;  // SUMO's default
+    constexpr int never = 0;
+    for (Car& car : cars.all()) {
+        if (car.sumo.empty() || car.origin == Origin::parked || car.lane == world::none)
+            continue;
+        const world::LaneT& lane = town_->lanes[car.lane];
+        // A quarter of the cars is asked in each tick.
+        if (has_neighbour_[car.lane] && car.origin == Origin::demand && (tick + car.id) % 4 == 0)
+            libsumo::Vehicle::setLaneChangeMode(
+                car.sumo, car.speed > crawl && has_way(car, cars) ? as_it_likes : never);
+        if (car.lane_order)
+            car.aside_wanted = lane.width / std::max(car.lane_order->duration, 1.0);
+        double limit = car.aside_wanted == 0 ? usual : car.aside_wanted;
+        if (has_neighbour_[car.lane])
+            limit = std::min(
+                limit,
+                car.speed < crawl ? aside_while_waiting(car, lane, limit) : steerable(car.speed));
+        if (limit == (car.aside_limit < 0 ? usual : car.aside_limit))
+            continue;
+        libsumo::Vehicle::setMaxSpeedLat(car.sumo, limit);
+        car.aside_limit = limit;
+    }
+}
+
+}  // namespace reprise::traffic
