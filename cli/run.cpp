@@ -157,6 +157,14 @@ class Commentary {
                 return tell(
                     tick,
                     fmt::format("{} is blocked {}", crashes_.names().name_of(event.actor()), text));
+            case world::EventKind::ran_red_light:
+            case world::EventKind::ran_stop_sign:
+            case world::EventKind::on_opposite_lane:
+            case world::EventKind::on_sidewalk:
+            case world::EventKind::left_road:
+            case world::EventKind::speeding:
+            case world::EventKind::wrong_way:
+                return tell(tick, crashes_.names().name_of(event.actor()) + " " + text);
             case world::EventKind::check_failed:
                 if (!world::tells_worst(event))  // else the summary says so
                     tell(tick, "check failed: " + text);

@@ -11,6 +11,7 @@
 #include "kernel/car_hits.h"
 #include "kernel/digests.h"
 #include "kernel/doors.h"
+#include "kernel/infractions.h"
 #include "kernel/lamp_orders.h"
 #include "kernel/measurements.h"
 #include "kernel/nudger.h"
@@ -64,6 +65,7 @@ struct Kernel::Parts {
           physics(episode, ground != nullptr ? *ground : ground::build_ground(town), obstacles),
           continued(replay::chain_seed(recording)),
           last(genesis(episode, continued)),
+          infractions(town, world::seconds(1, episode.step_ns)),
           nudger(roster, pedestrians, physics) {}
 
     const world::Recording& recording;
@@ -80,6 +82,7 @@ struct Kernel::Parts {
     Doors doors;
     world::Digest128 continued;  ///< the chain that the next tick goes on with
     world::SealedTick last;
+    Infractions infractions;
     Nudger nudger;
     std::optional<world::TickDraft> next;    ///< begun, and waiting for controls
     std::exception_ptr fault;                ///< why it could not be begun
@@ -115,8 +118,8 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     parts.lamps.light_vehicles(next);
     close(Stage::physics, next);
 
-    // 6. measurements: lanes, gaps, footprints, impulses, who is blocked; in the last tick the
-    // checks' verdicts
+    // 6. measurements: lanes, gaps, footprints, impulses, who is blocked or does wrong; in the last
+    // tick the checks' verdicts
     const std::uint64_t step_ns = parts.episode.step_ns;
     measure(
         parts.town, parts.lanes, world::seconds(1, step_ns), parts.physics.impacts(), last, next);
@@ -125,6 +128,7 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
         return parts.roster.is_under_way(vehicle);
     };
     note_blockages(parts.town, step_ns, is_under_way, last, next);
+    parts.infractions.note(last, next);
     if (parts.ends)
         parts.scenario.conclude(last, next);
     close(Stage::measurements, next);

@@ -105,7 +105,9 @@ class Teller {
     }
 
     std::string describe(const world::Event& event) const {
-        if (event.kind() == world::EventKind::blocked)
+        const bool is_infraction = event.kind() >= world::EventKind::ran_red_light &&
+                                   event.kind() <= world::EventKind::wrong_way;
+        if (event.kind() == world::EventKind::blocked || is_infraction)
             return fmt::format(
                 "{} {}", heard_.names().name_of(event.actor()), world::to_line(event));
         return world::to_line(event);

@@ -165,6 +165,14 @@ std::string PageStory::text_of(const Happening& happening) const {
                                name_of(happening.other)) +
                    (happening.value < 0.5 ? ""  // imported: nobody measured it
                                           : fmt::format(", {:.0f} N s", happening.value));
+        case world::EventKind::ran_red_light:
+        case world::EventKind::ran_stop_sign:
+        case world::EventKind::on_opposite_lane:
+        case world::EventKind::on_sidewalk:
+        case world::EventKind::left_road:
+        case world::EventKind::speeding:
+        case world::EventKind::wrong_way:
+            return name_of(happening.actor) + " " + happening.text;
         case world::EventKind::blocked:
             return fmt::format("{} is blocked {}", name_of(happening.actor), happening.text);
         default:

@@ -43,7 +43,9 @@ const std::array<Stage, 6>& stages() {
 /// Which stage raises such an event; index in stages(). Cars of the demand come and go in traffic,
 /// what the scenario spawned belongs to the scenario.
 std::size_t stage_of(const world::Event& event) {
-    if (event.kind() == world::EventKind::blocked)
+    const bool is_infraction = event.kind() >= world::EventKind::ran_red_light &&
+                               event.kind() <= world::EventKind::wrong_way;
+    if (event.kind() == world::EventKind::blocked || is_infraction)
         return 5;
     const bool of_a_crash = event.kind() == world::EventKind::collision ||
                             event.kind() == world::EventKind::wrecked ||

@@ -63,8 +63,10 @@ void RedLightWatch::look(const Sight& sight) {
     observe();
     if (!lights_.ran_red())
         return;
-    if (at_line_)
+    if (at_line_) {
+        begin(*at_line_);
         end(*at_line_);
+    }
     at_line_.reset();
     lights_ = {};  // for the next one
     observe();
@@ -88,6 +90,7 @@ void StopSignWatch::look(const Sight& sight) {
     if (lane && !stopped) {
         Infraction infraction = begun(InfractionKind::stop_sign, sight, sight.measured.speed());
         infraction.lane = *lane;
+        begin(infraction);
         end(infraction);
     }
     if (std::abs(sight.measured.speed()) < stopped_speed)

@@ -18,8 +18,7 @@ namespace {
 struct Scored {
     VehicleScore result;
     std::vector<std::unique_ptr<Watch>> watches;
-    double odometer = 0;
-    Eigen::Vector3d position{0, 0, 0};
+    LastSeen seen;
     std::uint32_t lane = world::none;  ///< in the tick before: what the scenario saw
     double lane_s = 0;
     bool keeps_lane = false;
@@ -79,18 +78,13 @@ class Scorer {
               const world::Measurement& measured) {
         const auto [found, is_new] = scored_.try_emplace(vehicle.id());
         Scored& scored = found->second;
-        const world::VehicleModel& model = world::vehicle_models()[vehicle.model()];
-        Sight sight{tick, vehicle, measured, model, step_};
+        const Sight sight = see(tick, vehicle, measured, step_, scored.seen);
         if (is_new) {
             scored.watches = all_watches(town_);
             scored.result.id = vehicle.id();
-            scored.result.model = model.name;
+            scored.result.model = sight.model.name;
             scored.lane = measured.lane();
             scored.lane_s = measured.lane_s();
-        } else {
-            sight.driven = std::abs(vehicle.odometer() - scored.odometer);
-            sight.is_put = (sight.position() - scored.position).norm() >
-                           Sight::farthest(measured.speed(), step_);
         }
         hear_commands(sight, scored);
         follow_route(sight, scored);
@@ -101,8 +95,6 @@ class Scorer {
         ++scored.result.ticks;
         scored.result.driven += sight.driven;
         scored.result.off_lane += is_off_lane(sight) ? sight.driven : 0;
-        scored.odometer = vehicle.odometer();
-        scored.position = sight.position();
         scored.lane = measured.lane();
         scored.lane_s = measured.lane_s();
     }

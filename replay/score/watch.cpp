@@ -40,6 +40,25 @@ double Sight::yaw() const {
     return std::atan2(ahead.y(), ahead.x());
 }
 
+Sight see(const world::TickView& tick,
+          const world::VehicleState& vehicle,
+          const world::Measurement& measured,
+          double step,
+          LastSeen& last) {
+    Sight sight{tick, vehicle, measured, world::vehicle_models()[vehicle.model()], step};
+    if (last.is_known) {
+        sight.driven = std::abs(vehicle.odometer() - last.odometer);
+        sight.is_put =
+            (sight.position() - last.position).norm() > Sight::farthest(measured.speed(), step);
+    }
+    last = {true, vehicle.odometer(), sight.position()};
+    return sight;
+}
+
+std::vector<Infraction> Watch::take_begun() {
+    return std::exchange(begun_, {});
+}
+
 std::vector<Infraction> Watch::take() {
     return std::exchange(ended_, {});
 }
@@ -62,18 +81,27 @@ void LastingWatch::look(const Sight& sight) {
         finish();
     if (!now)
         return;
-    if (!open_) {
+    if (open_) {
+        open_->last = sight.index();
+        open_->worst = adds_up() ? open_->worst + *now : std::max(open_->worst, *now);
+    } else {
         open_ = begun(kind_, sight, *now);
-        return;
     }
-    open_->last = sight.index();
-    open_->worst = adds_up() ? open_->worst + *now : std::max(open_->worst, *now);
+    if (!is_sure_ && is_long_enough()) {
+        is_sure_ = true;
+        begin(*open_);
+    }
+}
+
+bool LastingWatch::is_long_enough() const {
+    return static_cast<double>(open_->last - open_->first + 1) * step_ >= shortest_;
 }
 
 void LastingWatch::finish() {
-    if (open_ && static_cast<double>(open_->last - open_->first + 1) * step_ >= shortest_)
+    if (is_sure_)
         end(*open_);
     open_.reset();
+    is_sure_ = false;
 }
 
 }  // namespace reprise::replay

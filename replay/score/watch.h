@@ -45,6 +45,20 @@ struct Sight {
     double front() const { return model.length - model.rear_overhang; }
 };
 
+/// Where a vehicle was in the tick before.
+struct LastSeen {
+    bool is_known = false;
+    double odometer = 0;
+    Eigen::Vector3d position{0, 0, 0};
+};
+
+/// `last` is then that of this tick. The model must be one of the catalogue.
+Sight see(const world::TickView& tick,
+          const world::VehicleState& vehicle,
+          const world::Measurement& measured,
+          double step,
+          LastSeen& last);
+
 /// Watches one vehicle for one infraction. Ticks are shown in their order, from the one of its
 /// spawn on. What it says depends on these ticks and the town alone.
 class Watch {
@@ -62,13 +76,19 @@ class Watch {
     /// Those that have ended, and are told once.
     std::vector<Infraction> take();
 
+    /// Those of which it is sure, as far as they have come: each is told once, and ends later.
+    std::vector<Infraction> take_begun();
+
   protected:
+    void begin(const Infraction& infraction) { begun_.push_back(infraction); }
+
     void end(const Infraction& infraction) { ended_.push_back(infraction); }
 
     /// One that begins in this tick, and may end in it.
     static Infraction begun(InfractionKind kind, const Sight& sight, double worst);
 
   private:
+    std::vector<Infraction> begun_;
     std::vector<Infraction> ended_;
 };
 
@@ -90,10 +110,13 @@ class LastingWatch : public Watch {
     virtual bool adds_up() const { return false; }
 
   private:
+    bool is_long_enough() const;
+
     InfractionKind kind_;
     double shortest_;
     double step_ = 0;
     std::optional<Infraction> open_;
+    bool is_sure_ = false;  ///< it has been long enough
 };
 
 /// Is most of it where no lane leads its way: over an opposite lane, a sidewalk, or off the road?

@@ -21,6 +21,7 @@ class ScoreCommand : public testing::Test {
                    "return scenario 'a' { " + header + ", run = function()\n" + body + "\nend }");
         const Result run = reprise({"run", "a.lua", "-o", "a.mcap"}, folder_.path());
         EXPECT_EQ(run.code, code) << run.out;
+        ran_ = run.out;
         return Json::parse(said({"--json"}))["vehicles"][0];
     }
 
@@ -47,6 +48,7 @@ class ScoreCommand : public testing::Test {
     }
 
     Folder folder_;
+    std::string ran_;  ///< what the last run said
 };
 
 const std::string on_junction =
@@ -91,6 +93,9 @@ TEST_F(ScoreCommand, ARedLightThatIsRunIsOne) {
     EXPECT_THAT(reprise({"info", "a.mcap"}, folder_.path()).out,
                 HasSubstr("red at " + light["first_tick"].get<std::string>()))
         << "the tick of ego:ran_red()";
+    EXPECT_THAT(ran_, HasSubstr(" s  ego ran a red light on x_")) << "and says so";
+    EXPECT_THAT(ran_, HasSubstr(" at 8.3 m/s\n"));
+    EXPECT_EQ(reprise({"verify", "a.mcap"}, folder_.path()).code, 0);
     EXPECT_NEAR(ego["leaderboard_1_2"]["penalty"], 0.7, 1e-12);
     EXPECT_NEAR(ego["leaderboard_2_1"]["penalty"], 1 / 1.4, 1e-12);
 }
@@ -106,6 +111,7 @@ TEST_F(ScoreCommand, AStopSignIsPassedByWhoDoesNotStandAtIt) {
         only(scored(header, start + "ego:ignore_lights() ego:hold_speed_kmh(20) wait(10)\n"),
              "stop_sign");
     EXPECT_NEAR(past["worst"], 20 / 3.6, 0.05);
+    EXPECT_THAT(ran_, HasSubstr(" s  ego ran a stop sign on x_"));
     // It stands far from the line, then drives on.
     only(scored(header,
                 start + "ego:ignore_lights() ego:brake(4)\n"
@@ -141,6 +147,7 @@ TEST_F(ScoreCommand, TenSecondsOnTheSidewalkCountFive) {
     const Json walk = ego["infractions"][0];
     ASSERT_EQ(walk["kind"], "sidewalk");
     EXPECT_GT(walk["worst"], 0.5);
+    EXPECT_THAT(ran_, HasSubstr("    0.10 s  ego is over a sidewalk on "));
     EXPECT_EQ(walk["first_tick"], "1");
     EXPECT_NEAR(std::stod(walk["last_tick"].get<std::string>()), 200, 2);
     EXPECT_EQ(walk["count"], 5);
@@ -165,6 +172,8 @@ TEST_F(ScoreCommand, TheOppositeLaneCountsAndForLongItIsTheWrongWay) {
     EXPECT_EQ(brief["worst"], 1) << "all of it";
     const Json ego = along(10);
     expect_only(ego, {"opposite_lane", "wrong_way"});
+    EXPECT_THAT(ran_, HasSubstr(" s  ego is over an opposite lane on east_2: "));
+    EXPECT_THAT(ran_, HasSubstr(" s  ego drives the wrong way on east_2"));
     EXPECT_GE(ego["kinds"]["opposite_lane"]["count"], 5);
     EXPECT_GT(ego["off_lane"], 99);
     EXPECT_LT(ego["off_lane"], 130) << "100 m beside, and the most of both changes";
@@ -182,6 +191,7 @@ TEST_F(ScoreCommand, SpeedingIsAboveTheLimitAndWhatSpeedMetersMayBeOff) {
     expect_only(at(2), {});
     const Json fast = only(at(5), "speeding");
     EXPECT_NEAR(fast["worst"], 5 / 3.6, 0.1);
+    EXPECT_THAT(ran_, HasSubstr(" m/s above the limit on "));
     EXPECT_EQ(fast["count"], 2) << "three seconds";
 }
 
@@ -194,6 +204,7 @@ TEST_F(ScoreCommand, WhoLeavesTheRoadIsOffIt) {
     const Json off = only(ego, "off_road");
     EXPECT_GT(off["worst"], 1);
     EXPECT_EQ(off["first_tick"], "1");
+    EXPECT_THAT(ran_, HasSubstr("    0.10 s  ego left the road"));
 }
 
 TEST_F(ScoreCommand, CollisionsHaveKinds) {
