@@ -37,7 +37,7 @@ world::Digest128 chain_seed(const world::Recording& recording) {
     hasher.add(episode.substeps);
     hasher.add(episode.max_ticks);
     hasher.add(episode.cars);
-    if (episode.walkers != 0) {  // runs without them have the seeds that they always had
+    if (episode.walkers != 0 || episode.walker_seed != 0 || episode.jaywalkers != 0) {
         hasher.add_text("walkers");
         hasher.add(episode.walkers);
         hasher.add(episode.walker_seed);
