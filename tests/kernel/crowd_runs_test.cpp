@@ -22,7 +22,7 @@ world::Recording street_life(unsigned walkers, double seconds) {
     return recording;
 }
 
-TEST(CrowdRuns, VerifyFindsNothingInAMinuteOfAHundredWalkers) {
+TEST(CrowdRuns, VerifyFindsNothingInARunOfAHundredWalkers) {
     const auto path = std::filesystem::temp_directory_path() /
                       ("reprise_crowd_" + std::to_string(getpid()) + ".mcap");
     const world::Recording recording = street_life(100, 30);
@@ -64,7 +64,7 @@ TEST(CrowdRuns, WalkersChangeNothingForThoseWhoDoNotMeetThem) {
             std::ranges::equal(one[i].recorded().tick_bytes, other[i].recorded().tick_bytes));
 }
 
-TEST(CrowdRuns, BranchesOfIdsNeverMeet) {
+TEST(CrowdRuns, IdsOfCarsAndWalkersNeverMeet) {
     const std::vector<KeptTick> ticks = run(street_life(30, 1));
     for (const KeptTick& tick : ticks) {
         for (const world::CarState& car : tick.recorded().view.cars())
