@@ -15,19 +15,19 @@
 
 #include <libsumo/libsumo.h>
 
-#include "traffic/bends.h"
+#include "traffic/cars/bends.h"
 #include "traffic/car_reader.h"
-#include "traffic/cars.h"
+#include "traffic/cars/cars.h"
 #include "traffic/demand.h"
 #include "traffic/detours.h"
 #include "traffic/insertion.h"
 #include "traffic/insertion_points.h"
-#include "traffic/lane_change_pace.h"
+#include "traffic/cars/lane_change_pace.h"
 #include "traffic/lookout.h"
 #include "traffic/mirrors.h"
 #include "traffic/orders.h"
 #include "traffic/placements.h"
-#include "traffic/road_graph.h"
+#include "traffic/roads/road_graph.h"
 #include "traffic/route_planner.h"
 #include "traffic/scripted_spawns.h"
 #include "traffic/signal_orders.h"

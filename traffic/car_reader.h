@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "traffic/cars.h"
-#include "traffic/road_graph.h"
+#include "traffic/cars/cars.h"
+#include "traffic/roads/road_graph.h"
 #include "world/tick.h"
 #include "world/town.h"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 #include "world/models/catalogue.h"
 
 namespace reprise::traffic {

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <span>
 
-#include "traffic/cars.h"
+#include "traffic/cars/cars.h"
 #include "traffic/insertion.h"
 #include "traffic/insertion_points.h"
-#include "traffic/road_graph.h"
+#include "traffic/roads/road_graph.h"
 #include "world/digest.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"

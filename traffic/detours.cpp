@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 #include "world/models/catalogue.h"
 #include "world/random.h"
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "traffic/cars.h"
-#include "traffic/road_graph.h"
+#include "traffic/cars/cars.h"
+#include "traffic/roads/road_graph.h"
 #include "traffic/route_planner.h"
 #include "world/town.h"
 

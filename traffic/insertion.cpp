@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <libsumo/libsumo.h>
 
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 #include "traffic/sumo.h"
 
 namespace reprise::traffic {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 #include "world/models/catalogue.h"
 #include "world/models/prop_models.h"
 #include "world/models/vehicle_classes.h"

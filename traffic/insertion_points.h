@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "traffic/car.h"
-#include "traffic/road_graph.h"
+#include "traffic/cars/car.h"
+#include "traffic/roads/road_graph.h"
 #include "world/models/vehicle_classes.h"
 #include "world/random.h"
 #include "world/tick.h"

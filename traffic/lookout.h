@@ -2,12 +2,12 @@
 
 #include <cstdint>
 
-#include "traffic/cars.h"
-#include "traffic/obstructions.h"
+#include "traffic/cars/cars.h"
+#include "traffic/sight/obstructions.h"
 #include "traffic/orders.h"
-#include "traffic/passing.h"
-#include "traffic/road_graph.h"
-#include "traffic/stand_ins.h"
+#include "traffic/sight/passing.h"
+#include "traffic/roads/road_graph.h"
+#include "traffic/sight/stand_ins.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"
 #include "world/town.h"

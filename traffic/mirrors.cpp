@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <libsumo/libsumo.h>
 
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 #include "traffic/sumo.h"
 #include "world/frames.h"
 #include "world/models/catalogue.h"

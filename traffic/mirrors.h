@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "traffic/car.h"
-#include "traffic/road_graph.h"
-#include "traffic/short_predecessors.h"
+#include "traffic/cars/car.h"
+#include "traffic/roads/road_graph.h"
+#include "traffic/roads/short_predecessors.h"
 #include "world/digest.h"
 #include "world/tick.h"
 #include "world/town.h"

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "traffic/cars.h"
-#include "traffic/road_graph.h"
+#include "traffic/cars/cars.h"
+#include "traffic/roads/road_graph.h"
 #include "traffic/route_planner.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"

@@ -5,7 +5,7 @@
 
 #include <libsumo/libsumo.h>
 
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 #include "traffic/orders.h"
 #include "world/frames.h"
 #include "world/models/catalogue.h"

@@ -2,7 +2,7 @@
 
 #include <libsumo/libsumo.h>
 
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 #include "world/models/vehicle_classes.h"
 #include "world/random.h"
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <libsumo/libsumo.h>
 
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 #include "traffic/orders.h"
 #include "world/check.h"
 #include "world/models/vehicle_classes.h"

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "traffic/cars.h"
+#include "traffic/cars/cars.h"
 #include "traffic/insertion.h"
 #include "traffic/insertion_points.h"
 #include "traffic/placements.h"
-#include "traffic/road_graph.h"
+#include "traffic/roads/road_graph.h"
 #include "world/episode_generated.h"
 #include "world/models/catalogue.h"
 #include "world/tick.h"

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <libsumo/libsumo.h>
 
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 #include "world/check.h"
 
 namespace reprise::traffic {

@@ -37,6 +37,7 @@ INNER = {
     "ground": "mesh paint .",
     "walkers": "map .",
     "towns": "check network maps furnish buildings . bridges import make",
+    "traffic": "roads cars sight .",
     "drivers": "way .",
     "kernel": "drill physics .",
     "render": "shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look shade map views overlay film .",

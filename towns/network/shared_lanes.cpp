@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include <pugixml.hpp>
+
 namespace reprise::towns {
 
 std::size_t part_shared_lanes(pugi::xml_node net) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "traffic/road_graph.h"
+#include "traffic/roads/road_graph.h"
 #include "world/tick.h"
 #include "world/town.h"
 

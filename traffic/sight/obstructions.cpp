@@ -1,4 +1,4 @@
-#include "traffic/obstructions.h"
+#include "traffic/sight/obstructions.h"
 
 #include <algorithm>
 #include <cmath>

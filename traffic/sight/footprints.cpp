@@ -1,4 +1,4 @@
-#include "traffic/footprints.h"
+#include "traffic/sight/footprints.h"
 
 #include <algorithm>
 #include <cmath>

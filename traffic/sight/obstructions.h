@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "traffic/footprints.h"
+#include "traffic/sight/footprints.h"
 #include "world/tick.h"
 #include "world/town.h"
 

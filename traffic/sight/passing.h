@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "traffic/cars.h"
-#include "traffic/obstructions.h"
+#include "traffic/cars/cars.h"
+#include "traffic/sight/obstructions.h"
 #include "world/tick.h"
 #include "world/town.h"
 

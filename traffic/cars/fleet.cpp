@@ -1,10 +1,10 @@
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 
 #include <array>
 
 #include <fmt/format.h>
 
-#include "traffic/lane_change_pace.h"
+#include "traffic/cars/lane_change_pace.h"
 #include "world/models/catalogue.h"
 #include "world/models/vehicle_classes.h"
 

@@ -1,4 +1,4 @@
-#include "traffic/trail.h"
+#include "traffic/cars/trail.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "traffic/cars.h"
+#include "traffic/cars/cars.h"
 
 #include <algorithm>
 #include <array>

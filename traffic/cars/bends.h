@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "traffic/cars.h"
+#include "traffic/cars/cars.h"
 #include "world/town.h"
 
 namespace reprise::traffic {

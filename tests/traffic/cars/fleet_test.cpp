@@ -1,4 +1,4 @@
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 
 #include <array>
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "traffic/trail.h"
+#include "traffic/cars/trail.h"
 #include "world/tick.h"
 #include "world/trajectory.h"
 #include "world/transition.h"

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "traffic/cars.h"
-#include "traffic/obstructions.h"
-#include "traffic/road_graph.h"
+#include "traffic/cars/cars.h"
+#include "traffic/sight/obstructions.h"
+#include "traffic/roads/road_graph.h"
 #include "world/digest.h"
 #include "world/town.h"
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "traffic/car.h"
+#include "traffic/cars/car.h"
 #include "world/tick.h"
 
 namespace reprise::traffic {

@@ -1,4 +1,4 @@
-#include "traffic/stand_ins.h"
+#include "traffic/sight/stand_ins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <libsumo/libsumo.h>
 
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 #include "world/models/catalogue.h"
 
 namespace reprise::traffic {

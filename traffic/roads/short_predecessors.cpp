@@ -1,4 +1,4 @@
-#include "traffic/short_predecessors.h"
+#include "traffic/roads/short_predecessors.h"
 
 #include <algorithm>
 #include <utility>

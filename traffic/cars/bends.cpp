@@ -1,11 +1,11 @@
-#include "traffic/bends.h"
+#include "traffic/cars/bends.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <libsumo/libsumo.h>
 
-#include "traffic/fleet.h"
+#include "traffic/cars/fleet.h"
 #include "world/geometry2d.h"
 
 namespace reprise::traffic {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "traffic/car.h"
+#include "traffic/cars/car.h"
 #include "world/digest.h"
 #include "world/tick.h"
 

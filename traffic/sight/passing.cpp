@@ -1,4 +1,4 @@
-#include "traffic/passing.h"
+#include "traffic/sight/passing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "traffic/lane_change_pace.h"
+#include "traffic/cars/lane_change_pace.h"
 
 #include <algorithm>
 #include <cmath>

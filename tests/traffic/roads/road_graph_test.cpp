@@ -1,4 +1,4 @@
-#include "traffic/road_graph.h"
+#include "traffic/roads/road_graph.h"
 
 #include <algorithm>
 
