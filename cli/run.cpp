@@ -47,8 +47,7 @@ bool is_trace(const fs::path& path) {
 /// What a recorded run started from; of this only its length may be another.
 world::Recording prepare_again(const RunOptions& options, replay::TraceReader& trace) {
     if (options.town || options.seed || options.weather || options.friction || options.cars ||
-        options.walkers ||
-        !options.parameters.empty())
+        options.walkers || !options.parameters.empty())
         throw world::Error(
             options.scenario +
             ": a recorded run is run again as it was: --town, --seed, --weather, "

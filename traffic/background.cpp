@@ -15,14 +15,14 @@
 
 #include <libsumo/libsumo.h>
 
-#include "traffic/cars/bends.h"
 #include "traffic/car_reader.h"
+#include "traffic/cars/bends.h"
 #include "traffic/cars/cars.h"
+#include "traffic/cars/lane_change_pace.h"
 #include "traffic/demand.h"
 #include "traffic/detours.h"
 #include "traffic/insertion.h"
 #include "traffic/insertion_points.h"
-#include "traffic/cars/lane_change_pace.h"
 #include "traffic/lookout.h"
 #include "traffic/mirrors.h"
 #include "traffic/orders.h"

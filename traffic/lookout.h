@@ -3,10 +3,10 @@
 #include <cstdint>
 
 #include "traffic/cars/cars.h"
-#include "traffic/sight/obstructions.h"
 #include "traffic/orders.h"
-#include "traffic/sight/passing.h"
 #include "traffic/roads/road_graph.h"
+#include "traffic/sight/obstructions.h"
+#include "traffic/sight/passing.h"
 #include "traffic/sight/stand_ins.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"

@@ -3,8 +3,8 @@
 
 #include "tests/support/worlds.h"
 #include "tests/traffic/stage.h"
-#include "traffic/roads/road_graph.h"
 #include "traffic/cars/trail.h"
+#include "traffic/roads/road_graph.h"
 #include "world/models/catalogue.h"
 #include "world/models/vehicle_classes.h"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "traffic/cars/cars.h"
-#include "traffic/sight/obstructions.h"
 #include "traffic/roads/road_graph.h"
+#include "traffic/sight/obstructions.h"
 #include "world/digest.h"
 #include "world/town.h"
 
