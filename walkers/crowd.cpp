@@ -113,6 +113,7 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
     // Who was hit, who leaves, who comes.
     lights_.look(next);
     traffic_.look(last, next);
+    threats_.look(last, next);
     lay_down(last, tick);
     remove_hit(next);
     fill_up(last, next);
@@ -138,8 +139,10 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
         walker.body = neighbours_.index_of(walker.id);
         want(walker, tick);
     }
-    for (Walker& walker : walkers_)
+    for (Walker& walker : walkers_) {
         avoid(walker);
+        flee(walker);
+    }
     for (Walker& walker : walkers_)
         step(walker, tick);
     for (const Walker& walker : walkers_)
@@ -452,6 +455,15 @@ void Crowd::avoid(Walker& walker) {
     neighbours_.around(self, elbow_reach, on_road, around_);
     if (!around_.empty())
         walker.wanted = steering_.choose(self, walker.wanted, around_);
+}
+
+/// Nobody stands still, or goes on, where a car is about to be.
+void Crowd::flee(Walker& walker) const {
+    constexpr double hurry = 2.5;  // [m/s]
+    if (walker.down_until != 0)
+        return;
+    if (const auto way = threats_.way_out(walker.place.position.head<2>(), walker.person.radius))
+        walker.wanted = hurry * *way;
 }
 
 /// Nobody steps onto a road whose gate does not let him.

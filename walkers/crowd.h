@@ -10,6 +10,7 @@
 #include "walkers/person.h"
 #include "walkers/road_traffic.h"
 #include "walkers/steering.h"
+#include "walkers/threats.h"
 #include "walkers/walker_lights.h"
 #include "walkers/walking_ground.h"
 #include "world/episode_generated.h"
@@ -28,8 +29,9 @@ inline constexpr std::uint32_t first_walker_id = 100'000'000;
 ///         overlap; go on.
 /// ASSUMES ticks come in order; traffic has written its part of the next one.
 /// GOES    one by one in the order of ids. First everybody says where to: along the way that the
-///         walk map gave, waiting at gates, around others as DetourCrowd's avoidance says. Then
-///         everybody takes a step, which is not taken where somebody stands by then.
+///         walk map gave, waiting at gates, around others as DetourCrowd's avoidance says, and out
+///         of the way of cars that are about to roll over him. Then everybody takes a step, which
+///         is not taken where somebody stands by then.
 /// KEEPS   who they are, where, and their ways; the lights' usual times.
 class Crowd {
   public:
@@ -87,6 +89,7 @@ class Crowd {
     void want(Walker& walker, std::uint64_t tick);
     double speed_at_gate(Walker& walker, double speed);
     void avoid(Walker& walker);
+    void flee(Walker& walker) const;
     void step(Walker& walker, std::uint64_t tick);
     bool is_allowed(const Walker& walker, const WalkMap::Place& place);
     void write(const Walker& walker, world::TickDraft& next) const;
@@ -99,6 +102,7 @@ class Crowd {
     std::vector<std::uint32_t> sidewalks_;
     std::vector<double> ends_;  ///< [m] running sum of their lengths
     RoadTraffic traffic_;
+    Threats threats_;
     WalkerLights lights_;
     Steering steering_;
     Neighbours neighbours_;

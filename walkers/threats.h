@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "world/tick.h"
+
+namespace reprise::walkers {
+
+/// Cars that are about to roll over somebody: a lorry's or a bus's rear cuts the corner that people
+/// wait at, and not every driver brakes in time.
+class Threats {
+  public:
+    /// Takes in what rolls: SUMO's cars as `next` has them, those with mass as `last` had.
+    void look(const world::TickView& last, const world::TickDraft& next);
+
+    /// Which way somebody of that radius [m] at `p` gets out of the way of what comes within a
+    /// second: across it, to his own side. None: nothing comes that close.
+    std::optional<Eigen::Vector2d> way_out(const Eigen::Vector2d& p, double radius) const;
+
+  private:
+    struct Threat {
+        Eigen::Vector2d middle;
+        Eigen::Vector2d ahead;
+        double rear = 0;  ///< [m] along `ahead`, of what the body passes over within a second
+        double front = 0;
+        double half_width = 0;
+    };
+
+    void add(const Eigen::Vector2d& rear_axle,
+             const Eigen::Vector2d& ahead,
+             double speed,
+             double acceleration,
+             std::uint16_t model);
+
+    std::vector<Threat> threats_;  ///< SUMO's cars, then those with mass, each by id
+};
+
+}  // namespace reprise::walkers
