@@ -252,15 +252,11 @@ Frame FrameChannel::receive(const Patience& patience) {
     Header header;
     Descriptor came_along;
     if (reads_whole_messages_ && ahead_.empty()) {
-        ahead_.resize(sizeof(header) + last_size_);
-        std::size_t came = 0;
-        try {
-            came = read_some(ahead_.data(), ahead_.size(), wait, came_along);
-        } catch (const ChannelFault&) {
-            ahead_.clear();
-            throw;
-        }
-        ahead_.resize(came);
+        // Not into ahead_: while it waits, has_input() is asked.
+        std::array<std::uint8_t, sizeof(header) + longest_ahead> room;
+        const std::size_t came =
+            read_some(room.data(), sizeof(header) + last_size_, wait, came_along);
+        ahead_.assign(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(came));
     }
     read(&header, sizeof(header), wait, came_along);
     last_size_ = std::min<std::size_t>(header.size, longest_ahead);
