@@ -20,7 +20,7 @@ using testing::Not;
 
 constexpr const char* small_scenario = R"(return scenario 'small' {
     town = 'town1', duration = 2, seed = 7, cars = 5,
-    params = { speed_kmh = 36, limit = 60, word = 'hello' },
+    params = { speed_kmh = 26, limit = 60, word = 'hello' },
     run = function(p)
         local lane = pick_lane{ length = 90, straight = true }
         local ego = spawn{ name = 'ego', model = 'sedan', driver = 'autopilot',
@@ -150,8 +150,8 @@ INSTANTIATE_TEST_SUITE_P(
                "'good day'",
                {"events changed", "printed 'hello'", "printed 'good day'", "small.lua:10"}},
         Change{"Numbers",
-               "speed_kmh = 36",
-               "speed_kmh = 37",
+               "speed_kmh = 26",
+               "speed_kmh = 27",
                {"only numbers changed", "first differ between 0.00 s and 1.00 s", "ego#1 x"}}),
     [](const testing::TestParamInfo<Change>& tested) { return tested.param.name; });
 
@@ -166,7 +166,7 @@ TEST_F(Goldens, KeptTraceTellsTheExactTick) {
 
 /// Another version of the program: a copy of ours in which one line of the fingerprint is another.
 TEST_F(Goldens, AnotherBuildIsNamedLineByLine) {
-    edit("s/small.lua", "speed_kmh = 36", "speed_kmh = 37");
+    edit("s/small.lua", "speed_kmh = 26", "speed_kmh = 27");
     const std::string program = with_runner("exec ./other-run \"$@\"\n");
     std::string bytes = read_file(fs::path(REPRISE_PROGRAM).parent_path() / "reprise-run");
     const std::string flags = "-ffp-contract=off -march";
