@@ -115,7 +115,7 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
     traffic_.look(last, next);
     threats_.look(last, next);
     lay_down(last, tick);
-    remove_hit(next);
+    remove_hit_and_lost(next);
     fill_up(last, next);
 
     // Everybody as the others see him.
@@ -143,8 +143,10 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
         avoid(walker);
         flee(walker);
     }
-    for (Walker& walker : walkers_)
+    for (Walker& walker : walkers_) {
         step(walker, tick);
+        watch(walker, tick);
+    }
     for (const Walker& walker : walkers_)
         write(walker, next);
 }
@@ -167,9 +169,16 @@ void Crowd::lay_down(const world::TickView& last, std::uint64_t tick) {
     }
 }
 
-void Crowd::remove_hit(world::TickDraft& next) {
+/// Who has lain long enough; and who gets nowhere, as in a corner that no way leads out of: cars
+/// would wait for him for ever.
+void Crowd::remove_hit_and_lost(world::TickDraft& next) {
+    constexpr double lost_for = 15;  // [s]
+    const auto lost_ticks = static_cast<std::uint64_t>(lost_for / step_);
     std::erase_if(walkers_, [&](const Walker& walker) {
-        if (walker.down_until == 0 || next.tick.index < walker.down_until)
+        const bool lain = walker.down_until != 0 && next.tick.index >= walker.down_until;
+        const bool lost =
+            walker.down_until == 0 && next.tick.index > walker.was_at_tick + lost_ticks;
+        if (!lain && !lost)
             return false;
         world::EventT event;
         event.kind = world::EventKind::despawned;
@@ -282,6 +291,8 @@ bool Crowd::add_friend(world::TickDraft& next) {
 
 void Crowd::appear(Walker walker, world::TickDraft& next) {
     walker.place.position.z() = ground_->height(walker.place.position);
+    walker.was_at_tick = next.tick.index;
+    walker.was_at = walker.place.position.head<2>();
     ++next_id_;
     world::EventT event;
     event.kind = world::EventKind::spawned;
@@ -446,6 +457,18 @@ double Crowd::speed_at_gate(Walker& walker, double speed) {
     return std::min(speed, std::max(0.0, 1.5 * (left - hold)));
 }
 
+/// Does he get on, or wait as he should?
+void Crowd::watch(Walker& walker, std::uint64_t tick) {
+    constexpr double on = 1;  // [m]
+    const Eigen::Vector2d p = walker.place.position.head<2>();
+    const bool on_road = map_of(walker.person).surface(walker.place) != Surface::sidewalk;
+    const bool waits = tick < walker.pause_until || walker.waited > 0 || walker.way.empty();
+    if ((on_road || !waits) && (p - walker.was_at).norm() < on)
+        return;
+    walker.was_at = p;
+    walker.was_at_tick = tick;
+}
+
 void Crowd::avoid(Walker& walker) {
     if (walker.wanted.squaredNorm() < 1e-6)
         return;
@@ -557,8 +580,12 @@ void Crowd::add_to(world::Hasher& hasher) const {
         hasher.add(walker.id);
         hasher.add(walker.place.polygon);
         hasher.add(world::to_vec3(walker.place.position));
-        for (const double value :
-             {walker.velocity.x(), walker.velocity.y(), walker.yaw, walker.phase})
+        for (const double value : {walker.velocity.x(),
+                                   walker.velocity.y(),
+                                   walker.yaw,
+                                   walker.phase,
+                                   walker.was_at.x(),
+                                   walker.was_at.y()})
             hasher.add(value);
         for (const std::uint64_t count : {std::uint64_t{walker.way.size()},
                                           std::uint64_t{walker.corner},
@@ -566,6 +593,7 @@ void Crowd::add_to(world::Hasher& hasher) const {
                                           std::uint64_t{walker.waited},
                                           std::uint64_t{walker.stuck},
                                           walker.pause_until,
+                                          walker.was_at_tick,
                                           walker.down_until,
                                           walker.draws})
             hasher.add(count);

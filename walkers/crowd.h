@@ -61,10 +61,12 @@ class Crowd {
         std::vector<WalkMap::Step> way;  ///< empty: has none
         std::size_t corner = 0;          ///< of the way, that he walks to
         std::vector<Gate> gates;
-        std::size_t gate = 0;           ///< the next one of them
-        bool may_enter = false;         ///< the next gate, in this tick
-        std::uint32_t waited = 0;       ///< [ticks] at the next gate
-        std::uint32_t stuck = 0;        ///< [ticks] in somebody's way
+        std::size_t gate = 0;          ///< the next one of them
+        bool may_enter = false;        ///< the next gate, in this tick
+        std::uint32_t waited = 0;      ///< [ticks] at the next gate
+        std::uint32_t stuck = 0;       ///< [ticks] in somebody's way
+        Eigen::Vector2d was_at{0, 0};  ///< where he was last seen to get on, or to wait
+        std::uint64_t was_at_tick = 0;
         std::uint64_t pause_until = 0;  ///< tick until which he stands and looks
         std::uint64_t down_until = 0;   ///< 0: on his feet; else the tick of his removal
         std::uint64_t draws = 0;        ///< of goals so far
@@ -77,7 +79,8 @@ class Crowd {
     const Walker* find(std::uint32_t id) const;
 
     void lay_down(const world::TickView& last, std::uint64_t tick);
-    void remove_hit(world::TickDraft& next);
+    void remove_hit_and_lost(world::TickDraft& next);
+    void watch(Walker& walker, std::uint64_t tick);
     void fill_up(const world::TickView& last, world::TickDraft& next);
     bool add(const world::TickView& last, world::TickDraft& next);
     bool add_friend(world::TickDraft& next);
