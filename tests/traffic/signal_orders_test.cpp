@@ -62,11 +62,12 @@ TEST(SignalOrders, AreShownForTheirTimeAndThenTheProgramGoesOnAsIfNothingHadBeen
         const Colors& late = alone[static_cast<std::size_t>(std::max(tick - 2, 0))];
         for (std::size_t i = 0; i < colors.size(); ++i) {
             const bool ordered = i == signal && tick >= first && tick < first + held;
-            if (ordered)
+            if (ordered) {
                 ASSERT_EQ(colors[i], SignalColor::yellow) << "tick " << tick;
-            else
+            } else {
                 ASSERT_TRUE(colors[i] == expected[i] || colors[i] == late[i])
                     << "signal " << i << " in tick " << tick;
+            }
         }
         if (tick >= first + held + 1) {
             ASSERT_EQ(colors, expected) << "tick " << tick;

@@ -72,7 +72,7 @@ TEST(Weather, ChangesEvenlyOverItsTime) {
     const auto said = weathers(stage.commands);
     ASSERT_EQ(said.size(), 10U) << "a command in each tick of half a second";
     for (std::size_t i = 0; i < said.size(); ++i)
-        EXPECT_NEAR(static_cast<double>(said[i].weather.rain()), i + 1.0, 1e-6);
+        EXPECT_NEAR(static_cast<double>(said[i].weather.rain()), static_cast<double>(i + 1), 1e-6);
     EXPECT_EQ(said.back().weather.cloud_cover(), 1.0F);
     EXPECT_EQ(said.back().line, 1U);
 }

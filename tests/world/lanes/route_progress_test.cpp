@@ -100,8 +100,9 @@ TEST(RouteProgress, OfAWayThatPassesAStreetTwiceCountsBoth) {
     for (double along = 40; along < 390; along += 2, driven += 2) {
         const auto lap = static_cast<std::uint32_t>(along / 100);
         progress.drive_on(town, LanePlace{lap % 2 == 0 ? 1U : 3U, along - lap * 100}, 2, front);
-        if (along < 380)
+        if (along < 380) {
             EXPECT_NEAR(progress.share(), driven / 350, 1e-9) << along;
+        }
     }
     EXPECT_EQ(progress.share(), 1);
 }

@@ -82,7 +82,7 @@ class Car {
 }  // namespace
 
 TEST(RedLightWatch, SeesWhoCrossesTheLineAtRed) {
-    for (const auto [color, is] : {std::pair(red, true),
+    for (const auto& [color, is] : {std::pair(red, true),
                                    {SignalColor::red_yellow, true},
                                    {SignalColor::yellow, false},
                                    {green, false},
