@@ -83,11 +83,11 @@ class Car {
 
 TEST(RedLightWatch, SeesWhoCrossesTheLineAtRed) {
     for (const auto& [color, is] : {std::pair(red, true),
-                                   {SignalColor::red_yellow, true},
-                                   {SignalColor::yellow, false},
-                                   {green, false},
-                                   {SignalColor::green_minor, false},
-                                   {SignalColor::off, false}}) {
+                                    {SignalColor::red_yellow, true},
+                                    {SignalColor::yellow, false},
+                                    {green, false},
+                                    {SignalColor::green_minor, false},
+                                    {SignalColor::off, false}}) {
         Car car({color, color, color});
         car.drive({30, -1.75}, {50 - bumper - 0.1, -1.75}, 0);
         EXPECT_FALSE(car.ran_red()) << "it is still before the line";
