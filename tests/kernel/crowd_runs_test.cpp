@@ -68,6 +68,24 @@ TEST(CrowdRuns, WhereNobodyWalksTheOtherNumbersChangeNothing) {
     }
 }
 
+TEST(CrowdRuns, NobodyIsHitAmongAHundredCars) {
+    world::Recording recording =
+        in_town1("spawn{ name = 'ego', model = 'sedan', driver = 'autopilot' } wait(600)", 100, 60);
+    recording.episode.walkers = 100;
+    recording.episode.walker_seed = recording.episode.seed = 7;
+    recording.episode.jaywalkers = 0.1;
+    for (const KeptTick& tick : run(recording)) {
+        const replay::RecordedTick recorded = tick.recorded();
+        if (recorded.view.tick->events() == nullptr)
+            continue;
+        for (const world::Event* event : *recorded.view.tick->events())
+            EXPECT_FALSE(event->kind() == world::EventKind::collision &&
+                         event->other() >= walkers::first_walker_id)
+                << event->actor() << " hits " << event->other() << " in tick "
+                << recorded.view.index();
+    }
+}
+
 TEST(CrowdRuns, IdsOfCarsAndWalkersNeverMeet) {
     const std::vector<KeptTick> ticks = run(street_life(30, 1));
     for (const KeptTick& tick : ticks) {

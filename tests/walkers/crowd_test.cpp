@@ -205,6 +205,34 @@ TEST(Crowd, KeepsToTheRulesForTwoMinutes) {
     EXPECT_GT(static_cast<double>(walking), 0.6 * 100 * 2400) << "most are on their way";
 }
 
+/// Cars wait for who is there: nobody may stay for good.
+TEST(Crowd, NobodyStandsOnACrossingForLong) {
+    constexpr int patience = 320;  // [ticks]
+
+    struct Seen {
+        Eigen::Vector3d place;
+        int tick = 0;
+    };
+
+    for (const std::uint64_t seed : {3U, 4U, 11U}) {
+        Scene scene(100, 0.1, seed);
+        std::map<std::uint32_t, Seen> seen;
+        for (int tick = 1; tick <= 2400; ++tick)
+            for (const world::WalkerState& walker : scene.step()) {
+                const Eigen::Vector3d place = place_of(walker);
+                const auto [known, is_new] = seen.try_emplace(walker.id(), Seen{place, tick});
+                const auto& lanes = scene.town().lanes;
+                const bool on_road = std::any_of(lanes.begin(), lanes.end(), [&](const auto& lane) {
+                    return lane.kind == world::LaneKind::crossing && is_on(lane, place, -1, 0);
+                });
+                if (!on_road || (place - known->second.place).norm() > 1)
+                    known->second = {place, tick};
+                ASSERT_LT(tick - known->second.tick, patience)
+                    << walker.id() << " of seed " << seed << " in tick " << tick;
+            }
+    }
+}
+
 TEST(Crowd, IsTheSameForTheSameSeedAndAnotherForAnother) {
     Scene one(60);
     Scene same(60);
