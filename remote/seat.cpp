@@ -91,8 +91,11 @@ struct Seat::Parts {
         channel.reset();
     }
 
-    /// It said something else than was to be said now.
+    /// It said something else than was to be said now. What a program prints that ends thereby (a
+    /// traceback) comes before our line, not into it.
     Lost said_else(Frame frame, const std::string& what) {
+        if (program && frame.kind == Kind::goodbye)
+            program->wait(1);
         Lost result = lost(what);
         result.said = std::move(frame);
         return result;
