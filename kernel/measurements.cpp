@@ -146,7 +146,9 @@ void measure(const world::TownT& town,
                                             nearest_ahead(vehicle, next).gap,
                                             vehicle.id(),
                                             lane ? lane->lane : world::none,
-                                            std::uint64_t{0});  // halted: see note_blockages
+                                            std::uint64_t{0},  // halted: see note_blockages
+                                            lane ? town.lanes[lane->lane].speed_limit : 0.0,
+                                            -1.0);  // no goal
     }
 }
 

@@ -194,7 +194,11 @@ world::VehicleState Placements::shown(const Car& car) const {
             0,
             car.id,
             car.model,
-            car.lamps};
+            car.lamps,
+            0,
+            0,
+            0,
+            0};
 }
 
 std::vector<world::VehicleState> Placements::advance(Cars& cars,

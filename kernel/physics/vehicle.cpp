@@ -383,7 +383,11 @@ world::VehicleState Vehicle::state_after(double step) {
             odometer_,
             id_,
             model_index_,
-            lamps};
+            lamps,
+            0,
+            0,
+            0,
+            0};
 }
 
 world::WheelState Vehicle::wheel(int index) const {
@@ -398,7 +402,7 @@ world::WheelState Vehicle::wheel(int index) const {
             static_cast<std::uint8_t>(index),
             wheel.m_raycastInfo.m_isInContact,
             static_cast<std::uint8_t>(surface),
-            0,
+            false,
             0};
 }
 

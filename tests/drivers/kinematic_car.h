@@ -59,6 +59,10 @@ struct KinematicCar {
                 odometer,
                 id,
                 model,
+                0,
+                0,
+                0,
+                0,
                 0};
     }
 

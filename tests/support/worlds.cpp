@@ -106,7 +106,7 @@ world::VehicleState vehicle_at(std::uint32_t id, double x, double y, double yaw,
     const world::Quat orientation(std::cos(yaw / 2), 0, 0, std::sin(yaw / 2));
     const world::Vec3 velocity(speed * std::cos(yaw), speed * std::sin(yaw), 0);
     const world::Vec3 zero(0, 0, 0);
-    return {world::Vec3(x, y, 0), orientation, velocity, zero, zero, 0, 0, id, 0, 0};
+    return {world::Vec3(x, y, 0), orientation, velocity, zero, zero, 0, 0, id, 0, 0, 0, 0, 0, 0};
 }
 
 world::SealedTick tick_with(std::vector<world::VehicleState> vehicles,

@@ -124,9 +124,9 @@ TEST(Schema, KeepsTheRecordedSizes) {
     EXPECT_EQ(sizeof(world::Digest128), 16u);
     EXPECT_EQ(sizeof(world::Weather), 40u);
     EXPECT_EQ(sizeof(world::Control), 32u);
-    EXPECT_EQ(sizeof(world::VehicleState), 152u);
+    EXPECT_EQ(sizeof(world::VehicleState), 160u);
     EXPECT_EQ(sizeof(world::WheelState), 48u);
-    EXPECT_EQ(sizeof(world::Measurement), 96u);
+    EXPECT_EQ(sizeof(world::Measurement), 112u);
     EXPECT_EQ(sizeof(world::Digests), 80u);
     EXPECT_EQ(sizeof(world::CarState), 56u);
     EXPECT_EQ(sizeof(world::WalkerState), 48u);
