@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "world/geometry2d.h"
 #include "world/units.h"
@@ -29,13 +30,17 @@ double half_extent(const Footprint& box, const Eigen::Vector2d& direction) {
 
 }  // namespace
 
-bool Obstructions::is_still_off(const Footprint& footprint, const Eigen::Vector2d& tip) const {
+/// Null: is to be looked at.
+const Obstructions::Off* Obstructions::still_off(const Footprint& footprint,
+                                                 const Eigen::Vector2d& tip) const {
     const auto at = std::lower_bound(
         off_.begin(), off_.end(), footprint.id, [](const Off& one, std::uint32_t id) {
             return one.id < id;
         });
-    return at != off_.end() && at->id == footprint.id &&
-           (footprint.centre - at->place).norm() < at->clear && (tip - at->tip).norm() < at->clear;
+    const bool is_off = at != off_.end() && at->id == footprint.id &&
+                        (footprint.centre - at->place).norm() < at->clear &&
+                        (tip - at->tip).norm() < at->clear;
+    return is_off ? &*at : nullptr;
 }
 
 void Obstructions::add(const Footprint& footprint) {
@@ -46,14 +51,12 @@ void Obstructions::add(const Footprint& footprint) {
     const double radius = std::hypot(footprint.half_length, footprint.half_width);
     const bool is_small = radius < small && way.norm() < longest_step;
     const Eigen::Vector2d tip = footprint.centre + way;
-    if (is_small && is_still_off(footprint, tip)) {
-        next_off_.push_back(*std::lower_bound(
-            off_.begin(), off_.end(), footprint.id, [](const Off& one, std::uint32_t id) {
-                return one.id < id;
-            }));
+    if (const Off* off = is_small ? still_off(footprint, tip) : nullptr) {
+        next_off_.push_back(*off);
         return;
     }
     const double reach = radius + beside_the_lane + way.norm();
+    const double step = way.norm();
     double clear = most_clear;
     const std::size_t before = all_.size();
     for (const std::uint32_t index : lanes_->near(place, reach + (is_small ? most_clear : 0))) {
@@ -63,10 +66,12 @@ void Obstructions::add(const Footprint& footprint) {
         const world::LaneProjection at = world::project(lane, place);
         if (is_small) {
             // Nearer than that no lane's surface is, at the place itself and at the tip.
-            const Eigen::Vector3d p_tip(tip.x(), tip.y(), place.z());
-            const double nearest =
-                std::min(at.distance, world::project(lane, p_tip).distance) - lane.width / 2;
-            clear = std::min(clear, nearest - radius - 2 * beside_the_lane);
+            const double room = lane.width / 2 + radius + 2 * beside_the_lane;
+            clear = std::min(clear, at.distance - room);
+            if (at.distance - step - room < clear) {  // else the tip is no nearer than others are
+                const Eigen::Vector3d p_tip(tip.x(), tip.y(), place.z());
+                clear = std::min(clear, world::project(lane, p_tip).distance - room);
+            }
         }
         if (std::abs(at.t) > lane.width / 2 + reach)
             continue;
@@ -120,6 +125,10 @@ void Obstructions::look(const world::TickView& last, std::span<const Car> cars) 
     next_off_.clear();
     for (const Footprint& footprint : footprints_)
         add(footprint);
+    std::stable_sort(next_off_.begin(), next_off_.end(), [](const Off& one, const Off& other) {
+        return one.id < other.id;
+    });
+    std::swap(off_, next_off_);
     std::stable_sort(
         all_.begin(), all_.end(), [](const Obstruction& one, const Obstruction& other) {
             return std::tie(one.lane, one.begin) < std::tie(other.lane, other.begin);

@@ -62,7 +62,7 @@ class Obstructions {
     };
 
     void add(const Footprint& footprint);
-    bool is_still_off(const Footprint& footprint, const Eigen::Vector2d& tip) const;
+    const Off* still_off(const Footprint& footprint, const Eigen::Vector2d& tip) const;
 
     const world::TownT* town_;
     const world::LaneMap* lanes_;
