@@ -140,6 +140,9 @@ void BoxGrid::for_each_cell(const Box& box, Visit&& visit) const {
 std::vector<std::uint32_t> BoxGrid::near(const Box& box) const {
     std::vector<std::uint32_t> found;
     int cells = 0;
+    std::size_t most = 0;
+    for_each_cell(box, [&](std::size_t cell) { most += begin_[cell + 1] - begin_[cell]; });
+    found.reserve(most);
     for_each_cell(box, [&](std::size_t cell) {
         ++cells;
         found.insert(found.end(), items_.begin() + begin_[cell], items_.begin() + begin_[cell + 1]);

@@ -47,11 +47,33 @@ std::optional<double> height_at(const GroundMesh& mesh,
 
 }  // namespace
 
+/// Where height_at() may find something. Of what carries nobody: nowhere.
+GroundProbe::Extent GroundProbe::extent_of(const GroundMesh& mesh, std::size_t triangle) {
+    const Surface surface = mesh.surfaces[triangle];
+    if (surface == Surface::kerb || surface == Surface::marking || surface == Surface::deck)
+        return {};
+    const auto& [first, second, third] = mesh.triangles[triangle];
+    const Eigen::Vector2d corner = mesh.vertices[first].head<2>();
+    const double area = std::abs(world::cross(mesh.vertices[second].head<2>() - corner,
+                                              mesh.vertices[third].head<2>() - corner));
+    world::Box box = box_of(mesh, triangle);
+    // A splinter is hit beside it: by as much of its size as it is thinner than the seam allowed.
+    constexpr double rounding = 0.01;  // [m]
+    const double beside = (box.high - box.low).sum() * 4 * on_the_edge / std::max(area, least_area);
+    return {static_cast<float>(box.low.x() - beside - rounding),
+            static_cast<float>(box.low.y() - beside - rounding),
+            static_cast<float>(box.high.x() + beside + rounding),
+            static_cast<float>(box.high.y() + beside + rounding)};
+}
+
 GroundProbe::GroundProbe(const GroundMesh& mesh) : mesh_(&mesh) {
     std::vector<world::BoxGrid::Entry> entries;
     entries.reserve(mesh.triangles.size());
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+    extents_.reserve(mesh.triangles.size());
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         entries.push_back({box_of(mesh, i), i});
+        extents_.push_back(extent_of(mesh, i));
+    }
     by_place_ = world::BoxGrid(entries, cell);
 }
 
@@ -61,12 +83,13 @@ std::optional<GroundProbe::Hit> GroundProbe::below(const Eigen::Vector3d& from_w
     place.take(p);
     std::optional<Hit> highest;
     for (const std::uint32_t triangle : by_place_.near(place)) {
-        const Surface surface = mesh_->surfaces[triangle];
-        if (surface == Surface::kerb || surface == Surface::marking || surface == Surface::deck)
+        const Extent& extent = extents_[triangle];
+        if (p.x() < static_cast<double>(extent.west) || p.x() > static_cast<double>(extent.east) ||
+            p.y() < static_cast<double>(extent.south) || p.y() > static_cast<double>(extent.north))
             continue;
         const std::optional<double> z = height_at(*mesh_, triangle, p);
         if (z && *z <= from_world.z() && (!highest || *z > highest->z))
-            highest = Hit{*z, surface};
+            highest = Hit{*z, mesh_->surfaces[triangle]};
     }
     return highest;
 }

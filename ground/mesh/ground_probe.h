@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -33,7 +34,18 @@ class GroundProbe {
     std::vector<std::uint32_t> near(const world::Box& box) const { return by_place_.near(box); }
 
   private:
+    /// In plan, of one triangle. [m] East and north of the world's origin.
+    struct Extent {
+        float west = 1;
+        float south = 1;
+        float east = -1;
+        float north = -1;
+    };
+
+    static Extent extent_of(const GroundMesh& mesh, std::size_t triangle);
+
     const GroundMesh* mesh_;
+    std::vector<Extent> extents_;  ///< [triangle]
     world::BoxGrid by_place_;
 };
 
