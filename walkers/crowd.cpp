@@ -379,6 +379,7 @@ void Crowd::want(Walker& walker, std::uint64_t tick) {
     constexpr std::uint32_t hopeless = 160;   // ticks in somebody's way
     walker.wanted.setZero();
     walker.may_enter = false;
+    walker.on_road = map_of(walker.person).surface(walker.place) != Surface::sidewalk;
     if (walker.down_until != 0 || tick < walker.pause_until)
         return;
     const Eigen::Vector2d p = walker.place.position.head<2>();
@@ -422,13 +423,13 @@ void Crowd::want(Walker& walker, std::uint64_t tick) {
 double Crowd::speed_at_gate(Walker& walker, double speed) {
     constexpr double hold = 0.2;         // [m] before the road
     constexpr std::uint32_t asked = 60;  // ticks of waiting, behind which one trusts in brakes
-    const bool on_road = map_of(walker.person).surface(walker.place) != Surface::sidewalk;
     while (walker.gate < walker.gates.size()) {
         const Gate& gate = walker.gates[walker.gate];
-        const bool behind = !on_road && gate.progress(walker.place.position) > gate.length() / 2;
+        const bool behind =
+            !walker.on_road && gate.progress(walker.place.position) > gate.length() / 2;
         if (!behind && walker.corner <= gate.last + 1)
             break;
-        if (!behind && on_road)
+        if (!behind && walker.on_road)
             break;
         ++walker.gate;
         walker.waited = 0;
@@ -437,7 +438,7 @@ double Crowd::speed_at_gate(Walker& walker, double speed) {
         return speed;
     const Gate& gate = walker.gates[walker.gate];
     Pace pace{gate.progress(walker.place.position), speed, Trust::none};
-    if (on_road) {
+    if (walker.on_road) {
         pace.trust = gate.marked ? Trust::seen : Trust::none;
         return must_hold(gate, pace, traffic_) ? 0 : speed * 1.1;
     }
@@ -474,8 +475,7 @@ void Crowd::avoid(Walker& walker) {
         return;
     const Body self{
         walker.place.position.head<2>(), walker.velocity, walker.person.radius, walker.id};
-    const bool on_road = map_of(walker.person).surface(walker.place) != Surface::sidewalk;
-    neighbours_.around(self, elbow_reach, on_road, around_);
+    neighbours_.around(self, elbow_reach, walker.on_road, around_);
     if (!around_.empty())
         walker.wanted = steering_.choose(self, walker.wanted, around_);
 }
@@ -492,8 +492,7 @@ void Crowd::flee(Walker& walker) const {
 /// Nobody steps onto a road whose gate does not let him.
 bool Crowd::is_allowed(const Walker& walker, const WalkMap::Place& place) {
     const WalkMap& map = map_of(walker.person);
-    return walker.may_enter || map.surface(place) == Surface::sidewalk ||
-           map.surface(walker.place) != Surface::sidewalk;
+    return walker.may_enter || walker.on_road || map.surface(place) == Surface::sidewalk;
 }
 
 void Crowd::step(Walker& walker, std::uint64_t tick) {
@@ -505,7 +504,6 @@ void Crowd::step(Walker& walker, std::uint64_t tick) {
         change *= most / change.norm();
     const Eigen::Vector2d velocity = walker.velocity + change;
     const Body self{from, walker.velocity, walker.person.radius, walker.id};
-    const bool on_road = map.surface(walker.place) != Surface::sidewalk;
     // Straight on, or past whoever is there by now, or not at all.
     bool moved = false;
     for (const double angle : {0.0, 0.6, -0.6, 1.2, -1.2}) {
@@ -514,7 +512,8 @@ void Crowd::step(Walker& walker, std::uint64_t tick) {
         const Eigen::Vector2d way = step_ * turned(velocity, angle);
         const WalkMap::Place to =
             map.slide(walker.place, walker.place.position + Eigen::Vector3d(way.x(), way.y(), 0));
-        if (!is_allowed(walker, to) || !neighbours_.is_clear(self, to.position.head<2>(), on_road))
+        if (!is_allowed(walker, to) ||
+            !neighbours_.is_clear(self, to.position.head<2>(), walker.on_road))
             continue;
         walker.place = to;
         moved = true;

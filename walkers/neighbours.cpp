@@ -1,22 +1,27 @@
 #include "walkers/neighbours.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "world/check.h"
 
 namespace reprise::walkers {
 
 void Neighbours::add(const Body& body, bool of_car) {
-    if (bodies_.empty())
+    if (added_.empty())
         widest_ = 0;
-    bodies_.push_back({body, body.place.x(), of_car});
+    added_.push_back({body, body.place.x(), of_car});
     widest_ = std::max(widest_, body.radius);
 }
 
 void Neighbours::sort() {
-    std::stable_sort(bodies_.begin(), bodies_.end(), [](const Entry& one, const Entry& other) {
-        return one.x != other.x ? one.x < other.x : one.body.id < other.body.id;
-    });
+    keys_.clear();
+    for (std::uint32_t i = 0; i < added_.size(); ++i)
+        keys_.push_back({added_[i].x, added_[i].body.id, i});
+    std::sort(keys_.begin(), keys_.end());
+    bodies_.clear();
+    for (const Key& key : keys_)
+        bodies_.push_back(added_[key.index]);
     by_id_.clear();
     for (std::uint32_t i = 0; i < bodies_.size(); ++i)
         if (!bodies_[i].of_car)
@@ -71,9 +76,11 @@ bool Neighbours::is_clear(const Body& self, const Eigen::Vector2d& to, bool with
     bool clear = true;
     visit(self, self.radius + widest_ + touching, with_cars, [&](const Body& body) {
         const double room = self.radius + body.radius + touching;
+        if (!clear || std::abs(body.place.y() - to.y()) >= room)
+            return;
         const double now = (body.place - self.place).norm();
         const double then = (body.place - to).norm();
-        clear = clear && (then >= room || then > now);
+        clear = then >= room || then > now;
     });
     return clear;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -13,7 +14,7 @@ class Neighbours {
   public:
     static constexpr double drift = 0.5;  ///< [m]
 
-    void clear() { bodies_.clear(); }
+    void clear() { added_.clear(); }
 
     /// `of_car`: only who is on the road keeps away from it.
     void add(const Body& body, bool of_car);
@@ -44,6 +45,17 @@ class Neighbours {
     template <typename Visit>
     void visit(const Body& self, double reach, bool with_cars, Visit&& see) const;
 
+    /// Small, for sorting.
+    struct Key {
+        double x = 0;
+        std::uint32_t id = 0;
+        std::uint32_t index = 0;  ///< as it was added
+
+        auto operator<=>(const Key&) const = default;
+    };
+
+    std::vector<Entry> added_;          ///< as they were added
+    std::vector<Key> keys_;             ///< of them
     std::vector<Entry> bodies_;         ///< by (x, id)
     std::vector<std::uint32_t> by_id_;  ///< indices of those that are no cars'
     double widest_ = 0;                 ///< [m] radius

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "world/check.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
@@ -14,6 +16,7 @@ namespace {
 constexpr double foresight = 1;  // [s]
 constexpr double margin = 0.3;   // [m] that nobody likes a car to come nearer
 constexpr double rolls = 0.3;    // [m/s]
+constexpr double widest = 1;     // [m] radius of anybody on foot
 
 }  // namespace
 
@@ -30,11 +33,16 @@ void Threats::add(const Eigen::Vector2d& rear_axle,
     const double driven = std::copysign(std::abs(speed) * time - braking * time * time / 2, speed);
     const world::VehicleModel& body = world::vehicle_models()[model];
     const double middle = body.length / 2 - body.rear_overhang;
-    threats_.push_back({rear_axle + middle * ahead,
-                        ahead,
-                        -body.length / 2 + std::min(0.0, driven),
-                        body.length / 2 + std::max(0.0, driven),
-                        body.width / 2});
+    Threat threat{rear_axle + middle * ahead,
+                  ahead,
+                  -body.length / 2 + std::min(0.0, driven),
+                  body.length / 2 + std::max(0.0, driven),
+                  body.width / 2};
+    // Of most walkers most threats are far away: two comparisons tell.
+    const double beside = threat.half_width + widest + margin;
+    for (const double end : {threat.rear - widest - margin, threat.front + widest + margin})
+        threat.around.take(threat.middle + end * ahead, beside);
+    threats_.push_back(threat);
 }
 
 void Threats::look(const world::TickView& last, const world::TickDraft& next) {
@@ -59,10 +67,14 @@ void Threats::look(const world::TickView& last, const world::TickDraft& next) {
 }
 
 std::optional<Eigen::Vector2d> Threats::way_out(const Eigen::Vector2d& p, double radius) const {
+    REPRISE_CHECK(radius <= widest, std::to_string(radius));
     const double room = radius + margin;
     std::optional<Eigen::Vector2d> way;
     double nearest = 0;
     for (const Threat& threat : threats_) {
+        if (p.x() < threat.around.low.x() || p.x() > threat.around.high.x() ||
+            p.y() < threat.around.low.y() || p.y() > threat.around.high.y())
+            continue;
         const Eigen::Vector2d from = p - threat.middle;
         const double along = from.dot(threat.ahead);
         if (along < threat.rear - room || along > threat.front + room)

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "world/geometry2d.h"
 #include "world/tick.h"
 
 namespace reprise::walkers {
@@ -28,6 +29,7 @@ class Threats {
         double rear = 0;  ///< [m] along `ahead`, of what the body passes over within a second
         double front = 0;
         double half_width = 0;
+        world::Box around{};  ///< whoever is outside of it is out of its reach
     };
 
     void add(const Eigen::Vector2d& rear_axle,
