@@ -52,17 +52,18 @@ world::TickDraft draft_after(const world::TickView& last) {
 }  // namespace
 
 struct Kernel::Parts {
-    Parts(const world::Recording& its_recording, const ground::GroundMesh* ground)
+    Parts(const world::Recording& its_recording, const ground::GroundMesh* made)
         : recording(its_recording),
           episode(recording.episode),
           town(recording.town),
+          ground(made != nullptr ? made : &own_ground.emplace(ground::build_ground(town))),
           lanes(town),
           scenario(episode, town, lanes),
           obstacles(ground::obstacles_of(town)),
           roster(episode, town, lanes, obstacles),
           background(episode, town, lanes, recording.network),
-          pedestrians(episode, town, lanes),
-          physics(episode, ground != nullptr ? *ground : ground::build_ground(town), obstacles),
+          pedestrians(episode, town, lanes, *ground),
+          physics(episode, *ground, obstacles),
           continued(replay::chain_seed(recording)),
           last(genesis(episode, continued)),
           infractions(town, world::seconds(1, episode.step_ns)),
@@ -71,6 +72,8 @@ struct Kernel::Parts {
     const world::Recording& recording;
     world::EpisodeT episode;  ///< of it script, parameters and limit change where a run branches
     const world::TownT& town;
+    std::optional<ground::GroundMesh> own_ground;  ///< where nobody made it before
+    const ground::GroundMesh* ground;
     world::LaneMap lanes;  ///< the run's only one
     scripting::Scenario scenario;
     std::vector<world::Obstacle> obstacles;

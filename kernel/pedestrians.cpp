@@ -26,9 +26,11 @@ bool is_raised(const world::LaneT& lane) {
 
 Pedestrians::Pedestrians(const world::EpisodeT& episode,
                          const world::TownT& town,
-                         const world::LaneMap& lanes)
+                         const world::LaneMap& lanes,
+                         const ground::GroundMesh& ground)
     : town_(&town),
       lanes_(&lanes),
+      ground_(&ground),
       seed_(episode.seed),
       step_(static_cast<double>(episode.step_ns) * 1e-9) {
     if (episode.walkers > 0)
@@ -37,7 +39,7 @@ Pedestrians::Pedestrians(const world::EpisodeT& episode,
 
 walkers::WalkingGround& Pedestrians::walking_ground() {
     if (!walking_ground_)
-        walking_ground_ = std::make_unique<walkers::WalkingGround>(*town_);
+        walking_ground_ = std::make_unique<walkers::WalkingGround>(*town_, ground_);
     return *walking_ground_;
 }
 

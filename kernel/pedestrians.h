@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ground/mesh/ground.h"
 #include "walkers/crowd.h"
 #include "walkers/walking_ground.h"
 #include "world/episode_generated.h"
@@ -24,10 +25,11 @@ using world::walk_cycle_length;
 /// And those in the background that the episode asks for (walkers::Crowd).
 class Pedestrians {
   public:
-    /// `town` and its `lanes` must outlive this.
+    /// `town`, its `lanes` and its `ground` must outlive this.
     Pedestrians(const world::EpisodeT& episode,
                 const world::TownT& town,
-                const world::LaneMap& lanes);
+                const world::LaneMap& lanes,
+                const ground::GroundMesh& ground);
 
     /// Stage 4. Carries out next's commands for walkers (spawn, walk, set_speed, free_speed,
     /// follow, teleport, set_velocity, despawn), moves everyone by one tick, and writes
@@ -78,6 +80,7 @@ class Pedestrians {
 
     const world::TownT* town_;
     const world::LaneMap* lanes_;
+    const ground::GroundMesh* ground_;
     std::uint64_t seed_;                                      ///< of the looks
     double step_;                                             ///< [s]
     std::vector<Walker> walkers_;                             ///< sorted by id

@@ -47,10 +47,10 @@ std::vector<world::Loop> crossings_in(const world::TownT& town) {
 
 }  // namespace
 
-WalkingGround::WalkingGround(const world::TownT& town)
+WalkingGround::WalkingGround(const world::TownT& town, const ground::GroundMesh* mesh)
     : town_(&town),
-      mesh_(ground::build_ground(town)),
-      probe_(mesh_),
+      mesh_(mesh != nullptr ? mesh : &own_mesh_.emplace(ground::build_ground(town))),
+      probe_(*mesh_),
       obstacles_(ground::obstacles_of(town)) {}
 
 WalkMap WalkingGround::make(bool roads) const {
@@ -60,7 +60,7 @@ WalkMap WalkingGround::make(bool roads) const {
     rules.simplification = 0.8F;
     rules.roads = roads;
     rules.heights = false;
-    return WalkMap(mesh_, rules, obstacles_, crossings_in(*town_));
+    return WalkMap(*mesh_, rules, obstacles_, crossings_in(*town_));
 }
 
 const WalkMap& WalkingGround::pavement() {

@@ -17,8 +17,10 @@ namespace reprise::walkers {
 /// out what stands there, and both are made when first asked for: a pure function of the town.
 class WalkingGround {
   public:
-    /// `town` must outlive this.
-    explicit WalkingGround(const world::TownT& town);
+    /// `town` must outlive this, and so must `mesh`, its ground, where that was made already.
+    explicit WalkingGround(const world::TownT& town, const ground::GroundMesh* mesh = nullptr);
+    WalkingGround(const WalkingGround&) = delete;
+    WalkingGround& operator=(const WalkingGround&) = delete;
 
     /// Town 1: 0.6 s, as streets().
     const WalkMap& pavement();
@@ -31,7 +33,8 @@ class WalkingGround {
     WalkMap make(bool roads) const;
 
     const world::TownT* town_;
-    ground::GroundMesh mesh_;
+    std::optional<ground::GroundMesh> own_mesh_;
+    const ground::GroundMesh* mesh_;
     ground::GroundProbe probe_;
     std::vector<world::Obstacle> obstacles_;
     std::optional<WalkMap> pavement_;

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ground/mesh/build_ground.h"
 #include "tests/kernel/whole_run.h"
 #include "tests/support/worlds.h"
 
@@ -93,7 +94,8 @@ TEST(Digests, PedestriansCoverEveryWalker) {
     using Tick = world::TickDraft;
     const world::Recording recording = test::in_town1("wait(1)", 0, 1);
     const world::LaneMap lanes(recording.town);
-    const Pedestrians pedestrians(recording.episode, recording.town, lanes);
+    const ground::GroundMesh ground = ground::build_ground(recording.town);
+    const Pedestrians pedestrians(recording.episode, recording.town, lanes, ground);
     expect_all_seen([&](const Tick& next) { return digest_of(pedestrians, next); },
                     {{"position",
                       [](Tick& next) {

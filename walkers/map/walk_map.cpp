@@ -2,8 +2,13 @@
 // roots, which are exact everywhere; ways are the same on every machine.
 #include "walkers/map/walk_map.h"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstring>
+#include <future>
+#include <system_error>
+#include <thread>
 
 #include <recastnavigation/DetourAlloc.h>
 #include <recastnavigation/DetourNavMesh.h>
@@ -29,6 +34,29 @@ ground::Surface surface_of(unsigned char area) {
     if (area == walk_sidewalk)
         return ground::Surface::sidewalk;
     return area == walk_crossing ? ground::Surface::crossing : ground::Surface::road;
+}
+
+/// Row by row. Tiles do not know of each other: as many at a time as the machine has cores.
+std::vector<WalkTile> build_all(const WalkTiles& source) {
+    constexpr unsigned most_workers = 8;
+    const auto columns = static_cast<std::size_t>(source.columns());
+    std::vector<WalkTile> tiles(columns * static_cast<std::size_t>(source.rows()));
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+        for (std::size_t i = next++; i < tiles.size(); i = next++)
+            tiles[i] = source.build(static_cast<int>(i % columns), static_cast<int>(i / columns));
+    };
+    std::vector<std::future<void>> helpers;
+    const unsigned workers = std::min(std::thread::hardware_concurrency(), most_workers);
+    try {
+        while (helpers.size() + 1 < std::min<std::size_t>(workers, tiles.size()))
+            helpers.push_back(std::async(std::launch::async, work));
+    } catch (const std::system_error&) {  // no more threads for us: fewer do it as well
+    }
+    work();
+    for (std::future<void>& helper : helpers)
+        helper.get();
+    return tiles;
 }
 
 }  // namespace
@@ -127,9 +155,8 @@ WalkMap::WalkMap(const ground::GroundMesh& ground,
     if (source.columns() == 0)
         return;
     mesh_->start(source);
-    for (int row = 0; row < source.rows(); ++row)
-        for (int column = 0; column < source.columns(); ++column)
-            mesh_->add(source.build(column, row));
+    for (const WalkTile& tile : build_all(source))
+        mesh_->add(tile);
 }
 
 WalkMap::~WalkMap() = default;
