@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "walkers/things.h"
 #include "world/check.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
@@ -21,51 +22,12 @@ using ground::Surface;
 using world::Purpose;
 
 constexpr double elbow_reach = 3;     // [m] whom one walks around
-constexpr double corner_reach = 0.4;  // [m] from which a corner is behind one
+constexpr double corner_reach = 0.4;  // [m] where the way on is clear; else
+constexpr double at_corner = 0.05;    // [m]
 constexpr double acceleration = 4;    // [m/s^2] people stop within half a second
 constexpr double turn_rate = 5;       // [rad/s] of somebody on his feet
 constexpr double beside = 0.8;        // [m] between two who walk together
 constexpr unsigned plans_a_tick = 4;  // ways found in one tick, behind the first
-
-/// Discs along a car.
-void add_car(const Eigen::Vector2d& rear_axle,
-             double yaw,
-             const Eigen::Vector2d& velocity,
-             const world::VehicleModel& model,
-             std::uint32_t id,
-             Neighbours& neighbours) {
-    const Eigen::Vector2d ahead = world::ahead_of(yaw);
-    const double radius = model.width / 2 + 0.1;
-    const double start = -model.rear_overhang + model.width / 2;
-    const double end = model.length - model.rear_overhang - model.width / 2;
-    const int count = 1 + static_cast<int>(std::ceil(std::max(0.0, end - start) / radius));
-    for (int i = 0; i < count; ++i) {
-        const double along = count > 1 ? start + (end - start) * i / (count - 1) : start;
-        neighbours.add({rear_axle + along * ahead, velocity, radius, id}, true);
-    }
-}
-
-void add_cars(const world::TickView& last, const world::TickDraft& next, Neighbours& neighbours) {
-    for (const world::CarState& car : next.traffic.cars) {
-        const double yaw = static_cast<double>(car.yaw());
-        add_car({car.position().x(), car.position().y()},
-                yaw,
-                static_cast<double>(car.speed()) * world::ahead_of(yaw),
-                world::vehicle_models()[car.model()],
-                car.id(),
-                neighbours);
-    }
-    for (const world::VehicleState& vehicle : last.vehicles()) {
-        const Eigen::Vector3d ahead =
-            world::to_eigen(vehicle.orientation()) * Eigen::Vector3d::UnitX();
-        add_car({vehicle.position().x(), vehicle.position().y()},
-                std::atan2(ahead.y(), ahead.x()),
-                {vehicle.velocity().x(), vehicle.velocity().y()},
-                world::vehicle_models()[vehicle.model()],
-                vehicle.id(),
-                neighbours);
-    }
-}
 
 Eigen::Vector2d turned(const Eigen::Vector2d& v, double angle) {
     const double cosine = std::cos(angle);
@@ -131,7 +93,7 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
         neighbours_.add(
             {walker.place.position.head<2>(), walker.velocity, walker.person.radius, walker.id},
             false);
-    add_cars(last, next, neighbours_);
+    add_things(last, next, neighbours_);
     neighbours_.sort();
 
     // Where to, around whom, and the step.
@@ -303,26 +265,38 @@ void Crowd::appear(Walker walker, world::TickDraft& next) {
     walkers_.push_back(std::move(walker));
 }
 
+/// To his own side of the straightest way, which everybody else takes as well; where the way is as
+/// clear there.
+void Crowd::keep_to_side(const WalkMap& map,
+                         const Walker& walker,
+                         std::vector<WalkMap::Step>& way) {
+    WalkMap::Place before = walker.place;
+    for (std::size_t i = 1; i + 1 < way.size(); ++i) {
+        const Eigen::Vector2d in = (way[i].position - way[i - 1].position).head<2>().normalized();
+        const Eigen::Vector2d out = (way[i + 1].position - way[i].position).head<2>().normalized();
+        const Eigen::Vector2d right = -world::turned_left(in + out).normalized();
+        const auto corner = map.nearest(way[i].position);
+        if (!corner)
+            continue;
+        WalkMap::Place at = *corner;
+        if (right.allFinite()) {
+            const Eigen::Vector2d aside = walker.person.side * right;
+            const WalkMap::Place there =
+                map.slide(at, at.position + Eigen::Vector3d(aside.x(), aside.y(), 0));
+            if (map.is_clear(before, there.position) && map.is_clear(there, way[i + 1].position))
+                at = there;
+        }
+        way[i].position = at.position;
+        before = at;
+    }
+}
+
 bool Crowd::take_way(Walker& walker, const WalkMap::Place& goal) {
     const WalkMap& map = map_of(walker.person);
     auto way = map.path(walker.place, goal);
     if (!way || way->size() < 2)
         return false;
-    // To one's own side of the straightest way, which everybody else takes as well.
-    for (std::size_t i = 1; i + 1 < way->size(); ++i) {
-        const Eigen::Vector2d in =
-            ((*way)[i].position - (*way)[i - 1].position).head<2>().normalized();
-        const Eigen::Vector2d out =
-            ((*way)[i + 1].position - (*way)[i].position).head<2>().normalized();
-        const Eigen::Vector2d right = -world::turned_left(in + out).normalized();
-        const auto corner = map.nearest((*way)[i].position);
-        if (!corner || !right.allFinite())
-            continue;
-        const Eigen::Vector2d aside = walker.person.side * right;
-        (*way)[i].position =
-            map.slide(*corner, corner->position + Eigen::Vector3d(aside.x(), aside.y(), 0))
-                .position;
-    }
+    keep_to_side(map, walker, *way);
     walker.way = std::move(*way);
     walker.corner = 1;
     walker.gates = gates_of(walker.way, *town_, *lanes_, lights_, traffic_);
@@ -390,6 +364,10 @@ void Crowd::want(Walker& walker, std::uint64_t tick) {
         const Eigen::Vector2d leg =
             (walker.way[walker.corner].position - walker.way[walker.corner - 1].position).head<2>();
         if (gap.norm() > corner_reach && (gap.norm() > 2 * corner_reach || gap.dot(leg) > 0))
+            break;
+        // Who cuts a corner of the map would walk against its edge, and stay there.
+        if (gap.norm() > at_corner && walker.corner + 1 < walker.way.size() &&
+            !map_of(walker.person).is_clear(walker.place, walker.way[walker.corner + 1].position))
             break;
         ++walker.corner;
     }

@@ -90,6 +90,9 @@ class Crowd {
 
     void plan(Walker& walker, std::uint64_t tick);
     bool take_way(Walker& walker, const WalkMap::Place& goal);
+    static void keep_to_side(const WalkMap& map,
+                             const Walker& walker,
+                             std::vector<WalkMap::Step>& way);
     void want(Walker& walker, std::uint64_t tick);
     double speed_at_gate(Walker& walker, double speed);
     void avoid(Walker& walker);

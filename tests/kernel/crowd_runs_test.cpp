@@ -7,6 +7,7 @@
 #include "kernel/verify.h"
 #include "replay/trace_writer.h"
 #include "tests/kernel/whole_run.h"
+#include "tests/support/foot_traffic.h"
 #include "walkers/crowd.h"
 
 namespace reprise::test {
@@ -68,14 +69,18 @@ TEST(CrowdRuns, WhereNobodyWalksTheOtherNumbersChangeNothing) {
     }
 }
 
-TEST(CrowdRuns, NobodyIsHitAmongAHundredCars) {
+/// Of a minute in a town full of cars, as recorded, by SUMO's lights.
+TEST(CrowdRuns, NobodyIsHitAndEverybodyKeepsToTheRulesAmongAHundredCars) {
     world::Recording recording =
         in_town1("spawn{ name = 'ego', model = 'sedan', driver = 'autopilot' } wait(600)", 100, 60);
     recording.episode.walkers = 100;
     recording.episode.walker_seed = recording.episode.seed = 7;
     recording.episode.jaywalkers = 0.1;
+    const world::LaneMap lanes(recording.town);
+    FootTraffic people(recording.town, lanes, 0.05);
     for (const KeptTick& tick : run(recording)) {
         const replay::RecordedTick recorded = tick.recorded();
+        people.see(recorded.view);
         if (recorded.view.tick->events() == nullptr)
             continue;
         for (const world::Event* event : *recorded.view.tick->events())
@@ -84,6 +89,22 @@ TEST(CrowdRuns, NobodyIsHitAmongAHundredCars) {
                 << event->actor() << " hits " << event->other() << " in tick "
                 << recorded.view.index();
     }
+    EXPECT_EQ(people.walker_ticks, 100U * 1200U);
+    for (const FootTraffic::Count* none : {&people.in_cars,
+                                           &people.hit,
+                                           &people.in_obstacles,
+                                           &people.in_others,
+                                           &people.jumps,
+                                           &people.at_red,
+                                           &people.without_gap})
+        EXPECT_EQ(none->times, 0U) << people.text();
+    EXPECT_GT(people.at_green, 10U) << people.text();
+    EXPECT_GT(people.elsewhere, 3U) << people.text();
+    // Only those cross elsewhere who were drawn to.
+    for (const std::uint32_t id : people.who_crossed_elsewhere)
+        EXPECT_TRUE(walkers::draw_person(7, id, 0.1).jaywalks ||
+                    walkers::draw_person(7, id - 1, 0.1).jaywalks)  // a friend of that one
+            << id;
 }
 
 TEST(CrowdRuns, IdsOfCarsAndWalkersNeverMeet) {

@@ -17,6 +17,7 @@
 #include "world/frames.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
+#include "world/models/prop_models.h"
 
 namespace reprise::walkers {
 namespace {
@@ -52,6 +53,7 @@ class Scene {
             draft.tick.signals.push_back(place < green_ticks ? world::SignalColor::green
                                                              : world::SignalColor::red);
         }
+        draft.tick.props = props;
         crowd_->advance(last_->view(), draft);
         next = std::move(draft);
         return next.traffic.walkers;
@@ -80,6 +82,7 @@ class Scene {
   public:
     world::EpisodeT episode = test::episode();
     world::TickDraft next;
+    std::vector<world::PropState> props;  ///< that stand there
 };
 
 Eigen::Vector3d place_of(const world::WalkerState& walker) {
@@ -229,8 +232,46 @@ TEST(Crowd, NobodyStandsOnACrossingForLong) {
                     known->second = {place, tick};
                 ASSERT_LT(tick - known->second.tick, patience)
                     << walker.id() << " of seed " << seed << " in tick " << tick;
+                for (const world::EventT& event : scene.next.tick.events)
+                    ASSERT_NE(event.kind, world::EventKind::despawned)
+                        << event.actor << " of seed " << seed << " got nowhere, in tick " << tick;
             }
     }
+}
+
+TEST(Crowd, GoesAroundWhatStandsOnThePavement) {
+    Scene scene(60);
+    const auto crate = world::find_prop_model("crate");
+    ASSERT_TRUE(crate);
+    const world::PropModel& model = world::prop_models()[*crate];
+    std::uint32_t id = 10;
+    for (const world::LaneT& lane : scene.town().lanes) {
+        if (lane.kind != world::LaneKind::sidewalk || lane.length < 20)
+            continue;
+        const world::LanePoint at = world::point_at(lane, lane.length / 2);
+        scene.props.emplace_back(world::to_vec3(at.position),
+                                 world::Quat(1, 0, 0, 0),
+                                 world::Vec3(0, 0, 0),
+                                 world::Vec3(0, 0, 0),
+                                 id++,
+                                 *crate,
+                                 std::uint16_t{0});
+    }
+    ASSERT_GT(scene.props.size(), 20U);
+    int inside = 0;
+    int beside = 0;
+    for (int tick = 1; tick <= 1200; ++tick)
+        for (const world::WalkerState& walker : scene.step())
+            for (const world::PropState& prop : scene.props) {
+                const Eigen::Vector2d gap =
+                    world::in_plan(walker.position()) - world::in_plan(prop.position());
+                // Whoever appears in the first tick may do so anywhere.
+                inside += tick > 100 && std::abs(gap.x()) < model.length / 2 &&
+                          std::abs(gap.y()) < model.width / 2;
+                beside += gap.norm() < 2;
+            }
+    EXPECT_EQ(inside, 0);
+    EXPECT_GT(beside, 500) << "it is no proof where nobody passes";
 }
 
 TEST(Crowd, IsTheSameForTheSameSeedAndAnotherForAnother) {

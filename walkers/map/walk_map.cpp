@@ -222,6 +222,27 @@ WalkMap::Place WalkMap::slide(const Place& from, const Eigen::Vector3d& p_world)
     return {passed[static_cast<std::size_t>(count) - 1], from_recast(found.data(), mesh_->origin)};
 }
 
+bool WalkMap::is_clear(const Place& from, const Eigen::Vector3d& p_world) const {
+    constexpr int most_passed = 64;    // polygons
+    constexpr float very_end = 0.99F;  // of the way: corners lie on the mesh's edge
+    const Point start = to_recast(from.position, mesh_->origin);
+    const Point end = to_recast(p_world, mesh_->origin);
+    std::array<dtPolyRef, most_passed> passed{};
+    float share = 0;
+    Point normal{};
+    int count = 0;
+    mesh_->query->raycast(from.polygon,
+                          start.data(),
+                          end.data(),
+                          &mesh_->filter,
+                          &share,
+                          normal.data(),
+                          passed.data(),
+                          &count,
+                          most_passed);
+    return share > very_end;
+}
+
 ground::Surface WalkMap::surface(const Place& place) const {
     unsigned char area = walk_sidewalk;
     mesh_->tiles->getPolyArea(place.polygon, &area);

@@ -57,6 +57,9 @@ class WalkMap {
     /// where it ends. 1 us.
     Place slide(const Place& from, const Eigen::Vector3d& p_world) const;
 
+    /// Is the straight way from `from` to `p_world` on the mesh all along? 1 us.
+    bool is_clear(const Place& from, const Eigen::Vector3d& p_world) const;
+
     ground::Surface surface(const Place& place) const;
 
     /// As above, between places on the mesh.

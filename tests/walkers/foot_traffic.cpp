@@ -1,0 +1,33 @@
+// How the people of recorded runs walk: whether anybody is inside of a car or of what stands there,
+// and how everybody comes onto the road. A table for each trace.
+#include "tests/support/foot_traffic.h"
+
+#include <cstdio>
+#include <exception>
+
+#include "replay/trace_reader.h"
+
+namespace {
+
+void tell(const char* path) {
+    reprise::replay::TraceReader trace(path);
+    const reprise::world::TownT& town = trace.recording().town;
+    const reprise::world::LaneMap lanes(town);
+    reprise::test::FootTraffic people(
+        town, lanes, static_cast<double>(trace.episode().step_ns) * 1e-9);
+    for (std::uint64_t tick = trace.first(); tick <= trace.last(); ++tick)
+        people.see(trace.tick(tick).view);
+    std::printf("%s\n%s\n", path, people.text().c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        for (int i = 1; i < argc; ++i)
+            tell(argv[i]);
+    } catch (const std::exception& failure) {
+        std::fprintf(stderr, "foot_traffic: %s\n", failure.what());
+        return 2;
+    }
+}

@@ -1,0 +1,131 @@
+#include "walkers/things.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "world/frames.h"
+#include "world/geometry2d.h"
+#include "world/models/actors.h"
+#include "world/models/catalogue.h"
+#include "world/models/doors.h"
+#include "world/models/prop_models.h"
+
+namespace reprise::walkers {
+
+namespace {
+
+constexpr double beside_cars = 0.1;   // [m] that a body is wider than the thing
+constexpr double stands = 0.3;        // [m/s]
+constexpr double least_height = 0.1;  // [m] what is lower is stepped over
+
+/// Seen from above.
+struct Thing {
+    Eigen::Vector2d middle;
+    Eigen::Vector2d ahead;
+    double half_length = 0;
+    double half_width = 0;
+    Eigen::Vector2d velocity{0, 0};
+    std::uint32_t id = 0;
+    bool drives = false;
+};
+
+void add(const Thing& thing, Neighbours& neighbours) {
+    const bool lies_along = thing.half_length >= thing.half_width;
+    const Eigen::Vector2d along = lies_along ? thing.ahead : world::turned_left(thing.ahead);
+    const double half = std::max(thing.half_length, thing.half_width);
+    const double radius = std::min(thing.half_length, thing.half_width) + beside_cars;
+    const double end = half - (radius - beside_cars);
+    const int count = 1 + static_cast<int>(std::ceil(2 * end / radius));
+    for (int i = 0; i < count; ++i) {
+        const double at = count > 1 ? -end + 2 * end * i / (count - 1) : 0;
+        neighbours.add({thing.middle + at * along, thing.velocity, radius, thing.id}, thing.drives);
+    }
+}
+
+Thing car_of(const Eigen::Vector2d& rear_axle, double yaw, std::uint16_t model, std::uint32_t id) {
+    const world::Extent extent = world::extent_of(world::vehicle_models()[model]);
+    Thing thing;
+    thing.ahead = world::ahead_of(yaw);
+    thing.middle = rear_axle + extent.middle() * thing.ahead;
+    thing.half_length = (extent.front - extent.rear) / 2;
+    thing.half_width = extent.half_width;
+    thing.id = id;
+    return thing;
+}
+
+void add_cars(const world::TickView& last, const world::TickDraft& next, Neighbours& neighbours) {
+    for (const world::CarState& car : next.traffic.cars) {
+        const double yaw = static_cast<double>(car.yaw());
+        const auto speed = static_cast<double>(car.speed());
+        Thing thing = car_of(world::in_plan(car.position()), yaw, car.model(), car.id());
+        thing.velocity = speed * thing.ahead;
+        // Of the scenario's, those that stand are parked, or as good as that.
+        thing.drives = car.id() >= world::first_background_id || speed > stands;
+        add(thing, neighbours);
+    }
+    for (const world::VehicleState& vehicle : last.vehicles()) {
+        const Eigen::Vector3d ahead =
+            world::to_eigen(vehicle.orientation()) * Eigen::Vector3d::UnitX();
+        Thing thing = car_of(world::in_plan(vehicle.position()),
+                             std::atan2(ahead.y(), ahead.x()),
+                             vehicle.model(),
+                             vehicle.id());
+        thing.velocity = {vehicle.velocity().x(), vehicle.velocity().y()};
+        thing.drives = thing.velocity.norm() > stands;
+        add(thing, neighbours);
+    }
+}
+
+void add_props(const world::TickView& last, Neighbours& neighbours) {
+    for (const world::PropState& prop : last.props()) {
+        const world::PropModel& model = world::prop_models()[prop.model()];
+        if (model.height < least_height)
+            continue;
+        const Eigen::Vector3d ahead =
+            world::to_eigen(prop.orientation()) * Eigen::Vector3d::UnitX();
+        Thing thing;
+        thing.middle = world::in_plan(prop.position());
+        thing.ahead = world::ahead_of(std::atan2(ahead.y(), ahead.x()));
+        thing.half_length = model.length / 2;
+        thing.half_width = model.width / 2;
+        thing.velocity = {prop.velocity().x(), prop.velocity().y()};
+        thing.id = prop.id();
+        add(thing, neighbours);
+    }
+}
+
+void add_doors(const world::TickView& last, const world::TickDraft& next, Neighbours& neighbours) {
+    for (const world::Door& door : last.doors()) {
+        const world::VehicleState* vehicle = world::find(last.vehicles(), door.actor());
+        const auto car = std::find_if(next.traffic.cars.begin(),
+                                      next.traffic.cars.end(),
+                                      [&](const auto& one) { return one.id() == door.actor(); });
+        if (vehicle == nullptr && car == next.traffic.cars.end())
+            continue;
+        const Eigen::Isometry3d pose =
+            vehicle != nullptr ? world::pose(vehicle->position(), vehicle->orientation())
+                               : world::pose(car->position(),
+                                             static_cast<double>(car->yaw()),
+                                             static_cast<double>(car->pitch()));
+        const std::uint16_t model = vehicle != nullptr ? vehicle->model() : car->model();
+        const world::DoorLeaf leaf =
+            world::door_leaf(world::vehicle_models()[model], pose, door.door(), door.angle());
+        Thing thing;
+        thing.middle = leaf.pose.translation().head<2>();
+        thing.ahead = leaf.pose.linear().col(0).head<2>().normalized();
+        thing.half_length = leaf.half.x();
+        thing.half_width = leaf.half.y();
+        thing.id = door.actor();
+        add(thing, neighbours);
+    }
+}
+
+}  // namespace
+
+void add_things(const world::TickView& last, const world::TickDraft& next, Neighbours& neighbours) {
+    add_cars(last, next, neighbours);
+    add_props(last, neighbours);
+    add_doors(last, next, neighbours);
+}
+
+}  // namespace reprise::walkers

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "walkers/neighbours.h"
+#include "world/tick.h"
+
+namespace reprise::walkers {
+
+/// What drives, stands or lies where people go, as round bodies in a row along each: SUMO's cars
+/// as `next` has them, vehicles with mass, props and open doors as `last` had them. Whoever is on
+/// the road keeps away from what drives; everybody goes around what stands for good: parked cars,
+/// wrecks, props and doors.
+void add_things(const world::TickView& last, const world::TickDraft& next, Neighbours& neighbours);
+
+}  // namespace reprise::walkers
