@@ -21,7 +21,7 @@ constexpr int latency = 1;
 constexpr const char* drive_text =
     R"lua(-- Somebody drives by hand.
 return scenario 'drive' {{
-    cars = {cars}, weather = '{weather}',
+    cars = {cars}, walkers = {walkers}, weather = '{weather}',
     params = {{ goal = {goal} }},
 
     run = function(p)
@@ -58,6 +58,7 @@ std::string scenario_text(const DriveOptions& options) {
         drive_text,
         fmt::arg("cars",
                  options.cars == world::auto_cars ? "'auto'" : fmt::format("{}", options.cars)),
+        fmt::arg("walkers", options.walkers),
         fmt::arg("weather", options.weather),
         fmt::arg("goal", options.goal),
         fmt::arg("model", options.model),

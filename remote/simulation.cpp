@@ -84,7 +84,10 @@ flatbuffers::Offset<Task> pack_task(Builder& builder, const EpisodePlan& plan) {
                       builder.CreateString(plan.model),
                       start,
                       goal,
-                      builder.CreateVector(rig));
+                      builder.CreateVector(rig),
+                      plan.walkers,
+                      plan.walker_seed.has_value(),
+                      plan.walker_seed.value_or(0));
 }
 
 Builder pack(const EpisodePlan& plan) {

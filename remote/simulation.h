@@ -39,7 +39,9 @@ struct TaskCamera {
 struct EpisodePlan {
     std::string town = "town1";
     std::uint32_t cars = 0;
-    std::optional<std::uint64_t> seed{};  ///< without one: the scenario's own
+    std::uint32_t walkers = 0;                   ///< people on foot in the background
+    std::optional<std::uint64_t> walker_seed{};  ///< who they are; without one: `seed`
+    std::optional<std::uint64_t> seed{};         ///< without one: the scenario's own
     std::string weather = "clear_noon";
     std::string model = "sedan";
     TaskPlace start = Drawn{};

@@ -1,6 +1,8 @@
 #include "cli/external/serve_task.h"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -15,8 +17,10 @@ namespace reprise::cli {
 namespace {
 
 constexpr unsigned most_cars = 10'000;
+constexpr unsigned most_walkers = 2'000;
 constexpr unsigned most_sensors = 16;  // as a rig has
 constexpr std::size_t longest_word = 40;
+constexpr std::uint64_t most_seed = std::numeric_limits<std::int64_t>::max();  // Lua's integers
 constexpr std::string_view word_letters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 
@@ -31,7 +35,7 @@ constexpr const char* task_text =
 -- (Dosovitskiy et al., CoRL 2017). Collisions and wrong lanes do not end it: they are in the measurements.
 -- Lanes that are not named are chosen by the seed; without a goal it drives until the time limit.
 return scenario 'task' {{
-    town = '{town}', cars = {cars}, weather = '{weather}', duration = 7200,
+    town = '{town}', cars = {cars}{walkers}, weather = '{weather}', duration = 7200,
     params = {{ model = 'sedan', start = '', s = 10.0, with_goal = false, goal = '', goal_s = 30.0 }},
 
     run = function(p)
@@ -117,6 +121,16 @@ std::string rig_text(const remote::Task& task) {
     return ", rig = { " + text + "}";
 }
 
+/// `, walkers = ...` of the header.
+std::string walkers_text(const remote::Task& task) {
+    if (task.walkers() == 0)
+        return "";
+    std::string text = fmt::format(", walkers = {}", task.walkers());
+    if (task.walker_seeded())
+        text += fmt::format(", walker_seed = {}", task.walker_seed());
+    return text;
+}
+
 }  // namespace
 
 TaskScenario scenario_of(const remote::Task& task, const world::TownT& town) {
@@ -129,11 +143,16 @@ TaskScenario scenario_of(const remote::Task& task, const world::TownT& town) {
                                        world::did_you_mean(weather, world::weather_names())));
     if (task.cars() > most_cars)
         throw world::Error(fmt::format("the task's cars: at most {}", most_cars));
+    if (task.walkers() > most_walkers)
+        throw world::Error(fmt::format("the task's walkers: at most {}", most_walkers));
+    if (task.walker_seed() > most_seed)
+        throw world::Error(fmt::format("the task's walker_seed: at most {}", most_seed));
     TaskScenario scenario;
     // Only names that were looked up go into the text; what a client wrote goes in as parameters.
     scenario.source = fmt::format(task_text,
                                   fmt::arg("town", town.name),
                                   fmt::arg("cars", task.cars()),
+                                  fmt::arg("walkers", walkers_text(task)),
                                   fmt::arg("weather", weather),
                                   fmt::arg("rig", rig_text(task)));
     auto& parameters = scenario.overrides.parameters;

@@ -87,6 +87,10 @@ void add_drive(CLI::App& app, DriveOptions& drive, std::string& size) {
         ->type_name("N|auto")
         ->transform(number_of_cars())
         ->capture_default_str();
+    command.add_option("--walkers", drive.walkers, "People on foot")
+        ->type_name("N")
+        ->transform(number_of_walkers())
+        ->capture_default_str();
     command.add_option("--seed", drive.seed, "Decides everything random, such as where you begin")
         ->type_name("N")
         ->transform(whole_number());

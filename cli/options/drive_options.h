@@ -28,6 +28,7 @@ struct DriveOptions {
     unsigned height = 144;
     unsigned every = 2;       ///< [ticks] a picture: 10 a second
     std::uint32_t cars = 40;  ///< or world::auto_cars
+    std::uint32_t walkers = 0;
     std::optional<std::uint64_t> seed;
     double seconds = 3600;  ///< simulated, at most
     bool goal = false;

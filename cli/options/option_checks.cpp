@@ -71,4 +71,19 @@ CLI::Validator number_of_cars() {
         "");
 }
 
+CLI::Validator number_of_walkers() {
+    return CLI::Validator(
+        [](std::string& text) -> std::string {
+            constexpr std::uint32_t most = 2'000;
+            std::uint32_t value = 0;
+            const char* end = text.data() + text.size();
+            const auto [stop, error] = std::from_chars(text.data(), end, value);
+            if (error != std::errc() || stop != end || value > most)
+                return "expected a whole number from 0 to 2000, got '" + text + "'";
+            text = std::to_string(value);
+            return "";
+        },
+        "");
+}
+
 }  // namespace reprise::cli

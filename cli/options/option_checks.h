@@ -26,4 +26,7 @@ CLI::Validator whole_number();
 /// A number of background cars; `auto` becomes world::auto_cars.
 CLI::Validator number_of_cars();
 
+/// A number of people on foot in the background.
+CLI::Validator number_of_walkers();
+
 }  // namespace reprise::cli

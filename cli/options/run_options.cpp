@@ -149,13 +149,12 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
                     "carries")
         ->type_name("N|auto")
         ->transform(number_of_cars());
-    constexpr int most_walkers = 2'000;
     command
         .add_option("--walkers",
                     run.walkers,
                     "People on foot in the background, instead of the scenario's number")
         ->type_name("N")
-        ->check(CLI::Range(0, most_walkers));
+        ->transform(number_of_walkers());
     add_drivers(command, run);
     add_level(command, run.level, {"full", "keyed", "core", "inputs"});
     command.add_flag("--watch",

@@ -1,6 +1,6 @@
 """Made by make_schema.py from world/*.fbs, remote/wire.fbs and world/models/vehicle_models.cpp: change those."""
 
-DIGEST = "2301ed5a3f6ccb33"
+DIGEST = "a462705aaa67200d"
 
 # name: (type, values)
 ENUMS = {'remote.Kind': ('uint',
@@ -292,7 +292,10 @@ TABLES = {'remote.Hello': {'version': (0, 'uint'),
                  'model': (3, 'string'),
                  'start': (4, 'Place'),
                  'goal': (5, 'Place'),
-                 'rig': (6, '[TaskSensor]')},
+                 'rig': (6, '[TaskSensor]'),
+                 'walkers': (7, 'uint'),
+                 'walker_seeded': (8, 'bool'),
+                 'walker_seed': (9, 'ulong')},
  'remote.Setting': {'key': (0, 'string'), 'value': (1, 'string')},
  'remote.Reset': {'file': (0, 'string'),
                   'source': (1, 'string'),

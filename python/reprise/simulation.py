@@ -157,16 +157,17 @@ class Client:
             raise
 
     def _check_plan(self) -> None:
-        if self._plan.get("pedestrians", 0) != 0:
-            raise ValueError(f"pedestrians={self._plan['pedestrians']!r}: only 0 so far: nobody walks by itself in a town yet; "
-                             "a scenario can spawn walkers")  # fmt: skip
+        if self._plan["scenario"] is not None and self._plan["walkers"] != 0:
+            raise ValueError("walkers: a scenario says itself how many people walk: walkers = 100 in its header")
 
     def _message(self) -> dict[str, Any]:
         plan = self._plan
         message: dict[str, Any] = dict(seeded=plan["seed"] is not None, seed=plan["seed"] or 0,
                                        seconds=plan["seconds"] or 0.0, trace=plan["trace"])  # fmt: skip
         if plan["scenario"] is None:
-            message["task"] = dict(town=plan["town"], cars=plan["cars"], weather=plan["weather"], model=plan["model"],
+            message["task"] = dict(town=plan["town"], cars=plan["cars"], walkers=plan["walkers"],
+                                   walker_seeded=plan["walker_seed"] is not None,
+                                   walker_seed=plan["walker_seed"] or 0, weather=plan["weather"], model=plan["model"],
                                    start=_place(plan["start"]), goal=_place(plan["goal"]),
                                    rig=[{**_SENSOR, **sensor} for sensor in plan["rig"]] or None)  # fmt: skip
             return message
@@ -201,7 +202,7 @@ class Simulation(Client):
     `scenario` takes the place of a task: a file's name in the server's folder, a path (read here), or Lua text, whose
     parameters `settings` changes; it spawns 'ego' with driver = 'external'.
 
-    `pedestrians` is 0: nobody walks by itself in a town yet.
+    `walkers` people go on foot; who they are and where they go follows from `walker_seed`, or from `seed` without one.
 
     `rig` of a task: cameras of the vehicle, in the words of a scenario's rig, such as [dict(name='front', kind='rgb',
     width=84, height=84)]; `seen.image('front')` is what one sees. A process that renders is started in each reset.
@@ -216,12 +217,12 @@ class Simulation(Client):
     def __init__(self, town: str = "town1", *, cars: int = 0, seed: int | None = None, weather: str = "clear_noon",
                  start: Place = None, goal: Place = None, model: str = "sedan", scenario: str | os.PathLike | None = None,
                  settings: Mapping[str, Any] | None = None, seconds: float = 0.0, trace: str | None = None,
-                 rig: Sequence[Mapping[str, Any]] = (), pedestrians: int = 0, server: str | None = None,
+                 rig: Sequence[Mapping[str, Any]] = (), walkers: int = 0, walker_seed: int | None = None, server: str | None = None,
                  token: str | None = None, folder: str | os.PathLike = ".") -> None:  # fmt: skip
         self.run_info: Run | None = None  #: what stays the same in this episode; also `seen.run`
         self._seen: Observation | None = None
         super().__init__(
-            dict(town=town, cars=cars, pedestrians=pedestrians, seed=seed, weather=weather, start=start, goal=goal, model=model,
+            dict(town=town, cars=cars, walkers=walkers, walker_seed=walker_seed, seed=seed, weather=weather, start=start, goal=goal, model=model,
                  scenario=scenario, settings=settings, seconds=seconds, trace=trace, rig=rig),
             server, token, folder)  # fmt: skip
 

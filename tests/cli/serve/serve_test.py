@@ -322,13 +322,21 @@ class Episodes(Case):
             self.assertEqual(with_goal.run.town.name, "town1")
             self.assertEqual(sim.reset(town="town2", start=None, goal=None).run.town.name, "town2")
 
-    def test_pedestrians_are_refused_in_one_line_and_nothing_changes(self):
-        with self.assertRaisesRegex(ValueError, "^pedestrians=50: only 0 so far: [^\n]*$"):
-            reprise.Simulation(pedestrians=50)
-        with reprise.Simulation("town1", pedestrians=0) as sim:
-            with self.assertRaisesRegex(ValueError, "pedestrians=3"):
-                sim.reset(pedestrians=3, town="town2")
-            self.assertEqual(sim.reset().run.town.name, "town1")
+    def test_walkers_of_a_task_walk_by_a_seed_of_their_own(self):
+        def places(seen):
+            return [(float(walker["position"]["x"]), float(walker["position"]["y"])) for walker in seen.walkers]
+
+        with reprise.Simulation("town1", walkers=12, seed=3) as sim:
+            first = sim.reset()
+            self.assertEqual((len(first.walkers), first.run.episode.walkers, first.run.episode.walker_seed), (12, 12, 3))
+            same, other = places(sim.reset(walker_seed=3, seed=4)), places(sim.reset(walker_seed=5))
+            self.assertEqual(same, places(sim.reset(walker_seed=None, seed=3)))
+            self.assertNotEqual(same, other)
+            self.assertEqual(len(sim.reset(walkers=0).walkers), 0)
+            with self.assertRaisesRegex(reprise.Fault, "^the task's walkers: at most 2000$"):
+                sim.reset(walkers=2001)
+        with self.assertRaisesRegex(ValueError, "^walkers: a scenario says itself how many people walk"):
+            reprise.Simulation(scenario="a.lua", walkers=3)
 
     def test_a_control_that_cannot_be_is_refused_and_the_episode_goes_on(self):
         with reprise.Simulation("town1") as sim:
