@@ -19,6 +19,9 @@ constexpr int most_sweeps = 24;
 /// be too stiff for the substep.
 constexpr double slow = 0.3;
 
+/// [m/s] ABS rests below it, where wheels may lock.
+constexpr double abs_speed = 1.5;
+
 /// One direction in which a wheel's contact can push the body.
 struct Row {
     btVector3 direction;
@@ -60,14 +63,46 @@ struct RaycastCar::Contact {
     double limit = 0;       ///< radius of the friction circle
     double side_limit = 0;  ///< by the brush model
     double engine = 0;
+    double ahead_speed = 0;  ///< [m/s] of the contact, along the wheel
+    double left_speed = 0;
     double brake_limit = 0;
     double impulse_ahead = 0;
     double impulse_left = 0;
+    double allowed = 1;  ///< share of what brakes and engine want along the wheel
     double skid = 1;
+
+    /// Locked.
+    void slide();
+
+    /// Rolling, with the slip held by the brakes' and the engine's electronics.
+    void hold_slip(double most_ahead);
 
     /// Returns the change as a share of the limit.
     double solve(Motion& motion);
 };
+
+void RaycastCar::Contact::slide() {
+    brake_limit = limit;
+    side_limit = limit;
+    const double speed = std::sqrt(ahead_speed * ahead_speed + left_speed * left_speed);
+    if (speed < slow)
+        return;
+    limit *= world::sliding_share;
+    brake_limit = limit * std::abs(ahead_speed) / speed;
+    side_limit = limit * std::abs(left_speed) / speed;
+    allowed = 0;
+}
+
+void RaycastCar::Contact::hold_slip(double most_ahead) {
+    const double wanted = std::max(brake_limit, std::abs(engine));
+    if (wanted <= most_ahead)
+        return;
+    allowed = most_ahead / wanted;
+    // What resists at the wheel itself the road need not carry.
+    const double most_engine = most_ahead + brake_limit;
+    engine = std::clamp(engine, -most_engine, most_engine);
+    brake_limit = std::min(brake_limit, most_ahead);
+}
 
 double RaycastCar::Contact::solve(Motion& motion) {
     // What would stop the contact, within what brakes and side-slip allow.
@@ -78,11 +113,11 @@ double RaycastCar::Contact::solve(Motion& motion) {
         std::clamp(impulse_left - motion.along(left) * left.mass, -side_limit, side_limit);
     // Never outside the friction circle.
     const double size = std::sqrt(wanted_ahead * wanted_ahead + wanted_left * wanted_left);
-    skid = 1;
+    skid = allowed;
     if (size > limit) {
-        skid = limit / size;
-        wanted_ahead *= skid;
-        wanted_left *= skid;
+        wanted_ahead *= limit / size;
+        wanted_left *= limit / size;
+        skid = allowed * limit / size;
     }
     const double change_ahead = wanted_ahead - impulse_ahead;
     const double change_left = wanted_left - impulse_left;
@@ -134,6 +169,7 @@ int RaycastCar::find_contacts(double step, std::array<Contact, 4>& contacts) {
     const btVector3 y_left = basis.getColumn(1);
     int count = 0;
     double total_load = 0;
+    abs = {};
     for (int i = 0; i < 4; ++i) {
         const btWheelInfo& info = m_wheelInfo[i];
         if (!info.m_raycastInfo.m_isInContact)
@@ -153,17 +189,30 @@ int RaycastCar::find_contacts(double step, std::array<Contact, 4>& contacts) {
         total_load += contact.load;
         contact.limit = grip * contact.load;
         contact.engine = wheel.engine * step;
-        contact.brake_limit = wheel.brake * step + rolling_resistance * contact.load;
+        contact.brake_limit = rolling_resistance * contact.load;
         const btVector3 velocity = body.getVelocityInLocalPoint(arm);
-        const double slip =
-            velocity.dot(contact.left.direction) / std::max(std::abs(velocity.dot(ahead)), slow);
-        contact.side_limit =
-            contact.limit * world::brush_share(slip, wheel.cornering_stiffness, grip);
+        contact.ahead_speed = velocity.dot(ahead);
+        contact.left_speed = velocity.dot(contact.left.direction);
     }
-    if (total_load > 0)
-        for (Contact& contact : std::span(contacts).first(static_cast<std::size_t>(count)))
-            contact.brake_limit += total_brake * step * (contact.load / total_load);
+    for (Contact& contact : std::span(contacts).first(static_cast<std::size_t>(count)))
+        bound(contact, total_load > 0 ? total_brake * step / total_load : 0);
     return count;
+}
+
+/// What the tyre can give, of what is asked of it. `brake_share` is impulse by load.
+void RaycastCar::bound(Contact& contact, double brake_share) {
+    const auto index = static_cast<std::size_t>(contact.wheel);
+    const Wheel& wheel = wheels[index];
+    if (wheel.locked) {
+        contact.slide();
+        return;
+    }
+    const double slip = contact.left_speed / std::max(std::abs(contact.ahead_speed), slow);
+    contact.side_limit = contact.limit * world::brush_share(slip, wheel.cornering_stiffness, grip);
+    contact.brake_limit += brake_share * contact.load;
+    contact.hold_slip(contact.limit * world::held_share(slip, wheel.cornering_stiffness, grip));
+    abs[index] = total_brake > 0 && contact.allowed < 1 && contact.engine == 0 &&
+                 std::abs(contact.ahead_speed) > abs_speed;
 }
 
 void RaycastCar::updateFriction(btScalar step) {

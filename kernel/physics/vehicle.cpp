@@ -183,12 +183,11 @@ void Vehicle::press_pedals(double road_friction) {
     const double speed = x_ahead.dot(body().getLinearVelocity());
     const double throttle = std::clamp(control_.throttle(), 0.0, 1.0);
     const double force = world::drive_force(m, throttle, control_.reverse(), speed);
-    // The hand brake is strong enough to lock the rear wheels under any load.
-    const double hand_brake = control_.hand_brake() ? model_.grip * m.mass * world::gravity : 0;
     for (std::size_t i = 0; i < 4; ++i) {
         const bool front = i < 2;
         car.wheels[i].engine = front == model_.front_driven ? force / 2 : 0;
-        car.wheels[i].brake = front ? 0 : hand_brake;
+        // The hand brake locks the rear wheels under any load.
+        car.wheels[i].locked = !front && control_.hand_brake();
     }
     car.total_brake = std::clamp(control_.brake(), 0.0, 1.0) * model_.brake_deceleration * m.mass;
 }
@@ -402,7 +401,7 @@ world::WheelState Vehicle::wheel(int index) const {
             static_cast<std::uint8_t>(index),
             wheel.m_raycastInfo.m_isInContact,
             static_cast<std::uint8_t>(surface),
-            false,
+            chassis_->car.abs[static_cast<std::size_t>(index)],
             0};
 }
 

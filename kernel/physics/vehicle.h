@@ -35,16 +35,18 @@ enum class Balance : std::uint8_t { kept, lost };
 ///               fading out towards `reverse_speed`. A throttle at zero rolls freely: no engine
 ///               brake.
 ///  brakes       up to `brake_deceleration * mass`, shared out by the loads that the wheels carry
-///               just then (electronic brake-force distribution); wheels do not lock (ideal ABS).
-///               The hand brake acts on the rear wheels alone and locks them.
+///               just then (electronic brake-force distribution); ABS holds a wheel's slip at
+///               `held_slip` when they would lock it, and traction control likewise, so that it
+///               can be steered. The hand brake locks the rear wheels, and those slide.
 ///  resistance   air 0.5 rho cdA v^2 against the velocity; rolling `rolling_resistance` * load.
 ///  suspension   spring and damper for each wheel from a natural frequency and damping ratios, in
 ///               proportion to the load that the wheel carries at rest, so that the body stands
 ///               level; an anti-roll bar on each axle.
-///  tyres        lateral force by the brush model, all force within a friction circle of
-///               grip * road_friction * load.
+///  tyres        lateral force by the brush model (Pacejka, "Tire and Vehicle Dynamics", 3rd ed.,
+///               ch. 3), all force within a friction circle of grip * road_friction * load.
 ///
-/// Left out: wheel spin (traction control and ABS are taken as ideal), engine and gearbox inertia,
+/// Left out: the wheels' own spin (ABS and traction control hold their slip at once), engine and
+/// gearbox inertia,
 /// suspension kinematics, aerodynamic lift, tyre relaxation length.
 /// Sources: T. D. Gillespie, "Fundamentals of Vehicle Dynamics", SAE 1992, ch. 2 (power-limited
 /// acceleration), 3 (braking), 4 (road loads), 5 (ride), 6 (cornering);

@@ -53,6 +53,11 @@ Kind kind_of(BodyStyle body) {
 
 constexpr double wrong_gear_speed = 2.0;  // [m/s]
 
+/// Of the brush model; at z = 1 the whole contact slides.
+double share_at(double z) {
+    return z >= 1 ? 1 : z * (3 - z * (3 - z));
+}
+
 }  // namespace
 
 CarModel car_model(const VehicleModel& m) {
@@ -120,8 +125,14 @@ AckermannAngles ackermann(double steering_angle, double wheelbase, double track)
 }
 
 double brush_share(double slip, double cornering_stiffness, double grip) {
-    const double z = cornering_stiffness * std::abs(slip) / (3 * grip);
-    return z >= 1 ? 1 : z * (3 - z * (3 - z));
+    return share_at(cornering_stiffness * std::abs(slip) / (3 * grip));
+}
+
+double held_share(double side_slip, double cornering_stiffness, double grip) {
+    const double along = longitudinal_stiffness * held_slip / (3 * grip);
+    const double across = cornering_stiffness * side_slip / (3 * grip);
+    const double both = std::sqrt(along * along + across * across);
+    return share_at(both) * along / both;
 }
 
 }  // namespace reprise::world

@@ -43,6 +43,15 @@ inline constexpr double steering_rate = 0.7;  ///< [rad/s] of the front wheels
 inline constexpr double front_cornering = 9.0;
 inline constexpr double rear_cornering = 12.0;
 
+/// Along the wheel tyres are stiffer: 15 to 25 (Pacejka, 3rd ed., ch. 1 and 4).
+inline constexpr double longitudinal_stiffness = 20.0;  ///< force / load for a unit of slip
+/// Slip that ABS and traction control let no wheel exceed: where the largest force is, and much of
+/// the lateral force is left (Bosch, "Automotive Handbook", ABS: 0.08 to 0.3).
+inline constexpr double held_slip = 0.12;
+/// Of the largest force, when a wheel is locked (J. Y. Wong, "Theory of Ground Vehicles", ch. 1,
+/// mean of peak and sliding values: asphalt 0.88, wet 0.87, packed snow 0.75).
+inline constexpr double sliding_share = 0.85;
+
 inline constexpr double reverse_speed = 8.0;  ///< [m/s] fastest speed backwards
 
 /// Force of the engine at the wheels along x. [N]; throttle in [0, 1], speed along x.
@@ -63,5 +72,10 @@ AckermannAngles ackermann(double steering_angle, double wheelbase, double track)
 /// sliding from z = 1. `slip` is the tangent of the slip angle, `cornering_stiffness` the
 /// force per radian and load, `grip` the largest force per load.
 double brush_share(double slip, double cornering_stiffness, double grip);
+
+/// Share of the friction limit that such a tyre gives along the wheel when it slips both ways: by
+/// `held_slip` along it, and by the tangent `side_slip` of its slip angle. In [0, 1]. The force of
+/// a brush points against the slip (Pacejka, 3.2.3).
+double held_share(double side_slip, double cornering_stiffness, double grip);
 
 }  // namespace reprise::world
