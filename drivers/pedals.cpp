@@ -84,7 +84,7 @@ Pedals::Position Pedals::press(double wanted,
     const double force = model.mass * (asked_ + correction_ + world::gravity * climb) + resistance;
     Position pedals;
     if (force > 0) {
-        const double most = std::min(model.max_drive_force, model.power / std::max(speed, 1.0));
+        const double most = world::drive_force(car, 1, false, std::max(speed, 0.0));
         pedals.throttle = std::min(force / most, 1.0);
     } else {
         pedals.brake = std::min(-force / (model.mass * car.brake_deceleration), 1.0);

@@ -120,7 +120,8 @@ Vehicle::Vehicle(std::uint32_t id,
       model_index_(model),
       model_(balance == Balance::kept ? world::car_model(world::vehicle_models()[model])
                                       : world::unbalanced_model(world::vehicle_models()[model])),
-      ground_(&ground) {
+      ground_(&ground),
+      driveline_(model_.powertrain, speed) {
     put_down(bullet, pose_world_vehicle, speed);
 }
 
@@ -174,7 +175,7 @@ void Vehicle::steer(double step) {
     chassis_->car.setSteeringValue(angles.right, 1);
 }
 
-void Vehicle::press_pedals(double road_friction) {
+void Vehicle::press_pedals(double road_friction, double step) {
     const world::VehicleModel& m = *model_.catalogue;
     RaycastCar& car = chassis_->car;
     car.grip = model_.grip * road_friction;
@@ -182,7 +183,8 @@ void Vehicle::press_pedals(double road_friction) {
     const btVector3 x_ahead = body().getCenterOfMassTransform().getBasis().getColumn(0);
     const double speed = x_ahead.dot(body().getLinearVelocity());
     const double throttle = std::clamp(control_.throttle(), 0.0, 1.0);
-    const double force = world::drive_force(m, throttle, control_.reverse(), speed);
+    const double wanted = world::drive_force(model_, throttle, control_.reverse(), speed);
+    const double force = driveline_.drive(wanted, throttle, control_.reverse(), speed, step);
     for (std::size_t i = 0; i < 4; ++i) {
         const bool front = i < 2;
         car.wheels[i].engine = front == model_.front_driven ? force / 2 : 0;
@@ -198,7 +200,7 @@ void Vehicle::drive(double road_friction, double step) {
     body().setLinearVelocity(velocity * (1 - drag * step / model_.catalogue->mass));
 
     steer(step);
-    press_pedals(road_friction);
+    press_pedals(road_friction, step);
     RaycastCar& car = chassis_->car;
     car.updateVehicle(step);
     for (int i = 0; i < 4; ++i) {
@@ -235,6 +237,7 @@ void Vehicle::teleport(const Eigen::Isometry3d& pose_world_vehicle, double speed
     guide_.reset();
     guided_ = false;
     steering_angle_ = 0;
+    driveline_.settle(speed);
     put_down(bullet, pose_world_vehicle, speed);
 }
 
@@ -243,6 +246,7 @@ void Vehicle::set_speed(double speed) {
     const double turn_rate = speed * std::tan(steering_angle_) / model_.catalogue->wheelbase;
     const btVector3 spin = basis.getColumn(2) * turn_rate;
     const btVector3 to_middle = basis * btVector3(model_.com_ahead, 0, 0);
+    driveline_.settle(speed);
     body().setLinearVelocity(basis.getColumn(0) * speed + spin.cross(to_middle));
     body().setAngularVelocity(spin);
 }
@@ -316,6 +320,8 @@ void Vehicle::settle(double step) {
     held.setAngularVelocity(spin);
     held.setInterpolationWorldTransform(held.getCenterOfMassTransform());
     held.updateInertiaTensor();
+    driveline_.settle(
+        held.getCenterOfMassTransform().getBasis().getColumn(0).dot(held.getLinearVelocity()));
     roll_wheels(step);
 }
 
@@ -383,8 +389,8 @@ world::VehicleState Vehicle::state_after(double step) {
             id_,
             model_index_,
             lamps,
-            0,
-            0,
+            static_cast<float>(driveline_.engine_speed()),
+            static_cast<std::int8_t>(driveline_.gear()),
             0,
             0};
 }
@@ -417,6 +423,8 @@ void Vehicle::nudge(std::string_view field, std::int64_t units) {
         move(steering_angle_);
     if (field == "odometer")
         move(odometer_);
+    if (field == "engine_speed")
+        driveline_.set_engine_speed(moved_by_units(driveline_.engine_speed(), units));
     btTransform pose = body().getCenterOfMassTransform();
     btQuaternion turn = pose.getRotation();
     btVector3 velocity = body().getLinearVelocity();
@@ -464,6 +472,7 @@ void Vehicle::add_to(world::Hasher& hasher) const {
     hasher.add(control_);
     hasher.add(steering_angle_);
     hasher.add(odometer_);
+    driveline_.add_to(hasher);
     hasher.add(last_position_);
     hasher.add(last_velocity_);
     for (int i = 0; i < 4; ++i) {

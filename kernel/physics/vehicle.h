@@ -10,6 +10,7 @@
 #include "kernel/physics/guide.h"
 #include "world/digest.h"
 #include "world/models/car_model.h"
+#include "world/models/driveline.h"
 #include "world/tick_generated.h"
 
 class btDynamicsWorld;
@@ -30,8 +31,9 @@ enum class Balance : std::uint8_t { kept, lost };
 ///
 ///  steering     the wheel angle follows the control at most at `steering_rate`; the two front
 ///               wheels stand at Ackermann angles, so that all axles meet in the turning centre.
-///  engine       F = throttle * min(max_drive_force, power / v) on the driven axle: the envelope of
-///               a gearbox that is always in the right gear. Backwards the same at low speed,
+///  engine       its full-load curve, through gears that change by themselves
+///               (world/models/driveline.h, powertrain.h), on the driven axle; the
+///               pedal asks for a share of what the best gear gives. Backwards in the first gear,
 ///               fading out towards `reverse_speed`. A throttle at zero rolls freely: no engine
 ///               brake.
 ///  brakes       up to `brake_deceleration * mass`, shared out by the loads that the wheels carry
@@ -45,9 +47,8 @@ enum class Balance : std::uint8_t { kept, lost };
 ///  tyres        lateral force by the brush model (Pacejka, "Tire and Vehicle Dynamics", 3rd ed.,
 ///               ch. 3), all force within a friction circle of grip * road_friction * load.
 ///
-/// Left out: the wheels' own spin (ABS and traction control hold their slip at once), engine and
-/// gearbox inertia,
-/// suspension kinematics, aerodynamic lift, tyre relaxation length.
+/// Left out: the wheels' own spin (ABS and traction control hold their slip at once), inertia of
+/// engine and gears, suspension kinematics, aerodynamic lift, tyre relaxation length.
 /// Sources: T. D. Gillespie, "Fundamentals of Vehicle Dynamics", SAE 1992, ch. 2 (power-limited
 /// acceleration), 3 (braking), 4 (road loads), 5 (ride), 6 (cornering);
 /// M. Mitschke and H. Wallentowitz, "Dynamik der Kraftfahrzeuge", 5th ed., parts I and III.
@@ -144,13 +145,14 @@ class Vehicle {
     void nudge_wheel(int index, std::string_view field, std::int64_t units);
 
     void steer(double step);
-    void press_pedals(double road_friction);
+    void press_pedals(double road_friction, double step);
 
     std::uint32_t id_;
     std::uint16_t model_index_;
     world::CarModel model_;
     const Ground* ground_;
     std::unique_ptr<Chassis> chassis_;
+    world::Driveline driveline_;
     world::Control control_;
     double steering_angle_ = 0;
     double odometer_ = 0;

@@ -238,6 +238,7 @@ std::string with_unit(const std::string& column) {
         {"height", "m"},
         {"gap_ahead", "m"},
         {"odometer", "m"},
+        {"engine_speed", "rad/s"},
         {"yaw", "rad"},
         {"pitch", "rad"},
         {"heading", "rad"},

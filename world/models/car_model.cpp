@@ -58,6 +58,18 @@ double share_at(double z) {
     return z >= 1 ? 1 : z * (3 - z * (3 - z));
 }
 
+/// Where all the power is spent on air and rolling. [m/s]
+double top_speed(const VehicleModel& model, double rolling_resistance) {
+    const double air = 0.5 * air_density * model.drag_area;
+    const double rolling = rolling_resistance * model.mass * gravity;
+    double speed = std::cbrt(model.power / air);
+    for (int i = 0; i < 20; ++i) {  // Newton, from above: convex, so it never overshoots
+        const double rest = air * speed * speed * speed + rolling * speed - model.power;
+        speed -= rest / (3 * air * speed * speed + rolling);
+    }
+    return speed;
+}
+
 }  // namespace
 
 CarModel car_model(const VehicleModel& m) {
@@ -84,6 +96,7 @@ CarModel car_model(const VehicleModel& m) {
     const double yaw = m.mass * car.com_ahead * (m.wheelbase - car.com_ahead);
     const double roll = m.mass / 12 * (m.width * m.width + m.height * m.height);
     car.inertia = {roll, 0.95 * yaw, yaw};
+    car.powertrain = powertrain(m, top_speed(m, kind.rolling_resistance));
     return car;
 }
 
@@ -105,15 +118,17 @@ CarModel unbalanced_model(const VehicleModel& m) {
     return car;
 }
 
-double drive_force(const VehicleModel& model, double throttle, bool reverse, double speed) {
+double drive_force(const CarModel& car, double throttle, bool reverse, double speed) {
     const double along = reverse ? -speed : speed;
     if (along < -wrong_gear_speed)
         return 0;
-    const double by_power = model.power / std::max(along, 0.1);
-    double force = throttle * std::min(model.max_drive_force, by_power);
-    if (reverse)
-        force *= std::clamp(reverse_speed - along, 0.0, 1.0);
-    return reverse ? -force : force;
+    const double rolling = std::max(along, 0.0);
+    if (!reverse)
+        return throttle * car.powertrain.largest_force(rolling);
+    const double fading = std::clamp(reverse_speed - along, 0.0, 1.0);
+    return -throttle * fading *
+           (car.powertrain.gears > 0 ? car.powertrain.force(1, rolling)
+                                     : car.powertrain.largest_force(rolling));
 }
 
 AckermannAngles ackermann(double steering_angle, double wheelbase, double track) {

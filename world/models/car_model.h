@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "world/models/catalogue.h"
+#include "world/models/powertrain.h"
 
 namespace reprise::world {
 
@@ -26,6 +27,7 @@ struct CarModel {
     Eigen::Vector3d inertia;     ///< [kg m^2] about x, y, z
     Eigen::Vector3d box_half;    ///< of the collision box [m]
     Eigen::Vector3d box_centre;  ///< in the body frame
+    Powertrain powertrain;
 };
 
 CarModel car_model(const VehicleModel& model);
@@ -54,9 +56,11 @@ inline constexpr double sliding_share = 0.85;
 
 inline constexpr double reverse_speed = 8.0;  ///< [m/s] fastest speed backwards
 
-/// Force of the engine at the wheels along x. [N]; throttle in [0, 1], speed along x.
-/// Zero while the car still rolls faster than 2 m/s against the chosen gear.
-double drive_force(const VehicleModel& model, double throttle, bool reverse, double speed);
+/// What the pedal asks of the engine: force at the wheels along x, a share of what the best gear
+/// gives at this speed. [N]; throttle in [0, 1], speed along x. The gear that is in may give less
+/// (world/models/driveline.h). Zero while the car still rolls faster than 2 m/s against the
+/// chosen direction.
+double drive_force(const CarModel& car, double throttle, bool reverse, double speed);
 
 /// Angles of the left and the right front wheel that turn the car about one centre. [rad]
 struct AckermannAngles {

@@ -45,7 +45,7 @@ double hardest_accelerating(const CarModel& car, double speed, double road_frict
     const double road = car.grip * road_friction * gravity * driven;
     const double resistance = air_density * model.drag_area * speed * speed / (2 * model.mass) +
                               car.rolling_resistance * gravity;
-    return std::min(drive_force(model, 1, false, speed) / model.mass, road) - resistance;
+    return std::min(drive_force(car, 1, false, speed) / model.mass, road) - resistance;
 }
 
 }  // namespace reprise::world

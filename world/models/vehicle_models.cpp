@@ -21,7 +21,7 @@ constexpr std::array<VehicleModel, 16> vehicles{{
     {"bus",        bus,        Livery::plain,     11.90, 2.52, 3.05, 5.90, 3.30, 0.48,  2.05, 13000, 210e3, 36000, 0.80, 5.2,  "bus"},
     {"city_car",   hatchback,  Livery::plain,     3.60,  1.64, 1.50, 2.42, 0.56, 0.285, 1.43, 1100,  52e3,  4300,  0.65, 0.62, "passenger"},
     {"wagon",      wagon,      Livery::plain,     4.78,  1.84, 1.48, 2.83, 1.06, 0.32,  1.58, 1700,  110e3, 6500,  0.61, 0.66, "passenger"},
-    {"coupe",      coupe,      Livery::plain,     4.52,  1.86, 1.30, 2.48, 1.08, 0.335, 1.60, 1620,  300e3, 9500,  0.58, 0.64, "passenger"},
+    {"coupe",      coupe,      Livery::plain,     4.52,  1.86, 1.30, 2.48, 1.08, 0.335, 1.60, 1620,  300e3, 11500, 0.58, 0.64, "passenger"},
     {"pickup",     pickup,     Livery::plain,     5.35,  1.90, 1.82, 3.22, 1.24, 0.37,  1.60, 2250,  120e3, 8500,  0.58, 0.98, "passenger"},
     {"taxi",       sedan,      Livery::taxi,      4.90,  1.85, 1.47, 2.94, 1.05, 0.33,  1.60, 1800,  120e3, 6800,  0.61, 0.66, "taxi"},
     {"police",     wagon,      Livery::police,    4.85,  1.85, 1.50, 2.85, 1.08, 0.33,  1.59, 1850,  160e3, 7500,  0.61, 0.75, "authority"},
