@@ -6,8 +6,6 @@
 #include "world/frames.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
-#include "world/models/doors.h"
-#include "world/models/prop_models.h"
 #include "world/units.h"
 
 namespace reprise::drivers {
@@ -15,64 +13,17 @@ namespace reprise::drivers {
 namespace {
 
 constexpr double side_margin = 0.3;     // [m] between our side and theirs
-constexpr double least_prop = 0.2;      // [m] high: what is lower passes below the car
 constexpr double horizon = 1.5;         // [s] of foresight
 constexpr double look_step = 0.25;      // [s]
 constexpr std::size_t coarse_step = 8;  // [samples] = 4 m
 
 }  // namespace
 
-/// A footprint: an oriented box that moves.
-struct Hazards::Body {
-    Eigen::Vector2d centre;
-    Eigen::Vector2d direction;
-    double z = 0;
-    double half_length = 0;
-    double half_width = 0;
-    Eigen::Vector2d velocity;
-    double speed = 0;
-    std::uint32_t id = 0;
-    std::uint32_t lane = world::none;
-    double lane_s = 0;  ///< of the front bumper
-
-    double radius() const { return std::hypot(half_length, half_width); }
-
-    /// Does the segment centre_point +- half touch the box? Clips it against both pairs of sides.
-    bool meets(const Eigen::Vector2d& centre_point, const Eigen::Vector2d& half) const {
-        const Eigen::Vector2d from = centre_point - centre;
-        double first = -1;
-        double last = 1;
-        const auto clip = [&](double at, double step, double size) {
-            if (std::abs(step) < 1e-12)
-                return std::abs(at) <= size;
-            const double u = (-size - at) / step;
-            const double v = (size - at) / step;
-            first = std::max(first, std::min(u, v));
-            last = std::min(last, std::max(u, v));
-            return first <= last;
-        };
-        return clip(from.dot(direction), half.dot(direction), half_length) &&
-               clip(world::cross(direction, from), world::cross(direction, half), half_width);
-    }
-};
-
 struct Hazards::Scene {
     const Ego& ego;
     const Path& path;
     const DrivingStyle& style;
 };
-
-namespace {
-
-/// Rear axle, heading and model give the box.
-template <typename Body>
-void set_box(Body& body, const Eigen::Vector2d& rear_axle, const world::VehicleModel& model) {
-    body.half_length = model.length / 2;
-    body.half_width = model.width / 2;
-    body.centre = rear_axle + (body.half_length - model.rear_overhang) * body.direction;
-}
-
-}  // namespace
 
 Hazards::Hazards(const world::TownT& town) : town_(&town) {
     coarse_.reserve(64);
@@ -86,15 +37,13 @@ void Hazards::make_corridor(const Ego& ego, const Path& path) {
     sight_start_ = ego.front_s() - 1;
     coarse_.clear();
     coarse_index_.clear();
-    low_.setConstant(world::infinity);
-    high_.setConstant(-world::infinity);
+    box_ = {};
     const std::size_t last = path.index(sight_start_ + sight);
     for (std::size_t i = path.index(sight_start_);; i = std::min(i + coarse_step, last)) {
         const Eigen::Vector2d point = path.points()[i].position.head<2>();
         coarse_.push_back(point);
         coarse_index_.push_back(i);
-        low_ = low_.cwiseMin(point);
-        high_ = high_.cwiseMax(point);
+        box_.take(point);
         if (i >= last)
             break;
     }
@@ -124,107 +73,9 @@ void Hazards::look(const world::TickView& last,
         return;
     make_corridor(ego, path);
     const Scene scene{ego, path, style};
-    const auto far = [&](const world::Vec3& p, double speed) {
-        const double reach = 10 + horizon * std::abs(speed);
-        return p.x() < low_.x() - reach || p.x() > high_.x() + reach || p.y() < low_.y() - reach ||
-               p.y() > high_.y() + reach;
-    };
-    Body body;
-    for (const world::VehicleState& state : last.vehicles()) {
-        const Eigen::Vector2d velocity(state.velocity().x(), state.velocity().y());
-        if (state.id() == ego.id || far(state.position(), velocity.norm()))
-            continue;
-        const Ego other = ego_of(state);
-        body.direction = other.direction;
-        set_box(body, other.position.head<2>(), *other.model);
-        body.velocity = velocity;
-        body.speed = velocity.norm();
-        body.z = other.position.z();
-        body.id = state.id();
-        body.lane = world::none;
+    collect_bodies(last, ego.id, box_, horizon, bodies_);
+    for (const Body& body : bodies_)
         consider(body, scene);
-    }
-    for (const world::CarState& car : last.cars()) {
-        const double speed = static_cast<double>(car.speed());
-        if (far(car.position(), speed))
-            continue;
-        const double yaw = static_cast<double>(car.yaw());
-        body.direction = {std::cos(yaw), std::sin(yaw)};
-        set_box(
-            body, {car.position().x(), car.position().y()}, world::vehicle_models()[car.model()]);
-        body.velocity = speed * body.direction;
-        body.speed = std::abs(speed);
-        body.z = car.position().z();
-        body.id = car.id();
-        body.lane = car.lane();
-        body.lane_s = static_cast<double>(car.lane_s());
-        consider(body, scene);
-    }
-    for (const world::WalkerState& walker : last.walkers()) {
-        const double speed = static_cast<double>(walker.speed());
-        if (far(walker.position(), speed))
-            continue;
-        const double yaw = static_cast<double>(walker.yaw());
-        body.direction = {std::cos(yaw), std::sin(yaw)};
-        body.centre = {walker.position().x(), walker.position().y()};
-        body.half_length = body.half_width = 0.25;
-        if (walker.down())
-            body.half_length = 0.9;
-        body.velocity = speed * body.direction;
-        body.speed = std::abs(speed);
-        body.z = walker.position().z();
-        body.id = walker.id();
-        body.lane = world::none;
-        consider(body, scene);
-    }
-    for (const world::PropState& prop : last.props()) {
-        const world::PropModel& model = world::prop_models()[prop.model()];
-        const Eigen::Vector2d velocity(prop.velocity().x(), prop.velocity().y());
-        if (model.height < least_prop || far(prop.position(), velocity.norm()))
-            continue;
-        const Eigen::Vector3d ahead =
-            world::to_eigen(prop.orientation()) * Eigen::Vector3d::UnitX();
-        body.direction =
-            ahead.head<2>().norm() > 0.1 ? ahead.head<2>().normalized() : Eigen::Vector2d::UnitX();
-        body.centre = {prop.position().x(), prop.position().y()};
-        body.half_length = model.length / 2;
-        body.half_width = model.width / 2;
-        body.velocity = velocity;
-        body.speed = velocity.norm();
-        body.z = prop.position().z();
-        body.id = prop.id();
-        body.lane = world::none;
-        consider(body, scene);
-    }
-    look_at_doors(last, scene);
-}
-
-/// An open door is part of what stands there.
-void Hazards::look_at_doors(const world::TickView& last, const Scene& scene) {
-    for (const world::Door& door : last.doors()) {
-        const world::VehicleState* vehicle = world::find(last.vehicles(), door.actor());
-        const world::CarState* car = world::find(last.cars(), door.actor());
-        if (door.actor() == scene.ego.id || (vehicle == nullptr && car == nullptr))
-            continue;
-        const std::uint16_t model = vehicle != nullptr ? vehicle->model() : car->model();
-        const Eigen::Isometry3d pose =
-            vehicle != nullptr ? world::pose(vehicle->position(), vehicle->orientation())
-                               : world::pose(car->position(),
-                                             static_cast<double>(car->yaw()),
-                                             static_cast<double>(car->pitch()));
-        const world::DoorLeaf leaf =
-            world::door_leaf(world::vehicle_models()[model], pose, door.door(), door.angle());
-        const Eigen::Vector3d along = leaf.pose.linear().col(0);
-        Body body;
-        body.centre = leaf.pose.translation().head<2>();
-        body.direction = along.head<2>().normalized();
-        body.half_length = leaf.half.x();
-        body.half_width = leaf.half.y();
-        body.velocity.setZero();
-        body.z = pose.translation().z();
-        body.id = door.actor();
-        consider(body, scene);
-    }
 }
 
 void Hazards::consider(const Body& body, const Scene& scene) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "drivers/bodies.h"
 #include "drivers/ego.h"
 #include "drivers/pedals.h"
 #include "drivers/way/path.h"
@@ -49,13 +50,11 @@ class Hazards {
     std::span<const Overlap> overlaps() const { return overlaps_; }
 
   private:
-    struct Body;
     struct Scene;
 
     void make_corridor(const Ego& ego, const Path& path);
     SweptWidth corridor_at(std::size_t sample) const;
     void consider(const Body& body, const Scene& scene);
-    void look_at_doors(const world::TickView& last, const Scene& scene);
     void foresee(const Body& body, const Scene& scene, double distance);
     bool place_after(const Body& body, double time, Body& moved) const;
     double first_contact(const Body& body, const Path& path) const;
@@ -64,7 +63,8 @@ class Hazards {
     const world::TownT* town_;
     std::vector<Eigen::Vector2d> coarse_;  ///< every 4 m of path in sight
     std::vector<std::size_t> coarse_index_;
-    Eigen::Vector2d low_, high_;
+    world::Box box_;  ///< around them
+    std::vector<Body> bodies_;
     double sight_start_ = 0;
     double half_width_ = 0;              ///< of the corridor, where it is widest
     std::span<const SweptWidth> swept_;  ///< while looking
