@@ -2,37 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
-#include <span>
 
-#include "drivers/ego.h"
-#include "drivers/gatekeeper.h"
-#include "drivers/hazards.h"
-#include "drivers/lane_change.h"
-#include "drivers/lateral_order.h"
-#include "drivers/navigator.h"
-#include "drivers/pedals.h"
-#include "drivers/speed_order.h"
+#include <fmt/format.h>
+
+#include "drivers/driver_state.h"
 #include "drivers/steering.h"
-#include "drivers/turn_around.h"
-#include "drivers/wide_turn.h"
 #include "world/check.h"
-#include "world/digest.h"
-#include "world/models/car_model.h"
 #include "world/units.h"
 
 namespace reprise::drivers {
 
 namespace {
 
-constexpr double speed_gain = 0.8;      // [1/s]
-constexpr double exact_gain = 3;        // [1/s] of one who is told a speed and when
-constexpr double indicate_before = 30;  // [m]
-constexpr double low_sun = 0.1;         // [rad]
-constexpr double longest_wait = 12;     // [s] for room on the next lane
-constexpr double end_reach = 3;         // [m] it stops 1 m before the end of the road
-constexpr double slowest_order = 0.1;   // [m/s] below it a speed means: stand
+constexpr double end_reach = 3;        // [m] it stops 1 m before the end of the road
+constexpr double slowest_order = 0.1;  // [m/s] below it a speed means: stand
 
 world::CarModel model_with(std::uint16_t index) {
     REPRISE_CHECK(index < world::vehicle_models().size(), "model " + std::to_string(index));
@@ -41,63 +24,30 @@ world::CarModel model_with(std::uint16_t index) {
 
 }  // namespace
 
-struct Autopilot::State {
-    State(std::uint32_t actor_id,
-          std::uint16_t model,
-          const world::EpisodeT& episode,
-          const RoadMap& road_map)
-        : actor(actor_id),
-          step(static_cast<double>(episode.step_ns) * 1e-9),
-          car(model_with(model)),
-          map(&road_map),
-          navigator(road_map, episode.seed, actor_id, step, style.comfortable_braking),
-          hazards(road_map.town),
-          gatekeeper(road_map.town) {}
-
-    const world::TownT& town() const { return map->town; }
-
-    const Way& way() const { return navigator.way(); }
-
-    bool has_tight_bends() const;
-    void plan_wide_turns(const Ego& ego);
-    double change_lanes(const world::TickView& last, Ego& ego);
-    void begin_orders(const world::TickView& last, const Ego& ego);
-    double cruise(const Ego& ego) const;
-    double ordered_acceleration(const Ego& ego) const;
-    double obedient_acceleration(const world::TickView& last, Ego& ego);
-    double careful_acceleration(const world::TickView& last, Ego& ego);
-    std::span<const SweptWidth> corridor(const Ego& ego);
-    double approach_turn(const Ego& ego);
-    void turn(const world::TickView& last, Ego& ego, world::Control& control);
-    std::uint16_t lamps(const world::TickView& last, const Ego& ego) const;
-
-    std::uint32_t actor;
-    double step;  ///< [s] of a tick
-    world::CarModel car;
-    DrivingStyle style;
-    const RoadMap* map;
-    Navigator navigator;
-    std::optional<WideTurnPlan> wide_turn;  ///< once there was a bend that needs it
-    std::uint64_t wide_turn_of_way = 0;     ///< the way's plan_digest() that it was planned for
-    bool has_wide_turn = false;             ///< on the way ahead
-    Hazards hazards;
-    Gatekeeper gatekeeper;
-    Pedals pedals;
-    TurnAround turn_around;
-    std::uint32_t turns_into = 0;  ///< the lane behind the turn
-    SpeedOrder speed_order;
-    LateralOrder lateral_order;
-    std::uint64_t tick = 0;                ///< the last one: not digested, nor what follows
-    std::vector<SweptWidth> moved_swept_;  ///< beside the path
-    std::uint32_t waiting_ticks = 0;       ///< beside cars on the lane that we want
-    bool at_end = false;                   ///< follows from the last tick and the way: not digested
-};
+Autopilot::State::State(std::uint32_t actor_id,
+                        std::uint16_t model,
+                        const world::EpisodeT& episode,
+                        const RoadMap& road_map,
+                        world::Pilot pilot)
+    : actor(actor_id),
+      step(static_cast<double>(episode.step_ns) * 1e-9),
+      car(model_with(model)),
+      map(&road_map),
+      navigator(road_map, episode.seed, actor_id, step, style.comfortable_braking),
+      hazards(road_map.town),
+      gatekeeper(road_map.town),
+      passing(road_map, step),
+      back_off(step) {
+    if (pilot == world::Pilot::pid)
+        pid.emplace();
+}
 
 Autopilot::Autopilot(std::uint32_t actor,
                      std::uint16_t model,
                      const world::EpisodeT& episode,
-                     const RoadMap& map)
-    : state_(std::make_unique<State>(actor, model, episode, map)) {}
+                     const RoadMap& map,
+                     world::Pilot pilot)
+    : state_(std::make_unique<State>(actor, model, episode, map, pilot)) {}
 
 Autopilot::~Autopilot() = default;
 Autopilot::Autopilot(Autopilot&&) noexcept = default;
@@ -117,6 +67,7 @@ void Autopilot::keep_lane(bool keep) {
 
 void Autopilot::switch_lane(std::uint32_t lane, double duration, world::Shape shape) {
     state_->navigator.switch_lane(lane);
+    state_->passing.drop();
     state_->lateral_order.come_over(duration, shape);
 }
 
@@ -156,6 +107,8 @@ void Autopilot::put_elsewhere() {
     state_->navigator.lose_way();
     state_->gatekeeper.reset();
     state_->turn_around = {};
+    state_->passing.drop();
+    state_->back_off.end();
     state_->waiting_ticks = 0;
     put_to_speed();
 }
@@ -182,6 +135,11 @@ world::Control Autopilot::decide(const world::TickView& last) {
     Ego ego = ego_of(*own);
     state.tick = last.index();
     world::Control control(0, 0, 0, state.actor, 0, false, false);
+    state.notice_pushing(last, ego);
+    if (state.back_off.is_going_back())
+        state.go_back(last, ego, control);
+    if (state.back_off.is_going_back())
+        return control;
     if (!state.turn_around.done())
         state.turn(last, ego, control);
     if (!state.turn_around.done())
@@ -189,14 +147,16 @@ world::Control Autopilot::decide(const world::TickView& last) {
 
     state.at_end = false;
     // Where am I? Off every road there is nothing to follow: stop.
-    const Navigator::Found found =
-        state.navigator.follow(ego, state.lateral_order.offset(state.tick, state.step));
+    const Navigator::Found found = state.navigator.follow(ego, state.expected_offset());
     if (found == Navigator::Found::nothing) {
         control.mutate_brake(0.5);
         return control;
     }
     if (found == Navigator::Found::another)
         state.gatekeeper.reset();
+
+    state.rear_axle_s = ego.rear_axle_s;
+    state.take_jump(ego);
 
     state.at_end = state.way().ended() && state.way().path().end() - ego.front_s() < end_reach;
 
@@ -206,6 +166,17 @@ world::Control Autopilot::decide(const world::TickView& last) {
     const bool told = state.speed_order.reacts_to_nothing();
     const double acceleration =
         told ? state.obedient_acceleration(last, ego) : state.careful_acceleration(last, ego);
+    if (state.pid && !told) {
+        const double most = std::min(std::sqrt(state.way().path().at(ego.front_s()).squared_speed),
+                                     state.speed_order.target());
+        const PidDriver::Answer said =
+            state.pid->drive(ego, state.way().path(), acceleration, most, state.step);
+        control.mutate_throttle(said.pedals.throttle);
+        control.mutate_brake(said.pedals.brake);
+        control.mutate_steer(said.steer);
+        control.mutate_lamps(state.lamps(last, ego));
+        return control;
+    }
     const bool exact = told || state.speed_order.is_changing(state.tick, state.step);
 
     // Hands and feet.
@@ -219,8 +190,7 @@ world::Control Autopilot::decide(const world::TickView& last) {
                            exact ? Pedals::Manner::exact : Pedals::Manner::gentle);
     control.mutate_throttle(pedals.throttle);
     control.mutate_brake(pedals.brake);
-    const std::optional<BesidePath> beside =
-        state.lateral_order.beside(state.tick, state.step, ego.speed, tracked_ahead(*ego.model));
+    const std::optional<BesidePath> beside = state.beside(ego);
     control.mutate_steer(state.has_wide_turn ? steer(ego, *state.wide_turn, beside)
                                              : steer(ego, state.way().path(), beside));
     control.mutate_lamps(state.lamps(last, ego));
@@ -243,160 +213,18 @@ double Autopilot::State::obedient_acceleration(const world::TickView& last, Ego&
 }
 
 double Autopilot::State::careful_acceleration(const world::TickView& last, Ego& ego) {
-    double acceleration = cruise(ego);
+    double acceleration = pid ? ended_acceleration(ego) : cruise(ego);
     acceleration = std::min(acceleration, change_lanes(last, ego));
     acceleration = std::min(acceleration, approach_turn(ego));
+    take_jump(ego);
     plan_wide_turns(ego);
+    passing.follow(last, ego, way());
     hazards.look(last, ego, way().path(), style, corridor(ego));
-    acceleration = std::min(acceleration, hazards.acceleration());
+    pass(last, ego);
+    acceleration =
+        std::min({acceleration, hazards.acceleration(), passing.acceleration(ego, style)});
     return std::min(acceleration,
                     gatekeeper.decide(last, ego, way(), hazards.overlaps(), style, step));
-}
-
-/// What the car will sweep beside its path; empty: its width everywhere.
-std::span<const SweptWidth> Autopilot::State::corridor(const Ego& ego) {
-    const std::span<const SweptWidth> swept =
-        has_wide_turn ? wide_turn->swept() : std::span<const SweptWidth>();
-    if (lateral_order.empty())
-        return swept;
-    const Path& path = way().path();
-    const double half = ego.model->width / 2;
-    moved_swept_.assign(path.points().size(), SweptWidth{half, half});
-    if (!swept.empty())
-        std::copy_n(
-            swept.begin(), std::min(swept.size(), moved_swept_.size()), moved_swept_.begin());
-    for (std::size_t i = 0; i < moved_swept_.size(); ++i) {
-        const double later =
-            std::max(path.s_of(i) - ego.rear_axle_s, 0.0) / std::max(ego.speed, 2.0);
-        const double offset = lateral_order.offset(tick, step, later);
-        moved_swept_[i].left += offset;
-        moved_swept_[i].right -= offset;
-    }
-    return moved_swept_;
-}
-
-/// Of one who keeps to an ordered speed, or to the changing of one. [m/s^2]
-double Autopilot::State::ordered_acceleration(const Ego& ego) const {
-    const SpeedOrder::Wish wish = speed_order.wish(tick, step);
-    return wish.acceleration + exact_gain * (wish.speed - ego.speed);
-}
-
-/// Bends that no steering can follow; those where we turn around are not driven along the path.
-bool Autopilot::State::has_tight_bends() const {
-    // [m] to both sides; the points' own curvature is over 6 m, where a jog cancels itself.
-    constexpr double bend_reach = 1.5;
-    const double sharpest =
-        0.9 * std::tan(car.catalogue->max_steering_angle) / car.catalogue->wheelbase;
-    const Path& path = way().path();
-    for (std::size_t i = 0; i < path.points().size(); ++i) {
-        const double s = path.s_of(i);
-        if (std::abs(path.curvature(s, bend_reach)) < sharpest)
-            continue;
-        if (std::none_of(way().gates().begin(), way().gates().end(), [&](const Gate& gate) {
-                return gate.turn == world::Turn::around && gate.s - 5 < s && s < gate.exit_s + 5;
-            }))
-            return true;
-    }
-    return false;
-}
-
-/// Bends that need it are planned when the way has changed.
-void Autopilot::State::plan_wide_turns(const Ego& ego) {
-    if (wide_turn_of_way == way().plan_digest() && !(has_wide_turn && wide_turn->empty()))
-        return;
-    wide_turn_of_way = way().plan_digest();
-    has_wide_turn = WideTurnPlan::is_needed(*car.catalogue) || has_tight_bends();
-    if (!has_wide_turn)
-        return;
-    if (!wide_turn)
-        wide_turn.emplace(*car.catalogue, map->clearances);
-    // What the scenario wants beside the path comes on top of the plan.
-    Ego start = ego;
-    if (!lateral_order.empty()) {
-        const PathPoint here = way().path().at(ego.rear_axle_s);
-        start.position = here.position;
-        start.direction = here.direction;
-        start.yaw = here.yaw;
-    }
-    wide_turn->plan(way().path(), start);
-    has_wide_turn = !wide_turn->empty();
-}
-
-/// Before the path leaves our lane: is there room on the other one? If not, leave it later, and at
-/// the latest place wait.
-double Autopilot::State::change_lanes(const world::TickView& last, Ego& ego) {
-    for (const LaneChange& change : way().changes()) {
-        const double before = change.start - ego.front_s();
-        if (before < 0 || before > 2 + ego.speed)
-            continue;
-        if (is_clear(last, ego, town(), change.to) || waiting_ticks * step > longest_wait) {
-            if (before < 1)
-                waiting_ticks = 0;
-            return world::infinity;
-        }
-        if (change.spare > 5) {
-            const double later = before + std::min(5 + ego.speed, change.spare);
-            navigator.put_off_change(later, ego);
-            return world::infinity;
-        }
-        waiting_ticks += ego.speed < 0.5 ? 1 : 0;
-        return stop_acceleration(before, ego.speed, style.comfortable_braking, style);
-    }
-    return world::infinity;
-}
-
-/// The speed that lanes, curves and the scenario's cap allow, and dead ends. [m/s^2]
-double Autopilot::State::cruise(const Ego& ego) const {
-    const Path& path = way().path();
-    const bool changing = speed_order.is_changing(tick, step);
-    const double cap = changing ? speed_order.wish(tick, step).speed : speed_order.target();
-    // A glance ahead makes up for the tick's delay.
-    const double middle = ego.model->wheelbase / 2;
-    const double s = ego.rear_axle_s + middle + ego.speed * step;
-    const auto squared_speed = [&](double at) {
-        const double most = path.at(at).squared_speed;
-        return has_wide_turn ? std::min(most, wide_turn->at(at - middle).squared_speed) : most;
-    };
-    const double here = squared_speed(s);
-    const double allowed = std::sqrt(here);
-    double acceleration = speed_gain * (std::min(allowed, cap) - ego.speed);
-    if (allowed < cap && ego.speed > allowed - 1) {
-        acceleration +=
-            std::clamp((squared_speed(s + 1) - here) / 2, -style.comfortable_braking, 0.0);
-    }
-    acceleration = std::clamp(acceleration, -4.0, style.acceleration);
-    if (changing) {
-        const double as_told = ordered_acceleration(ego);
-        // A change takes what it takes, as long as the road allows the speed.
-        acceleration = cap < allowed ? as_told : std::min(acceleration, as_told);
-    }
-    if (way().ended())
-        acceleration = std::min(
-            acceleration,
-            stop_acceleration(
-                path.end() - ego.front_s() - 1, ego.speed, style.comfortable_braking, style));
-    return acceleration;
-}
-
-/// Stops where a turn begins that takes going back and forth, and begins it. [m/s^2]
-double Autopilot::State::approach_turn(const Ego& ego) {
-    constexpr double sight = 80;  // [m]
-    const auto ahead = std::find_if(way().gates().begin(),
-                                    way().gates().end(),
-                                    [&](const Gate& gate) { return gate.s > ego.front_s() - 1; });
-    if (ahead == way().gates().end() || ahead->turn != world::Turn::around ||
-        ahead->s > ego.front_s() + sight)
-        return world::infinity;
-    const world::Link& link = town().lanes[ahead->from].links[ahead->link];
-    const auto street = TurnAround::street_of(town(), ahead->from, link, *ego.model);
-    if (!street)
-        return world::infinity;
-    const double distance = ahead->s - TurnAround::before_end - ego.front_s();
-    if (distance < 0.7 && ego.speed < 0.2) {
-        turn_around.begin(*street, ego);
-        turns_into = ahead->to;
-    }
-    return stop_acceleration(distance, ego.speed, style.comfortable_braking, style);
 }
 
 /// Hands and feet while we turn around; when that is done, a new path on the lane behind it.
@@ -408,52 +236,56 @@ void Autopilot::State::turn(const world::TickView& last, Ego& ego, world::Contro
         return;
     }
     const bool back = move.speed < 0;
-    const double along = back ? -ego.speed : ego.speed;
-    const double wanted = std::clamp(2 * (std::abs(move.speed) - along), -2.5, 1.0);
-    const double climb = (back ? -1 : 1) * turn_around.climb(ego);
-    const Pedals::Position position = move.speed == 0 || speed_order.brakes()
+    creep(move.speed,
+          back ? -ego.speed : ego.speed,
+          (back ? -1 : 1) * turn_around.climb(ego),
+          control);
+    control.mutate_steer(move.steer);
+    control.mutate_lamps(town().left_hand ? world::lamp_right : world::lamp_left);
+}
+
+/// Slowly, in either direction: speed below 0 is backwards. `along`: the car's speed that way,
+/// `climb`: the road's.
+void Autopilot::State::creep(double speed, double along, double climb, world::Control& control) {
+    const double wanted = std::clamp(2 * (std::abs(speed) - along), -2.5, 1.0);
+    const Pedals::Position position = speed == 0 || speed_order.brakes()
                                           ? Pedals::Position{0, 0.5}
                                           : pedals.press(wanted, along, climb, car, step);
     control.mutate_throttle(position.throttle);
     control.mutate_brake(position.brake);
-    control.mutate_steer(move.steer);
-    control.mutate_reverse(back);
-    control.mutate_lamps(town().left_hand ? world::lamp_right : world::lamp_left);
+    control.mutate_reverse(speed < 0);
 }
 
-std::uint16_t Autopilot::State::lamps(const world::TickView& last, const Ego& ego) const {
-    int lit = 0;
-    const int around = town().left_hand ? world::lamp_right : world::lamp_left;
-    for (const Gate& gate : way().gates()) {
-        if (gate.s - ego.front_s() > indicate_before || ego.rear_s() > gate.exit_s)
-            continue;
-        switch (gate.turn) {
-            case world::Turn::left:
-            case world::Turn::partially_left:
-                lit |= world::lamp_left;
-                break;
-            case world::Turn::right:
-            case world::Turn::partially_right:
-                lit |= world::lamp_right;
-                break;
-            case world::Turn::around:
-                lit |= around;
-                break;
-            case world::Turn::straight:
-                break;
-        }
-        break;
+/// Held by something, with the foot on the throttle? Who was told a speed reacts to nothing.
+void Autopilot::State::notice_pushing(const world::TickView& last, const Ego& ego) {
+    news.reset();
+    const world::Control* given = world::find(last.controls(), actor);
+    const bool told = speed_order.reacts_to_nothing();
+    if (back_off.notice(last, ego, given == nullptr || told || pid ? 0 : given->throttle()))
+        news = fmt::format("backs off {:.1f} m, after pushing against something for 2 s",
+                           back_off.distance());
+}
+
+/// Hands and feet while we go back; when that is done, a new path from there.
+void Autopilot::State::go_back(const world::TickView& last, Ego& ego, world::Control& control) {
+    const Path& path = way().path();
+    const bool has_path = !path.empty();
+    const double climb = has_path ? -path.climb(rear_axle_s, 1) : 0;
+    const BackOff::Move move = back_off.next(last, ego, has_path ? &path : nullptr, rear_axle_s);
+    if (!back_off.is_going_back()) {
+        passing.drop();
+        pedals = {};
+        if (turn_around.done())
+            navigator.lose_way();
+        return;
     }
-    for (const LaneChange& change : way().changes())
-        if (change.start - ego.front_s() < indicate_before && ego.rear_axle_s < change.end)
-            lit = change.to_left ? world::lamp_left : world::lamp_right;
-    if (const int side = lateral_order.side(tick, step))
-        lit = side > 0 ? world::lamp_left : world::lamp_right;
-    const world::Weather* weather = last.tick->weather();
-    if (weather != nullptr &&
-        (weather->rain() > 0 || static_cast<double>(weather->sun_altitude()) < low_sun))
-        lit |= world::lamp_low_beam;
-    return static_cast<std::uint16_t>(lit);
+    creep(-move.speed, -ego.speed, climb, control);
+    control.mutate_steer(move.steer);
+    control.mutate_lamps(lamps(last, ego));
+}
+
+const std::string* Autopilot::news() const {
+    return state_->news ? &*state_->news : nullptr;
 }
 
 std::uint64_t Autopilot::digest() const {
@@ -466,6 +298,10 @@ std::uint64_t Autopilot::digest() const {
     hasher.add(state.turns_into);
     state.speed_order.add_to(hasher);
     state.lateral_order.add_to(hasher);
+    state.passing.add_to(hasher);
+    state.back_off.add_to(hasher);
+    if (state.pid)
+        state.pid->add_to(hasher);
     hasher.add(state.waiting_ticks);
     hasher.add(state.has_wide_turn);
     if (state.has_wide_turn)

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "drivers/road_map.h"
@@ -15,14 +16,17 @@ namespace reprise::drivers {
 /// proportional and integral terms, keeps its distance (IDM), stops at red and at stop signs, gives
 /// way. It sees what any driver sees: the last tick. Without a route it wanders: at every junction
 /// it draws one of the ways that go on. It leaves its lane where its route needs it, or where the
-/// lane leads nowhere and another one does.
+/// lane leads nowhere and another one does, and for as long as it takes to pass what stands or
+/// crawls in it. Held by something that it touches, it goes back a little and tries again.
 class Autopilot {
   public:
-    /// `map` must outlive the driver; it copies what it needs of `episode`.
+    /// `map` must outlive the driver; it copies what it needs of `episode`. Pilot::pid drives as
+    /// PidDriver does, and passes nothing.
     Autopilot(std::uint32_t actor,
               std::uint16_t model,
               const world::EpisodeT& episode,
-              const RoadMap& map);
+              const RoadMap& map,
+              world::Pilot pilot = world::Pilot::idm);
     ~Autopilot();
     Autopilot(Autopilot&&) noexcept;
     Autopilot& operator=(Autopilot&&) noexcept;
@@ -75,6 +79,9 @@ class Autopilot {
 
     /// The control for the next tick. The actor must be in `last`.
     world::Control decide(const world::TickView& last);
+
+    /// Of the last decide: that it begins to go back, and why; null: it does not.
+    const std::string* news() const;
 
     /// As it last decided: does it want to get on? Not where the road leads nowhere, and not
     /// when it was told to stand. (Behind its route it wanders on.)

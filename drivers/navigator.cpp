@@ -123,11 +123,13 @@ bool Navigator::is_lost(const Ego& ego, double beside) const {
 void Navigator::start_over(Ego& ego,
                            const std::vector<std::uint32_t>& lanes_ahead,
                            double change_room) {
+    const double before = rear_axle_s_;
     const double s = world::project(map_->town.lanes[lanes_ahead.front()], ego.position).s;
     way_.restart(lanes_ahead, {std::max(s - way_behind, 0.0), s, ego.speed, change_room});
     way_.extend(0, shortest_way);
     rear_axle_s_ = way_.path().project(ego.position, 0, 3 * way_behind);
     ego.rear_axle_s = rear_axle_s_;
+    jump_ += rear_axle_s_ - before;
 }
 
 /// Lanes that we can no longer choose: those under the car, and what lies behind a junction that is

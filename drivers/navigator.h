@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "drivers/ego.h"
@@ -66,6 +67,10 @@ class Navigator {
 
     const Way& way() const { return way_; }
 
+    /// By how much distances along the way have grown since the last call: a way that starts anew
+    /// is counted from there. [m]
+    double take_jump() { return std::exchange(jump_, 0); }
+
     void add_to(world::Hasher& hasher) const;
 
   private:
@@ -93,6 +98,7 @@ class Navigator {
     bool new_lane_at_once_ = false;
     std::optional<bool> new_keeping_;
     double rear_axle_s_ = 0;  ///< only grows while the way stays
+    double jump_ = 0;         ///< taken within the tick: not digested
     bool on_way_ = false;
 };
 

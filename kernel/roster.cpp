@@ -190,7 +190,7 @@ void Roster::spawn(const world::TickView& last,
 
     Entry entry{command.model, std::nullopt, parked_control(command.actor)};
     if (command.driver == world::Driver::autopilot) {
-        entry.autopilot.emplace(command.actor, command.model, *episode_, map_);
+        entry.autopilot.emplace(command.actor, command.model, *episode_, map_, command.pilot);
         entry.route_line = command.line;
         if (!command.lanes.empty())
             entry.autopilot->set_route(command.lanes, town_->lanes.at(command.lanes.back()).length);
@@ -341,10 +341,21 @@ bool Roster::is_free(const world::TickView& last,
 }
 
 /// The autopilot plans a new route when it next decides; what it then finds impossible is the
-/// mistake of the line that asked for the route.
-world::Control Roster::decide(Entry& entry, const world::TickView& last) const {
+/// mistake of the line that asked for the route. That it backs off is an event.
+world::Control Roster::decide(Entry& entry,
+                              const world::TickView& last,
+                              world::TickDraft& next) const {
     try {
-        return entry.autopilot->decide(last);
+        const world::Control control = entry.autopilot->decide(last);
+        if (const std::string* news = entry.autopilot->news()) {
+            world::EventT backed_off;
+            backed_off.kind = world::EventKind::backed_off;
+            backed_off.actor = control.actor();
+            backed_off.position = world::find(last.vehicles(), control.actor())->position();
+            backed_off.text = *news;
+            next.tick.events.push_back(std::move(backed_off));
+        }
+        return control;
     } catch (const world::Error& error) {
         throw world::Error(episode_->scenario_path + ":" + std::to_string(entry.route_line) + ": " +
                            error.what());
@@ -368,7 +379,7 @@ void Roster::apply_controls(std::span<const world::Control> controls,
         if (entry.autopilot && entry.follows_until > 0)
             entry.control = {0, 0, 0, id, 0, false, false};  // a trajectory drives
         else if (entry.autopilot && in_last_tick && entry.moved_at != next.tick.index)
-            entry.control = decide(entry, last);
+            entry.control = decide(entry, last, next);
         else if (!entry.autopilot && !entry.scripted && entry.rolls_until > 0 &&
                  next.tick.index > entry.rolls_until)
             entry.control = parked_control(id);  // nobody took the wheel

@@ -84,7 +84,7 @@ class Roster {
                               std::uint16_t model,
                               const Physics& physics) const;
     void roll(Entry& entry, const world::CommandT& spawn, double climb, std::uint64_t tick) const;
-    world::Control decide(Entry& entry, const world::TickView& last) const;
+    world::Control decide(Entry& entry, const world::TickView& last, world::TickDraft& next) const;
     void despawn(const world::CommandT& command, world::TickDraft& next, Physics& physics);
     void spawn(const world::TickView& last,
                world::CommandT& command,

@@ -138,6 +138,19 @@ std::uint8_t read_latency(const Fields& fields, const Actor& actor) {
     return static_cast<std::uint8_t>(ticks);
 }
 
+/// Which of the built-in drivers.
+world::Pilot read_pilot(const Fields& fields, const Actor& actor) {
+    const auto said = fields.text("pilot");
+    if (!said)
+        return world::Pilot::idm;
+    if (actor.driver != world::Driver::autopilot)
+        refuse("spawn",
+               fmt::format("'pilot' is for driver = 'autopilot', which '{}' has not", actor.name));
+    if (*said != "idm" && *said != "pid")
+        refuse("spawn", fmt::format("no pilot '{}'; there are idm, pid", *said));
+    return *said == "pid" ? world::Pilot::pid : world::Pilot::idm;
+}
+
 int spawn(Run& run, lua_State* L);
 
 int spawn_again(lua_State* L, int, std::ptrdiff_t) {
@@ -151,6 +164,9 @@ constexpr Key spawn_key_rows[] = {
      "what it is: reprise list models, walkers, props",
      true},
     {"driver", "DriverName", "who moves it; default 'autopilot', of walkers 'walker'"},
+    {"pilot",
+     "'idm'|'pid'",
+     "which 'autopilot': ours (default), or the PID driver of CARLA's paper"},
     {"latency", "integer", "[ticks] 0 to 100, of an 'external' driver's controls"},
     {"lane",
      "LaneName|'left'|'right'|'same'",
@@ -209,6 +225,7 @@ int spawn(Run& run, lua_State* L) {
     auto rig = read_rig(L, fields, actor, latency);
     const bool sees_sensors = read_sees_sensors(fields, actor);
     actor.keeps_lane = read_keeps_lane(fields, actor);
+    const world::Pilot pilot = read_pilot(fields, actor);
 
     world::CommandT& said = run.say(L, world::CommandKind::spawn, actor.id);
     said.driver = actor.driver;
@@ -224,6 +241,7 @@ int spawn(Run& run, lua_State* L) {
     said.latency = latency;
     said.rig = std::move(rig);
     said.sees_sensors = sees_sensors;
+    said.pilot = pilot;
     if (actor.keeps_lane)
         run.say(L, world::CommandKind::change_lane, actor.id).lanes = {world::none};
     push_handle(L, run.actors.add(std::move(actor)).id);

@@ -103,6 +103,10 @@ class Drive {
         draft.tick.weather = start.weather;
         draft.traffic.cars = cars;
         draft.traffic.walkers = walkers;
+        draft.tick.props = props;
+        draft.tick.measurements = measurements;
+        draft.tick.controls = {control};
+        draft.tick.controls[0].mutate_actor(1);
         const world::SealedTick sealed = world::seal(draft, {});
         control = autopilot->decide(sealed.view());
         car.advance(control, 0.05);
@@ -130,6 +134,8 @@ class Drive {
     std::optional<drivers::Autopilot> autopilot;
     std::vector<world::CarState> cars;
     std::vector<world::WalkerState> walkers;
+    std::vector<world::PropState> props;
+    std::vector<world::Measurement> measurements;
     std::vector<world::SignalColor> signals;
     world::Control control;
     std::uint64_t tick = 0;

@@ -102,6 +102,10 @@ TEST(Mistakes, OfWhatHasNoEffect) {
             {"spawn{ model = 'sedan', driver = 'manual', lane = 'east_1', lane_changes = false }",
              "spawn: 'lane_changes' is for driver = 'autopilot' and 'traffic': whoever else moves "
              "'sedan' changes lanes by itself"},
+            {"spawn{ model = 'sedan', driver = 'manual', lane = 'east_1', pilot = 'pid' }",
+             "spawn: 'pilot' is for driver = 'autopilot', which 'sedan' has not"},
+            {"spawn{ model = 'sedan', lane = 'east_1', pilot = 'mpc' }",
+             "spawn: no pilot 'mpc'; there are idm, pid"},
         });
     expect(
         ego,
@@ -298,8 +302,10 @@ TEST(Mistakes, CanBeCaughtByTheScript) {
     EXPECT_EQ(
         test::printed("print(pcall(wait, -1)) print(pcall(function() spawn{ colour = 1 } end))")
             .at(1),
-        "false test.lua:1: spawn: unknown key 'colour' (known: name, model, driver, latency, lane, "
-        "s, offset, x, y, z, heading_deg, ahead_of, behind, beside, gap, speed, speed_kmh, rig, "
+        "false test.lua:1: spawn: unknown key 'colour' (known: name, model, driver, pilot, "
+        "latency, "
+        "lane, s, offset, x, y, z, heading_deg, ahead_of, behind, beside, gap, speed, speed_kmh, "
+        "rig, "
         "sees, lane_changes)");
 }
 

@@ -1,0 +1,145 @@
+#include "drivers/back_off.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "drivers/bodies.h"
+#include "world/frames.h"
+
+namespace reprise::drivers {
+
+namespace {
+
+constexpr double patience_pushing = 2;   // [s]
+constexpr double contact_memory = 0.5;   // [s] contacts come and go
+constexpr double held = 0.3;             // [m/s] slower than this is not moving
+constexpr double least_throttle = 0.03;  // of one who wants to go on
+constexpr double least_impulse = 5;      // [N s] of a tick in contact
+constexpr double first_distance = 3;     // [m]
+constexpr double more_each_time = 2;     // [m]
+constexpr std::uint32_t most_more = 3;
+constexpr double forgotten_after = 20;  // [s] without contact
+constexpr double backwards = 1.2;       // [m/s]
+constexpr double behind_clear = 1.0;    // [m] kept from those behind
+constexpr double behind_braking = 1.5;  // [m/s^2]
+constexpr double gives_up = 3;          // [s] of standing while it wants back
+constexpr double turn_of_tail = 0.3;    // [rad] for each metre beside the path
+constexpr double most_turn = 0.5;       // [rad]
+constexpr double turn_gain = 2;
+
+}  // namespace
+
+bool BackOff::notice(const world::TickView& last, const Ego& ego, double throttle) {
+    const world::Measurement* measured = world::find(last.measurements(), ego.id);
+    const double impulse = measured == nullptr
+                               ? 0
+                               : measured->impulse_vehicles() + measured->impulse_walkers() +
+                                     measured->impulse_static();
+    const bool contact = impulse - impulse_ > least_impulse;
+    impulse_ = impulse;
+    if (contact)
+        free_ticks_ = 0;
+    else if (tries_ > 0 || pushing_ticks_ > 0)
+        ++free_ticks_;
+    if (free_ticks_ * step_ > forgotten_after)
+        tries_ = free_ticks_ = 0;
+    if (going_back_)
+        return false;
+    const bool touches = contact || (pushing_ticks_ > 0 && free_ticks_ * step_ < contact_memory);
+    const bool pushes = touches && throttle > least_throttle && std::abs(ego.speed) < held;
+    pushing_ticks_ = pushes ? pushing_ticks_ + 1 : 0;
+    if (pushing_ticks_ * step_ < patience_pushing)
+        return false;
+    begin(first_distance + more_each_time * std::min(tries_, most_more), ego);
+    ++tries_;
+    return true;
+}
+
+bool BackOff::make_room(double distance, const world::TickView& last, const Ego& ego) {
+    if (going_back_ || tries_ >= most_more || somebody_is_behind(last, ego))
+        return false;
+    begin(distance, ego);
+    ++tries_;
+    free_ticks_ = 0;
+    return true;
+}
+
+void BackOff::end() {
+    going_back_ = false;
+    pushing_ticks_ = 0;
+}
+
+void BackOff::begin(double distance, const Ego& ego) {
+    going_back_ = true;
+    distance_ = distance;
+    from_ = ego.position.head<2>();
+    pushing_ticks_ = standing_ticks_ = 0;
+}
+
+bool BackOff::somebody_is_behind(const world::TickView& last, const Ego& ego) const {
+    const double speed = std::max(-ego.speed, 0.0);
+    const double reach = behind_clear + 0.2 * speed + speed * speed / (2 * behind_braking);
+    const double half = ego.model->width / 2 + 0.3;
+    world::Box around;
+    around.take(ego.position.head<2>(), 15);
+    std::vector<Body> bodies;
+    collect_bodies(last, ego.id, around, 0, bodies);
+    const Eigen::Vector2d left(-ego.direction.y(), ego.direction.x());
+    return std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+        if (std::abs(body.z - ego.position.z()) > world::level_clearance)
+            return false;
+        // Those who come nearer count farther away.
+        const double closing = std::max(body.velocity.dot(ego.direction), 0.0);
+        for (double back = ego.model->rear_overhang + 0.3;
+             back < ego.model->rear_overhang + reach + 1.5 * closing;
+             back += 0.4)
+            if (body.meets(ego.position.head<2>() - back * ego.direction, half * left))
+                return true;
+        return false;
+    });
+}
+
+BackOff::Move BackOff::next(const world::TickView& last,
+                            const Ego& ego,
+                            const Path* path,
+                            double s) {
+    const double driven = (from_ - ego.position.head<2>()).dot(ego.direction);
+    const bool done = driven > distance_ - 0.3 || standing_ticks_ * step_ > gives_up;
+    if (done && std::abs(ego.speed) < 0.1) {
+        going_back_ = false;
+        return {};
+    }
+    Move move;
+    if (path != nullptr) {
+        const PathPoint here = path->at(s);
+        const double beside =
+            world::cross(here.direction, ego.position.head<2>() - here.position.head<2>());
+        const double wanted = here.yaw + std::clamp(turn_of_tail * beside, -most_turn, most_turn);
+        move.steer = std::clamp(
+            -turn_gain * world::wrap_angle(wanted - ego.yaw) / ego.model->max_steering_angle,
+            -1.0,
+            1.0);
+    }
+    if (!done && !somebody_is_behind(last, ego))
+        move.speed = backwards;
+    standing_ticks_ = std::abs(ego.speed) < 0.1 ? standing_ticks_ + 1 : 0;
+    return move;
+}
+
+void BackOff::add_to(world::Hasher& hasher) const {
+    if (impulse_ > 0)
+        hasher.add(impulse_);
+    for (const std::uint32_t ticks : {pushing_ticks_, free_ticks_, tries_})
+        if (ticks > 0)
+            hasher.add(ticks);
+    if (!going_back_)
+        return;
+    hasher.add(distance_);
+    hasher.add(from_.x());
+    hasher.add(from_.y());
+    hasher.add(standing_ticks_);
+}
+
+}  // namespace reprise::drivers

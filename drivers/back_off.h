@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "drivers/ego.h"
+#include "drivers/way/path.h"
+#include "world/digest.h"
+#include "world/tick.h"
+
+namespace reprise::drivers {
+
+/// What a driver does whose car does not move though it should: goes back a little and tries again.
+///
+/// MUST    notice after two seconds that the car is held by what it touches; look behind itself;
+/// end. ASSUMES that what one is pressed against shows in the impulses that a car measures of
+/// itself. GOES    backwards along the path, its tail turned towards it, so that the next try leads
+/// past;
+///         farther the next time, when there was one before.
+/// KEEPS   for how long it pushes, where it goes back, and how often it did.
+class BackOff {
+  public:
+    struct Move {
+        double speed = 0;  ///< [m/s] backwards
+        double steer = 0;  ///< as in Control
+    };
+
+    /// `step`: [s] of a tick.
+    explicit BackOff(double step) : step_(step) {}
+
+    /// After each tick: `throttle` is what was given in it. True: it has pushed for too long, and
+    /// begins to go back.
+    bool notice(const world::TickView& last, const Ego& ego, double throttle);
+
+    /// Goes back by so much, to have room ahead [m]; false: somebody is behind, or it did often.
+    bool make_room(double distance, const world::TickView& last, const Ego& ego);
+
+    /// It was put elsewhere.
+    void end();
+
+    bool is_going_back() const { return going_back_; }
+
+    /// Where it goes back: [m] that it means to.
+    double distance() const { return distance_; }
+
+    /// While it goes back. `path` and `s`: where the car is on its way, none off every road.
+    Move next(const world::TickView& last, const Ego& ego, const Path* path, double s);
+
+    void add_to(world::Hasher& hasher) const;
+
+  private:
+    void begin(double distance, const Ego& ego);
+    bool somebody_is_behind(const world::TickView& last, const Ego& ego) const;
+
+    double step_;
+    double impulse_ = 0;               ///< [N s] taken up so far, of all kinds
+    std::uint32_t pushing_ticks_ = 0;  ///< of throttle, contact and standing
+    std::uint32_t free_ticks_ = 0;     ///< since the last contact
+    std::uint32_t tries_ = 0;          ///< one after another
+    bool going_back_ = false;
+    double distance_ = 0;
+    Eigen::Vector2d from_ = {0, 0};     ///< where it began
+    std::uint32_t standing_ticks_ = 0;  ///< while it wants to go back
+};
+
+}  // namespace reprise::drivers

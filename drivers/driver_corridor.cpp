@@ -1,0 +1,140 @@
+// The built-in driver: where beside its path it drives, and what it sweeps there.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "drivers/driver_state.h"
+#include "drivers/steering.h"
+#include "world/geometry2d.h"
+
+namespace reprise::drivers {
+
+/// What the car will sweep beside its path; empty: its width everywhere.
+std::span<const SweptWidth> Autopilot::State::corridor(const Ego& ego) {
+    const std::span<const SweptWidth> swept =
+        has_wide_turn ? wide_turn->swept() : std::span<const SweptWidth>();
+    if (lateral_order.empty() && !passing.plan())
+        return swept;
+    const Path& path = way().path();
+    const double half = ego.model->width / 2;
+    moved_swept_.assign(path.points().size(), SweptWidth{half, half});
+    if (!swept.empty())
+        std::copy_n(
+            swept.begin(), std::min(swept.size(), moved_swept_.size()), moved_swept_.begin());
+    for (std::size_t i = 0; i < moved_swept_.size(); ++i) {
+        const double later =
+            std::max(path.s_of(i) - ego.rear_axle_s, 0.0) / std::max(ego.speed, 2.0);
+        const double offset = lateral_order.offset(tick, step, later) +
+                              (passing.plan() ? passing.plan()->bypass.offset(path.s_of(i)) : 0);
+        moved_swept_[i].left += offset;
+        moved_swept_[i].right -= offset;
+    }
+    return moved_swept_;
+}
+
+/// Bends that no steering can follow; those where we turn around are not driven along the path.
+bool Autopilot::State::has_tight_bends() const {
+    // [m] to both sides; the points' own curvature is over 6 m, where a jog cancels itself.
+    constexpr double bend_reach = 1.5;
+    const double sharpest =
+        0.9 * std::tan(car.catalogue->max_steering_angle) / car.catalogue->wheelbase;
+    const Path& path = way().path();
+    for (std::size_t i = 0; i < path.points().size(); ++i) {
+        const double s = path.s_of(i);
+        if (std::abs(path.curvature(s, bend_reach)) < sharpest)
+            continue;
+        if (std::none_of(way().gates().begin(), way().gates().end(), [&](const Gate& gate) {
+                return gate.turn == world::Turn::around && gate.s - 5 < s && s < gate.exit_s + 5;
+            }))
+            return true;
+    }
+    return false;
+}
+
+/// Bends that need it are planned when the way has changed.
+void Autopilot::State::plan_wide_turns(const Ego& ego) {
+    if (wide_turn_of_way == way().plan_digest() && !(has_wide_turn && wide_turn->empty()))
+        return;
+    wide_turn_of_way = way().plan_digest();
+    has_wide_turn = WideTurnPlan::is_needed(*car.catalogue) || has_tight_bends();
+    if (!has_wide_turn)
+        return;
+    if (!wide_turn)
+        wide_turn.emplace(*car.catalogue, map->clearances);
+    // What the scenario wants beside the path comes on top of the plan.
+    Ego start = ego;
+    if (!lateral_order.empty() || passing.plan()) {
+        const PathPoint here = way().path().at(ego.rear_axle_s);
+        start.position = here.position;
+        start.direction = here.direction;
+        start.yaw = here.yaw;
+    }
+    wide_turn->plan(way().path(), start);
+    has_wide_turn = !wide_turn->empty();
+}
+
+/// Of the rear axle, as far as it will have come since the last tick. [m]
+double Autopilot::State::expected_offset() const {
+    return lateral_order.offset(tick, step) +
+           (passing.plan() ? passing.plan()->bypass.offset(rear_axle_s) : 0);
+}
+
+/// Where beside the path the point that is steered along it is to be; none: on it.
+std::optional<BesidePath> Autopilot::State::beside(const Ego& ego) const {
+    const double ahead = tracked_ahead(*ego.model);
+    const std::optional<BesidePath> told = lateral_order.beside(tick, step, ego.speed, ahead);
+    if (!passing.plan())
+        return told;
+    const double s = ego.rear_axle_s + ahead;
+    BesidePath place =
+        passing.plan()->bypass.beside(s, s + BesidePath::preview * std::max(ego.speed, 0.0));
+    if (told) {
+        place.offset += told->offset;
+        place.slope += told->slope;
+        place.bend += told->bend;
+        place.bend_soon += told->bend_soon;
+    }
+    return place;
+}
+
+/// [m] left of the path, where the point is that is steered along it; beyond what a scenario wants.
+double Autopilot::State::tracked_beside(const Ego& ego) const {
+    const double ahead = tracked_ahead(*ego.model);
+    const PathPoint here = way().path().at(ego.rear_axle_s + ahead);
+    const Eigen::Vector2d tracked = ego.position.head<2>() + ahead * ego.direction;
+    return world::cross(here.direction, tracked - here.position.head<2>()) -
+           lateral_order.offset(tick, step);
+}
+
+/// Around what stands in the way, where that is free; what it sees on the path is then looked at
+/// anew.
+void Autopilot::State::pass(const world::TickView& last, const Ego& ego) {
+    if (pid || way().keeps_lane() || lateral_order.side(tick, step) != 0)
+        return;
+    if (passing.consider(last, ego, way(), hazards.overlaps(), tracked_beside(ego)))
+        hazards.look(last, ego, way().path(), style, corridor(ego));
+    else if (passing.missing_room() > 0 &&
+             back_off.make_room(passing.missing_room() + 0.5, last, ego))
+        news =
+            fmt::format("backs off {:.1f} m, to get around what stands ahead", back_off.distance());
+}
+
+/// The way may be counted from elsewhere, or be another one: a line past something goes on if it
+/// still leads on from where the car is. Else the car comes back to the way from there.
+void Autopilot::State::take_jump(const Ego& ego) {
+    constexpr double same_line = 0.6;  // [m]
+    const double jump = navigator.take_jump();
+    if (!passing.plan() || jump == 0)
+        return;
+    passing.shift(jump);
+    const double beside = tracked_beside(ego);
+    const double s = ego.rear_axle_s + tracked_ahead(*ego.model);
+    if (std::abs(beside - passing.plan()->bypass.offset(s)) > same_line) {
+        passing.drop();
+        if (lateral_order.side(tick, step) == 0)
+            passing.come_back(ego, beside);
+    }
+}
+
+}  // namespace reprise::drivers

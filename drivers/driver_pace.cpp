@@ -1,0 +1,105 @@
+// The built-in driver: how fast the road and the scenario let it drive.
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/driver_state.h"
+#include "drivers/lane_change.h"
+#include "world/units.h"
+
+namespace reprise::drivers {
+
+namespace {
+
+constexpr double speed_gain = 0.8;   // [1/s]
+constexpr double exact_gain = 3;     // [1/s] of one who is told a speed and when
+constexpr double longest_wait = 12;  // [s] for room on the next lane
+
+}  // namespace
+
+/// Of one who keeps to an ordered speed, or to the changing of one. [m/s^2]
+double Autopilot::State::ordered_acceleration(const Ego& ego) const {
+    const SpeedOrder::Wish wish = speed_order.wish(tick, step);
+    return wish.acceleration + exact_gain * (wish.speed - ego.speed);
+}
+
+/// Before the path leaves our lane: is there room on the other one? If not, leave it later, and at
+/// the latest place wait.
+double Autopilot::State::change_lanes(const world::TickView& last, Ego& ego) {
+    for (const LaneChange& change : way().changes()) {
+        const double before = change.start - ego.front_s();
+        if (before < 0 || before > 2 + ego.speed)
+            continue;
+        if (is_clear(last, ego, town(), change.to) || waiting_ticks * step > longest_wait) {
+            if (before < 1)
+                waiting_ticks = 0;
+            return world::infinity;
+        }
+        if (change.spare > 5) {
+            const double later = before + std::min(5 + ego.speed, change.spare);
+            navigator.put_off_change(later, ego);
+            return world::infinity;
+        }
+        waiting_ticks += ego.speed < 0.5 ? 1 : 0;
+        return stop_acceleration(before, ego.speed, style.comfortable_braking, style);
+    }
+    return world::infinity;
+}
+
+/// The speed that lanes, curves and the scenario's cap allow, and dead ends. [m/s^2]
+double Autopilot::State::cruise(const Ego& ego) const {
+    const Path& path = way().path();
+    const bool changing = speed_order.is_changing(tick, step);
+    const double cap = changing ? speed_order.wish(tick, step).speed : speed_order.target();
+    // A glance ahead makes up for the tick's delay.
+    const double middle = ego.model->wheelbase / 2;
+    const double s = ego.rear_axle_s + middle + ego.speed * step;
+    const auto squared_speed = [&](double at) {
+        const double most = path.at(at).squared_speed;
+        return has_wide_turn ? std::min(most, wide_turn->at(at - middle).squared_speed) : most;
+    };
+    const double here = squared_speed(s);
+    const double allowed = std::sqrt(here);
+    double acceleration = speed_gain * (std::min(allowed, cap) - ego.speed);
+    if (allowed < cap && ego.speed > allowed - 1) {
+        acceleration +=
+            std::clamp((squared_speed(s + 1) - here) / 2, -style.comfortable_braking, 0.0);
+    }
+    acceleration = std::clamp(acceleration, -4.0, style.acceleration);
+    if (changing) {
+        const double as_told = ordered_acceleration(ego);
+        // A change takes what it takes, as long as the road allows the speed.
+        acceleration = cap < allowed ? as_told : std::min(acceleration, as_told);
+    }
+    return std::min(acceleration, ended_acceleration(ego));
+}
+
+/// Before the end of the road. [m/s^2]
+double Autopilot::State::ended_acceleration(const Ego& ego) const {
+    if (!way().ended())
+        return world::infinity;
+    return stop_acceleration(
+        way().path().end() - ego.front_s() - 1, ego.speed, style.comfortable_braking, style);
+}
+
+/// Stops where a turn begins that takes going back and forth, and begins it. [m/s^2]
+double Autopilot::State::approach_turn(const Ego& ego) {
+    constexpr double sight = 80;  // [m]
+    const auto ahead = std::find_if(way().gates().begin(),
+                                    way().gates().end(),
+                                    [&](const Gate& gate) { return gate.s > ego.front_s() - 1; });
+    if (ahead == way().gates().end() || ahead->turn != world::Turn::around ||
+        ahead->s > ego.front_s() + sight)
+        return world::infinity;
+    const world::Link& link = town().lanes[ahead->from].links[ahead->link];
+    const auto street = TurnAround::street_of(town(), ahead->from, link, *ego.model);
+    if (!street)
+        return world::infinity;
+    const double distance = ahead->s - TurnAround::before_end - ego.front_s();
+    if (distance < 0.7 && ego.speed < 0.2) {
+        turn_around.begin(*street, ego);
+        turns_into = ahead->to;
+    }
+    return stop_acceleration(distance, ego.speed, style.comfortable_braking, style);
+}
+
+}  // namespace reprise::drivers

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "drivers/back_off.h"
+#include "drivers/driver.h"
+#include "drivers/ego.h"
+#include "drivers/gatekeeper.h"
+#include "drivers/hazards.h"
+#include "drivers/lateral_order.h"
+#include "drivers/navigator.h"
+#include "drivers/passing.h"
+#include "drivers/pedals.h"
+#include "drivers/pid_driver.h"
+#include "drivers/speed_order.h"
+#include "drivers/turn_around.h"
+#include "drivers/wide_turn.h"
+#include "world/models/car_model.h"
+
+namespace reprise::drivers {
+
+/// The parts of the built-in driver, and how they work together. Private to driver*.cpp.
+struct Autopilot::State {
+    State(std::uint32_t actor_id,
+          std::uint16_t model,
+          const world::EpisodeT& episode,
+          const RoadMap& road_map,
+          world::Pilot pilot);
+
+    const world::TownT& town() const { return map->town; }
+
+    const Way& way() const { return navigator.way(); }
+
+    bool has_tight_bends() const;
+    void plan_wide_turns(const Ego& ego);
+    double change_lanes(const world::TickView& last, Ego& ego);
+    void begin_orders(const world::TickView& last, const Ego& ego);
+    double cruise(const Ego& ego) const;
+    double ordered_acceleration(const Ego& ego) const;
+    double obedient_acceleration(const world::TickView& last, Ego& ego);
+    double careful_acceleration(const world::TickView& last, Ego& ego);
+    double ended_acceleration(const Ego& ego) const;
+    std::span<const SweptWidth> corridor(const Ego& ego);
+    double approach_turn(const Ego& ego);
+    void turn(const world::TickView& last, Ego& ego, world::Control& control);
+    std::uint16_t lamps(const world::TickView& last, const Ego& ego) const;
+    void creep(double speed, double along, double climb, world::Control& control);
+    void notice_pushing(const world::TickView& last, const Ego& ego);
+    void go_back(const world::TickView& last, Ego& ego, world::Control& control);
+    void pass(const world::TickView& last, const Ego& ego);
+    void take_jump(const Ego& ego);
+    double expected_offset() const;
+    double tracked_beside(const Ego& ego) const;
+    std::optional<BesidePath> beside(const Ego& ego) const;
+
+    std::uint32_t actor;
+    double step;  ///< [s] of a tick
+    world::CarModel car;
+    DrivingStyle style;
+    const RoadMap* map;
+    Navigator navigator;
+    std::optional<WideTurnPlan> wide_turn;  ///< once there was a bend that needs it
+    std::uint64_t wide_turn_of_way = 0;     ///< the way's plan_digest() that it was planned for
+    bool has_wide_turn = false;             ///< on the way ahead
+    Hazards hazards;
+    Gatekeeper gatekeeper;
+    Pedals pedals;
+    std::optional<PidDriver> pid;  ///< drives in the place of pedals and steering
+    TurnAround turn_around;
+    std::uint32_t turns_into = 0;  ///< the lane behind the turn
+    SpeedOrder speed_order;
+    LateralOrder lateral_order;
+    Passing passing;
+    BackOff back_off;
+    std::optional<std::string> news;       ///< of this tick: why it backs off
+    std::uint64_t tick = 0;                ///< the last one: not digested, nor what follows
+    double rear_axle_s = 0;                ///< then
+    std::vector<SweptWidth> moved_swept_;  ///< beside the path
+    std::uint32_t waiting_ticks = 0;       ///< beside cars on the lane that we want
+    bool at_end = false;                   ///< follows from the last tick and the way: not digested
+};
+
+}  // namespace reprise::drivers

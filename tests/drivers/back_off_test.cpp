@@ -1,0 +1,107 @@
+// Who is held by what it touches goes back, and tries again.
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/drivers/kinematic_car.h"
+
+namespace reprise::test {
+namespace {
+
+world::TownT long_lane() {
+    world::TownT town;
+    town.name = "lane";
+    town.lanes.push_back(make_lane("lane", Turtle(0, 0, 0).ahead(600)));
+    return town;
+}
+
+/// A wall across the road that the driver does not see until it is torn down.
+class Wall {
+  public:
+    explicit Wall(double x) : x_(x) {}
+
+    void step(Drive& drive, std::vector<std::string>& news) {
+        drive.step();
+        if (const std::string* said = drive.autopilot->news())
+            news.push_back(*said);
+        drive.measurements.resize(1);
+        drive.measurements[0].mutate_actor(1);
+        const double beyond = drive.car.x + drive.car.front() - x_;
+        if (stands_ && beyond >= 0) {
+            impulse_ += 200;
+            drive.car.x -= beyond;
+            drive.car.speed = std::min(drive.car.speed, 0.0);
+        }
+        drive.measurements[0].mutate_impulse_static(impulse_);
+    }
+
+    void tear_down() { stands_ = false; }
+
+  private:
+    double x_;
+    double impulse_ = 0;
+    bool stands_ = true;
+};
+
+TEST(BackOff, AfterTwoSecondsOfPushing) {
+    Drive drive(long_lane());
+    drive.place(0, 20, 5);
+    Wall wall(50);
+    std::vector<std::string> news;
+    double touched = 0;
+    while (news.empty() && drive.seconds() < 30) {
+        wall.step(drive, news);
+        if (touched == 0 && drive.measurements[0].impulse_static() > 0)
+            touched = drive.seconds();
+    }
+    ASSERT_EQ(news.size(), 1u);
+    EXPECT_EQ(news[0], "backs off 3.0 m, after pushing against something for 2 s");
+    EXPECT_NEAR(drive.seconds() - touched, 2, 0.5);
+    wall.tear_down();
+    const double from = drive.car.x;
+    double farthest_back = from;
+    while (drive.seconds() < 30) {
+        wall.step(drive, news);
+        farthest_back = std::min(farthest_back, drive.car.x);
+    }
+    EXPECT_NEAR(from - farthest_back, 3, 0.5);
+    EXPECT_GT(drive.car.x, 80) << "drives on";
+    EXPECT_EQ(news.size(), 1u) << "once";
+}
+
+TEST(BackOff, NotIntoWhoStandsBehind) {
+    Drive drive(long_lane());
+    drive.place(0, 20, 5);
+    world::CarState behind{};
+    behind.mutate_id(50);
+    behind.mutate_lane(world::none);
+    Wall wall(50);
+    std::vector<std::string> news;
+    double least = 1e9;
+    while (drive.seconds() < 40) {
+        wall.step(drive, news);
+        if (!news.empty() && drive.cars.empty()) {
+            behind.mutable_position() = world::Vec3(drive.car.x - 6.5, 0, 0);
+            drive.cars = {behind};
+        }
+        if (!drive.cars.empty())
+            least = std::min(least, drive.car.x - drive.cars[0].position().x());
+    }
+    const world::VehicleModel& model = world::vehicle_models()[0];
+    EXPECT_GT(least, model.length) << "touches who stands behind it";
+}
+
+TEST(BackOff, NotWhoWasToldASpeed) {
+    Drive drive(long_lane());
+    drive.place(0, 20, 5);
+    drive.autopilot->hold_speed(5, 0, world::Shape::linear);
+    Wall wall(50);
+    std::vector<std::string> news;
+    while (drive.seconds() < 20)
+        wall.step(drive, news);
+    EXPECT_TRUE(news.empty());
+}
+
+}  // namespace
+}  // namespace reprise::test

@@ -1,0 +1,269 @@
+// What stands or crawls in the way is passed where there is room, and nothing else is.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "tests/drivers/kinematic_car.h"
+#include "world/models/prop_models.h"
+
+namespace reprise::test {
+namespace {
+
+constexpr std::uint32_t ours = 0;
+
+/// A straight street eastward, our lane along y = 0.
+struct Street {
+    int lanes = 1;          ///< of our direction, ours is the right one
+    bool oncoming = false;  ///< a lane of the other direction on the left
+    double width = 3.5;     ///< of our lane
+};
+
+world::TownT town_of(const Street& street) {
+    world::TownT town;
+    town.name = "street";
+    town.lanes.push_back(make_lane("ours", Turtle(0, 0, 0).ahead(600)));
+    town.lanes[ours].width = street.width;
+    double y = street.width / 2 + 1.75;
+    if (street.lanes == 2) {
+        town.lanes.push_back(make_lane("next", Turtle(0, y, 0).ahead(600)));
+        town.lanes[ours].left = 1;
+        town.lanes[1].right = ours;
+        y += 3.5;
+    }
+    if (street.oncoming) {
+        const auto last = static_cast<std::uint32_t>(town.lanes.size() - 1);
+        town.lanes.push_back(make_lane("theirs", Turtle(600, y, std::numbers::pi).ahead(600)));
+        town.lanes[last].opposite = last + 1;
+        town.lanes[last + 1].opposite = last;
+    }
+    return town;
+}
+
+world::CarState car_on(double x, double y, double yaw, double speed, const char* model = "van") {
+    world::CarState car{};
+    car.mutable_position() = world::Vec3(x, y, 0);
+    car.mutate_yaw(static_cast<float>(yaw));
+    car.mutate_speed(static_cast<float>(speed));
+    car.mutate_id(50);
+    car.mutate_lane(world::none);
+    car.mutate_model(*world::find_vehicle_model(model));
+    return car;
+}
+
+world::PropState prop_on(double x, double y) {
+    world::PropState prop{};
+    prop.mutable_position() = world::Vec3(x, y, 0);
+    prop.mutable_orientation() = world::Quat(1, 0, 0, 0);
+    prop.mutate_id(60);
+    prop.mutate_model(*world::find_prop_model("cone"));
+    return prop;
+}
+
+world::WalkerState person_on(double x, double y, bool down) {
+    return {world::Vec3(x, y, 0), 1, 0, 0, 70, 0, down, 0, 0};
+}
+
+/// [m] between the outline of our car and a box; 0 where they touch.
+double distance_to(const Drive& drive,
+                   const Eigen::Vector2d& middle,
+                   double yaw,
+                   double half_length,
+                   double half_width) {
+    const world::VehicleModel& model = world::vehicle_models()[drive.car.model];
+    const Eigen::Rotation2Dd ego(drive.car.yaw);
+    const Eigen::Rotation2Dd back(-yaw);
+    double least = 1e9;
+    for (double along = -model.rear_overhang; along <= drive.car.front(); along += 0.1)
+        for (const double across : {-model.width / 2, model.width / 2}) {
+            const Eigen::Vector2d p =
+                Eigen::Vector2d(drive.car.x, drive.car.y) + ego * Eigen::Vector2d(along, across);
+            const Eigen::Vector2d q = back * (p - middle);
+            const double dx = std::max(std::abs(q.x()) - half_length, 0.0);
+            const double dy = std::max(std::abs(q.y()) - half_width, 0.0);
+            least = std::min(least, std::hypot(dx, dy));
+        }
+    return least;
+}
+
+double distance_to(const Drive& drive, const world::CarState& car) {
+    const world::VehicleModel& model = world::vehicle_models()[car.model()];
+    const double yaw = static_cast<double>(car.yaw());
+    const Eigen::Vector2d middle =
+        Eigen::Vector2d(car.position().x(), car.position().y()) +
+        Eigen::Rotation2Dd(yaw) * Eigen::Vector2d(model.length / 2 - model.rear_overhang, 0);
+    return distance_to(drive, middle, yaw, model.length / 2, model.width / 2);
+}
+
+/// What became of a drive past something.
+struct Outcome {
+    double clearance = 1e9;  ///< [m] the least to all of them
+    double farthest_left = 0;
+    double at_end = 0;  ///< [m] left of our lane, at the end
+    double x = 0;
+    bool stood = false;
+};
+
+/// Drives for so long; cars go on along their heading.
+Outcome drive_past(Drive& drive, double seconds) {
+    Outcome outcome;
+    while (drive.seconds() < seconds && drive.car.x < 400) {
+        drive.step();
+        for (world::CarState& car : drive.cars) {
+            const double step = static_cast<double>(car.speed()) * 0.05;
+            const double yaw = static_cast<double>(car.yaw());
+            car.mutable_position() =
+                world::Vec3(car.position().x() + step * std::cos(yaw), car.position().y(), 0);
+            outcome.clearance = std::min(outcome.clearance, distance_to(drive, car));
+        }
+        for (const world::PropState& prop : drive.props)
+            outcome.clearance = std::min(
+                outcome.clearance,
+                distance_to(drive, {prop.position().x(), prop.position().y()}, 0, 0.2, 0.2));
+        for (const world::WalkerState& walker : drive.walkers)
+            outcome.clearance = std::min(outcome.clearance,
+                                         distance_to(drive,
+                                                     {walker.position().x(), walker.position().y()},
+                                                     static_cast<double>(walker.yaw()),
+                                                     walker.down() ? 0.9 : 0.25,
+                                                     0.25));
+        outcome.farthest_left = std::max(outcome.farthest_left, drive.car.y);
+        outcome.stood = outcome.stood || (drive.seconds() > 2 && drive.car.speed < 0.1);
+    }
+    outcome.at_end = drive.car.y;
+    outcome.x = drive.car.x;
+    return outcome;
+}
+
+TEST(Passing, AParkedVanThroughTheNextLane) {
+    for (const double speed : {0.0, 6.0, 13.0})
+        for (const double x : {60.0, 120.0}) {
+            Drive drive(town_of({2}));
+            drive.place(ours, 20, speed);
+            drive.cars = {car_on(x, 0, 0, 0)};
+            const Outcome outcome = drive_past(drive, 60);
+            EXPECT_GT(outcome.clearance, 0.45) << speed << " m/s, van at " << x;
+            EXPECT_GT(outcome.x, 300) << speed << " m/s, van at " << x;
+            EXPECT_NEAR(outcome.at_end, 0, 0.1);
+        }
+}
+
+TEST(Passing, AConeWithinALaneThatIsWideEnough) {
+    Drive drive(town_of({1, false, 5.5}));
+    drive.place(ours, 20, 10);
+    drive.props = {prop_on(120, -0.6)};
+    const Outcome outcome = drive_past(drive, 40);
+    EXPECT_GT(outcome.clearance, 0.45);
+    EXPECT_LT(outcome.farthest_left, 2.75 - 0.9) << "it leaves its lane";
+    EXPECT_GT(outcome.x, 300);
+    EXPECT_FALSE(outcome.stood);
+}
+
+TEST(Passing, PeopleAndBicyclesAtAMetre) {
+    for (const bool down : {true, false}) {
+        Drive drive(town_of({2}));
+        drive.place(ours, 20, 10);
+        drive.walkers = {person_on(120, 0.3, down)};
+        const Outcome outcome = drive_past(drive, 60);
+        EXPECT_GT(outcome.clearance, 0.95) << (down ? "lies" : "stands");
+        EXPECT_GT(outcome.x, 300);
+    }
+    Drive drive(town_of({2}));
+    drive.place(ours, 20, 10);
+    drive.cars = {car_on(60, 0, 0, 2.8, "bicycle")};
+    const Outcome outcome = drive_past(drive, 60);
+    EXPECT_GT(outcome.clearance, 0.95);
+    EXPECT_GT(outcome.x, 399) << "stays behind it";
+    EXPECT_NEAR(outcome.at_end, 0, 0.1);
+}
+
+TEST(Passing, ThroughTheOncomingLaneOnlyWhereItIsFree) {
+    Drive alone(town_of({1, true}));
+    alone.place(ours, 20, 10);
+    alone.cars = {car_on(120, 0, 0, 0)};
+    const Outcome outcome = drive_past(alone, 60);
+    EXPECT_GT(outcome.clearance, 0.45);
+    EXPECT_GT(outcome.x, 300);
+
+    for (const double from : {200.0, 240.0, 280.0, 320.0}) {
+        Drive drive(town_of({1, true}));
+        drive.place(ours, 20, 10);
+        world::CarState comer = car_on(from, 3.5, std::numbers::pi, 13, "sedan");
+        comer.mutate_id(51);
+        drive.cars = {car_on(120, 0, 0, 0), comer};
+        bool in_its_way = false;
+        while (drive.seconds() < 60 && drive.car.x < 300) {
+            drive_past(drive, drive.seconds() + 0.04);
+            const double ahead = drive.cars[1].position().x() - drive.car.x;
+            in_its_way = in_its_way || (drive.car.y > 0.9 && ahead > 0 && ahead < 2 * 13 + 5);
+        }
+        EXPECT_FALSE(in_its_way) << "who came from " << from;
+        EXPECT_GE(drive.car.x, 300);
+    }
+}
+
+TEST(Passing, NobodyIsCutOffOnTheNextLane) {
+    Drive drive(town_of({2}));
+    drive.place(ours, 60, 0);
+    world::CarState faster = car_on(-40, 3.5, 0, 13, "sedan");
+    faster.mutate_id(51);
+    drive.cars = {car_on(75, 0, 0, 0), faster};
+    std::optional<double> behind;  // when it is in the other's way
+    while (drive.seconds() < 60 && drive.car.x < 200) {
+        drive_past(drive, drive.seconds() + 0.04);
+        if (drive.car.y > 0.9 && !behind)
+            behind = drive.car.x - drive.cars[1].position().x();
+    }
+    ASSERT_TRUE(behind.has_value());
+    EXPECT_TRUE(*behind > 30 || *behind < -4) << *behind << " m";
+    EXPECT_GE(drive.car.x, 200);
+}
+
+TEST(Passing, WhereThereIsNoRoomItWaits) {
+    for (const Street& street : {Street{1, false}, Street{2, false}}) {
+        Drive drive(town_of(street));
+        drive.place(ours, 20, 10);
+        drive.cars = {car_on(120, 0, 0, 0)};
+        if (street.lanes == 2) {
+            world::CarState beside = car_on(124, 3.5, 0, 0);
+            beside.mutate_id(51);
+            drive.cars.push_back(beside);
+        }
+        const Outcome outcome = drive_past(drive, 60);
+        EXPECT_GT(outcome.clearance, 1) << street.lanes;
+        EXPECT_LT(outcome.x, 120) << street.lanes;
+        EXPECT_LT(drive.car.speed, 0.1);
+    }
+}
+
+TEST(Passing, WhoKeepsItsLaneWaits) {
+    Drive drive(town_of({2, true}));
+    drive.autopilot->keep_lane(true);
+    drive.place(ours, 20, 10);
+    drive.cars = {car_on(120, 0, 0, 0)};
+    const Outcome outcome = drive_past(drive, 60);
+    EXPECT_LT(outcome.farthest_left, 0.1);
+    EXPECT_LT(outcome.x, 120);
+}
+
+TEST(Passing, NobodyWhoDrivesOrWaits) {
+    Drive behind(town_of({2, true}));
+    behind.place(ours, 20, 10);
+    behind.cars = {car_on(60, 0, 0, 5)};
+    EXPECT_LT(drive_past(behind, 50).farthest_left, 0.1) << "a car at 18 km/h";
+
+    // Three in a queue, with their brake lamps on.
+    Drive queue(town_of({2, true}));
+    queue.place(ours, 20, 10);
+    for (int i = 0; i < 3; ++i) {
+        world::CarState waiting = car_on(120 + 8 * i, 0, 0, 0, "sedan");
+        waiting.mutate_id(static_cast<std::uint32_t>(50 + i));
+        waiting.mutate_lamps(world::lamp_brake);
+        queue.cars.push_back(waiting);
+    }
+    EXPECT_LT(drive_past(queue, 60).farthest_left, 0.1) << "a queue";
+}
+
+}  // namespace
+}  // namespace reprise::test
