@@ -16,7 +16,7 @@ using testing::HasSubstr;
 class HostileRun : public testing::TestWithParam<Hostile> {};
 
 /// As many jumps as a file may have, and such work outside of `run`.
-Hostile working(const std::string& name, const std::string& work, const std::string& message) {
+Hostile working(const std::string& name, const LazyText& work, const std::string& message) {
     return {name,
             "local a local x = " + times(9'990, "a or ") + "a\n" + work +
                 "\nreturn scenario 'test' { run = function() end }",
@@ -43,7 +43,7 @@ std::vector<Hostile> scripts() {
 TEST_P(HostileRun, EndsWithinTwoSecondsOfTheProcessor) {
     const Hostile& script = GetParam();
     const Folder folder;
-    write_file(folder / "test.lua", script.source);
+    write_file(folder / "test.lua", script.source.made());
     const process::ProgramResult run = process::run_program(
         {.name = REPRISE_PROGRAM,
          .words =

@@ -62,8 +62,8 @@ void write_seeds(const std::filesystem::path& folder) {
                                 test::hostile_texts(),
                                 test::hostile_asks()})
         for (const test::Hostile& script : scripts)
-            if (script.source.size() <= largest_seed)
-                std::ofstream(folder / script.name, std::ios::binary) << shortened(script.source);
+            if (const std::string source = script.source.made(); source.size() <= largest_seed)
+                std::ofstream(folder / script.name, std::ios::binary) << shortened(source);
 }
 
 }  // namespace

@@ -15,19 +15,21 @@ constexpr const char* many = "more than 65,536 different names, texts and number
 constexpr const char* nested = "blocks and brackets are nested more than 190 deep";
 constexpr const char* long_word = "a name or text of more than 64 kB";
 
-std::string numbered(int count, const std::string& before, const std::string& behind) {
-    std::string all;
-    for (int i = 1; i <= count; ++i)
-        all += before + std::to_string(i) + behind;
-    return all;
+LazyText numbered(int count, const std::string& before, const std::string& behind) {
+    return std::function<std::string()>([=] {
+        std::string all;
+        for (int i = 1; i <= count; ++i)
+            all += before + std::to_string(i) + behind;
+        return all;
+    });
 }
 
-std::string file(const std::string& text) {
+LazyText file(const LazyText& text) {
     return text + scenario;
 }
 
 /// A function in a function in ..., each with so many variables; behind them the text.
-std::string functions(int depth, int variables, const std::string& text) {
+LazyText functions(int depth, int variables, const LazyText& text) {
     std::string names = "v";
     for (int i = 1; i < variables; ++i)
         names += ",v" + std::to_string(i);
@@ -35,10 +37,13 @@ std::string functions(int depth, int variables, const std::string& text) {
                 times(depth, " end"));
 }
 
-std::string multiples(std::int64_t factor, int count) {
-    std::string list;
-    for (int i = 1; i <= count; ++i)
-        list += std::to_string(factor * i) + ",";
+LazyText multiples(std::int64_t factor, int count) {
+    const LazyText list = std::function<std::string()>([=] {
+        std::string all;
+        for (int i = 1; i <= count; ++i)
+            all += std::to_string(factor * i) + ",";
+        return all;
+    });
     return file("local t = {" + list + "}");
 }
 
@@ -48,12 +53,15 @@ void PrintTo(const Hostile& script, std::ostream* out) {
     *out << script.name;
 }
 
-std::string times(int count, const std::string& text) {
-    std::string all;
-    all.reserve(text.size() * static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i)
-        all += text;
-    return all;
+LazyText times(int count, const LazyText& text) {
+    return std::function<std::string()>([=] {
+        const std::string one = text.made();
+        std::string all;
+        all.reserve(one.size() * static_cast<std::size_t>(count));
+        for (int i = 0; i < count; ++i)
+            all += one;
+        return all;
+    });
 }
 
 std::vector<Hostile> hostile_loads() {

@@ -37,7 +37,7 @@ TEST_P(HostileScript, EndsWithAMistakeInItsLineWithinTwoSeconds) {
     const Hostile& script = GetParam();
     const auto file =
         std::filesystem::temp_directory_path() / ("hostile_" + std::to_string(::getpid()) + ".lua");
-    std::ofstream(file, std::ios::binary) << script.source;
+    std::ofstream(file, std::ios::binary) << script.source.made();
     const process::ProgramResult played = process::run_program({.name = REPRISE_PLAY_SCENARIO,
                                                                 .words = {file.string(), "10000"},
                                                                 .most_said = 1 << 20,

@@ -6,8 +6,12 @@ namespace reprise::test {
 namespace {
 
 /// An endless loop over the work, which is written out many times: little else is in it.
-std::string again(const std::string& work, int count = 100) {
+LazyText again(const LazyText& work, int count = 100) {
     return "while true do " + times(count, work + " ") + "end";
+}
+
+LazyText running_lazily(const LazyText& body) {
+    return std::function<std::string()>([body] { return running("\n" + body.made()); });
 }
 
 std::string variables(int count) {
@@ -134,7 +138,7 @@ std::vector<Hostile> hostile_works() {
         {"WrongLane", "local s = ('x'):rep(60000) while true do pcall(lane_length, s) end", ""},
     };
     for (Hostile& script : all) {
-        script.source = running("\n" + script.source);
+        script.source = running_lazily(script.source);
         if (script.message.empty())
             script.message = spent_in_a_tick;
     }
@@ -208,7 +212,7 @@ std::vector<Hostile> hostile_texts() {
          ""},
     };
     for (Hostile& script : all) {
-        script.source = running("\n" + script.source);
+        script.source = running_lazily(script.source);
         script.message = spent_in_a_tick;
     }
     return all;
@@ -272,7 +276,7 @@ std::vector<Hostile> hostile_asks() {
          "'name' must have 1 to 100 characters"},
     };
     for (Hostile& script : all)
-        script.source = running("\n" + script.source);
+        script.source = running_lazily(script.source);
     return all;
 }
 
