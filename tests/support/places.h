@@ -1,13 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "ground/mesh/ground.h"
 #include "world/town.h"
 
-/// Places with junctions and bridges, built in code, and a plumb line to drop on them.
+/// Places with junctions and bridges, built in code.
 namespace reprise::test {
 
 /// A lane of 3.5 m (driving, internal) or 2.5 m (sidewalk) through these points; no links.
@@ -25,16 +23,5 @@ world::TownT bend();
 
 /// A road along the x axis at z = 0, and one along the y axis that crosses it at z = 6.
 world::TownT bridge();
-
-struct Hit {
-    double z = 0;
-    ground::Surface surface = ground::Surface::terrain;
-};
-
-/// What a plumb line that starts at `from` meets first. Slow and simple, on purpose.
-std::optional<Hit> plumb(const ground::GroundMesh& mesh, const Eigen::Vector3d& from);
-
-/// Digest of all bytes of a mesh.
-std::string bytes_of(const ground::GroundMesh& mesh);
 
 }  // namespace reprise::test

@@ -10,6 +10,7 @@
 #include "ground/paint/markings.h"
 #include "tests/ground/mesh/mesh_checks.h"
 #include "tests/support/places.h"
+#include "tests/support/plumb_line.h"
 #include "tests/support/worlds.h"
 #include "world/town.h"
 

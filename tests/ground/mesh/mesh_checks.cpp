@@ -7,6 +7,7 @@
 
 #include "ground/mesh/build_ground.h"
 #include "tests/support/places.h"
+#include "tests/support/plumb_line.h"
 
 namespace reprise::test {
 

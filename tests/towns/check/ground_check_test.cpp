@@ -5,6 +5,7 @@
 #include "ground/mesh/build_ground.h"
 #include "ground/mesh/ground_probe.h"
 #include "tests/support/places.h"
+#include "tests/support/plumb_line.h"
 #include "tests/support/worlds.h"
 #include "world/town.h"
 
