@@ -120,12 +120,25 @@ function(reprise_room name)
   target_sources(${name} PRIVATE $<TARGET_OBJECTS:${name}_seldom>)
 endfunction()
 
-# reprise_test(NAME [FOREIGN_BYTES] SOURCES ... ROOMS ...): one test program per room. FOREIGN_BYTES: the
-# room reads what others wrote; ./dev sanitize runs its tests with sanitizers.
+# Each suite of a test program is a test of ctest and a process, in which its cases share what they have read. A process that
+# loads SUMO, or OpenCV, and the two hundred libraries that these want takes a tenth of a second before its first line.
+function(reprise_discover_suites name)
+  set(list ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
+  add_custom_command(TARGET ${name} POST_BUILD BYPRODUCTS ${list}
+    COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${name}> -DTIMEOUT=900 -DOUTPUT=${list}
+            -P ${PROJECT_SOURCE_DIR}/cmake/DiscoverSuites.cmake VERBATIM)
+  set(include ${CMAKE_CURRENT_BINARY_DIR}/${name}_include.cmake)
+  file(WRITE ${include} "if(EXISTS \"${list}\")\n  include(\"${list}\")\n"
+                        "else()\n  add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${include})
+endfunction()
+
+# reprise_test(NAME [FOREIGN_BYTES] [BY_SUITE] SOURCES ... ROOMS ...): one test program per room. FOREIGN_BYTES: the
+# room reads what others wrote; ./dev sanitize runs its tests with sanitizers. BY_SUITE: see reprise_discover_suites.
 add_custom_target(foreign_bytes)
 
 function(reprise_test name)
-  cmake_parse_arguments(TEST "FOREIGN_BYTES" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(TEST "FOREIGN_BYTES;BY_SUITE" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   reprise_seldom_run(${name})
   target_link_libraries(${name} PRIVATE reprise_build ${TEST_ROOMS} ${TEST_LIBRARIES} GTest::gmock
@@ -133,6 +146,10 @@ function(reprise_test name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   reprise_unity(${name})
   reprise_precompiled(${name} test_headers)
+  if(TEST_BY_SUITE)
+    reprise_discover_suites(${name})
+    return()
+  endif()
   set(properties TIMEOUT 300)
   if(TEST_FOREIGN_BYTES)
     add_dependencies(foreign_bytes ${name})
