@@ -124,7 +124,9 @@ struct Client::Parts {
 };
 
 Client::Client(const std::string& address)
-    : Client(FrameChannel(open_channel(address), largest_message)) {}
+    : Client(FrameChannel(open_channel(address), largest_message)) {
+    parts_->channel.read_whole_messages();
+}
 
 Client::Client(FrameChannel channel) : parts_(std::make_unique<Parts>(std::move(channel))) {
     try {

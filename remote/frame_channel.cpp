@@ -21,8 +21,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "frames are sent as they lie in memory");
 
-constexpr double glance = 0.1;              // [s]
-constexpr std::size_t longest_ahead = 256;  // [bytes] of a body; a control is shorter
+constexpr double glance = 0.1;  // [s]
+constexpr std::size_t longest_ahead =
+    1 << 20;  // [bytes] of a body; an observation without pictures is shorter
 
 struct Header {
     std::uint32_t size = 0;
@@ -103,6 +104,8 @@ struct FrameChannel::Wait {
         : given_up(&patience.given_up),
           until(patience.seconds ? std::optional(now() + *patience.seconds) : std::nullopt) {}
 
+    bool is_endless() const { return !*given_up && !until; }
+
     void until_ready(int descriptor, short events) const {
         pollfd one{descriptor, events, 0};
         until_any_ready({&one, 1});
@@ -152,7 +155,9 @@ FrameChannel::FrameChannel(FrameChannel&& other) noexcept
       largest_(other.largest_),
       reads_whole_messages_(other.reads_whole_messages_),
       last_size_(other.last_size_),
-      ahead_(std::move(other.ahead_)) {}
+      room_(std::move(other.room_)),
+      ahead_begin_(other.ahead_begin_),
+      ahead_end_(other.ahead_end_) {}
 
 FrameChannel::~FrameChannel() {
     if (descriptor_ >= 0)
@@ -205,13 +210,15 @@ void FrameChannel::send(Kind kind,
 
 bool FrameChannel::has_input() const {
     pollfd one{descriptor_, POLLIN, 0};
-    return !ahead_.empty() || poll(&one, 1, 0) > 0;
+    return ahead_begin_ < ahead_end_ || poll(&one, 1, 0) > 0;
 }
 
 std::size_t FrameChannel::read_some(void* target,
                                     std::size_t most,
                                     const Wait& wait,
                                     Descriptor& came_along) {
+    // Who waits for ever needs no second call to wait in, and no third one to read.
+    const int flags = MSG_CMSG_CLOEXEC | (wait.is_endless() ? 0 : MSG_DONTWAIT);
     for (;;) {
         iovec part{target, most};
         msghdr message{};
@@ -219,7 +226,7 @@ std::size_t FrameChannel::read_some(void* target,
         message.msg_iovlen = 1;
         DescriptorRoom room;
         room.offer(message);
-        const ssize_t came = recvmsg(descriptor_, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC);
+        const ssize_t came = recvmsg(descriptor_, &message, flags);
         if (came == 0)
             throw ChannelFault("has hung up");
         if (came < 0) {
@@ -237,10 +244,10 @@ std::size_t FrameChannel::read_some(void* target,
 
 void FrameChannel::read(void* target, std::size_t size, const Wait& wait, Descriptor& came_along) {
     auto* at = static_cast<std::uint8_t*>(target);
-    const auto kept = static_cast<std::ptrdiff_t>(std::min(size, ahead_.size()));
-    at = std::copy_n(ahead_.begin(), kept, at);
-    ahead_.erase(ahead_.begin(), ahead_.begin() + kept);
-    for (std::size_t left = size - static_cast<std::size_t>(kept); left > 0;) {
+    const std::size_t kept = std::min(size, ahead_end_ - ahead_begin_);
+    at = std::copy_n(room_.begin() + static_cast<std::ptrdiff_t>(ahead_begin_), kept, at);
+    ahead_begin_ += kept;
+    for (std::size_t left = size - kept; left > 0;) {
         const std::size_t came = read_some(at, left, wait, came_along);
         at += came;
         left -= came;
@@ -251,12 +258,13 @@ Frame FrameChannel::receive(const Patience& patience) {
     const Wait wait(patience);
     Header header;
     Descriptor came_along;
-    if (reads_whole_messages_ && ahead_.empty()) {
-        // Not into ahead_: while it waits, has_input() is asked.
-        std::array<std::uint8_t, sizeof(header) + longest_ahead> room;
-        const std::size_t came =
-            read_some(room.data(), sizeof(header) + last_size_, wait, came_along);
-        ahead_.assign(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(came));
+    if (reads_whole_messages_ && ahead_begin_ == ahead_end_) {
+        // Observations grow by a car or an event from tick to tick.
+        const std::size_t most = sizeof(header) + last_size_ + last_size_ / 8;
+        room_.resize(std::max(room_.size(), most));
+        const std::size_t came = read_some(room_.data(), most, wait, came_along);
+        ahead_begin_ = 0;
+        ahead_end_ = came;
     }
     read(&header, sizeof(header), wait, came_along);
     last_size_ = std::min<std::size_t>(header.size, longest_ahead);

@@ -67,9 +67,12 @@ class FrameChannel {
     /// table of its kind.
     Frame receive(const Patience& patience = {});
 
-    /// The other end says one message at a time, and nobody else reads this socket: from now on a
-    /// message as long as the last is taken in one call. What is read too far is kept.
-    void read_whole_messages() { reads_whole_messages_ = true; }
+    /// Nobody else reads this socket, and no descriptor comes any more: from now on a message about
+    /// as long as the last is taken in one call. What is read too far is kept.
+    void read_whole_messages() {
+        reads_whole_messages_ = true;
+        last_size_ = 0;
+    }
 
     /// Whether there is something to receive.
     bool has_input() const;
@@ -90,8 +93,10 @@ class FrameChannel {
     int descriptor_;
     std::size_t largest_;
     bool reads_whole_messages_ = false;
-    std::size_t last_size_ = 0;        ///< [bytes] of the last body, as far as it is read ahead
-    std::vector<std::uint8_t> ahead_;  ///< read, and of no message yet
+    std::size_t last_size_ = 0;       ///< [bytes] of the last body, as far as it is read ahead
+    std::vector<std::uint8_t> room_;  ///< holds what is read, and of no message yet:
+    std::size_t ahead_begin_ = 0;
+    std::size_t ahead_end_ = 0;
 };
 
 }  // namespace reprise::remote
