@@ -241,12 +241,14 @@ TEST_F(Drivers, CtrlCWhileOneIsWaitedForEndsTheRunAndTheDriver) {
 }
 
 TEST_F(Drivers, SilentOnesAreLostAfterTheirTime) {
+    // Long enough for a driver's start, and for its answers to two ticks, on a machine that is
+    // loaded.
     const std::string said = run({"run",
                                   "one.lua",
                                   "--driver",
                                   "ego=" + odd_driver + " silent",
                                   "--driver-timeout",
-                                  "0.2",
+                                  "2",
                                   "-o",
                                   "a.mcap"},
                                  1);
