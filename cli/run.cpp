@@ -163,6 +163,7 @@ class Commentary {
             case world::EventKind::left_road:
             case world::EventKind::speeding:
             case world::EventKind::wrong_way:
+            case world::EventKind::wrecked:
                 return tell(tick, crashes_.names().name_of(event.actor()) + " " + text);
             case world::EventKind::check_failed:
                 if (!world::tells_worst(event))  // else the summary says so

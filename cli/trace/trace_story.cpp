@@ -107,7 +107,9 @@ class Teller {
     std::string describe(const world::Event& event) const {
         const bool is_infraction = event.kind() >= world::EventKind::ran_red_light &&
                                    event.kind() <= world::EventKind::wrong_way;
-        if (event.kind() == world::EventKind::blocked || is_infraction)
+        const bool is_about_actor = event.kind() == world::EventKind::blocked ||
+                                    event.kind() == world::EventKind::wrecked || is_infraction;
+        if (is_about_actor)
             return fmt::format(
                 "{} {}", heard_.names().name_of(event.actor()), world::to_line(event));
         return world::to_line(event);

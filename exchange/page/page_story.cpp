@@ -172,6 +172,7 @@ std::string PageStory::text_of(const Happening& happening) const {
         case world::EventKind::left_road:
         case world::EventKind::speeding:
         case world::EventKind::wrong_way:
+        case world::EventKind::wrecked:
             return name_of(happening.actor) + " " + happening.text;
         case world::EventKind::blocked:
             return fmt::format("{} is blocked {}", name_of(happening.actor), happening.text);

@@ -109,6 +109,8 @@ def actors(trace: Trace) -> dict[str, list[Any]]:
                 actor(event.actor)["spawned"] = tick.time
             elif event.kind == kinds["despawned"]:
                 actor(event.actor)["despawned"] = tick.time
+            elif event.kind == kinds["wrecked"]:
+                actor(event.actor)["wrecked"] = tick.time
         for kind, records in (("vehicle", tick.tick.vehicles), ("car", tick.traffic and tick.traffic.cars),
                               ("walker", tick.traffic and tick.traffic.walkers)):  # fmt: skip
             if records is not None:
@@ -121,10 +123,12 @@ def actors(trace: Trace) -> dict[str, list[Any]]:
     return {
         "id": [number for number, _ in rows],
         "name": [trace.names.get(number) for number, _ in rows],
-        "kind": [one.get("kind") for _, one in rows],
+        # A car that is hit goes on as a body.
+        "kind": ["vehicle" if "wrecked" in one else one.get("kind") for _, one in rows],
         "model": [size[0] if size else None for size in sizes],
         "length [m]": [size[1] if size else None for size in sizes],
         "width [m]": [size[2] if size else None for size in sizes],
         "spawned [s]": [one.get("spawned") for _, one in rows],
         "despawned [s]": [one.get("despawned") for _, one in rows],
+        "wrecked [s]": [one.get("wrecked") for _, one in rows],
     }

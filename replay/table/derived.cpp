@@ -222,6 +222,7 @@ std::string with_unit(const std::string& column) {
         {"duration", "s"},
         {"spawned", "s"},
         {"despawned", "s"},
+        {"wrecked", "s"},
         {"speed", "m/s"},
         {"speed_limit", "m/s"},
         {"acceleration", "m/s2"},

@@ -18,6 +18,7 @@ struct TableActor {
     std::uint16_t model = 0;
     std::optional<double> spawned;  ///< [s]
     std::optional<double> despawned;
+    std::optional<double> wrecked;  ///< [s] a car until then, a vehicle from there on
 };
 
 using TableActors = std::map<std::uint32_t, TableActor>;
@@ -45,12 +46,16 @@ void note_events(const world::TickView& tick, double time, TableActors& actors) 
         }
         if (event->kind() == world::EventKind::despawned)
             actors[event->actor()].despawned = time;
+        if (event->kind() == world::EventKind::wrecked)
+            actors[event->actor()].wrecked = time;
     }
 }
 
 std::vector<Value> row_of(std::uint32_t id, const TableActor& actor) {
     const auto time = [](const std::optional<double>& at) { return at ? Value(*at) : Value(); };
-    const std::string kind = actor.kind == nullptr ? "" : actor.kind;
+    const std::string kind = actor.wrecked           ? "vehicle"
+                             : actor.kind == nullptr ? ""
+                                                     : actor.kind;
     std::vector<Value> row{std::int64_t{id},
                            actor.name.empty() ? Value() : Value(actor.name),
                            kind.empty() ? Value() : Value(kind)};
@@ -65,7 +70,7 @@ std::vector<Value> row_of(std::uint32_t id, const TableActor& actor) {
     } else {
         row.insert(row.end(), 4, Value());
     }
-    row.insert(row.end(), {time(actor.spawned), time(actor.despawned)});
+    row.insert(row.end(), {time(actor.spawned), time(actor.despawned), time(actor.wrecked)});
     return row;
 }
 
@@ -143,7 +148,16 @@ WholeTable actors_table(TraceReader& trace) {
     }
     WholeTable table{
         "actors",
-        {"id", "name", "kind", "model", "length", "width", "height", "spawned", "despawned"},
+        {"id",
+         "name",
+         "kind",
+         "model",
+         "length",
+         "width",
+         "height",
+         "spawned",
+         "despawned",
+         "wrecked"},
         {}};
     for (const auto& [id, actor] : actors)
         table.rows.push_back(row_of(id, actor));

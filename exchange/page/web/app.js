@@ -180,11 +180,12 @@ class App {
     const [track] = this.trace.byActor.get(this.chosen) || [];
     if (!track) return this.panels.showCard([['', 'Nobody is in this trace.']]);
     const here = this.trace.actorAt(this.chosen, this.timeline.tick);
-    const facts = [['kind', track.noun], ['driver', track.driver.replace(/_/g, ' ')]];
+    const now = here ? here.track : track;
+    const facts = [['kind', now.noun], ['driver', now.driver.replace(/_/g, ' ')]];
     if (!here) facts.push(['', 'not there now']);
     else if (this.trace.laneName(here.k)) facts.push(['lane', this.trace.laneName(here.k)]);
-    if (here && track.kind === 'vehicle') {
-      const pedals = this.trace.pedals[track.own + here.k - track.begin];
+    if (here && now.kind === 'vehicle') {
+      const pedals = this.trace.pedals[now.own + here.k - now.begin];
       facts.push(pedals < 0 ? ['brake', `${-pedals} %`] : ['throttle', `${pedals} %`]);
     }
     this.panels.showCard(facts);

@@ -97,6 +97,17 @@ class Trace {
       if (!this.byActor.has(id)) this.byActor.set(id, []);
       this.byActor.get(id).push(track);
     }
+    for (const tracks of this.byActor.values()) this.join(tracks);
+  }
+
+  /** In the order of time. Who is hit as a car of traffic goes on as a body: one actor, who is nobody's from there on. */
+  join(tracks) {
+    const began = ({ clock, first }) => this.clocks[clock][first];
+    tracks.sort((one, other) => began(one) - began(other));
+    const hit = tracks.find((track) => track.kind === 'car');
+    if (!hit) return;
+    for (const track of tracks)
+      if (track.kind === 'vehicle') Object.assign(track, { driver: 'nobody, a wreck', isParked: false });
   }
 
   shapeOf(kind, model) {

@@ -41,6 +41,15 @@ return scenario 'drive' { town = 'town1', duration = 30, cars = 40, seed = 3, ru
     wait(10)
 end }
 """
+CRASH = """
+return scenario 'crash' { town = 'straight', duration = 4, run = function()
+    local hit = spawn{ name = 'hit', model = 'van', driver = 'traffic', lane = 'east_1', s = 160, speed = 5 }
+    hit:hold_speed(5)
+    local ego = spawn{ name = 'ego', model = 'sedan', driver = 'manual', lane = 'east_1', s = 140, speed = 15 }
+    ego:control{}
+    wait(60)
+end }
+"""
 
 
 def run(*words, code=0):
@@ -132,6 +141,24 @@ class Page(unittest.TestCase):
         for car in tick.traffic.cars:
             at = actors[int(car["id"])]
             self.assertLess(np.hypot(at["x"] - car["position"]["x"], at["y"] - car["position"]["y"]), 0.25)
+
+    def test_who_is_hit_is_one_actor_before_and_after(self):
+        trace = recorded("crash", CRASH)
+        self.opened(shown(trace))
+        whole = reprise.Trace(trace)
+        options = "[...document.getElementById('actor').options].map((one) => one.text)"
+        self.assertEqual(self.value(options).count("hit"), 1)
+        number = next(number for number, name in whole.names.items() if name == "hit")
+        ticks = self.value(f"seriesOf(replay.app.trace, {number}).ticks")
+        self.assertEqual(ticks, list(range(1, len(whole) + 1)), "its curves run through, in the order of time")
+        cards = []
+        for tick in (10, len(whole)):
+            self.value(f"(() => {{ const {{ app }} = replay; app.choose(app.trace.byActor.get({number})[0]); "
+                       f"replay.drawnAt({tick}); app.showCard(); }})()")  # fmt: skip
+            cards.append(self.value("document.getElementById('card').innerText"))
+        self.assertIn("traffic", cards[0])
+        self.assertIn("a wreck", cards[1])
+        self.assertIn("hit is hit at", self.value("document.getElementById('events').innerText"))
 
     def test_the_gap_of_cars_is_measured_as_the_kernel_measures_that_of_vehicles(self):
         self.opened(shown(self.drive))
