@@ -11,6 +11,7 @@
 #include "kernel/car_hits.h"
 #include "kernel/digests.h"
 #include "kernel/doors.h"
+#include "kernel/goals.h"
 #include "kernel/infractions.h"
 #include "kernel/lamp_orders.h"
 #include "kernel/measurements.h"
@@ -66,6 +67,7 @@ struct Kernel::Parts {
           physics(episode, *ground, obstacles),
           continued(replay::chain_seed(recording)),
           last(genesis(episode, continued)),
+          goals(town),
           infractions(town, world::seconds(1, episode.step_ns)),
           nudger(roster, pedestrians, physics) {}
 
@@ -85,6 +87,7 @@ struct Kernel::Parts {
     Doors doors;
     world::Digest128 continued;  ///< the chain that the next tick goes on with
     world::SealedTick last;
+    Goals goals;
     Infractions infractions;
     Nudger nudger;
     std::optional<world::TickDraft> next;    ///< begun, and waiting for controls
@@ -121,11 +124,12 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     parts.lamps.light_vehicles(next);
     close(Stage::physics, next);
 
-    // 6. measurements: lanes, gaps, footprints, impulses, who is blocked or does wrong; in the last
-    // tick the checks' verdicts
+    // 6. measurements: lanes, gaps, footprints, impulses, goals, who is blocked or does wrong; in
+    // the last tick the checks' verdicts
     const std::uint64_t step_ns = parts.episode.step_ns;
     measure(
         parts.town, parts.lanes, world::seconds(1, step_ns), parts.physics.impacts(), last, next);
+    parts.goals.note(last, next);
     note_hit_walkers(world::seconds(1, step_ns), last, next);
     const auto is_under_way = [&](const auto& vehicle) {
         return parts.roster.is_under_way(vehicle);

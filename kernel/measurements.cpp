@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/footprint.h"
 #include "kernel/nearest_ahead.h"
 #include "world/frames.h"
 #include "world/models/catalogue.h"
@@ -12,76 +13,6 @@
 namespace reprise::kernel {
 
 namespace {
-
-struct FootprintShares {
-    double opposite_lane = 0;
-    double sidewalk = 0;
-};
-
-/// What lies under one point of a vehicle that heads `ahead`.
-struct Under {
-    bool opposite_lane = false;
-    bool sidewalk = false;
-};
-
-/// Opposite: a lane for cars is there that runs against the heading, and none that runs with it
-/// (lanes overlap inside junctions). `near`: the lanes around.
-Under look_under(const world::TownT& town,
-                 const world::LaneMap& lanes,
-                 std::span<const std::uint32_t> near,
-                 const Eigen::Vector3d& p_world,
-                 const Eigen::Vector3d& ahead) {
-    bool with = false;
-    bool against = false;
-    const auto found = lanes.at(p_world, near);
-    for (const auto& [lane, at] : found) {
-        const double yaw = world::point_at(town.lanes[lane], at.s).yaw;
-        const bool same = ahead.x() * std::cos(yaw) + ahead.y() * std::sin(yaw) > 0;
-        with = with || same;
-        against = against || !same;
-    }
-    return {against && !with, found.empty() && !lanes.walkable_at(p_world, near).empty()};
-}
-
-/// Samples the footprint on a grid of 7 x 3 points; of a vehicle whose four corners are where they
-/// belong, on the corners alone: nearly all vehicles, nearly always.
-FootprintShares footprint_shares(const world::TownT& town,
-                                 const world::LaneMap& lanes,
-                                 const world::VehicleModel& model,
-                                 const Eigen::Isometry3d& pose_world_vehicle) {
-    constexpr int along = 7;
-    constexpr int across = 3;
-    const Eigen::Vector3d ahead = pose_world_vehicle.linear().col(0);
-    const Eigen::Vector3d middle(model.length / 2 - model.rear_overhang, 0, 0);
-    const std::vector<std::uint32_t> near =
-        lanes.near(pose_world_vehicle * middle, std::hypot(model.length, model.width) / 2);
-    const auto under = [&](int i, int j) {
-        const double x = -model.rear_overhang + model.length * (i + 0.5) / along;
-        const double y = model.width * ((j + 0.5) / across - 0.5);
-        return look_under(town, lanes, near, pose_world_vehicle * Eigen::Vector3d(x, y, 0), ahead);
-    };
-    const auto is_corner = [](int i, int j) {
-        return (i == 0 || i == along - 1) && (j == 0 || j == across - 1);
-    };
-    FootprintShares shares;
-    const auto add = [&](bool corners) {
-        for (int i = 0; i < along; ++i)
-            for (int j = 0; j < across; ++j) {
-                if (is_corner(i, j) != corners)
-                    continue;
-                const Under point = under(i, j);
-                shares.opposite_lane += point.opposite_lane ? 1 : 0;
-                shares.sidewalk += point.sidewalk ? 1 : 0;
-            }
-    };
-    add(true);
-    if (shares.opposite_lane == 0 && shares.sidewalk == 0)
-        return shares;
-    add(false);
-    shares.opposite_lane /= along * across;
-    shares.sidewalk /= along * across;
-    return shares;
-}
 
 struct Impulses {
     double vehicles = 0;

@@ -26,7 +26,7 @@ _MAGIC = b"\x89MCAP0\r\n"
 _CHUNK, _MESSAGE, _ATTACHMENT, _METADATA = 6, 5, 9, 12
 _UNITS = {
     "position": "m", "velocity": "m/s", "angular_velocity": "rad/s", "acceleration": "m/s2", "steering_angle": "rad",
-    "odometer": "m", "speed": "m/s", "lane_s": "m", "lane_t": "m", "gap_ahead": "m", "yaw": "rad", "pitch": "rad",
+    "odometer": "m", "speed": "m/s", "lane_s": "m", "lane_t": "m", "gap_ahead": "m", "goal_distance": "m", "speed_limit": "m/s", "yaw": "rad", "pitch": "rad",
     "impulse_vehicles": "Ns", "impulse_walkers": "Ns", "impulse_static": "Ns", "suspension_length": "m",
     "suspension_force": "N", "rotation": "rad", "engine_speed": "rad/s",
 }  # fmt: skip

@@ -238,6 +238,7 @@ std::string with_unit(const std::string& column) {
         {"width", "m"},
         {"height", "m"},
         {"gap_ahead", "m"},
+        {"goal_distance", "m"},
         {"odometer", "m"},
         {"engine_speed", "rad/s"},
         {"yaw", "rad"},
