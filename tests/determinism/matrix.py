@@ -69,6 +69,8 @@ CURVED = [  # real ones; that our car keeps its lane there is another question, 
 ]
 # Cars of traffic's and parked ones that become bodies in the middle of a tick, and one who falls.
 CRASHES = run_recipe("crashes", HERE / "crashes.lua")
+# The same among a hundred cars and a hundred people on foot, for 6,000 ticks: the wrecks lie there, and queues form.
+LONG_CRASHES = run_recipe("long_crashes", HERE / "crashes.lua", "--for", 300, "--cars", 100, "--walkers", 100)
 CRASHES_VERIFIED = Recipe("crashes_verified", ("verify", "{crashes}"), makes="", needs=(CRASHES,))
 # Every scenario that we ship, as it stands; a failed check (1) is an answer, too.
 STORIES = [run_recipe(f"scenario_{path.stem}", path, ends=(0, 1)) for path in sorted(SCENARIOS.glob("*.lua"))]
@@ -81,7 +83,7 @@ DRIVEN_VERIFIED = Recipe("driven_verified", ("verify", "{driven}"), makes="", ne
 RENDER = ("render", "{short}", "-o", "{out}", "--camera", "rgb,depth,semantic", "--size", "160x120", "--every", "60")
 PICTURES = Recipe("pictures", RENDER, program="reprise-render", makes="/", needs=(SHORT,))
 PORTABLE = Recipe("portable_pictures", (*RENDER, "--portable"), program="reprise-render", makes="/", needs=(SHORT,))
-RECIPES = {recipe.name: recipe for recipe in (SHORT, ON_FOOT, LONG, CRASHES, CRASHES_VERIFIED, *CURVED, *STORIES, VERIFIED, DRIVEN, DRIVEN_AGAIN, DRIVEN_VERIFIED, PICTURES, PORTABLE)}
+RECIPES = {recipe.name: recipe for recipe in (SHORT, ON_FOOT, LONG, CRASHES, LONG_CRASHES, CRASHES_VERIFIED, *CURVED, *STORIES, VERIFIED, DRIVEN, DRIVEN_AGAIN, DRIVEN_VERIFIED, PICTURES, PORTABLE)}
 
 
 @dataclass(frozen=True)
@@ -229,6 +231,8 @@ def rows(lab):
     table += [row_of(CRASHES, each, each.name in ("no_aslr", "malloc_perturb")) for each in around]
     table += [row_of(CRASHES, each, each.name == "mask_no_fma") for each in masks]
     table += [row_of(CRASHES, each) for each in emulated]
+    table += [repeats(LONG_CRASHES, 1)]
+    table += [row_of(LONG_CRASHES, each) for each in masks + around + emulated]
     table += [row_of(LONG, each, each.name in ("mask_no_fma", "mask_no_sse4")) for each in masks]
     table += [row_of(LONG, each) for each in around + emulated]
     table += [repeats(ON_FOOT, 3)]
