@@ -118,7 +118,7 @@ void print_leaderboard(const VehicleScore& vehicle,
                        Leaderboard leaderboard) {
     std::optional<double> completion;
     if (vehicle.route)
-        completion = vehicle.route->completion;
+        completion = vehicle.route->counted();
     const DrivingScore score =
         driving_score(leaderboard, leaderboard_counts(vehicle, context.step_ns), completion);
     std::string made_of =
@@ -146,6 +146,10 @@ void print_vehicle_score(const VehicleScore& vehicle, const ScoreContext& contex
         way = fmt::format("% of {} m", world::with_thousands(vehicle.route->length));
         if (vehicle.route->arrived_at != 0)
             way += fmt::format(", arrived at {:.2f} s", context.seconds(vehicle.route->arrived_at));
+    }
+    if (vehicle.ended) {
+        way += fmt::format("; ended at {:.2f} s: it stood for three minutes",
+                           context.seconds(vehicle.ended->tick));
     }
     say("\n  {:<24}{:>7}   {}\n",
         "route completion",
@@ -204,10 +208,10 @@ Json json_of(const VehicleScore& vehicle, const ScoreContext& context) {
     std::optional<double> completion;
     Json route;
     if (vehicle.route) {
-        completion = vehicle.route->completion;
+        completion = vehicle.route->counted();
         route = {
             {"length", vehicle.route->length},
-            {"completion", *completion},
+            {"completion", vehicle.route->completion},
             {"told_at_tick", std::to_string(vehicle.route->told_at)},
             {"arrived_at_tick",
              vehicle.route->arrived_at == 0 ? Json()
@@ -220,6 +224,7 @@ Json json_of(const VehicleScore& vehicle, const ScoreContext& context) {
             {"seconds", context.seconds(vehicle.ticks)},
             {"driven", vehicle.driven},
             {"off_lane", vehicle.off_lane},
+            {"ended_at_tick", vehicle.ended ? Json(std::to_string(vehicle.ended->tick)) : Json()},
             {"route", route},
             {"kinds", kinds},
             {"infractions", all},

@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <utility>
 
 namespace reprise::replay {
 
 namespace {
 
-constexpr double one_place = 5;       // [m]
-constexpr double one_time = 5;        // [s]
-constexpr double whole_route = 0.99;  ///< RouteCompletionTest of CARLA's scenario runner
+constexpr double one_place = 5;  // [m]
+constexpr double one_time = 5;   // [s]
 
 struct Coefficients {
     const char* what;
@@ -29,13 +26,27 @@ constexpr std::array<Coefficients, 5> coefficients{{
     {"stop sign", &LeaderboardCounts::stop_signs, 0.80, 0.25},
 }};
 
+/// As CollisionTest of CARLA's scenario runner: whoever is hit within 5 m of where the last one
+/// was, and who was hit last for 5 s wherever that is. Something fixed has no name to know again.
+bool is_same_collision(const Infraction& counted,
+                       const Infraction& infraction,
+                       std::uint64_t step_ns) {
+    const double later = static_cast<double>((infraction.first - counted.first) * step_ns) * 1e-9;
+    return (infraction.position - counted.position).norm() <= one_place ||
+           (infraction.other != 0 && infraction.other == counted.other && later <= one_time);
+}
+
 }  // namespace
 
 LeaderboardCounts leaderboard_counts(const VehicleScore& vehicle, std::uint64_t step_ns) {
     LeaderboardCounts counts;
-    counts.off_lane = vehicle.driven > 0 ? vehicle.off_lane / vehicle.driven : 0;
-    std::map<std::pair<InfractionKind, std::uint32_t>, const Infraction*> counted;
+    const double driven = vehicle.ended ? vehicle.ended->driven : vehicle.driven;
+    const double off_lane = vehicle.ended ? vehicle.ended->off_lane : vehicle.off_lane;
+    counts.off_lane = driven > 0 ? off_lane / driven : 0;
+    const Infraction* counted = nullptr;  // the collision that was counted last, with anybody
     for (const Infraction& infraction : vehicle.infractions) {
+        if (vehicle.ended && infraction.first > vehicle.ended->tick)
+            continue;
         std::uint64_t* count = nullptr;
         switch (infraction.kind) {
             case InfractionKind::collision_vehicle:
@@ -58,13 +69,9 @@ LeaderboardCounts leaderboard_counts(const VehicleScore& vehicle, std::uint64_t 
         }
         if (count == nullptr)
             continue;
-        const Infraction*& last = counted[{infraction.kind, infraction.other}];
-        const bool again =
-            last != nullptr && (infraction.position - last->position).norm() <= one_place &&
-            static_cast<double>((infraction.first - last->first) * step_ns) * 1e-9 <= one_time;
-        if (again)
+        if (counted != nullptr && is_same_collision(*counted, infraction, step_ns))
             continue;
-        last = &infraction;
+        counted = &infraction;
         ++*count;
     }
     return counts;
@@ -97,7 +104,7 @@ DrivingScore driving_score(Leaderboard leaderboard,
         result.penalty = on_lane / (1 + sum);
     if (!completion)
         return result;
-    result.completion = *completion >= whole_route ? 1 : *completion;
+    result.completion = *completion;
     if (leaderboard == Leaderboard::multiplicative)
         *result.completion *= on_lane;
     result.score = 100 * *result.completion * result.penalty;

@@ -9,8 +9,8 @@
 
 namespace reprise::replay {
 
-/// What the Leaderboard counts: a vehicle that is hit again within 5 m and 5 s is hit once, and
-/// nothing lasts.
+/// What the Leaderboard counts: nothing lasts, and a collision within 5 m of the last one that
+/// counted, or with the same one within 5 s of it, is that one. Until the route ended.
 struct LeaderboardCounts {
     std::uint64_t vehicles = 0;
     std::uint64_t pedestrians = 0;
@@ -45,8 +45,8 @@ struct DrivingScore {
 /// .50 for a pedestrian, .60 a vehicle, .65 something fixed, .70 a red light, .80 a stop sign.
 /// Leaderboard 2.1: completion x (1 - off_lane) / (1 + the sum of coefficient * count), with 1.0,
 /// .7, .6, .4 and .25. What no trace tells, a scenario's time limit, yielding to emergency vehicles
-/// and the least speed, is left out: it takes nothing off. `completion` in [0, 1]; from 0.99 on the
-/// route counts as driven.
+/// and the least speed, is left out: it takes nothing off. `completion` in [0, 1], as
+/// RouteScore::counted() says it.
 DrivingScore driving_score(Leaderboard leaderboard,
                            const LeaderboardCounts& counts,
                            std::optional<double> completion);

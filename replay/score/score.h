@@ -16,6 +16,16 @@ struct RouteScore {
     double completion = 0;         ///< in [0, 1]
     std::uint64_t told_at = 0;     ///< tick
     std::uint64_t arrived_at = 0;  ///< tick; 0: it did not
+
+    /// As a driving score counts it: all of it from 99 % on, where no more than 10 m are left.
+    double counted() const;
+};
+
+/// The Leaderboard ends a route when the vehicle is blocked for three minutes.
+struct RouteEnd {
+    std::uint64_t tick = 0;
+    double driven = 0;    ///< [m] until then
+    double off_lane = 0;  ///< [m] of them
 };
 
 /// What a vehicle with mass did.
@@ -26,6 +36,7 @@ struct VehicleScore {
     std::uint64_t ticks = 0;
     double driven = 0;                      ///< [m]
     double off_lane = 0;                    ///< [m] of them with most of it on no lane of its way
+    std::optional<RouteEnd> ended;          ///< what comes behind it is in no driving score
     std::optional<RouteScore> route;        ///< none: it was told none, or none that leads anywhere
     std::vector<Infraction> infractions{};  ///< by first tick, then kind
 

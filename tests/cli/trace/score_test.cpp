@@ -22,7 +22,13 @@ class ScoreCommand : public testing::Test {
         const Result run = reprise({"run", "a.lua", "-o", "a.mcap"}, folder_.path());
         EXPECT_EQ(run.code, code) << run.out;
         ran_ = run.out;
-        return Json::parse(said({"--json"}))["vehicles"][0];
+        const std::string told = said({"--json"});
+        const Json all = Json::parse(told, nullptr, false);
+        if (all.is_discarded() || all["vehicles"].empty()) {
+            ADD_FAILURE() << "no score, but: " << told << "\nof a run that said: " << run.out;
+            return {};
+        }
+        return all["vehicles"][0];
     }
 
     std::string said(const std::vector<std::string>& more, int code = 0) {

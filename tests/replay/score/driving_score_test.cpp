@@ -45,7 +45,6 @@ TEST(InfractionCount, WhatHappensAtALineIsOne) {
 TEST(DrivingScore, OfACleanDriveIsItsCompletion) {
     for (const Leaderboard each : {Leaderboard::multiplicative, Leaderboard::additive}) {
         EXPECT_EQ(driving_score(each, {}, 1.0).score, 100);
-        EXPECT_EQ(driving_score(each, {}, 0.995).score, 100) << "99 % are the whole route";
         EXPECT_DOUBLE_EQ(*driving_score(each, {}, 0.4).score, 40);
         EXPECT_EQ(driving_score(each, {}, {}).score, std::nullopt) << "no route";
         EXPECT_EQ(driving_score(each, {}, {}).penalty, 1);
@@ -72,7 +71,27 @@ TEST(DrivingScore, IsMadeAsTheLeaderboardSays) {
     EXPECT_NEAR(newer.factors[1].value, 1.4, 1e-12);
 }
 
-TEST(LeaderboardCounts, WhoIsHitAgainSoonAndNearIsHitOnce) {
+TEST(RouteScore, IsDrivenFromNinetyNinePercentOnWhereTenMetresAreLeft) {
+    EXPECT_EQ((replay::RouteScore{500, 0.995, 1, 0}.counted()), 1) << "2.5 m are left";
+    EXPECT_EQ((replay::RouteScore{500, 0.98, 1, 0}.counted()), 0.98) << "10 m, but 98 %";
+    EXPECT_EQ((replay::RouteScore{5000, 0.995, 1, 0}.counted()), 0.995) << "25 m are left";
+}
+
+/// As in the Leaderboard, whose route ends there.
+TEST(LeaderboardCounts, EndWhereTheRouteEnds) {
+    VehicleScore vehicle;
+    vehicle.driven = 400;
+    vehicle.off_lane = 300;
+    vehicle.infractions = {lasting(InfractionKind::red_light, 100, 100),
+                           lasting(InfractionKind::red_light, 4000, 4000)};
+    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).red_lights, 2U);
+    vehicle.ended = {3700, 100, 10};
+    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).red_lights, 1U);
+    EXPECT_DOUBLE_EQ(leaderboard_counts(vehicle, step_ns).off_lane, 0.1);
+}
+
+/// 5 m of the last one, whoever it was with; or 5 s, and the same one.
+TEST(LeaderboardCounts, WhatIsNearTheLastCollisionIsThat) {
     VehicleScore vehicle;
     const auto hit = [&](std::uint32_t other, std::uint64_t tick, double x) {
         Infraction infraction = lasting(InfractionKind::collision_vehicle, tick, tick + 3);
@@ -81,14 +100,14 @@ TEST(LeaderboardCounts, WhoIsHitAgainSoonAndNearIsHitOnce) {
         vehicle.infractions.push_back(infraction);
     };
     hit(7, 100, 0);
-    hit(7, 200, 5);
-    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).vehicles, 1U) << "5 s and 5 m";
-    hit(7, 301, 5);
-    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).vehicles, 2U) << "later";
-    hit(7, 302, 20);
-    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).vehicles, 3U) << "elsewhere";
-    hit(8, 302, 20);
-    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).vehicles, 4U) << "somebody else";
+    hit(7, 200, 8);
+    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).vehicles, 1U) << "the same one, 5 s later";
+    hit(8, 900, 4);
+    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).vehicles, 1U) << "another one, 4 m away";
+    hit(7, 901, 20);
+    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).vehicles, 2U) << "later and elsewhere";
+    hit(8, 902, 26);
+    EXPECT_EQ(leaderboard_counts(vehicle, step_ns).vehicles, 3U) << "somebody else, elsewhere";
     vehicle.driven = 200;
     vehicle.off_lane = 50;
     EXPECT_DOUBLE_EQ(leaderboard_counts(vehicle, step_ns).off_lane, 0.25);
