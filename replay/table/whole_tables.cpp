@@ -53,9 +53,7 @@ void note_events(const world::TickView& tick, double time, TableActors& actors) 
 
 std::vector<Value> row_of(std::uint32_t id, const TableActor& actor) {
     const auto time = [](const std::optional<double>& at) { return at ? Value(*at) : Value(); };
-    const std::string kind = actor.wrecked           ? "vehicle"
-                             : actor.kind == nullptr ? ""
-                                                     : actor.kind;
+    const std::string kind = actor.wrecked ? "vehicle" : actor.kind == nullptr ? "" : actor.kind;
     std::vector<Value> row{std::int64_t{id},
                            actor.name.empty() ? Value() : Value(actor.name),
                            kind.empty() ? Value() : Value(kind)};
@@ -146,19 +144,18 @@ WholeTable actors_table(TraceReader& trace) {
         note_states(tick.cars(), "car", actors);
         note_states(tick.walkers(), "walker", actors);
     }
-    WholeTable table{
-        "actors",
-        {"id",
-         "name",
-         "kind",
-         "model",
-         "length",
-         "width",
-         "height",
-         "spawned",
-         "despawned",
-         "wrecked"},
-        {}};
+    WholeTable table{"actors",
+                     {"id",
+                      "name",
+                      "kind",
+                      "model",
+                      "length",
+                      "width",
+                      "height",
+                      "spawned",
+                      "despawned",
+                      "wrecked"},
+                     {}};
     for (const auto& [id, actor] : actors)
         table.rows.push_back(row_of(id, actor));
     return table;

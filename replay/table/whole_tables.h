@@ -26,8 +26,8 @@ WholeTable read_whole_table(TraceReader& trace, const std::string& name);
 WholeTable lanes_table(const world::TownT& town);
 
 /// All that was in the trace, by id. Reads it whole, about 15 us a tick. spawned and despawned are
-/// absent where the trace does not tell them. Who is hit as a car and becomes a body is one actor, a
-/// vehicle with the time at which it was `wrecked`.
+/// absent where the trace does not tell them. Who is hit as a car and becomes a body is one actor,
+/// a vehicle with the time at which it was `wrecked`.
 WholeTable actors_table(TraceReader& trace);
 
 /// As a CSV file, with units in its heading.

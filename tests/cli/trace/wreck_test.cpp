@@ -46,11 +46,10 @@ TEST_F(WreckedCar, IsOneActorThatIsAVehicleSinceThen) {
     const std::string row = actors.substr(at, actors.find('\n', at) - at);
     EXPECT_THAT(row, HasSubstr(",van,vehicle,van,"));
     const double wrecked = std::stod(row.substr(row.rfind(',') + 1));
-    EXPECT_THAT(
-        reprise({"query", "a.mcap", "select min(tick) * 0.05 t from vehicles where id = 1"},
-                folder->path())
-            .out,
-        HasSubstr(row.substr(row.rfind(',') + 1)))
+    EXPECT_THAT(reprise({"query", "a.mcap", "select min(tick) * 0.05 t from vehicles where id = 1"},
+                        folder->path())
+                    .out,
+                HasSubstr(row.substr(row.rfind(',') + 1)))
         << "its first row of a body is at " << wrecked;
     EXPECT_THAT(row, HasSubstr(",0.05,,")) << "when it came; it never left";
 }
