@@ -18,6 +18,7 @@
 #include "towns/network/out_of_place.h"
 #include "towns/network/place.h"
 #include "towns/network/shared_lanes.h"
+#include "towns/network/waiting_places.h"
 #include "world/check.h"
 #include "world/geometry2d.h"
 #include "world/models/vehicle_classes.h"
@@ -323,7 +324,8 @@ Network load_network(const std::filesystem::path& path) {
             "simulate that, so cars do not see the oncoming ones there\n",
             path.string(),
             world::count_of(parted, "road"));
-    if (!network.notes.empty())
+    const std::size_t moved = move_waiting_places(root);
+    if (moved > 0 || !network.notes.empty())
         network.xml = to_text(document);
     network.place = place_beside(path, network.name);
     return network;
