@@ -135,8 +135,13 @@ void gather_footprints(const world::TickView& last,
                 {vehicle.velocity().x(), vehicle.velocity().y()},
                 vehicle.id() < world::first_background_id,  // else a wreck
                 footprints);
+    // SUMO believes them elsewhere: by order, or where it cut a change of lanes short.
+    const auto is_aside = [](const Car& car) {
+        return std::abs(car.offset) > far_aside ||
+               std::abs(world::cross(world::ahead_of(car.yaw), car.slip)) > far_aside;
+    };
     for (const Car& car : cars)
-        if (car.origin == Origin::parked || car.sumo.empty() || std::abs(car.offset) > far_aside)
+        if (car.origin == Origin::parked || car.sumo.empty() || is_aside(car))
             add_car(car.id,
                     car.model,
                     car.rear,
