@@ -167,10 +167,36 @@ void CarReader::move_body(Car& car) const {
         shown += car.offset * Eigen::Vector3d(-std::sin(lane_yaw), std::cos(lane_yaw), 0);
     }
     car.trail.advance(shown);
-    car.rear = car.trail.rear();
-    const Eigen::Vector3d body = car.trail.front() - car.rear;
+    // On a bend a body lies inside of the way of its ends. Drivers of long ones keep to their own
+    // side: who turns left swings out, who turns right cuts the kerb rather than the other lane.
+    constexpr double kept_clear = 0.6;  // of what lies inside
+    const Eigen::Vector3d chord = (car.trail.front() + car.trail.rear()) / 2;
+    const Eigen::Vector2d ahead = (car.trail.front() - car.trail.rear()).head<2>().normalized();
+    const Eigen::Vector2d own_side = (town_->left_hand ? 1 : -1) * world::turned_left(ahead);
+    const double inside = (car.trail.middle() - chord).head<2>().norm();
+    const Eigen::Vector2d aside = kept_clear * inside * own_side;
+    const Eigen::Vector3d out(aside.x(), aside.y(), 0);
+    const Eigen::Vector3d front = car.trail.front() + out;
+    car.rear = rolled(car, car.trail.rear() + out);
+    const Eigen::Vector3d body = front - car.rear;
     car.yaw = std::atan2(body.y(), body.x());
     car.pitch = body.z() == 0 ? 0 : std::atan2(body.z(), body.head<2>().norm());
+}
+
+/// The rear axle follows the bumper's way only as far as wheels roll: on the tightest bends, of
+/// long vehicles, it would go sideways. `wanted` is where it would be.
+Eigen::Vector3d CarReader::rolled(const Car& car, const Eigen::Vector3d& wanted) const {
+    constexpr double steepest = 0.45;  // metres aside for each metre driven
+    constexpr double elsewhere = 6;    // [m] further is a new place
+    const Eigen::Vector2d moved = (wanted - car.rear).head<2>();
+    const Eigen::Vector2d ahead = world::ahead_of(car.yaw);
+    const double aside = world::cross(ahead, moved);
+    const double most = steepest * car.speed * step_;
+    if (std::abs(aside) <= most || moved.norm() > elsewhere)
+        return wanted;
+    const Eigen::Vector2d left = world::turned_left(ahead);
+    const Eigen::Vector2d back = left * (aside - std::copysign(most, aside));
+    return wanted - Eigen::Vector3d(back.x(), back.y(), 0);
 }
 
 void CarReader::read_car(Car& car, std::uint64_t tick) const {

@@ -32,6 +32,7 @@ class CarReader {
     double lane_yaw_of(const Car& car) const;
     Eigen::Vector3d without_jumps(Car& car, const Eigen::Vector3d& sumo_front) const;
     void move_body(Car& car) const;
+    Eigen::Vector3d rolled(const Car& car, const Eigen::Vector3d& wanted) const;
 
     const world::TownT* town_;
     const RoadGraph* graph_;

@@ -138,33 +138,55 @@ void StreetMotion::compare(const world::CarState& was, const world::CarState& is
     follow_turn(is);
 }
 
+/// By what the map says of the link, as on around a roundabout.
+bool StreetMotion::goes_straight_on(std::uint32_t from, std::uint32_t to) const {
+    if (from == world::none)
+        return false;
+    for (const world::Link& link : town_->lanes[from].links)
+        if (link.to() == to)
+            return link.turn() == world::Turn::straight;
+    return false;
+}
+
 void StreetMotion::follow_turn(const world::CarState& is) {
     Turn& turn = turns_[is.id()];
-    const double yaw = static_cast<double>(is.yaw());
     const bool inside =
         is.lane() != world::none && town_->lanes[is.lane()].kind == world::LaneKind::internal;
     const bool left = (is.lamps() & world::lamp_left) != 0;
     const bool right = (is.lamps() & world::lamp_right) != 0;
+    constexpr int early = 10;  // [ticks]
+    Lit& lit = lit_[is.id()];
+    const Lit before = lit;
+    lit.left = left ? lit.left + 1 : 0;
+    lit.right = right ? lit.right + 1 : 0;
+    lit.ticks = lit.lane == is.lane() ? lit.ticks + 1 : 0;
+    lit.lane = is.lane();
     if (!inside) {
         // The front is out; the body follows, and whether it turned shows along the lane.
         if (turn.junction != world::none && is.lane() != world::none) {
             const world::LaneT& lane = town_->lanes[is.lane()];
             const double turned = world::wrap_angle(world::point_at(lane, 0).yaw - turn.yaw);
-            if (std::abs(turned) > 0.7 && std::abs(turned) < 2.6) {
+            if (std::abs(turned) > 0.7 && std::abs(turned) < 2.6 &&
+                !goes_straight_on(turn.from, is.lane())) {
                 ++turns;
+                if (turned > 0 ? !turn.early_left : !turn.early_right)
+                    add(late_lamps, is.id(), std::abs(turned));
                 if (turned > 0 ? !turn.left : !turn.right)
                     add(dark_turns, is.id(), std::abs(turned));
             }
         }
-        turn = Turn{world::none, yaw, yaw, left, right};
+        turn = Turn{};
+        turn.from = is.lane();
         return;
     }
     const std::uint32_t junction = town_->lanes[is.lane()].junction;
     if (turn.junction == world::none) {
         turn.junction = junction;
         turn.yaw = world::point_at(town_->lanes[is.lane()], 0).yaw;
+        const int long_enough = std::min(early, before.ticks);
+        turn.early_left = before.left >= long_enough;
+        turn.early_right = before.right >= long_enough;
     }
-    turn.last = yaw;
     turn.left = turn.left || left;
     turn.right = turn.right || right;
 }
@@ -217,6 +239,7 @@ std::string StreetMotion::text() const {
     row("dark brakes", dark_brakes, "m/s^2");
     row("false brakes", false_brakes, "m/s^2");
     row("dark turns", dark_turns, "rad");
+    row("late lamps", late_lamps, "rad");
     text += fmt::format("{} cars slid {:.1f} m; {} turns; mean speed {:.2f} m/s\n",
                         sliders.size(),
                         slid,

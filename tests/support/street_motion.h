@@ -51,7 +51,8 @@ class StreetMotion {
     Count dark_brakes;    ///< [m/s^2] of slowing down by more than 1, with the brake lamp off
     Count false_brakes;   ///< [m/s^2] of speeding up by more than 0.3, with the brake lamp on
     Count dark_turns;     ///< [rad] turned in a junction by more than 0.7 without the indicator on
-    std::uint64_t turns = 0;          ///< of more than 0.7 rad
+    Count late_lamps;     ///< [rad] turned likewise, with the indicator off half a second before
+    std::uint64_t turns = 0;          ///< of more than 0.7 rad; not who goes on around a roundabout
     double slid = 0;                  ///< [m] by all that stand, their corners
     std::set<std::uint32_t> sliders;  ///< who moved by more than 0.1 m in all while standing
 
@@ -66,11 +67,23 @@ class StreetMotion {
 
     struct Turn {
         std::uint32_t junction = world::none;
-        double yaw = 0;  ///< [rad] turned since it came in, left positive
-        double last = 0;
-        bool left = false;  ///< that indicator was on
+        std::uint32_t from = world::none;  ///< the lane before it
+        double yaw = 0;                    ///< [rad] of the way in
+        bool left = false;                 ///< that indicator was on
         bool right = false;
+        bool early_left = false;  ///< likewise, half a second before the junction
+        bool early_right = false;
     };
+
+    /// For how many ticks somebody is on a lane, and each indicator on.
+    struct Lit {
+        std::uint32_t lane = world::none;
+        int ticks = 0;
+        int left = 0;
+        int right = 0;
+    };
+
+    bool goes_straight_on(std::uint32_t from, std::uint32_t to) const;
 
     const world::TownT* town_;
     double step_;
@@ -78,6 +91,7 @@ class StreetMotion {
     std::vector<world::CarState> last_;
     std::map<std::uint32_t, double> slid_by_;
     std::map<std::uint32_t, Turn> turns_;
+    std::map<std::uint32_t, Lit> lit_;
 };
 
 }  // namespace reprise::test
