@@ -9,9 +9,11 @@
 
 #include <Eigen/Core>
 #include <fmt/format.h>
+#include <pugixml.hpp>
 
 #include "towns/network/network_xml.h"
 #include "world/geometry2d.h"
+#include "world/units.h"
 #include "world/words.h"
 
 namespace reprise::towns {
@@ -22,8 +24,8 @@ using Points = std::vector<Eigen::Vector3d>;
 
 constexpr double half_car = 0.95;     // [m] of the one who waits
 constexpr double half_way = 1.3;      // [m] that one who passes takes up, a bus in a bend left out
-constexpr double farthest = 5;        // [m] that a place is moved
-constexpr double spacing = 0.25;      // [m] between the places tried
+constexpr double moved_at_most = 5;   // [m] that a place is moved
+constexpr double tried_every = 0.25;  // [m] between the places tried
 constexpr double least_length = 5.5;  // [m] left of the first part: a car stands inside
 constexpr double way_out = 6;         // [m] of the lane behind the junction
 
@@ -211,8 +213,8 @@ double way_back(const Points& first,
     for (const Points& way : ways)
         if (in_the_way(first, way))
             hindered.push_back(&way);
-    const double most = std::min(farthest, length - least_length);
-    for (double back = spacing; !hindered.empty() && back <= most; back += spacing) {
+    const double most = std::min(moved_at_most, length - least_length);
+    for (double back = tried_every; !hindered.empty() && back <= most; back += tried_every) {
         const auto in_way = [&](const Points* way) { return hinders(back, *way); };
         if (std::any_of(hindered.begin(), hindered.end(), in_way))
             continue;

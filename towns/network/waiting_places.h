@@ -2,7 +2,9 @@
 
 #include <cstddef>
 
-#include <pugixml.hpp>
+namespace pugi {
+class xml_node;
+}
 
 namespace reprise::towns {
 
