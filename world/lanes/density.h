@@ -12,7 +12,7 @@ constexpr std::uint32_t auto_cars = 0xffffffff;
 
 /// So many background cars a town can carry: with more, queues reach back from junction to junction
 /// until they close a circle, in which nobody moves. By the length of its lanes for cars between
-/// junctions.
+/// junctions, and by what their ends let through.
 std::uint32_t cars_carried(const TownT& town);
 
 /// Puts that number in the place of auto_cars.
