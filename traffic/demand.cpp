@@ -14,6 +14,9 @@ namespace {
 
 constexpr double too_long = 100;     // [s] of standing, after which a car is taken out
 constexpr double out_of_sight = 80;  // [m] from every physics vehicle
+// Two that wait for each other within its sight would do so for ever, and others behind them.
+constexpr double far_too_long = 150;  // [s] of standing
+constexpr double not_beside = 30;     // [m]
 
 bool is_seen(const Eigen::Vector3d& p, const world::TickView& last, double sight) {
     const auto vehicles = last.vehicles();
@@ -115,7 +118,6 @@ void Demand::fill_up(Cars& cars, const world::TickView& last, world::TickDraft& 
 }
 
 void Demand::remove_leaving(Cars& cars, const world::TickView& last, world::TickDraft& next) const {
-    const auto patience = static_cast<std::uint32_t>(too_long / step_);
     for (std::size_t i = cars.size(); i-- > 0;) {
         const Car& car = cars[i];
         if (car.origin != Origin::demand || car.lane == world::none)
@@ -125,7 +127,9 @@ void Demand::remove_leaving(Cars& cars, const world::TickView& last, world::Tick
         const bool arrives = car.dead_end && car.route.size() == 1 &&
                              car.route.front() == graph_->edge_of(car.lane) &&
                              left < 2 * step_ * (car.speed + 1) + 1;
-        const bool stuck = car.standing_ticks > patience && !is_seen(car.rear, last, out_of_sight);
+        const double stood = car.standing_ticks * step_;
+        const bool stuck = (stood > too_long && !is_seen(car.rear, last, out_of_sight)) ||
+                           (stood > far_too_long && !is_seen(car.rear, last, not_beside));
         if (arrives || stuck)
             cars.remove_from_sumo(i, next);
     }

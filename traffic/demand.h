@@ -15,7 +15,7 @@
 namespace reprise::traffic {
 
 /// As many background cars as the episode asks for: new ones for those that leave at a dead end or
-/// have stood for minutes where no physics vehicle sees them.
+/// have stood for minutes where no physics vehicle sees them, or not from near.
 class Demand {
   public:
     /// All of them must outlive this.

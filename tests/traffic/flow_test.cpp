@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/worlds.h"
 #include "tests/traffic/stage.h"
+#include "world/geometry2d.h"
 #include "world/lanes/density.h"
 
 namespace reprise::traffic {
@@ -64,6 +66,31 @@ TEST(Flow, WhoFindsHisRoadFullTurnsOffElsewhere) {
             longest = std::max(longest, ticks);
         }
     EXPECT_LT(longest, minute);
+}
+
+/// Behind one who never drives on, in sight of a vehicle with mass.
+TEST(Flow, WhoIsStuckInSightOfTheEgoIsTakenOutInTheEnd) {
+    const test::Loaded& town2 = own_town("town2");
+    const std::uint32_t road = test::lane(town2.town, "b1_d1_1");
+    Stage stage(town2, 40, 3);
+    world::CommandT stop = test::command(world::CommandKind::set_speed, 1);
+    stop.speed = 0;
+    const double blocked = town2.town.lanes[road].length - 6;
+    const world::LanePoint near = world::point_at(town2.town.lanes[road], blocked);
+    // In sight of the queue, and far from every road.
+    const Eigen::Vector2d beside = near.position.head<2>() - 40 * world::left_of(near.yaw);
+    const auto ego = test::vehicle_at(2, beside.x(), beside.y(), near.yaw);
+    stage.step({test::spawn(1, road, blocked - 5), stop}, {ego});
+    std::map<std::uint32_t, int> halted;
+    int longest = 0;
+    for (int tick = 0; tick < 4 * minute; ++tick)
+        for (const world::CarState& car : stage.step({}, {ego}).traffic.cars) {
+            int& ticks = halted[car.id()];
+            ticks = car.speed() < 0.1F && car.id() != 1 ? ticks + 1 : 0;
+            longest = std::max(longest, ticks);
+        }
+    EXPECT_GT(longest, 2 * minute) << "nobody was stuck: nothing is shown";
+    EXPECT_LT(longest, 3 * minute);
 }
 
 TEST(Flow, AsManyCarsAsATownCarriesAreThereInTheFirstTick) {
