@@ -109,7 +109,8 @@ Eigen::Vector3d CarReader::bumper_of(const Car& car) const {
 
 /// As its order wants it, and as the car drives: a standing car stands.
 void CarReader::move_aside(Car& car, std::uint64_t tick) const {
-    constexpr double steepest = 0.5;  // metres aside for each metre driven
+    // Metres aside for each metre driven; more with the wheels turned as far as they go.
+    const double steepest = car.pass ? 1.0 : 0.5;
     const OffsetOrder& order = *car.offset_order;
     const double seconds = static_cast<double>(tick - order.start) * step_;
     const double most = steepest * car.speed * step_;

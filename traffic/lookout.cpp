@@ -19,6 +19,8 @@ using world::none;
 constexpr double reaction = 1;         // [s] as SUMO's tau
 constexpr double least_gap = 0.5;      // [m] for which everybody brakes as hard as it takes
 constexpr double steepest_way = 0.45;  // [m] aside for each metre driven, of one who pulls out
+constexpr double steepest_pass = 0.9;  // of one who has stood behind what it passes,
+constexpr double corner_reach = 0.25;  // [m] and how far its bumper's corner reaches out then
 constexpr double starting = 3;         // [m/s^2] no car of the fleet starts quicker
 constexpr double spare_braking = 1.1;
 
@@ -44,13 +46,15 @@ struct Lookout::Corridor {
     double comfortable;  ///< [m/s^2]
     double hardest;      ///< [m/s^2]
     double step;         ///< [s]
+    double steepest;     ///< [m] aside for each metre driven
+    bool is_long;
     std::uint32_t id;
     double allowed = world::infinity;  ///< [m/s]
 
     /// Where its middle is when the bumper has come so far.
     double aside_at(double distance) const {
         const double off = aside - wanted_aside;
-        const double left = std::max(std::abs(off) - steepest_way * std::max(distance, 0.0), 0.0);
+        const double left = std::max(std::abs(off) - steepest * std::max(distance, 0.0), 0.0);
         return wanted_aside + std::copysign(left, off);
     }
 
@@ -77,6 +81,9 @@ void Lookout::look_on(std::uint32_t lane, double start, double aside, Corridor& 
         const double distance = start + one.begin;
         if (one.id == corridor.id || distance < -nose || distance > corridor.reach ||
             std::abs(one.z - corridor.z) > world::level_clearance + corridor.reach * 0.1)
+            continue;
+        // Two long ones that meet in a bend would wait for each other.
+        if (one.meets && corridor.is_long)
             continue;
         corridor.meet(distance, one.right + aside, one.left + aside, one);
     }
@@ -141,7 +148,7 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     const Eigen::Vector3d& front = car.trail.front();
     Corridor corridor{};
     corridor.speed = car.speed;
-    corridor.half_width = model.width / 2;
+    corridor.half_width = model.width / 2 + (car.pass ? corner_reach : 0);
     corridor.wanted_aside = car.offset_order ? car.offset_order->change.to : car.offset;
     corridor.most_gap = car.pass ? 1 : world::infinity;
     corridor.reach = 10 + (reaction + car.speed / (2 * easy_braking)) * car.speed;
@@ -149,6 +156,8 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     corridor.comfortable = comfortable_braking(car.model);
     corridor.hardest = emergency_braking(car.model);
     corridor.step = step_;
+    corridor.steepest = car.pass ? steepest_pass : steepest_way;
+    corridor.is_long = model.length > longest_short_car;
     corridor.id = car.id;
     constexpr double longest_piece = 3;  // [m] from a footprint's middle to its end
     if (!car.pass && !obstructions_.any_near(front.head<2>(), corridor.reach + longest_piece))

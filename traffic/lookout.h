@@ -34,8 +34,8 @@ class Lookout {
         : town_(&town),
           graph_(&graph),
           orders_(&orders),
-          obstructions_(town, lanes),
           step_(world::seconds(1, episode.step_ns)),
+          obstructions_(town, lanes, step_),
           stand_ins_(town, graph, step_),
           passing_(town, obstructions_, step_) {}
 
@@ -46,7 +46,10 @@ class Lookout {
     void advance(const world::TickView& last, Cars& cars, std::uint64_t tick);
 
     /// Beside what the cars keep; nothing where nothing is in the way.
-    void add_to(world::Hasher& hasher) const { stand_ins_.add_to(hasher); }
+    void add_to(world::Hasher& hasher) const {
+        obstructions_.add_to(hasher);
+        stand_ins_.add_to(hasher);
+    }
 
   private:
     struct Corridor;
@@ -60,8 +63,8 @@ class Lookout {
     const world::TownT* town_;
     const RoadGraph* graph_;
     const Orders* orders_;
-    Obstructions obstructions_;
     double step_;  ///< [s]
+    Obstructions obstructions_;
     StandIns stand_ins_;
     Passing passing_;
 };

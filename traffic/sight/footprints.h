@@ -8,8 +8,12 @@
 
 #include "traffic/cars/car.h"
 #include "world/tick.h"
+#include "world/town.h"
 
 namespace reprise::traffic {
+
+/// [m] What is longer needs more than its lane in a bend.
+constexpr double longest_short_car = 7;
 
 /// What stands or moves on the ground, seen from above: an oriented box.
 struct Footprint {
@@ -21,6 +25,7 @@ struct Footprint {
     Eigen::Vector2d velocity;
     double clearance = 0;  ///< [m] that one who passes leaves beside it
     bool drives = false;   ///< a vehicle with mass, or on a trajectory: SUMO has a copy of it
+    bool reaches = false;  ///< SUMO's own: reaches over to lanes where SUMO does not have it
     std::uint32_t id = 0;
 };
 
@@ -31,5 +36,13 @@ struct Footprint {
 void gather_footprints(const world::TickView& last,
                        std::span<const Car> cars,
                        std::vector<Footprint>& footprints);
+
+/// And the long ones that SUMO drives, where they may reach over: in junctions and behind them, in
+/// bends, on their way from lane to lane. SUMO knows the lanes that their middle line is on, not
+/// that a bus's tail swings out, or that a lorry cuts the corner. `step` [s] of a tick.
+void add_reaching(const world::TownT& town,
+                  std::span<const Car> cars,
+                  double step,
+                  std::vector<Footprint>& footprints);
 
 }  // namespace reprise::traffic

@@ -16,6 +16,7 @@ constexpr double beside_the_lane = 0.2;  // [m] beyond its edge it takes no room
 constexpr double foresight = 0.7;        // [s] of a walker's way
 constexpr double least_walk = 0.3;       // [m/s] slower ones stand
 constexpr double along_its_lane = 0.8;   // cosine: who stands across a lane is not on its way
+constexpr double halts_at_most = 30;     // [s] on its way; who stands for longer stays
 
 // Who is off every lane by a step or more need not be looked at in every tick.
 constexpr double small = 0.6;         // [m] half of what is looked at this way
@@ -43,6 +44,30 @@ const Obstructions::Off* Obstructions::still_off(const Footprint& footprint,
     return is_off ? &*at : nullptr;
 }
 
+void Obstructions::count_halts(std::span<const world::VehicleState> vehicles) {
+    std::vector<Halt> halts;
+    for (const world::VehicleState& vehicle : vehicles) {
+        if (std::hypot(vehicle.velocity().x(), vehicle.velocity().y()) > least_walk)
+            continue;
+        const auto before = std::find_if(
+            halts_.begin(), halts_.end(), [&](const Halt& one) { return one.id == vehicle.id(); });
+        halts.push_back({vehicle.id(), before == halts_.end() ? 1 : before->ticks + 1});
+    }
+    halts_ = std::move(halts);
+}
+
+bool Obstructions::stands_for_good(std::uint32_t id) const {
+    return std::any_of(halts_.begin(), halts_.end(), [&](const Halt& one) {
+        return one.id == id && one.ticks * step_ > halts_at_most;
+    });
+}
+
+void Obstructions::add_to(world::Hasher& hasher) const {
+    for (const Halt& one : halts_)
+        if (one.ticks * step_ > halts_at_most)
+            hasher.add(one.id);
+}
+
 void Obstructions::add(const Footprint& footprint) {
     const Eigen::Vector3d place(footprint.centre.x(), footprint.centre.y(), footprint.z);
     const Eigen::Vector2d way = footprint.velocity.norm() < least_walk
@@ -61,7 +86,9 @@ void Obstructions::add(const Footprint& footprint) {
     const std::size_t before = all_.size();
     for (const std::uint32_t index : lanes_->near(place, reach + (is_small ? most_clear : 0))) {
         const world::LaneT& lane = town_->lanes[index];
-        if (!world::is_for_cars(lane))
+        // In junctions SUMO's cars mind each other's ways.
+        if (!world::is_for_cars(lane) ||
+            (footprint.reaches && lane.kind == world::LaneKind::internal))
             continue;
         const world::LaneProjection at = world::project(lane, place);
         if (is_small) {
@@ -100,9 +127,12 @@ void Obstructions::add(const Footprint& footprint) {
         one.speed = std::max(footprint.velocity.dot(ahead), 0.0);
         one.z = place.z();
         const bool askew = std::abs(footprint.direction.dot(ahead)) < along_its_lane;
-        one.lasts = (!footprint.drives || askew) && footprint.velocity.norm() < least_walk;
-        // Behind vehicles that SUMO has a copy of, less than SUMO keeps.
-        one.gap = one.lasts ? 5.5 : footprint.drives ? 1.5 : 4;
+        one.meets = footprint.reaches && footprint.direction.dot(ahead) < 0;
+        one.lasts = !footprint.reaches && footprint.velocity.norm() < least_walk &&
+                    (!footprint.drives || askew || stands_for_good(footprint.id));
+        // Behind vehicles that SUMO has a copy of, less than SUMO keeps; before who comes around a
+        // bend on more than his lane, what he will need.
+        one.gap = one.lasts ? 5.5 : one.meets ? 8 : footprint.drives ? 1.5 : 4;
         one.id = footprint.id;
         all_.push_back(one);
     }
@@ -119,7 +149,9 @@ bool Obstructions::any_near(const Eigen::Vector2d& p_world, double reach) const 
 }
 
 void Obstructions::look(const world::TickView& last, std::span<const Car> cars) {
+    count_halts(last.vehicles());
     gather_footprints(last, cars, footprints_);
+    add_reaching(*town_, cars, step_, footprints_);
     all_.clear();
     places_.clear();
     next_off_.clear();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "traffic/sight/footprints.h"
+#include "world/digest.h"
 #include "world/tick.h"
 #include "world/town.h"
 
@@ -20,6 +21,7 @@ struct Obstruction {
     double speed = 0;  ///< [m/s] along the lane, 0 for what comes towards us
     double z = 0;
     bool lasts = false;  ///< stands or lies still, and is not somebody who waits to drive on
+    bool meets = false;  ///< reaches over from the oncoming lane
     double gap = 0;      ///< [m] that one who stops behind it leaves
     std::uint32_t id = 0;
 };
@@ -30,13 +32,15 @@ struct Obstruction {
 /// ASSUMES a lane is straight over the length of a footprint (see gather_footprints).
 /// GOES    who was off every lane is not looked at again before he could be on one; the others are
 ///         seen from the direction of each lane around. About 1 us a look.
-/// KEEPS   nothing from tick to tick that changes a result.
+/// KEEPS   since when each vehicle with mass has stood: after a while it is taken for one that will
+///         not drive on.
 class Obstructions {
   public:
-    /// Both must outlive this.
-    Obstructions(const world::TownT& town, const world::LaneMap& lanes)
+    /// Both must outlive this. `step` [s] of a tick.
+    Obstructions(const world::TownT& town, const world::LaneMap& lanes, double step)
         : town_(&town),
-          lanes_(&lanes) {}
+          lanes_(&lanes),
+          step_(step) {}
 
     /// As the last tick has them, and `cars`, which SUMO does not drive.
     void look(const world::TickView& last, std::span<const Car> cars);
@@ -52,6 +56,9 @@ class Obstructions {
     /// Those of one lane, along it. O(log n).
     std::span<const Obstruction> on(std::uint32_t lane) const;
 
+    /// Nothing where nobody has stood for long.
+    void add_to(world::Hasher& hasher) const;
+
   private:
     /// Somebody off every lane, and how far he may go before he could be on one.
     struct Off {
@@ -61,11 +68,21 @@ class Obstructions {
         double clear = 0;     ///< [m]
     };
 
+    /// A vehicle with mass that stands, and for how long.
+    struct Halt {
+        std::uint32_t id = 0;
+        std::uint32_t ticks = 0;
+    };
+
+    void count_halts(std::span<const world::VehicleState> vehicles);
+    bool stands_for_good(std::uint32_t id) const;
     void add(const Footprint& footprint);
     const Off* still_off(const Footprint& footprint, const Eigen::Vector2d& tip) const;
 
     const world::TownT* town_;
     const world::LaneMap* lanes_;
+    double step_;              ///< [s]
+    std::vector<Halt> halts_;  ///< sorted by id
     std::vector<Footprint> footprints_;
     std::vector<Obstruction> all_;
     std::vector<Eigen::Vector2d> places_;  ///< of the footprints on lanes
