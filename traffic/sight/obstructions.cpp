@@ -16,6 +16,7 @@ constexpr double beside_the_lane = 0.2;  // [m] beyond its edge it takes no room
 constexpr double foresight = 0.7;        // [s] of a walker's way
 constexpr double least_walk = 0.3;       // [m/s] slower ones stand
 constexpr double along_its_lane = 0.8;   // cosine: who stands across a lane is not on its way
+constexpr double halts_shortly = 5;      // [s] as everybody does
 constexpr double halts_at_most = 30;     // [s] on its way; who stands for longer stays
 
 // Who is off every lane by a step or more need not be looked at in every tick.
@@ -56,16 +57,33 @@ void Obstructions::count_halts(std::span<const world::VehicleState> vehicles) {
     halts_ = std::move(halts);
 }
 
-bool Obstructions::stands_for_good(std::uint32_t id) const {
-    return std::any_of(halts_.begin(), halts_.end(), [&](const Halt& one) {
-        return one.id == id && one.ticks * step_ > halts_at_most;
-    });
+/// [s] by now; 0 of who drives, or is no vehicle with mass.
+double Obstructions::stood(std::uint32_t id) const {
+    const auto at =
+        std::find_if(halts_.begin(), halts_.end(), [id](const Halt& one) { return one.id == id; });
+    return at == halts_.end() ? 0 : at->ticks * step_;
 }
 
 void Obstructions::add_to(world::Hasher& hasher) const {
-    for (const Halt& one : halts_)
-        if (one.ticks * step_ > halts_at_most)
-            hasher.add(one.id);
+    for (const Halt& one : halts_) {
+        if (one.ticks * step_ <= halts_shortly)
+            continue;
+        hasher.add(one.id);
+        hasher.add(one.ticks * step_ > halts_at_most);
+    }
+}
+
+/// [m] that one who stops behind it leaves: room to get around what will stand there for longer;
+/// before who comes around a bend on more than his lane, what he will need; behind others that SUMO
+/// has a copy of, less than SUMO keeps.
+double Obstructions::gap_behind(const Footprint& footprint, const Obstruction& seen) const {
+    if (seen.lasts)
+        return 5.5;
+    if (seen.meets)
+        return 8;
+    if (!footprint.drives)
+        return 4;
+    return stood(footprint.id) > halts_shortly ? 4.5 : 1.5;
 }
 
 void Obstructions::add(const Footprint& footprint) {
@@ -129,10 +147,8 @@ void Obstructions::add(const Footprint& footprint) {
         const bool askew = std::abs(footprint.direction.dot(ahead)) < along_its_lane;
         one.meets = footprint.reaches && footprint.direction.dot(ahead) < 0;
         one.lasts = !footprint.reaches && footprint.velocity.norm() < least_walk &&
-                    (!footprint.drives || askew || stands_for_good(footprint.id));
-        // Behind vehicles that SUMO has a copy of, less than SUMO keeps; before who comes around a
-        // bend on more than his lane, what he will need.
-        one.gap = one.lasts ? 5.5 : one.meets ? 8 : footprint.drives ? 1.5 : 4;
+                    (!footprint.drives || askew || stood(footprint.id) > halts_at_most);
+        one.gap = gap_behind(footprint, one);
         one.id = footprint.id;
         all_.push_back(one);
     }

@@ -75,7 +75,8 @@ class Obstructions {
     };
 
     void count_halts(std::span<const world::VehicleState> vehicles);
-    bool stands_for_good(std::uint32_t id) const;
+    double stood(std::uint32_t id) const;
+    double gap_behind(const Footprint& footprint, const Obstruction& seen) const;
     void add(const Footprint& footprint);
     const Off* still_off(const Footprint& footprint, const Eigen::Vector2d& tip) const;
 
