@@ -50,7 +50,9 @@ TEST(Mirrors, ACarBehindAStandingEgoStopsBeforeIt) {
         nearest = std::min(nearest, gap);
         EXPECT_EQ(stage.draft().traffic.cars.size(), 1U) << "the ego is nobody's car but physics'";
     }
-    EXPECT_NEAR(nearest, sumo_gap, 0.3);
+    // The ego has stood for longer than at a stop sign: room to get around it is left.
+    constexpr double room = 2;
+    EXPECT_NEAR(nearest, sumo_gap + room, 0.3);
     EXPECT_LT(stage.car(follower)->speed(), 0.01F);
     EXPECT_NE(stage.car(follower)->lamps() & world::lamp_brake, 0);
 }
