@@ -120,7 +120,7 @@ bool Passing::consider(const world::TickView& last,
 void Passing::come_back(const Ego& ego, double beside) {
     const double s = ego.rear_axle_s + tracked_ahead(*ego.model);
     PassingPlan home;
-    home.speed = std::max(ego.speed, 3.0);
+    home.speed = home.out_speed = std::max(ego.speed, 3.0);
     home.bypass.aside = home.bypass.from = beside;
     home.bypass.out_start = home.bypass.out_end = home.bypass.back_start = s;
     home.bypass.back_end = s + step_length(*ego.model, beside, home.speed);
@@ -190,7 +190,9 @@ double Passing::acceleration(const Ego& ego, const DrivingStyle& style) const {
         return stop;
     const double before =
         std::max(plan_->bypass.out_start - ego.rear_axle_s - tracked_ahead(*ego.model), 0.0);
-    const double allowed = std::sqrt(plan_->speed * plan_->speed + 2 * slow_down * before);
+    const bool is_out = ego.rear_axle_s + tracked_ahead(*ego.model) > plan_->bypass.out_end;
+    const double most = is_out ? plan_->speed : plan_->out_speed;
+    const double allowed = std::sqrt(most * most + 2 * slow_down * before);
     return std::min(stop, std::clamp(pass_gain * (allowed - ego.speed), -3.0, style.acceleration));
 }
 
@@ -218,6 +220,7 @@ void Passing::add_to(world::Hasher& hasher) const {
     if (!plan_)
         return;
     plan_->bypass.add_to(hasher);
+    hasher.add(plan_->out_speed);
     hasher.add(plan_->speed);
     hasher.add(std::span<const std::uint32_t>(plan_->row));
     hasher.add(plan_->uses);

@@ -23,6 +23,7 @@ constexpr double before_them = 0.5;      // [m] from where on it is beside them
 constexpr double behind_them = 1.0;      // [m]
 constexpr double before_junction = 1;    // [m]
 constexpr double past_people = 5;        // [m/s]
+constexpr double brisk = 6;              // [m/s] of one who turned out slowly, for want of room
 constexpr double past_things = 9;        // [m/s]
 constexpr double past_two_wheelers = 7;  // [m/s] faster than they are
 constexpr double spare_time = 2.5;       // [s] before somebody who comes
@@ -180,7 +181,8 @@ PassingPlan line_past(const PassingScene& scene, const Row& row, bool to_left) {
     const double wanted = step_length(model, width, std::min(scene.ego.speed, plan.speed));
     const double length = std::clamp(ahead, std::min(least, wanted), wanted);
     way.out_start = way.out_end - length;
-    plan.speed = std::min(plan.speed, Bypass::fastest(width, length, quickest_step));
+    plan.out_speed = std::min(plan.speed, Bypass::fastest(width, length, quickest_step));
+    plan.speed = std::min(plan.speed, std::max(plan.out_speed, brisk));
 
     // Those who go on are some metres farther when we have passed them.
     way.back_start = row.front + scene.to_rear() + behind_them;
@@ -267,7 +269,8 @@ std::optional<PassingPlan> plan_side(const PassingScene& scene,
         plan.row = std::move(ids);
         // Too fast to turn out so soon: later, when it has slowed down.
         const double braking =
-            (scene.ego.speed * scene.ego.speed - plan.speed * plan.speed) / (2 * slow_braking);
+            (scene.ego.speed * scene.ego.speed - plan.out_speed * plan.out_speed) /
+            (2 * slow_braking);
         const double until = plan.bypass.out_start - scene.tracked_s() +
                              0.3 * (plan.bypass.out_end - plan.bypass.out_start);
         plan.is_free = braking <= std::max(until, 0.0) && is_free(scene, plan);

@@ -36,6 +36,7 @@ struct PassingPlan {
     enum class Uses : std::uint8_t { own_lane, next_lane, oncoming_lane };
 
     Bypass bypass;
+    double out_speed = 0;            ///< [m/s] at most, while it turns out
     double speed = 0;                ///< [m/s] at most, beside them
     std::vector<std::uint32_t> row;  ///< ids of those who are passed
     Uses uses = Uses::own_lane;
