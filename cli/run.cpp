@@ -164,6 +164,7 @@ class Commentary {
             case world::EventKind::speeding:
             case world::EventKind::wrong_way:
             case world::EventKind::wrecked:
+            case world::EventKind::backed_off:
                 return tell(tick, crashes_.names().name_of(event.actor()) + " " + text);
             case world::EventKind::check_failed:
                 if (!world::tells_worst(event))  // else the summary says so
