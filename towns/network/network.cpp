@@ -101,6 +101,10 @@ std::string unpack(const fs::path& path, std::string& packed) {
         unpacked.append(block.data(), block.size() - stream.avail_out);
         if (unpacked.size() > largest)
             break;
+        // SUMO's own programs write a file of several members, one after the other (RFC 1952, 2.2).
+        const std::string_view rest(reinterpret_cast<const char*>(stream.next_in), stream.avail_in);
+        if (status == Z_STREAM_END && is_gzip(rest))
+            status = inflateReset(&stream);
     }
     inflateEnd(&stream);
     if (unpacked.size() > largest)

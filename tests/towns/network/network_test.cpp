@@ -121,6 +121,21 @@ TEST_F(NetworkFiles, GzipHoldsTheSameNetwork) {
     EXPECT_EQ(network.notes, "");
 }
 
+/// SUMO's programs write a member for each few kilobytes.
+TEST_F(NetworkFiles, GzipOfSeveralMembersHoldsThemAll) {
+    const std::filesystem::path packed = folder_ / "town2.net.xml.gz";
+    const std::string own = town2();
+    for (std::size_t from = 0; from < own.size(); from += 20000) {
+        gzFile file = gzopen(packed.c_str(), from == 0 ? "wb" : "ab");
+        const std::string part = own.substr(from, 20000);
+        gzwrite(file, part.data(), static_cast<unsigned>(part.size()));
+        gzclose(file);
+    }
+    EXPECT_EQ(load_network(packed).xml, own);
+    std::filesystem::resize_file(packed, std::filesystem::file_size(packed) - 20);
+    EXPECT_THAT(message(packed), HasSubstr("is damaged or cut off"));
+}
+
 TEST_F(NetworkFiles, ThePlaceBesideItGoesAlong) {
     write("a.net.xml", town2());
     EXPECT_EQ(load_network(folder_ / "a.net.xml").place, "");
