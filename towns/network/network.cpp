@@ -13,6 +13,7 @@
 #include <pugixml.hpp>
 #include <zlib.h>
 
+#include "towns/network/mended_lanes.h"
 #include "towns/network/network_check.h"
 #include "towns/network/network_xml.h"
 #include "towns/network/out_of_place.h"
@@ -217,7 +218,9 @@ std::string fault_of(pugi::xml_node lane) {
     for (const char* name : {"speed", "length", "width"}) {
         const char* text = lane.attribute(name).value();
         const double value = *text == '\0' ? 1 : number(text, nothing);
-        if (value == nothing || value <= 0)
+        // Lanes of no width are closed when they are read (mended_lanes.h).
+        const bool is_closed = value == 0 && std::string_view(name) == "width";
+        if (value == nothing || (value <= 0 && !is_closed))
             return fmt::format("<lane>: {}=\"{}\" is not a number above 0", name, text);
         if (value > widest && std::string_view(name) == "width")
             return fmt::format("<lane>: width=\"{}\" is more than {} m", text, widest);
@@ -277,6 +280,22 @@ std::string to_text(const pugi::xml_document& document) {
     return std::move(text).str();
 }
 
+/// A line for each kind of change.
+std::string notes_on(const MendedLanes& mended, const fs::path& path) {
+    std::string notes;
+    const auto note = [&](std::size_t count, const char* what, std::string_view changed) {
+        if (count > 0)
+            notes +=
+                fmt::format("{}: {} {}\n", path.string(), world::count_of(count, what), changed);
+    };
+    note(mended.folds, "lane", "with a point at which the line turned back: it is left out");
+    note(mended.lengths,
+         "road",
+         "counted longer or shorter than drawn: the length is that of the drawing now");
+    note(mended.closed, "lane", "of width 0: closed");
+    return notes;
+}
+
 }  // namespace
 
 Network load_network(const std::filesystem::path& path) {
@@ -328,6 +347,9 @@ Network load_network(const std::filesystem::path& path) {
             "simulate that, so cars do not see the oncoming ones there\n",
             path.string(),
             world::count_of(parted, "road"));
+    network.notes += notes_on(mend_lanes(root), path);
+    if (!has_car_lane(root))
+        fail_at(path, root_line, "has no edge that a passenger car may use, but lanes of no width");
     const std::size_t moved = move_waiting_places(root);
     if (moved > 0 || !network.notes.empty())
         network.xml = to_text(document);

@@ -136,6 +136,15 @@ TEST_F(NetworkFiles, GzipOfSeveralMembersHoldsThemAll) {
     EXPECT_THAT(message(packed), HasSubstr("is damaged or cut off"));
 }
 
+TEST_F(NetworkFiles, ALaneOfNoWidthIsClosedAndSaid) {
+    std::string own = town2();
+    const std::size_t sidewalk = own.find("allow=\"pedestrian\"", own.find("\" from=\""));
+    own.replace(own.find("width=\"", sidewalk), 7, "width=\"0.00\" was=\"");
+    const Network network = load_network(write("narrow.net.xml", own));
+    EXPECT_THAT(network.notes, HasSubstr("narrow.net.xml: 1 lane of width 0: closed"));
+    EXPECT_NO_THROW(read_town(network));
+}
+
 TEST_F(NetworkFiles, ThePlaceBesideItGoesAlong) {
     write("a.net.xml", town2());
     EXPECT_EQ(load_network(folder_ / "a.net.xml").place, "");
