@@ -15,8 +15,10 @@
 #include "ground/mesh/build_ground.h"
 #include "ground/paint/markings.h"
 #include "process/held_signals.h"
+#include "towns/check/ends_check.h"
 #include "towns/check/furniture_check.h"
 #include "towns/check/ground_check.h"
+#include "towns/check/lane_check.h"
 #include "towns/check/standing_check.h"
 #include "towns/check/walk_check.h"
 #include "towns/import/import_check.h"
@@ -102,6 +104,9 @@ Criterion check_repeats(const Built& first, const Built& second) {
 
 std::vector<Criterion> check(const Built& first, const Built& second) {
     std::vector<Criterion> criteria = towns::check_ground(first.town, first.ground);
+    criteria.push_back(towns::check_ends(first.town, first.ground));
+    for (Criterion& criterion : towns::check_lanes(first.town))
+        criteria.push_back(std::move(criterion));
     criteria.push_back(towns::check_walking(first.town, first.walk_map));
     for (Criterion& criterion : towns::check_furniture(first.town))
         criteria.push_back(std::move(criterion));
