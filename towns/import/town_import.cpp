@@ -20,6 +20,7 @@
 #include "towns/import/guessed_crossings.h"
 #include "towns/import/import_check.h"
 #include "towns/import/map_signs.h"
+#include "towns/import/mirrored_town.h"
 #include "towns/import/right_of_way.h"
 #include "towns/import/road_ids.h"
 #include "towns/import/signal_sites.h"
@@ -171,9 +172,8 @@ class Import {
         write_text(work_ / "map.xodr", map.prepared);
         say("OpenDRIVE {}", map.version);
         if (map.left_hand)
-            say("left-hand traffic: netconvert mirrors the lanes; roads with unlike sides come out "
-                "wrong");
-        std::vector<std::string> words = opendrive_words("map.xodr", map.left_hand);
+            say("traffic drives on the left");
+        std::vector<std::string> words = opendrive_words("map.xodr");
         // Each lane says which of the map's it was made of.
         words.emplace_back("--output.original-names");
         if (wish.guess_sidewalks)
@@ -212,6 +212,10 @@ class Import {
                 count(map.banked, "road"));
         count_crossings(crossings);
         say("lost: road markings and objects (they are made anew)");
+        if (map.left_hand) {
+            network = mirrored_network(network);
+            mirror_place(found);
+        }
         place = place_xml(found);
     }
 

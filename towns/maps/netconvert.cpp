@@ -93,9 +93,9 @@ int run_sumo_tool(const std::string& program,
     return warnings;
 }
 
-std::vector<std::string> opendrive_words(const std::string& file, bool left_hand) {
+std::vector<std::string> opendrive_words(const std::string& file) {
     const std::string types = (sumo_folder() / "data/typemap/opendriveNetconvert").string();
-    std::vector<std::string> words{
+    return {
         "--opendrive-files",
         file,
         // The second adds sidewalks, which netconvert drops by itself.
@@ -107,9 +107,6 @@ std::vector<std::string> opendrive_words(const std::string& file, bool left_hand
         "--geometry.remove",
         "--tls.discard-simple",
     };
-    if (left_hand)
-        words.emplace_back("--lefthand");
-    return words;
 }
 
 std::vector<std::string> openstreetmap_words(const std::string& file, bool left_hand) {

@@ -22,7 +22,7 @@ std::filesystem::path sumo_folder();
 std::string reason_in(const std::string& said);
 
 /// What suits an OpenDRIVE map in `file`.
-std::vector<std::string> opendrive_words(const std::string& file, bool left_hand);
+std::vector<std::string> opendrive_words(const std::string& file);
 
 /// What suits an OpenStreetMap map in `file`.
 std::vector<std::string> openstreetmap_words(const std::string& file, bool left_hand);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "towns/maps/mirrored_opendrive.h"
 #include "towns/maps/opendrive_check.h"
 #include "towns/maps/reference_line.h"
 #include "towns/network/network_xml.h"
@@ -206,12 +207,13 @@ OpenDrive read_opendrive(const std::string& xml, const std::string& file) {
                         line_of(xml, static_cast<std::size_t>(root.offset_debug()))));
     check_opendrive(root, xml, file);
     OpenDrive map;
+    map.left_hand = drives_on_the_left(root, xml, file);
+    if (map.left_hand)
+        mirror_opendrive(root);
     const pugi::xml_node header = root.child("header");
     map.version = fmt::format("{}.{}", text(header, "revMajor"), text(header, "revMinor"));
     map.origin = {real(header.child("offset"), "x"), real(header.child("offset"), "y")};
-    map.left_hand = true;
     for (const pugi::xml_node road : root.children("road")) {
-        map.left_hand = map.left_hand && text(road, "rule") == "LHT";
         map.limits_set += set_limits(road);
         map.banked += is_banked(road) ? 1 : 0;
         drop_generated_name(road);

@@ -44,13 +44,15 @@ struct OpenDrive {
     /// [m] The header's <offset>: netconvert subtracts it from every coordinate, if it knows the
     /// map's projection.
     Eigen::Vector2d origin{0, 0};
-    bool left_hand = false;  ///< all roads have rule="LHT"
+    /// All roads have rule="LHT": then all that stands here is mirrored about the x axis, as if
+    /// traffic drove on the right.
+    bool left_hand = false;
     std::string prepared;    ///< the map with these limits, for netconvert
 };
 
 /// Parses a map. netconvert 1.15 ignores speed limits of a whole road (<type><speed>): they are
 /// written into its lanes. Road names that an editor generated are removed. `file` is for messages.
-/// Throws world::Error "file:line: what" when it is not XML or has no road.
+/// Throws world::Error "file:line: what" when it is not XML, has no road, or drives on both sides.
 OpenDrive read_opendrive(const std::string& xml, const std::string& file);
 
 }  // namespace reprise::towns
