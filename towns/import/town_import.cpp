@@ -11,10 +11,12 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "files/output_place.h"
+#include "towns/bridges/guessed_bridges.h"
 #include "towns/bridges/raise_roads.h"
 #include "towns/import/footprints.h"
 #include "towns/import/guessed_crossings.h"
@@ -296,20 +298,21 @@ class Import {
         if (std::any_of(roads.town.lanes.begin(), roads.town.lanes.end(), [](const auto& lane) {
                 return lane.kind == LaneKind::driving;
             }))
-            raise(shapes);
+            raise(shapes.ways, "in the map");
     }
 
     /// netconvert's own heights (--osm.layer-elevation) reach as far as the next junction at most,
     /// and leave everything beyond a bridge up.
-    void raise(const MapShapes& shapes) {
-        HeightFaultFinder judge({source_.name, network, "", place});
-        const RaisedRoads raised = raise_roads(
-            network, shapes.ways, [&](const std::string& xml) { return judge.faults(xml); });
-        if (shapes.ways.empty())
+    void raise(const std::vector<MapShape>& ways, std::string_view known) {
+        if (ways.empty())
             return;
-        say("bridges and tunnels: {} in the map; {} where a road passes over another; "
+        HeightFaultFinder judge({source_.name, network, "", place});
+        const RaisedRoads raised =
+            raise_roads(network, ways, [&](const std::string& xml) { return judge.faults(xml); });
+        say("bridges and tunnels: {} {}; {} where a road passes over another; "
             "{:.2f} km of road raised or lowered for it, the steepest {:.0f} %",
-            count(shapes.ways.size(), "way"),
+            count(ways.size(), "way"),
+            known,
             count(raised.crossings, "place"),
             raised.length / 1000,
             100 * raised.steepest);
@@ -330,8 +333,25 @@ class Import {
         report += loaded.notes;
         network = without_comments(loaded.xml);
         place = loaded.place;
-        if (!wish.guess_sidewalks)
+        if (wish.guess_sidewalks)
+            convert_with_sidewalks();
+        guess_heights();
+    }
+
+    /// A network that was made without heights has lost which road passes over which.
+    void guess_heights() {
+        const GuessedBridges guessed = guess_bridges(network);
+        if (guessed.ways.empty())
             return;
+        const std::string flat = std::exchange(network, guessed.network);
+        raise(guessed.ways, "guessed, as the network has no heights");
+        if (network == guessed.network)
+            network = flat;
+        else if (flat.find("\"origId\"") == std::string::npos)
+            network = without_origins(network);
+    }
+
+    void convert_with_sidewalks() {
         write_text(work_ / "map.net.xml", network);
         std::vector<std::string> words{
             "--sumo-net-file", "map.net.xml", "--offset.disable-normalization"};
