@@ -15,6 +15,7 @@
 #include "ground/mesh/build_ground.h"
 #include "ground/mesh/ground_probe.h"
 #include "tests/towns/street_map.h"
+#include "towns/bridges/guessed_bridges.h"
 #include "towns/bridges/height_faults.h"
 #include "towns/bridges/height_profile.h"
 #include "towns/check/furniture_check.h"
@@ -137,45 +138,31 @@ TEST_F(RaiseRoads, CarsPassOverAndUnderAtOnePlace) {
     EXPECT_THAT(report_, HasSubstr("1 place where a road passes over another"));
 }
 
-/// Networks that others made of maps have mostly lost all heights.
+/// Networks that others made of maps have mostly lost all heights, and which way a road was.
 TEST_F(RaiseRoads, WhereRoadsOfAFlatNetworkCrossWithoutAJunctionOneIsABridge) {
     import(interchange({}));
-    for (const bool named : {true, false}) {
-        if (!named) {
-            std::ifstream in(folder_ / "t/hill.net.xml");
-            const std::string text((std::istreambuf_iterator<char>(in)), {});
-            std::ofstream(folder_ / "t/hill.net.xml")
-                << std::regex_replace(text, std::regex("<param key=\"origId\"[^>]*>"), "");
-        }
-        fs::create_directories(folder_ / "u");
-        const std::string report =
-            import_town({folder_ / "t/hill.net.xml", "", false, false}, folder_ / "u");
-        EXPECT_THAT(report, HasSubstr("1 place where a road passes over another"));
-        const Network network = load_network(folder_ / "u/hill.net.xml");
-        EXPECT_EQ(network.xml.find("origId") != std::string::npos, named);
-        const world::TownT town = read_town(network);
-        const ground::GroundMesh ground = ground::build_ground(town);
-        const Vector2d place = crossing(town);
-        const auto deck = ground::GroundProbe(ground).below({place.x(), place.y(), 100});
-        const auto road = ground::GroundProbe(ground).below({place.x(), place.y(), 4.5});
-        ASSERT_TRUE(deck && road);
-        EXPECT_NEAR(deck->z, 6, 0.01);
-        EXPECT_NEAR(road->z, 0, 0.01) << "Hill Road runs to the north: it is the upper one";
-        for (const world::LaneT& lane : town.lanes)
-            if (is_motorway(lane)) {
-                EXPECT_EQ(lane.centre.back().z(), 0) << lane.name;
-            }
-        fs::remove_all(folder_ / "u");
-    }
-}
-
-/// As it was, to the byte.
-TEST_F(RaiseRoads, ANetworkWithHeightsOrWithoutCrossingsKeepsThem) {
-    import(interchange({{"bridge", "yes"}, { "layer", "1" }}));
+    EXPECT_FALSE(guess_bridges(network_).ways.empty());
+    std::ofstream(folder_ / "t/hill.net.xml")
+        << std::regex_replace(network_, std::regex("<param key=\"origId\"[^>]*>"), "");
     fs::create_directories(folder_ / "u");
-    EXPECT_THAT(import_town({folder_ / "t/hill.net.xml", "", false, false}, folder_ / "u"),
-                ::testing::Not(HasSubstr("guessed")));
-    EXPECT_EQ(load_network(folder_ / "u/hill.net.xml").xml, network_);
+    const std::string report =
+        import_town({folder_ / "t/hill.net.xml", "", false, false}, folder_ / "u");
+    EXPECT_THAT(report, HasSubstr("1 place where a road passes over another"));
+    const Network network = load_network(folder_ / "u/hill.net.xml");
+    EXPECT_EQ(network.xml.find("origId"), std::string::npos);
+    const world::TownT town = read_town(network);
+    const ground::GroundMesh ground = ground::build_ground(town);
+    const Vector2d place = crossing(town);
+    const auto deck = ground::GroundProbe(ground).below({place.x(), place.y(), 100});
+    const auto road = ground::GroundProbe(ground).below({place.x(), place.y(), 4.5});
+    ASSERT_TRUE(deck && road);
+    EXPECT_NEAR(deck->z, 6, 0.01);
+    EXPECT_NEAR(road->z, 0, 0.01) << "Hill Road runs to the north: it is the upper one";
+    for (const world::LaneT& lane : town.lanes)
+        if (is_motorway(lane)) {
+            EXPECT_EQ(lane.centre.back().z(), 0) << lane.name;
+        }
+    EXPECT_TRUE(guess_bridges(network.xml).ways.empty()) << "it has heights now";
 }
 
 TEST_F(RaiseRoads, ABridgeOfAnotherSpeedBecomesATown) {
