@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include "towns/network/mended_lanes.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
 #include "world/lane_starts.h"
@@ -209,6 +208,12 @@ Criterion check_kinks(const world::TownT& town) {
 }
 
 }  // namespace
+
+double turn_at(const std::vector<Vector2d>& line, std::size_t i) {
+    const Vector2d before = line[i] - line[i - 1];
+    const Vector2d after = line[i + 1] - line[i];
+    return std::abs(std::atan2(world::cross(before, after), before.dot(after)));
+}
 
 std::vector<Criterion> check_lanes(const world::TownT& town) {
     return {check_covered(town), check_lengths(town), check_kinks(town)};

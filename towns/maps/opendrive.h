@@ -47,7 +47,7 @@ struct OpenDrive {
     /// All roads have rule="LHT": then all that stands here is mirrored about the x axis, as if
     /// traffic drove on the right.
     bool left_hand = false;
-    std::string prepared;    ///< the map with these limits, for netconvert
+    std::string prepared;  ///< the map with these limits, for netconvert
 };
 
 /// Parses a map. netconvert 1.15 ignores speed limits of a whole road (<type><speed>): they are

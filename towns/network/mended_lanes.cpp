@@ -9,11 +9,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "towns/check/lane_check.h"
 #include "towns/network/network_xml.h"
 #include "world/geometry2d.h"
 #include "world/words.h"
@@ -133,12 +136,6 @@ bool close_lane(pugi::xml_node lane) {
 }
 
 }  // namespace
-
-double turn_at(const std::vector<Vector2d>& line, std::size_t i) {
-    const Vector2d before = line[i] - line[i - 1];
-    const Vector2d after = line[i + 1] - line[i];
-    return std::abs(std::atan2(world::cross(before, after), before.dot(after)));
-}
 
 MendedLanes mend_lanes(pugi::xml_node net) {
     MendedLanes mended;
