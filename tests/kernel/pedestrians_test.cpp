@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "ground/mesh/build_ground.h"
 #include "ground/mesh/ground.h"
 #include "tests/support/worlds.h"
 #include "world/models/catalogue.h"
@@ -46,7 +47,8 @@ class Street {
     Street()
         : town_(test::straight_road()),
           lanes_(town_),
-          pedestrians(test::episode(), town_, lanes_) {}
+          ground_(ground::build_ground(town_)),
+          pedestrians(test::episode(), town_, lanes_, ground_) {}
 
     const std::vector<world::WalkerState>& step(std::vector<world::CommandT> commands = {}) {
         last_.emplace(world::seal(next, {}));
@@ -67,6 +69,7 @@ class Street {
   private:
     world::TownT town_;
     world::LaneMap lanes_;
+    ground::GroundMesh ground_;
     std::optional<world::SealedTick> last_;
 
   public:
