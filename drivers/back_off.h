@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "drivers/ego.h"
+#include "drivers/control/ego.h"
 #include "drivers/way/path.h"
 #include "world/digest.h"
 #include "world/tick.h"

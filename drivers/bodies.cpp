@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/ego.h"
+#include "drivers/control/ego.h"
 #include "world/frames.h"
 #include "world/models/doors.h"
 #include "world/models/prop_models.h"

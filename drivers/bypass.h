@@ -1,6 +1,6 @@
 #pragma once
 
-#include "drivers/lateral_order.h"
+#include "drivers/control/lateral_order.h"
 #include "world/digest.h"
 
 namespace reprise::drivers {

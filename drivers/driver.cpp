@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "drivers/control/steering.h"
 #include "drivers/driver_state.h"
-#include "drivers/steering.h"
 #include "world/check.h"
 #include "world/units.h"
 
@@ -24,11 +24,11 @@ world::CarModel model_with(std::uint16_t index) {
 
 }  // namespace
 
-Autopilot::State::State(std::uint32_t actor_id,
-                        std::uint16_t model,
-                        const world::EpisodeT& episode,
-                        const RoadMap& road_map,
-                        world::Pilot pilot)
+DriverState::DriverState(std::uint32_t actor_id,
+                         std::uint16_t model,
+                         const world::EpisodeT& episode,
+                         const RoadMap& road_map,
+                         world::Pilot pilot)
     : actor(actor_id),
       step(static_cast<double>(episode.step_ns) * 1e-9),
       car(model_with(model)),
@@ -47,7 +47,7 @@ Autopilot::Autopilot(std::uint32_t actor,
                      const world::EpisodeT& episode,
                      const RoadMap& map,
                      world::Pilot pilot)
-    : state_(std::make_unique<State>(actor, model, episode, map, pilot)) {}
+    : state_(std::make_unique<DriverState>(actor, model, episode, map, pilot)) {}
 
 Autopilot::~Autopilot() = default;
 Autopilot::Autopilot(Autopilot&&) noexcept = default;
@@ -127,7 +127,7 @@ const std::vector<std::uint32_t>& Autopilot::path() const {
 
 /// What every driver does: where am I, where do I go, who is in the way, then hands and feet.
 world::Control Autopilot::decide(const world::TickView& last) {
-    State& state = *state_;
+    DriverState& state = *state_;
     const world::VehicleState* own = world::find(last.vehicles(), state.actor);
     REPRISE_CHECK(
         own != nullptr,
@@ -198,7 +198,7 @@ world::Control Autopilot::decide(const world::TickView& last) {
 }
 
 /// What the scenario said since the last tick.
-void Autopilot::State::begin_orders(const world::TickView& last, const Ego& ego) {
+void DriverState::begin_orders(const world::TickView& last, const Ego& ego) {
     speed_order.begin(tick, ego.speed, step);
     lateral_order.begin(
         tick, navigator.beside_way(ego), car, ego.speed, last.tick->road_friction());
@@ -206,13 +206,13 @@ void Autopilot::State::begin_orders(const world::TickView& last, const Ego& ego)
 }
 
 /// Whatever comes. A change of lanes is still put off for as long as there is no room.
-double Autopilot::State::obedient_acceleration(const world::TickView& last, Ego& ego) {
+double DriverState::obedient_acceleration(const world::TickView& last, Ego& ego) {
     change_lanes(last, ego);
     plan_wide_turns(ego);
     return ordered_acceleration(ego);
 }
 
-double Autopilot::State::careful_acceleration(const world::TickView& last, Ego& ego) {
+double DriverState::careful_acceleration(const world::TickView& last, Ego& ego) {
     double acceleration = pid ? ended_acceleration(ego) : cruise(ego);
     acceleration = std::min(acceleration, change_lanes(last, ego));
     acceleration = std::min(acceleration, approach_turn(ego));
@@ -228,7 +228,7 @@ double Autopilot::State::careful_acceleration(const world::TickView& last, Ego& 
 }
 
 /// Hands and feet while we turn around; when that is done, a new path on the lane behind it.
-void Autopilot::State::turn(const world::TickView& last, Ego& ego, world::Control& control) {
+void DriverState::turn(const world::TickView& last, Ego& ego, world::Control& control) {
     const TurnAround::Move move = turn_around.next(last, ego);
     if (turn_around.done()) {
         gatekeeper.reset();
@@ -246,7 +246,7 @@ void Autopilot::State::turn(const world::TickView& last, Ego& ego, world::Contro
 
 /// Slowly, in either direction: speed below 0 is backwards. `along`: the car's speed that way,
 /// `climb`: the road's.
-void Autopilot::State::creep(double speed, double along, double climb, world::Control& control) {
+void DriverState::creep(double speed, double along, double climb, world::Control& control) {
     const double wanted = std::clamp(2 * (std::abs(speed) - along), -2.5, 1.0);
     const Pedals::Position position = speed == 0 || speed_order.brakes()
                                           ? Pedals::Position{0, 0.5}
@@ -257,7 +257,7 @@ void Autopilot::State::creep(double speed, double along, double climb, world::Co
 }
 
 /// Held by something, with the foot on the throttle? Who was told a speed reacts to nothing.
-void Autopilot::State::notice_pushing(const world::TickView& last, const Ego& ego) {
+void DriverState::notice_pushing(const world::TickView& last, const Ego& ego) {
     news.reset();
     const world::Control* given = world::find(last.controls(), actor);
     const bool told = speed_order.reacts_to_nothing();
@@ -267,7 +267,7 @@ void Autopilot::State::notice_pushing(const world::TickView& last, const Ego& eg
 }
 
 /// Hands and feet while we go back; when that is done, a new path from there.
-void Autopilot::State::go_back(const world::TickView& last, Ego& ego, world::Control& control) {
+void DriverState::go_back(const world::TickView& last, Ego& ego, world::Control& control) {
     const Path& path = way().path();
     const bool has_path = !path.empty();
     const double climb = has_path ? -path.climb(rear_axle_s, 1) : 0;
@@ -289,7 +289,7 @@ const std::string* Autopilot::news() const {
 }
 
 std::uint64_t Autopilot::digest() const {
-    const State& state = *state_;
+    const DriverState& state = *state_;
     world::Hasher hasher;
     state.navigator.add_to(hasher);
     state.gatekeeper.add_to(hasher);

@@ -12,6 +12,8 @@
 
 namespace reprise::drivers {
 
+struct DriverState;  // driver_state.h
+
 /// The built-in driver: follows lanes with Stanley steering, holds speed by feed-forward with
 /// proportional and integral terms, keeps its distance (IDM), stops at red and at stop signs, gives
 /// way. It sees what any driver sees: the last tick. Without a route it wanders: at every junction
@@ -93,8 +95,7 @@ class Autopilot {
     std::uint64_t digest() const;
 
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<DriverState> state_;
 };
 
 }  // namespace reprise::drivers

@@ -4,14 +4,14 @@
 
 #include <fmt/format.h>
 
+#include "drivers/control/steering.h"
 #include "drivers/driver_state.h"
-#include "drivers/steering.h"
 #include "world/geometry2d.h"
 
 namespace reprise::drivers {
 
 /// What the car will sweep beside its path; empty: its width everywhere.
-std::span<const SweptWidth> Autopilot::State::corridor(const Ego& ego) {
+std::span<const SweptWidth> DriverState::corridor(const Ego& ego) {
     const std::span<const SweptWidth> swept =
         has_wide_turn ? wide_turn->swept() : std::span<const SweptWidth>();
     if (lateral_order.empty() && !passing.plan())
@@ -34,7 +34,7 @@ std::span<const SweptWidth> Autopilot::State::corridor(const Ego& ego) {
 }
 
 /// Bends that no steering can follow; those where we turn around are not driven along the path.
-bool Autopilot::State::has_tight_bends() const {
+bool DriverState::has_tight_bends() const {
     // [m] to both sides; the points' own curvature is over 6 m, where a jog cancels itself.
     constexpr double bend_reach = 1.5;
     const double sharpest =
@@ -53,7 +53,7 @@ bool Autopilot::State::has_tight_bends() const {
 }
 
 /// Bends that need it are planned when the way has changed.
-void Autopilot::State::plan_wide_turns(const Ego& ego) {
+void DriverState::plan_wide_turns(const Ego& ego) {
     if (wide_turn_of_way == way().plan_digest() && !(has_wide_turn && wide_turn->empty()))
         return;
     wide_turn_of_way = way().plan_digest();
@@ -75,13 +75,13 @@ void Autopilot::State::plan_wide_turns(const Ego& ego) {
 }
 
 /// Of the rear axle, as far as it will have come since the last tick. [m]
-double Autopilot::State::expected_offset() const {
+double DriverState::expected_offset() const {
     return lateral_order.offset(tick, step) +
            (passing.plan() ? passing.plan()->bypass.offset(rear_axle_s) : 0);
 }
 
 /// Where beside the path the point that is steered along it is to be; none: on it.
-std::optional<BesidePath> Autopilot::State::beside(const Ego& ego) const {
+std::optional<BesidePath> DriverState::beside(const Ego& ego) const {
     const double ahead = tracked_ahead(*ego.model);
     const std::optional<BesidePath> told = lateral_order.beside(tick, step, ego.speed, ahead);
     if (!passing.plan())
@@ -99,7 +99,7 @@ std::optional<BesidePath> Autopilot::State::beside(const Ego& ego) const {
 }
 
 /// [m] left of the path, where the point is that is steered along it; beyond what a scenario wants.
-double Autopilot::State::tracked_beside(const Ego& ego) const {
+double DriverState::tracked_beside(const Ego& ego) const {
     const double ahead = tracked_ahead(*ego.model);
     const PathPoint here = way().path().at(ego.rear_axle_s + ahead);
     const Eigen::Vector2d tracked = ego.position.head<2>() + ahead * ego.direction;
@@ -109,7 +109,7 @@ double Autopilot::State::tracked_beside(const Ego& ego) const {
 
 /// Around what stands in the way, where that is free; what it sees on the path is then looked at
 /// anew.
-void Autopilot::State::pass(const world::TickView& last, const Ego& ego) {
+void DriverState::pass(const world::TickView& last, const Ego& ego) {
     if (pid || way().keeps_lane() || lateral_order.side(tick, step) != 0)
         return;
     if (passing.consider(last, ego, way(), hazards.overlaps(), tracked_beside(ego)))
@@ -122,7 +122,7 @@ void Autopilot::State::pass(const world::TickView& last, const Ego& ego) {
 
 /// The way may be counted from elsewhere, or be another one: a line past something goes on if it
 /// still leads on from where the car is. Else the car comes back to the way from there.
-void Autopilot::State::take_jump(const Ego& ego) {
+void DriverState::take_jump(const Ego& ego) {
     constexpr double same_line = 0.6;  // [m]
     const double jump = navigator.take_jump();
     if (!passing.plan() || jump == 0)

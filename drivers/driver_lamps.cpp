@@ -10,7 +10,7 @@ constexpr double low_sun = 0.1;         // [rad]
 
 }  // namespace
 
-std::uint16_t Autopilot::State::lamps(const world::TickView& last, const Ego& ego) const {
+std::uint16_t DriverState::lamps(const world::TickView& last, const Ego& ego) const {
     int lit = 0;
     const int around = town().left_hand ? world::lamp_right : world::lamp_left;
     for (const Gate& gate : way().gates()) {

@@ -17,14 +17,14 @@ constexpr double longest_wait = 12;  // [s] for room on the next lane
 }  // namespace
 
 /// Of one who keeps to an ordered speed, or to the changing of one. [m/s^2]
-double Autopilot::State::ordered_acceleration(const Ego& ego) const {
+double DriverState::ordered_acceleration(const Ego& ego) const {
     const SpeedOrder::Wish wish = speed_order.wish(tick, step);
     return wish.acceleration + exact_gain * (wish.speed - ego.speed);
 }
 
 /// Before the path leaves our lane: is there room on the other one? If not, leave it later, and at
 /// the latest place wait.
-double Autopilot::State::change_lanes(const world::TickView& last, Ego& ego) {
+double DriverState::change_lanes(const world::TickView& last, Ego& ego) {
     for (const LaneChange& change : way().changes()) {
         const double before = change.start - ego.front_s();
         if (before < 0 || before > 2 + ego.speed)
@@ -46,7 +46,7 @@ double Autopilot::State::change_lanes(const world::TickView& last, Ego& ego) {
 }
 
 /// The speed that lanes, curves and the scenario's cap allow, and dead ends. [m/s^2]
-double Autopilot::State::cruise(const Ego& ego) const {
+double DriverState::cruise(const Ego& ego) const {
     const Path& path = way().path();
     const bool changing = speed_order.is_changing(tick, step);
     const double cap = changing ? speed_order.wish(tick, step).speed : speed_order.target();
@@ -74,7 +74,7 @@ double Autopilot::State::cruise(const Ego& ego) const {
 }
 
 /// Before the end of the road. [m/s^2]
-double Autopilot::State::ended_acceleration(const Ego& ego) const {
+double DriverState::ended_acceleration(const Ego& ego) const {
     if (!way().ended())
         return world::infinity;
     return stop_acceleration(
@@ -82,7 +82,7 @@ double Autopilot::State::ended_acceleration(const Ego& ego) const {
 }
 
 /// Stops where a turn begins that takes going back and forth, and begins it. [m/s^2]
-double Autopilot::State::approach_turn(const Ego& ego) {
+double DriverState::approach_turn(const Ego& ego) {
     constexpr double sight = 80;  // [m]
     const auto ahead = std::find_if(way().gates().begin(),
                                     way().gates().end(),

@@ -7,29 +7,29 @@
 #include <vector>
 
 #include "drivers/back_off.h"
-#include "drivers/driver.h"
-#include "drivers/ego.h"
+#include "drivers/control/ego.h"
+#include "drivers/control/lateral_order.h"
+#include "drivers/control/pedals.h"
+#include "drivers/control/pid_driver.h"
+#include "drivers/control/turn_around.h"
+#include "drivers/control/wide_turn.h"
 #include "drivers/gatekeeper.h"
 #include "drivers/hazards.h"
-#include "drivers/lateral_order.h"
 #include "drivers/navigator.h"
 #include "drivers/passing.h"
-#include "drivers/pedals.h"
-#include "drivers/pid_driver.h"
+#include "drivers/road_map.h"
 #include "drivers/speed_order.h"
-#include "drivers/turn_around.h"
-#include "drivers/wide_turn.h"
 #include "world/models/car_model.h"
 
 namespace reprise::drivers {
 
 /// The parts of the built-in driver, and how they work together. Private to driver*.cpp.
-struct Autopilot::State {
-    State(std::uint32_t actor_id,
-          std::uint16_t model,
-          const world::EpisodeT& episode,
-          const RoadMap& road_map,
-          world::Pilot pilot);
+struct DriverState {
+    DriverState(std::uint32_t actor_id,
+                std::uint16_t model,
+                const world::EpisodeT& episode,
+                const RoadMap& road_map,
+                world::Pilot pilot);
 
     const world::TownT& town() const { return map->town; }
 

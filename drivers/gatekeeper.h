@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <span>
 
-#include "drivers/ego.h"
+#include "drivers/control/ego.h"
+#include "drivers/control/pedals.h"
 #include "drivers/hazards.h"
-#include "drivers/pedals.h"
 #include "drivers/way/way.h"
 #include "world/digest.h"
 #include "world/tick.h"

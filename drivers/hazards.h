@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 
 #include "drivers/bodies.h"
-#include "drivers/ego.h"
-#include "drivers/pedals.h"
+#include "drivers/control/ego.h"
+#include "drivers/control/pedals.h"
 #include "drivers/way/path.h"
 #include "world/tick.h"
 #include "world/town.h"

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "drivers/ego.h"
+#include "drivers/control/ego.h"
 #include "world/tick.h"
 #include "world/town.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "drivers/ego.h"
+#include "drivers/control/ego.h"
 #include "drivers/road_map.h"
 #include "drivers/way/way.h"
 #include "world/digest.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/steering.h"
+#include "drivers/control/steering.h"
 
 namespace reprise::drivers {
 

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "drivers/ego.h"
+#include "drivers/control/ego.h"
+#include "drivers/control/pedals.h"
 #include "drivers/hazards.h"
 #include "drivers/passing_plan.h"
-#include "drivers/pedals.h"
 #include "drivers/road_map.h"
 #include "drivers/way/way.h"
 #include "world/digest.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/pedals.h"
-#include "drivers/steering.h"
+#include "drivers/control/pedals.h"
+#include "drivers/control/steering.h"
 
 namespace reprise::drivers {
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "drivers/lateral_clearance.h"
+#include "drivers/control/lateral_clearance.h"
 #include "drivers/way/lane_graph.h"
 #include "world/obstacle.h"
 #include "world/town.h"

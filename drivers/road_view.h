@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "drivers/bodies.h"
-#include "drivers/ego.h"
+#include "drivers/control/ego.h"
 #include "drivers/road_map.h"
 #include "drivers/way/way.h"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "drivers/pedals.h"
+#include "drivers/control/pedals.h"
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/frames.h"

@@ -38,7 +38,7 @@ INNER = {
     "walkers": "map .",
     "towns": "check network maps furnish buildings . bridges import make",
     "traffic": "roads cars sight .",
-    "drivers": "way .",
+    "drivers": "way control .",
     "kernel": "drill physics .",
     "render": "shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look shade map views overlay film .",
     "scripting": "lua run words .",

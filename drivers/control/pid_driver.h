@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "drivers/ego.h"
-#include "drivers/pedals.h"
+#include "drivers/control/ego.h"
+#include "drivers/control/pedals.h"
 #include "drivers/way/path.h"
 #include "world/digest.h"
 

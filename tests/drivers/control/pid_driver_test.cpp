@@ -1,5 +1,5 @@
 // The paper's driver, behind the same interface.
-#include "drivers/pid_driver.h"
+#include "drivers/control/pid_driver.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "drivers/pedals.h"
+#include "drivers/control/pedals.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "drivers/lateral_clearance.h"
+#include "drivers/control/lateral_clearance.h"
 
 #include <algorithm>
 #include <cmath>

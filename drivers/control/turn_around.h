@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "drivers/ego.h"
+#include "drivers/control/ego.h"
 #include "world/digest.h"
 #include "world/tick.h"
 #include "world/town.h"

@@ -1,4 +1,4 @@
-#include "drivers/band_equations.h"
+#include "drivers/control/band_equations.h"
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>

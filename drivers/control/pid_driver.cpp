@@ -1,4 +1,4 @@
-#include "drivers/pid_driver.h"
+#include "drivers/control/pid_driver.h"
 
 #include <algorithm>
 #include <cmath>

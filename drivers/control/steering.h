@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "drivers/ego.h"
-#include "drivers/lateral_order.h"
+#include "drivers/control/ego.h"
+#include "drivers/control/lateral_order.h"
+#include "drivers/control/wide_turn.h"
 #include "drivers/way/path.h"
-#include "drivers/wide_turn.h"
 
 namespace reprise::drivers {
 

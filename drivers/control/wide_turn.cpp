@@ -1,4 +1,4 @@
-#include "drivers/wide_turn.h"
+#include "drivers/control/wide_turn.h"
 
 #include <algorithm>
 #include <cmath>

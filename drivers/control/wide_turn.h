@@ -7,9 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "drivers/band_equations.h"
-#include "drivers/ego.h"
-#include "drivers/lateral_clearance.h"
+#include "drivers/control/band_equations.h"
+#include "drivers/control/ego.h"
+#include "drivers/control/lateral_clearance.h"
 #include "drivers/way/path.h"
 #include "world/digest.h"
 #include "world/models/catalogue.h"

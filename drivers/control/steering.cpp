@@ -1,4 +1,4 @@
-#include "drivers/steering.h"
+#include "drivers/control/steering.h"
 
 #include <algorithm>
 #include <cmath>

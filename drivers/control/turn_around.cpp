@@ -1,4 +1,4 @@
-#include "drivers/turn_around.h"
+#include "drivers/control/turn_around.h"
 
 #include <algorithm>
 #include <array>

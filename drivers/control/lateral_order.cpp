@@ -1,4 +1,4 @@
-#include "drivers/lateral_order.h"
+#include "drivers/control/lateral_order.h"
 
 #include <algorithm>
 #include <cmath>
