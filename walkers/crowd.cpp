@@ -75,7 +75,7 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
     // Who was hit, who leaves, who comes.
     lights_.look(next);
     traffic_.look(last, next);
-    threats_.look(last, next);
+    threats_.look(last, next, step_);
     lay_down(last, tick);
     remove_hit_and_lost(next);
     fill_up(last, next);

@@ -16,27 +16,42 @@ namespace {
 constexpr double foresight = 1;  // [s]
 constexpr double margin = 0.3;   // [m] that nobody likes a car to come nearer
 constexpr double rolls = 0.3;    // [m/s]
+constexpr double turns = 0.1;    // [rad/s]
 constexpr double widest = 1;     // [m] radius of anybody on foot
 
 }  // namespace
 
-void Threats::add(const Eigen::Vector2d& rear_axle,
-                  const Eigen::Vector2d& ahead,
-                  double speed,
-                  double acceleration,
-                  std::uint16_t model) {
-    if (std::abs(speed) < rolls)
+void Threats::add(const Rolling& car) {
+    if (std::abs(car.speed) < rolls)
         return;
     // Who brakes is seen to brake; that somebody may step on it is not thought of.
-    const double braking = speed * acceleration < 0 ? std::abs(acceleration) : 0;
-    const double time = braking > 0 ? std::min(foresight, std::abs(speed) / braking) : foresight;
-    const double driven = std::copysign(std::abs(speed) * time - braking * time * time / 2, speed);
-    const world::VehicleModel& body = world::vehicle_models()[model];
+    const double braking = car.speed * car.acceleration < 0 ? std::abs(car.acceleration) : 0;
+    const double time =
+        braking > 0 ? std::min(foresight, std::abs(car.speed) / braking) : foresight;
+    const auto way = [&](double t) {
+        return std::copysign(std::abs(car.speed) * t - braking * t * t / 2, car.speed);
+    };
+    add_box(car, std::min(0.0, way(time)), std::max(0.0, way(time)));
+    if (std::abs(car.yaw_rate) < turns)
+        return;
+    // Of who turns the tail swings out: a bus's by more than a metre, over the kerb.
+    for (const double t : {time / 3, 2 * time / 3, time}) {
+        Rolling then = car;
+        then.yaw += car.yaw_rate * t;
+        then.rear_axle += way(t) * world::ahead_of(car.course + car.yaw_rate * t / 2);
+        add_box(then, 0, 0);
+    }
+}
+
+/// What its body covers, and so many metres behind and ahead of it.
+void Threats::add_box(const Rolling& car, double rear, double front) {
+    const world::VehicleModel& body = world::vehicle_models()[car.model];
+    const Eigen::Vector2d ahead = world::ahead_of(car.yaw);
     const double middle = body.length / 2 - body.rear_overhang;
-    Threat threat{rear_axle + middle * ahead,
+    Threat threat{car.rear_axle + middle * ahead,
                   ahead,
-                  -body.length / 2 + std::min(0.0, driven),
-                  body.length / 2 + std::max(0.0, driven),
+                  -body.length / 2 + rear,
+                  body.length / 2 + front,
                   body.width / 2};
     // Of most walkers most threats are far away: two comparisons tell.
     const double beside = threat.half_width + widest + margin;
@@ -45,24 +60,38 @@ void Threats::add(const Eigen::Vector2d& rear_axle,
     threats_.push_back(threat);
 }
 
-void Threats::look(const world::TickView& last, const world::TickDraft& next) {
+void Threats::look(const world::TickView& last, const world::TickDraft& next, double step) {
     threats_.clear();
-    for (const world::CarState& car : next.traffic.cars)
-        add({car.position().x(), car.position().y()},
-            world::ahead_of(static_cast<double>(car.yaw())),
-            static_cast<double>(car.speed()),
-            static_cast<double>(car.acceleration()),
-            car.model());
+    for (const world::CarState& car : next.traffic.cars) {
+        const auto yaw = static_cast<double>(car.yaw());
+        const world::CarState* before = world::find(last.cars(), car.id());
+        double turned = 0;
+        double course = yaw;
+        const auto speed = static_cast<double>(car.speed());
+        if (before != nullptr && speed > rolls) {
+            turned = world::wrap_angle(yaw - static_cast<double>(before->yaw()));
+            course = std::atan2(car.position().y() - before->position().y(),
+                                car.position().x() - before->position().x());
+        }
+        add({{car.position().x(), car.position().y()},
+             yaw,
+             turned / step,
+             course,
+             speed,
+             static_cast<double>(car.acceleration()),
+             car.model()});
+    }
     for (const world::VehicleState& vehicle : last.vehicles()) {
         const Eigen::Vector3d ahead =
             world::to_eigen(vehicle.orientation()) * Eigen::Vector3d::UnitX();
-        const double speed = ahead.dot(world::to_eigen(vehicle.velocity()));
-        const double acceleration = ahead.dot(world::to_eigen(vehicle.acceleration()));
-        add({vehicle.position().x(), vehicle.position().y()},
-            world::ahead_of(std::atan2(ahead.y(), ahead.x())),
-            speed,
-            acceleration,
-            vehicle.model());
+        const double yaw = std::atan2(ahead.y(), ahead.x());
+        add({{vehicle.position().x(), vehicle.position().y()},
+             yaw,
+             vehicle.angular_velocity().z(),
+             yaw,
+             ahead.dot(world::to_eigen(vehicle.velocity())),
+             ahead.dot(world::to_eigen(vehicle.acceleration())),
+             vehicle.model()});
     }
 }
 

@@ -15,8 +15,9 @@ namespace reprise::walkers {
 /// wait at, and not every driver brakes in time.
 class Threats {
   public:
-    /// Takes in what rolls: SUMO's cars as `next` has them, those with mass as `last` had.
-    void look(const world::TickView& last, const world::TickDraft& next);
+    /// Takes in what rolls: SUMO's cars as `next` has them, those with mass as `last` had. `step`:
+    /// [s] between the two.
+    void look(const world::TickView& last, const world::TickDraft& next, double step);
 
     /// Which way somebody of that radius [m] at `p` gets out of the way of what comes within a
     /// second: across it, to his own side. None: nothing comes that close.
@@ -32,11 +33,18 @@ class Threats {
         world::Box around{};  ///< whoever is outside of it is out of its reach
     };
 
-    void add(const Eigen::Vector2d& rear_axle,
-             const Eigen::Vector2d& ahead,
-             double speed,
-             double acceleration,
-             std::uint16_t model);
+    struct Rolling {
+        Eigen::Vector2d rear_axle;
+        double yaw = 0;           ///< [rad]
+        double yaw_rate = 0;      ///< [rad/s]
+        double course = 0;        ///< [rad] that the rear axle goes: long cars of traffic crab
+        double speed = 0;         ///< [m/s]
+        double acceleration = 0;  ///< [m/s^2]
+        std::uint16_t model = 0;
+    };
+
+    void add(const Rolling& car);
+    void add_box(const Rolling& car, double rear, double front);
 
     std::vector<Threat> threats_;  ///< SUMO's cars, then those with mass, each by id
 };

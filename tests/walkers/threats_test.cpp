@@ -9,24 +9,35 @@ namespace {
 
 constexpr double shoulders = 0.25;  // [m] half of them
 
-/// One car of traffic with its rear axle at the origin, heading east.
-Threats one_car(double speed, double acceleration = 0) {
-    world::TickDraft next;
-    next.traffic.cars.emplace_back(world::Vec3(0, 0, 0),
-                                   0.0F,
+void put(world::TickDraft& tick,
+         double yaw,
+         double speed,
+         double acceleration = 0,
+         std::uint16_t model = 0) {
+    tick.traffic.cars.emplace_back(world::Vec3(0, 0, 0),
+                                   static_cast<float>(yaw),
                                    0.0F,
                                    static_cast<float>(speed),
                                    0.0F,
                                    7U,
                                    world::none,
-                                   std::uint16_t{0},
+                                   model,
                                    std::uint16_t{0},
                                    static_cast<float>(acceleration));
-    world::TickDraft empty;
-    const world::SealedTick last = world::seal(empty, {});
+}
+
+Threats threats_of(world::TickDraft before, const world::TickDraft& now) {
+    const world::SealedTick last = world::seal(before, {});
     Threats threats;
-    threats.look(last.view(), next);
+    threats.look(last.view(), now, 0.05);
     return threats;
+}
+
+/// One car of traffic with its rear axle at the origin, heading east.
+Threats one_car(double speed, double acceleration = 0) {
+    world::TickDraft next;
+    put(next, 0, speed, acceleration);
+    return threats_of({}, next);
 }
 
 double front() {
@@ -56,6 +67,24 @@ TEST(Threats, AreNoneFromCarsThatStandOrWillHaveStopped) {
     // From 5 m/s with 5 m/s^2: 2.5 m.
     EXPECT_FALSE(one_car(5, -5).way_out({front() + 3.2, 0}, shoulders));
     EXPECT_TRUE(one_car(5, -5).way_out({front() + 2.2, 0}, shoulders));
+}
+
+/// The rear of a bus that turns left goes to the right.
+TEST(Threats, ComeFromTheTailOfABusThatTurns) {
+    constexpr std::uint16_t bus = 5;
+    const world::VehicleModel& model = world::vehicle_models()[bus];
+    ASSERT_STREQ(model.name, "bus");
+    const Eigen::Vector2d beside_its_tail(-1.0, -(model.width / 2 + shoulders + 0.5));
+    world::TickDraft before;
+    world::TickDraft now;
+    put(before, 0, 6.5, 0, bus);
+    put(now, 0, 6.5, 0, bus);
+    EXPECT_EQ(threats_of(before, now).way_out(beside_its_tail, shoulders), std::nullopt);
+    world::TickDraft turned;
+    put(turned, 0.5 * 0.05, 6.5, 0, bus);
+    const auto way = threats_of(before, turned).way_out(beside_its_tail, shoulders);
+    ASSERT_TRUE(way);
+    EXPECT_LT(way->y(), 0);
 }
 
 TEST(Threats, ComeFromWhoReversesAsWell) {
