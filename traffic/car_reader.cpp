@@ -168,18 +168,8 @@ void CarReader::move_body(Car& car) const {
         shown += car.offset * Eigen::Vector3d(-std::sin(lane_yaw), std::cos(lane_yaw), 0);
     }
     car.trail.advance(shown);
-    // On a bend a body lies inside of the way of its ends. Drivers of long ones keep to their own
-    // side: who turns left swings out, who turns right cuts the kerb rather than the other lane.
-    constexpr double kept_clear = 0.6;  // of what lies inside
-    const Eigen::Vector3d chord = (car.trail.front() + car.trail.rear()) / 2;
-    const Eigen::Vector2d ahead = (car.trail.front() - car.trail.rear()).head<2>().normalized();
-    const Eigen::Vector2d own_side = (town_->left_hand ? 1 : -1) * world::turned_left(ahead);
-    const double inside = (car.trail.middle() - chord).head<2>().norm();
-    const Eigen::Vector2d aside = kept_clear * inside * own_side;
-    const Eigen::Vector3d out(aside.x(), aside.y(), 0);
-    const Eigen::Vector3d front = car.trail.front() + out;
-    car.rear = rolled(car, car.trail.rear() + out);
-    const Eigen::Vector3d body = front - car.rear;
+    car.rear = rolled(car, car.trail.rear());
+    const Eigen::Vector3d body = car.trail.front() - car.rear;
     car.yaw = std::atan2(body.y(), body.x());
     car.pitch = body.z() == 0 ? 0 : std::atan2(body.z(), body.head<2>().norm());
 }

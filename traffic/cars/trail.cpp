@@ -1,6 +1,5 @@
 #include "traffic/cars/trail.h"
 
-#include <algorithm>
 #include <array>
 
 #include "world/digest.h"
@@ -55,23 +54,10 @@ void Trail::advance(const Eigen::Vector3d& front) {
 }
 
 Eigen::Vector3d Trail::rear() const {
-    return between(at_, travelled_ - distance_);
-}
-
-Eigen::Vector3d Trail::middle() const {
-    const double wanted = travelled_ - distance_ / 2;
-    const auto later = [](double way, const Point& point) { return way < point.travelled; };
-    const auto above = std::upper_bound(
-        points_.begin() + static_cast<std::ptrdiff_t>(at_) + 1, points_.end(), wanted, later);
-    return between(static_cast<std::size_t>(above - points_.begin()) - 1, wanted);
-}
-
-/// The place after so many metres; `index`: of the point before it.
-Eigen::Vector3d Trail::between(std::size_t index, double travelled) const {
-    const Point& from = points_[index];
-    const Point to = index + 1 < points_.size() ? points_[index + 1] : Point{front_, travelled_};
+    const Point& from = points_[at_];
+    const Point to = at_ + 1 < points_.size() ? points_[at_ + 1] : Point{front_, travelled_};
     const double length = to.travelled - from.travelled;
-    const double share = length > 0 ? (travelled - from.travelled) / length : 0;
+    const double share = length > 0 ? (travelled_ - distance_ - from.travelled) / length : 0;
     return from.position + share * (to.position - from.position);
 }
 

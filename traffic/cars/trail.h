@@ -26,9 +26,6 @@ class Trail {
     /// Where the rear axle is, on the ground.
     Eigen::Vector3d rear() const;
 
-    /// Where the bumper was half of the way from there to here ago.
-    Eigen::Vector3d middle() const;
-
     const Eigen::Vector3d& front() const { return front_; }
 
     /// [m] by the bumper so far.
@@ -40,7 +37,6 @@ class Trail {
 
   private:
     void add_point();
-    Eigen::Vector3d between(std::size_t index, double travelled) const;
 
     struct Point {
         Eigen::Vector3d position;
