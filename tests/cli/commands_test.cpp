@@ -330,7 +330,8 @@ TEST(Run, SaysWhoIsBlockedAndDoesNotPass) {
         run = function()
             local road = pick_lane{ length = 80 }
             spawn{ model = 'sedan', driver = 'parked', lane = road, s = 50 }
-            spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = road, s = 20 }
+            spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = road, s = 20,
+                   lane_changes = false }
             check.never('blocked')
             wait(100)
         end })");

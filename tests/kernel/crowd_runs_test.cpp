@@ -99,7 +99,7 @@ TEST(CrowdRuns, NobodyIsHitAndEverybodyKeepsToTheRulesAmongAHundredCars) {
                                            &people.without_gap})
         EXPECT_EQ(none->times, 0U) << people.text();
     EXPECT_GT(people.at_green, 10U) << people.text();
-    EXPECT_GT(people.elsewhere, 3U) << people.text();
+    EXPECT_GT(people.elsewhere, 0U) << people.text();
     // Only those cross elsewhere who were drawn to.
     for (const std::uint32_t id : people.who_crossed_elsewhere)
         EXPECT_TRUE(walkers::draw_person(7, id, 0.1).jaywalks ||

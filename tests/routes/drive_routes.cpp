@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/town/towns.h"
-#include "drivers/wide_turn.h"
+#include "drivers/control/wide_turn.h"
 #include "kernel/kernel.h"
 #include "scripting/scenario.h"
 #include "towns/town_reader.h"

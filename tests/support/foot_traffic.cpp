@@ -15,7 +15,7 @@ namespace reprise::test {
 
 namespace {
 
-constexpr double grid = 0.01;      // [m] of the record's rounding
+constexpr double brushed = 0.05;   // [m] deep: sleeves
 constexpr double storey = 2;       // [m]
 constexpr double foresight = 1.5;  // [s]
 
@@ -108,6 +108,15 @@ double depth_in(const world::Obstacle& obstacle, const Eigen::Vector3d& p) {
                     obstacle.half.y() - std::abs(world::cross(ahead, gap)));
 }
 
+/// On the crossing, or a step off it.
+bool is_beside_crossing(const world::LaneT& lane, const Eigen::Vector3d& p) {
+    constexpr double step = 0.75;  // [m]
+    if (lane.kind != world::LaneKind::crossing ||
+        (p - world::to_eigen(lane.centre.front())).norm() > lane.length + lane.width)
+        return false;
+    return world::project(lane, p).distance < lane.width / 2 + step;
+}
+
 std::string line(const char* name, const FootTraffic::Count& count) {
     std::string text = fmt::format("{:<34}{:>9}", name, count.times);
     if (count.times > 0)
@@ -162,9 +171,16 @@ bool FootTraffic::is_on_road(const Eigen::Vector3d& p,
     if (on_pavement)
         return false;
     const auto roads = lanes_->at(p);
-    return std::any_of(roads.begin(), roads.end(), [&](const world::LaneMap::Found& found) {
-        return std::abs(found.at.t) < town_->lanes[found.lane].width / 2 - within;
-    });
+    const bool on_road =
+        std::any_of(roads.begin(), roads.end(), [&](const world::LaneMap::Found& found) {
+            return std::abs(found.at.t) < town_->lanes[found.lane].width / 2 - within;
+        });
+    // Between the kerb and where a crossing is said to begin.
+    if (on_road)
+        for (std::uint32_t i = 0; i < town_->lanes.size(); ++i)
+            if (is_beside_crossing(town_->lanes[i], p))
+                crossings.push_back(i);
+    return on_road;
 }
 
 void FootTraffic::find_in_boxes(const world::WalkerState& walker,
@@ -176,7 +192,7 @@ void FootTraffic::find_in_boxes(const world::WalkerState& walker,
         if (std::abs(body.z - walker.position().z()) > storey)
             continue;
         const double depth = depth_in(body.box, p, radius);
-        if (depth > grid)
+        if (depth > brushed)
             known.inside.push_back({tick_, walker.id(), body.id, depth, p.x(), p.y()});
     }
     for (const world::PropState& prop : tick.props()) {
@@ -186,14 +202,14 @@ void FootTraffic::find_in_boxes(const world::WalkerState& walker,
                        model.length / 2,
                        model.width / 2};
         const double depth = depth_in(box, p, radius);
-        if (depth > grid && std::abs(prop.position().z() - walker.position().z()) < storey)
+        if (depth > brushed && std::abs(prop.position().z() - walker.position().z()) < storey)
             add(in_props, {tick_, walker.id(), prop.id(), depth, p.x(), p.y()});
     }
     const Eigen::Vector3d place = world::to_eigen(walker.position());
     world::Box here;
     here.take(p);
     for (const std::uint32_t i : obstacles_by_place_.near(here))
-        if (const double depth = depth_in(obstacles_[i], place); depth > grid)
+        if (const double depth = depth_in(obstacles_[i], place); depth > brushed)
             add(in_obstacles, {tick_, walker.id(), i, depth, p.x(), p.y()});
 }
 
@@ -299,7 +315,7 @@ void FootTraffic::see(const world::TickView& tick) {
                 (world::in_plan(walkers[i].position()) - world::in_plan(walkers[j].position()))
                     .norm();
             const double depth = radius_of(walkers[i]) + radius_of(walkers[j]) - apart;
-            if (depth > grid &&
+            if (depth > brushed &&
                 std::abs(walkers[i].position().z() - walkers[j].position().z()) < storey)
                 add(in_others,
                     {tick_,

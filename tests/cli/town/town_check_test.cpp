@@ -65,7 +65,7 @@ TEST(CrowdedTown, IsToldAboutWithTheNumberThatItCarries) {
     write_file(
         folder / "crowd.lua",
         "return scenario 'crowd' { town = 'town2', cars = 100, run = function() wait(1) end }");
-    const std::string words = "crowd.lua: 100 cars are more than town2 carries, which is about 74";
+    const std::string words = "crowd.lua: 100 cars are more than town2 carries, which is about 61";
     const auto run = [&](const std::vector<std::string>& more) {
         std::vector<std::string> all{"run", "crowd.lua", "--for", "0.1", "-o", "a.mcap"};
         all.insert(all.end(), more.begin(), more.end());
@@ -76,7 +76,7 @@ TEST(CrowdedTown, IsToldAboutWithTheNumberThatItCarries) {
     EXPECT_THAT(crowded.out, HasSubstr(words));
     EXPECT_THAT(run({"--cars", "70"}).out, Not(HasSubstr("carries")));
     EXPECT_THAT(run({"--cars", "auto"}).out, Not(HasSubstr("carries")));
-    EXPECT_THAT(reprise({"info", "a.mcap"}, folder.path()).out, HasSubstr("74 cars of traffic"));
+    EXPECT_THAT(reprise({"info", "a.mcap"}, folder.path()).out, HasSubstr("61 cars of traffic"));
     const Result mistake = run({"--cars", "some"});
     EXPECT_EQ(mistake.code, 2);
     EXPECT_THAT(mistake.out, HasSubstr("expected a whole number from 0 to 10000, or auto"));

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/cli/program.h"
+#include "towns/network/network.h"
 
 namespace reprise::test {
 namespace {
@@ -140,11 +141,11 @@ TEST_F(Cat, MistakesAreToldInOneLineWithASuggestion) {
     }
 }
 
-TEST_F(Cat, GetGivesTheScenarioBack) {
+TEST_F(Cat, GetGivesTheScenarioBackAndTheNetworkAsItWasLoaded) {
     EXPECT_EQ(reprise({"get", "a.mcap", "scenario"}, folder->path()).out,
               read_file(*folder / "two.lua"));
     EXPECT_EQ(reprise({"get", "a.mcap", "network"}, folder->path()).out,
-              read_file(source("scenarios/towns/town1/town1.net.xml")));
+              towns::load_network(source("scenarios/towns/town1/town1.net.xml")).xml);
 }
 
 TEST_F(Cat, GetWritesFilesAndNeverOverItsInput) {
