@@ -18,7 +18,8 @@ const Loaded& own_town(const std::string& name) {
     const auto known = towns.find(name);
     if (known != towns.end())
         return known->second;
-    const std::filesystem::path folder = std::string(REPRISE_SOURCE_DIR) + "/scenarios/towns";
+    const std::filesystem::path folder =
+        std::filesystem::path(REPRISE_SOURCE_DIR) / "scenarios/towns";
     return towns.emplace(name, load(folder / name / (name + ".net.xml"))).first->second;
 }
 
