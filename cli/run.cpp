@@ -156,6 +156,12 @@ class Commentary {
                 return tell(
                     tick,
                     fmt::format("{} is blocked {}", crashes_.names().name_of(event.actor()), text));
+            case world::EventKind::overtakes:
+                return tell(tick,
+                            fmt::format("{} overtakes {} {}",
+                                        crashes_.names().name_of(event.actor()),
+                                        crashes_.names().name_of(event.other()),
+                                        text));
             case world::EventKind::ran_red_light:
             case world::EventKind::ran_stop_sign:
             case world::EventKind::on_opposite_lane:

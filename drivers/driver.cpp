@@ -103,6 +103,11 @@ void Autopilot::ignore_lights(bool ignore) {
     state_->gatekeeper.ignore_lights(ignore);
 }
 
+/// A line that it has begun is driven to its end.
+void Autopilot::may_overtake(bool may) {
+    state_->may_overtake = may;
+}
+
 void Autopilot::put_elsewhere() {
     state_->navigator.lose_way();
     state_->gatekeeper.reset();
@@ -262,8 +267,10 @@ void DriverState::notice_pushing(const world::TickView& last, const Ego& ego) {
     const world::Control* given = world::find(last.controls(), actor);
     const bool told = speed_order.reacts_to_nothing();
     if (back_off.notice(last, ego, given == nullptr || told || pid ? 0 : given->throttle()))
-        news = fmt::format("backs off {:.1f} m, after pushing against something for 2 s",
-                           back_off.distance());
+        news = {world::EventKind::backed_off,
+                0,
+                fmt::format("backs off {:.1f} m, after pushing against something for 2 s",
+                            back_off.distance())};
 }
 
 /// Hands and feet while we go back; when that is done, a new path from there.
@@ -284,7 +291,7 @@ void DriverState::go_back(const world::TickView& last, Ego& ego, world::Control&
     control.mutate_lamps(lamps(last, ego));
 }
 
-const std::string* Autopilot::news() const {
+const DriverNews* Autopilot::news() const {
     return state_->news ? &*state_->news : nullptr;
 }
 
@@ -298,6 +305,8 @@ std::uint64_t Autopilot::digest() const {
     hasher.add(state.turns_into);
     state.speed_order.add_to(hasher);
     state.lateral_order.add_to(hasher);
+    if (state.may_overtake)
+        hasher.add(state.may_overtake);
     state.passing.add_to(hasher);
     state.back_off.add_to(hasher);
     if (state.pid)

@@ -14,12 +14,20 @@ namespace reprise::drivers {
 
 struct DriverState;  // driver_state.h
 
+/// What a driver does of its own will, as its event tells it.
+struct DriverNews {
+    world::EventKind kind;    ///< backed_off, overtakes
+    std::uint32_t other = 0;  ///< overtakes: whom
+    std::string text;         ///< why, how
+};
+
 /// The built-in driver: follows lanes with Stanley steering, holds speed by feed-forward with
 /// proportional and integral terms, keeps its distance (IDM), stops at red and at stop signs, gives
 /// way. It sees what any driver sees: the last tick. Without a route it wanders: at every junction
 /// it draws one of the ways that go on. It leaves its lane where its route needs it, or where the
-/// lane leads nowhere and another one does, and for as long as it takes to pass what stands or
-/// crawls in it. Held by something that it touches, it goes back a little and tries again.
+/// lane leads nowhere and another one does, and, where it may overtake, for as long as it takes to
+/// pass what stands or crawls in it. Held by something that it touches, it goes back a little and
+/// tries again.
 class Autopilot {
   public:
     /// `map` must outlive the driver; it copies what it needs of `episode`. Pilot::pid drives as
@@ -79,11 +87,15 @@ class Autopilot {
     /// Red lights and stop lines are as green ones. It still looks out for others.
     void ignore_lights(bool ignore);
 
+    /// May it pass what stands or crawls in its lane? Not until it is told so: a scenario that puts
+    /// something into its way is to see what it does about that in its lane.
+    void may_overtake(bool may);
+
     /// The control for the next tick. The actor must be in `last`.
     world::Control decide(const world::TickView& last);
 
-    /// Of the last decide: that it begins to go back, and why; null: it does not.
-    const std::string* news() const;
+    /// Of the last decide: what it begins to do that nobody told it to; null: nothing.
+    const DriverNews* news() const;
 
     /// As it last decided: does it want to get on? Not where the road leads nowhere, and not
     /// when it was told to stand. (Behind its route it wanders on.)

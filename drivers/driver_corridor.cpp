@@ -10,6 +10,22 @@
 
 namespace reprise::drivers {
 
+namespace {
+
+const char* through(PassingPlan::Uses uses) {
+    switch (uses) {
+        case PassingPlan::Uses::own_lane:
+            return "within its lane";
+        case PassingPlan::Uses::next_lane:
+            return "through the lane beside";
+        case PassingPlan::Uses::oncoming_lane:
+            break;
+    }
+    return "through the oncoming lane";
+}
+
+}  // namespace
+
 /// What the car will sweep beside its path; empty: its width everywhere.
 std::span<const SweptWidth> DriverState::corridor(const Ego& ego) {
     const std::span<const SweptWidth> swept =
@@ -110,14 +126,18 @@ double DriverState::tracked_beside(const Ego& ego) const {
 /// Around what stands in the way, where that is free; what it sees on the path is then looked at
 /// anew.
 void DriverState::pass(const world::TickView& last, const Ego& ego) {
-    if (pid || way().keeps_lane() || lateral_order.side(tick, step) != 0)
+    if (!may_overtake || pid || way().keeps_lane() || lateral_order.side(tick, step) != 0)
         return;
-    if (passing.consider(last, ego, way(), hazards.overlaps(), tracked_beside(ego)))
+    if (passing.consider(last, ego, way(), hazards.overlaps(), tracked_beside(ego))) {
         hazards.look(last, ego, way().path(), style, corridor(ego));
-    else if (passing.missing_room() > 0 &&
-             back_off.make_room(passing.missing_room() + 0.5, last, ego))
-        news =
-            fmt::format("backs off {:.1f} m, to get around what stands ahead", back_off.distance());
+        const PassingPlan& plan = *passing.plan();
+        news = {world::EventKind::overtakes, plan.row.front(), through(plan.uses)};
+    } else if (passing.missing_room() > 0 &&
+               back_off.make_room(passing.missing_room() + 0.5, last, ego))
+        news = {world::EventKind::backed_off,
+                0,
+                fmt::format("backs off {:.1f} m, to get around what stands ahead",
+                            back_off.distance())};
 }
 
 /// The way may be counted from elsewhere, or be another one: a line past something goes on if it

@@ -13,6 +13,7 @@
 #include "drivers/control/pid_driver.h"
 #include "drivers/control/turn_around.h"
 #include "drivers/control/wide_turn.h"
+#include "drivers/driver.h"
 #include "drivers/gatekeeper.h"
 #include "drivers/hazards.h"
 #include "drivers/navigator.h"
@@ -75,8 +76,9 @@ struct DriverState {
     SpeedOrder speed_order;
     LateralOrder lateral_order;
     Passing passing;
+    bool may_overtake = false;
     BackOff back_off;
-    std::optional<std::string> news;       ///< of this tick: why it backs off
+    std::optional<DriverNews> news;        ///< of this tick
     std::uint64_t tick = 0;                ///< the last one: not digested, nor what follows
     double rear_axle_s = 0;                ///< then
     std::vector<SweptWidth> moved_swept_;  ///< beside the path

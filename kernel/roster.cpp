@@ -69,6 +69,9 @@ void give_order(drivers::Autopilot& autopilot, const world::CommandT& command) {
         case world::CommandKind::ignore_lights:
             autopilot.ignore_lights(command.on);
             break;
+        case world::CommandKind::may_overtake:
+            autopilot.may_overtake(command.on);
+            break;
         case world::CommandKind::set_route:
             autopilot.set_route(command.lanes, command.s);
             break;
@@ -341,19 +344,20 @@ bool Roster::is_free(const world::TickView& last,
 }
 
 /// The autopilot plans a new route when it next decides; what it then finds impossible is the
-/// mistake of the line that asked for the route. That it backs off is an event.
+/// mistake of the line that asked for the route. What it does of its own will is an event.
 world::Control Roster::decide(Entry& entry,
                               const world::TickView& last,
                               world::TickDraft& next) const {
     try {
         const world::Control control = entry.autopilot->decide(last);
-        if (const std::string* news = entry.autopilot->news()) {
-            world::EventT backed_off;
-            backed_off.kind = world::EventKind::backed_off;
-            backed_off.actor = control.actor();
-            backed_off.position = world::find(last.vehicles(), control.actor())->position();
-            backed_off.text = *news;
-            next.tick.events.push_back(std::move(backed_off));
+        if (const drivers::DriverNews* news = entry.autopilot->news()) {
+            world::EventT event;
+            event.kind = news->kind;
+            event.actor = control.actor();
+            event.other = news->other;
+            event.position = world::find(last.vehicles(), control.actor())->position();
+            event.text = news->text;
+            next.tick.events.push_back(std::move(event));
         }
         return control;
     } catch (const world::Error& error) {

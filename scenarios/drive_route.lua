@@ -16,7 +16,7 @@ return scenario 'drive_route' {
     run = function(p)
         local start = p.start ~= '' and p.start or pick_lane{ length = 50 }
         local goal = p.goal ~= '' and p.goal or pick_lane{ length = 50 }
-        local ego = spawn{ name = 'ego', model = p.model, driver = 'autopilot', lane = start, s = p.s }
+        local ego = spawn{ name = 'ego', model = p.model, driver = 'autopilot', lane = start, s = p.s, may_overtake = true }
         local length = ego:route_to{ lane = goal, s = p.goal_s }
         print(string.format('%.0f m to go', length))
 

@@ -9,7 +9,7 @@ return scenario 'free_drive' {
     params = { report_every = 10 },  -- [s]
 
     run = function(p)
-        local ego = spawn{ name = 'ego', model = 'sedan', driver = 'autopilot' }
+        local ego = spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', may_overtake = true }
 
         check.never('collision', function() return ego:collided() end)
         check.never('blocked')

@@ -67,6 +67,14 @@ void Story::hear(const world::Event& event, std::uint64_t tick) {
             return tell("check not evaluated: " + world::to_line(event), Tone::plain);
         case blocked:
             return tell(name_of(event.actor()) + " " + world::to_line(event), Tone::bad);
+        case backed_off:
+            return tell(name_of(event.actor()) + " " + world::to_line(event), Tone::plain);
+        case overtakes:
+            return tell(fmt::format("{} overtakes {} {}",
+                                    name_of(event.actor()),
+                                    name_of(event.other()),
+                                    world::to_line(event)),
+                        Tone::plain);
         default:
             return;
     }

@@ -28,7 +28,7 @@ constexpr std::uint32_t most_cars = 100;  ///< around the driver; in a large tow
 constexpr const char* scenario = R"lua(-- A minute in traffic, by the built-in driver.
 return scenario 'trial' {{
     cars = {}, duration = 60,
-    run = function() spawn{{ name = 'ego', model = 'sedan', driver = 'autopilot' }} wait(60) end,
+    run = function() spawn{{ name = 'ego', model = 'sedan', driver = 'autopilot', may_overtake = true }} wait(60) end,
 }}
 )lua";
 

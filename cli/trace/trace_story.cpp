@@ -108,7 +108,13 @@ class Teller {
         const bool is_infraction = event.kind() >= world::EventKind::ran_red_light &&
                                    event.kind() <= world::EventKind::wrong_way;
         const bool is_about_actor = event.kind() == world::EventKind::blocked ||
-                                    event.kind() == world::EventKind::wrecked || is_infraction;
+                                    event.kind() == world::EventKind::wrecked ||
+                                    event.kind() == world::EventKind::backed_off || is_infraction;
+        if (event.kind() == world::EventKind::overtakes)
+            return fmt::format("{} overtakes {} {}",
+                               heard_.names().name_of(event.actor()),
+                               heard_.names().name_of(event.other()),
+                               world::to_line(event));
         if (is_about_actor)
             return fmt::format(
                 "{} {}", heard_.names().name_of(event.actor()), world::to_line(event));

@@ -173,7 +173,13 @@ std::string PageStory::text_of(const Happening& happening) const {
         case world::EventKind::speeding:
         case world::EventKind::wrong_way:
         case world::EventKind::wrecked:
+        case world::EventKind::backed_off:
             return name_of(happening.actor) + " " + happening.text;
+        case world::EventKind::overtakes:
+            return fmt::format("{} overtakes {} {}",
+                               name_of(happening.actor),
+                               name_of(happening.other),
+                               happening.text);
         case world::EventKind::blocked:
             return fmt::format("{} is blocked {}", name_of(happening.actor), happening.text);
         default:

@@ -1,6 +1,6 @@
 """Made by make_schema.py from world/*.fbs, remote/wire.fbs and world/models/vehicle_models.cpp: change those."""
 
-DIGEST = "a462705aaa67200d"
+DIGEST = "6a2d707eea30b6aa"
 
 # name: (type, values)
 ENUMS = {'remote.Kind': ('uint',
@@ -36,7 +36,8 @@ ENUMS = {'remote.Kind': ('uint',
                       'speeding': 15,
                       'wrong_way': 16,
                       'wrecked': 17,
-                      'backed_off': 18}),
+                      'backed_off': 18,
+                      'overtakes': 19}),
  'world.CommandKind': ('ubyte',
                        {'spawn': 0,
                         'despawn': 1,
@@ -57,7 +58,8 @@ ENUMS = {'remote.Kind': ('uint',
                         'set_velocity': 16,
                         'set_signal': 17,
                         'set_lamps': 18,
-                        'set_doors': 19}),
+                        'set_doors': 19,
+                        'may_overtake': 20}),
  'world.Pilot': ('ubyte', {'idm': 0, 'pid': 1}),
  'world.Shape': ('ubyte', {'sinusoidal': 0, 'linear': 1, 'cubic': 2, 'step': 3}),
  'world.Driver': ('ubyte',

@@ -58,6 +58,7 @@ struct Actor {
     std::uint32_t id = 0;
     std::string name;
     world::Driver driver = world::Driver::autopilot;
+    world::Pilot pilot = world::Pilot::idm;
     std::uint16_t model = 0;     ///< in the catalogue of its kind
     std::uint32_t line = 0;      ///< of its spawn in the scenario
     std::uint64_t asked_at = 0;  ///< tick in which the scenario asked for it

@@ -330,6 +330,16 @@ Actor& driver_of_car(Run& run, lua_State* L, const char* who) {
     return actor;
 }
 
+void want_overtaker(const char* who, const Actor& actor) {
+    if (actor.driver != world::Driver::autopilot)
+        refuse(who,
+               fmt::format("overtaking is for driver = 'autopilot': '{}' is driven as '{}'",
+                           actor.name,
+                           world::EnumNameDriver(actor.driver)));
+    if (actor.pilot == world::Pilot::pid)
+        refuse(who, fmt::format("'{}' has pilot = 'pid', which overtakes nobody", actor.name));
+}
+
 constinit const WordList actor_orders{Owner::actor, "Actors: orders", order_rows};
 constinit const KeyList route_keys{"RouteOptions", "route_to", route_key_rows};
 constinit const KeyList walk_keys{"WalkOptions", "walk", walk_key_rows};

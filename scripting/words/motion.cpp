@@ -237,6 +237,17 @@ int ignore_lights(Run& run, lua_State* L) {
     return 0;
 }
 
+int may_overtake(Run& run, lua_State* L) {
+    const Actor& actor = driver_of_car(run, L, "may_overtake");
+    if (!lua_isnoneornil(L, 2) && !lua_isboolean(L, 2))
+        refuse("may_overtake", "takes true or false, true where it is left out");
+    const bool may = lua_isnoneornil(L, 2) || lua_toboolean(L, 2) != 0;
+    if (may)
+        want_overtaker("may_overtake", actor);
+    run.say(L, CommandKind::may_overtake, actor.id).on = may;
+    return 0;
+}
+
 /// 'left' and 'right' are of the lane that the actor is on now.
 std::uint32_t target_lane(Run& run, lua_State* L, const Body& body, const Actor& actor) {
     const std::string target = text_at(L, 2, "change_lane", "the target");
@@ -379,6 +390,10 @@ constexpr Word motion_rows[] = {
      commanding<ignore_lights>,
      "(ignore?: boolean)",
      "drives over red lights and stop lines; false lifts it"},
+    {"may_overtake",
+     commanding<may_overtake>,
+     "(may?: boolean)",
+     "an autopilot goes around what stands or crawls in its lane; false: waits behind it"},
     {"change_lane",
      commanding<change_lane>,
      "(target: 'left'|'right'|LaneName, options?: OverOptions)",

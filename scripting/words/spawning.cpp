@@ -188,6 +188,9 @@ constexpr Key spawn_key_rows[] = {
     {"lane_changes",
      "boolean",
      "false: keeps its lane; of 'autopilot' and 'traffic'; default true"},
+    {"may_overtake",
+     "boolean",
+     "true: an 'autopilot' goes around what stands or crawls in its lane; default false"},
 };
 
 /// Of who is still to be given a place: another one cannot be put beside it before.
@@ -225,7 +228,12 @@ int spawn(Run& run, lua_State* L) {
     auto rig = read_rig(L, fields, actor, latency);
     const bool sees_sensors = read_sees_sensors(fields, actor);
     actor.keeps_lane = read_keeps_lane(fields, actor);
-    const world::Pilot pilot = read_pilot(fields, actor);
+    actor.pilot = read_pilot(fields, actor);
+    const bool may_overtake = fields.flag("may_overtake").value_or(false);
+    if (may_overtake)
+        want_overtaker("spawn", actor);
+    if (may_overtake && actor.keeps_lane)
+        refuse("spawn", "'may_overtake = true' needs what 'lane_changes = false' forbids");
 
     world::CommandT& said = run.say(L, world::CommandKind::spawn, actor.id);
     said.driver = actor.driver;
@@ -241,9 +249,11 @@ int spawn(Run& run, lua_State* L) {
     said.latency = latency;
     said.rig = std::move(rig);
     said.sees_sensors = sees_sensors;
-    said.pilot = pilot;
+    said.pilot = actor.pilot;
     if (actor.keeps_lane)
         run.say(L, world::CommandKind::change_lane, actor.id).lanes = {world::none};
+    if (may_overtake)
+        run.say(L, world::CommandKind::may_overtake, actor.id).on = true;
     push_handle(L, run.actors.add(std::move(actor)).id);
     return 1;
 }

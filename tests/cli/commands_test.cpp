@@ -330,8 +330,7 @@ TEST(Run, SaysWhoIsBlockedAndDoesNotPass) {
         run = function()
             local road = pick_lane{ length = 80 }
             spawn{ model = 'sedan', driver = 'parked', lane = road, s = 50 }
-            spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = road, s = 20,
-                   lane_changes = false }
+            spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = road, s = 20 }
             check.never('blocked')
             wait(100)
         end })");

@@ -23,8 +23,8 @@ class Wall {
 
     void step(Drive& drive, std::vector<std::string>& news) {
         drive.step();
-        if (const std::string* said = drive.autopilot->news())
-            news.push_back(*said);
+        if (const drivers::DriverNews* said = drive.autopilot->news())
+            news.push_back(said->text);
         drive.measurements.resize(1);
         drive.measurements[0].mutate_actor(1);
         const double beyond = drive.car.x + drive.car.front() - x_;

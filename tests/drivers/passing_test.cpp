@@ -65,6 +65,12 @@ world::WalkerState person_on(double x, double y, bool down) {
     return {world::Vec3(x, y, 0), 1, 0, 0, 70, 0, down, 0, 0};
 }
 
+struct Overtaker : Drive {
+    explicit Overtaker(const Street& street) : Drive(town_of(street)) {
+        autopilot->may_overtake(true);
+    }
+};
+
 /// [m] between the outline of our car and a box; 0 where they touch.
 double distance_to(const Drive& drive,
                    const Eigen::Vector2d& middle,
@@ -139,7 +145,7 @@ Outcome drive_past(Drive& drive, double seconds) {
 TEST(Passing, AParkedVanThroughTheNextLane) {
     for (const double speed : {0.0, 6.0, 13.0})
         for (const double x : {60.0, 120.0}) {
-            Drive drive(town_of({2}));
+            Overtaker drive({2});
             drive.place(ours, 20, speed);
             drive.cars = {car_on(x, 0, 0, 0)};
             const Outcome outcome = drive_past(drive, 60);
@@ -150,7 +156,7 @@ TEST(Passing, AParkedVanThroughTheNextLane) {
 }
 
 TEST(Passing, AConeWithinALaneThatIsWideEnough) {
-    Drive drive(town_of({1, false, 5.5}));
+    Overtaker drive({1, false, 5.5});
     drive.place(ours, 20, 10);
     drive.props = {prop_on(120, -0.6)};
     const Outcome outcome = drive_past(drive, 40);
@@ -162,14 +168,14 @@ TEST(Passing, AConeWithinALaneThatIsWideEnough) {
 
 TEST(Passing, PeopleAndBicyclesAtAMetre) {
     for (const bool down : {true, false}) {
-        Drive drive(town_of({2}));
+        Overtaker drive({2});
         drive.place(ours, 20, 10);
         drive.walkers = {person_on(120, 0.3, down)};
         const Outcome outcome = drive_past(drive, 60);
         EXPECT_GT(outcome.clearance, 0.95) << (down ? "lies" : "stands");
         EXPECT_GT(outcome.x, 300);
     }
-    Drive drive(town_of({2}));
+    Overtaker drive({2});
     drive.place(ours, 20, 10);
     drive.cars = {car_on(60, 0, 0, 2.8, "bicycle")};
     const Outcome outcome = drive_past(drive, 60);
@@ -179,7 +185,7 @@ TEST(Passing, PeopleAndBicyclesAtAMetre) {
 }
 
 TEST(Passing, ThroughTheOncomingLaneOnlyWhereItIsFree) {
-    Drive alone(town_of({1, true}));
+    Overtaker alone({1, true});
     alone.place(ours, 20, 10);
     alone.cars = {car_on(120, 0, 0, 0)};
     const Outcome outcome = drive_past(alone, 60);
@@ -187,7 +193,7 @@ TEST(Passing, ThroughTheOncomingLaneOnlyWhereItIsFree) {
     EXPECT_GT(outcome.x, 300);
 
     for (const double from : {200.0, 240.0, 280.0, 320.0}) {
-        Drive drive(town_of({1, true}));
+        Overtaker drive({1, true});
         drive.place(ours, 20, 10);
         world::CarState comer = car_on(from, 3.5, std::numbers::pi, 13, "sedan");
         comer.mutate_id(51);
@@ -204,7 +210,7 @@ TEST(Passing, ThroughTheOncomingLaneOnlyWhereItIsFree) {
 }
 
 TEST(Passing, NobodyIsCutOffOnTheNextLane) {
-    Drive drive(town_of({2}));
+    Overtaker drive({2});
     drive.place(ours, 60, 0);
     world::CarState faster = car_on(-40, 3.5, 0, 13, "sedan");
     faster.mutate_id(51);
@@ -222,7 +228,7 @@ TEST(Passing, NobodyIsCutOffOnTheNextLane) {
 
 TEST(Passing, WhereThereIsNoRoomItWaits) {
     for (const Street& street : {Street{1, false}, Street{2, false}}) {
-        Drive drive(town_of(street));
+        Overtaker drive(street);
         drive.place(ours, 20, 10);
         drive.cars = {car_on(120, 0, 0, 0)};
         if (street.lanes == 2) {
@@ -237,8 +243,20 @@ TEST(Passing, WhereThereIsNoRoomItWaits) {
     }
 }
 
+TEST(Passing, NobodyUnasked) {
+    for (const Street& street : {Street{2, true}, Street{1, false, 5.5}}) {
+        Drive drive(town_of(street));
+        drive.place(ours, 20, 10);
+        drive.cars = {car_on(120, 0, 0, 0)};
+        drive.props = {prop_on(100, -1)};
+        const Outcome outcome = drive_past(drive, 60);
+        EXPECT_LT(outcome.farthest_left, 0.1) << street.width;
+        EXPECT_LT(outcome.x, 120) << street.width;
+    }
+}
+
 TEST(Passing, WhoKeepsItsLaneWaits) {
-    Drive drive(town_of({2, true}));
+    Overtaker drive({2, true});
     drive.autopilot->keep_lane(true);
     drive.place(ours, 20, 10);
     drive.cars = {car_on(120, 0, 0, 0)};
@@ -248,13 +266,13 @@ TEST(Passing, WhoKeepsItsLaneWaits) {
 }
 
 TEST(Passing, NobodyWhoDrivesOrWaits) {
-    Drive behind(town_of({2, true}));
+    Overtaker behind({2, true});
     behind.place(ours, 20, 10);
     behind.cars = {car_on(60, 0, 0, 5)};
     EXPECT_LT(drive_past(behind, 50).farthest_left, 0.1) << "a car at 18 km/h";
 
     // Three in a queue, with their brake lamps on.
-    Drive queue(town_of({2, true}));
+    Overtaker queue({2, true});
     queue.place(ours, 20, 10);
     for (int i = 0; i < 3; ++i) {
         world::CarState waiting = car_on(120 + 8 * i, 0, 0, 0, "sedan");

@@ -31,15 +31,14 @@ std::vector<std::string> blockages(const std::string& body, double seconds = 75)
     return blockages(run(in_town1(body, 0, seconds)));
 }
 
-/// A lane with a car that stands in its middle, and who may not get around it.
+/// A lane with a car that stands in its middle, and somebody who was not told to get around it.
 const std::string obstacle = R"(
     local road = pick_lane{ length = 80 }
     spawn{ model = 'sedan', driver = 'parked', lane = road, s = 50 }
 )";
 
 const std::string behind_it = obstacle + R"(
-    local ego = spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = road, s = 20,
-                       lane_changes = false }
+    local ego = spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = road, s = 20 }
 )";
 
 TEST(Blocked, AnAutopilotBehindAParkedCarIs) {

@@ -57,7 +57,7 @@ EXAMPLES = [
 SCENARIO = """
 return scenario 'drive' {{
     cars = {cars}, duration = {seconds},
-    run = function() spawn{{ name = 'ego', model = 'sedan', driver = 'autopilot' }} wait({seconds}) end,
+    run = function() spawn{{ name = 'ego', model = 'sedan', driver = 'autopilot', may_overtake = true }} wait({seconds}) end,
 }}
 """
 

@@ -104,6 +104,13 @@ TEST(Mistakes, OfWhatHasNoEffect) {
              "'sedan' changes lanes by itself"},
             {"spawn{ model = 'sedan', driver = 'manual', lane = 'east_1', pilot = 'pid' }",
              "spawn: 'pilot' is for driver = 'autopilot', which 'sedan' has not"},
+            {"spawn{ model = 'sedan', driver = 'traffic', lane = 'east_1', may_overtake = true }",
+             "spawn: overtaking is for driver = 'autopilot': 'sedan' is driven as 'traffic'"},
+            {"spawn{ model = 'sedan', lane = 'east_1', pilot = 'pid', may_overtake = true }",
+             "spawn: 'sedan' has pilot = 'pid', which overtakes nobody"},
+            {"spawn{ model = 'sedan', lane = 'east_1', lane_changes = false, may_overtake = true "
+             "}",
+             "spawn: 'may_overtake = true' needs what 'lane_changes = false' forbids"},
             {"spawn{ model = 'sedan', lane = 'east_1', pilot = 'mpc' }",
              "spawn: no pilot 'mpc'; there are idm, pid"},
         });
@@ -306,7 +313,7 @@ TEST(Mistakes, CanBeCaughtByTheScript) {
         "latency, "
         "lane, s, offset, x, y, z, heading_deg, ahead_of, behind, beside, gap, speed, speed_kmh, "
         "rig, "
-        "sees, lane_changes)");
+        "sees, lane_changes, may_overtake)");
 }
 
 TEST(Mistakes, AnActorThatNeverComesIsNamedWithTheLineOfItsSpawn) {
