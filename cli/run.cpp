@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -136,6 +137,9 @@ class Commentary {
     void hear(const world::TickView& tick) {
         for (const world::Crash& crash : crashes_.hear(tick))
             tell(crash.tick, to_line(crash));
+        if (tick.tick->commands() != nullptr)
+            for (const world::Command* command : *tick.tick->commands())
+                hear(*command);
         for (const world::Event* event : *tick.tick->events())
             hear(*event, tick.index());
     }
@@ -147,6 +151,17 @@ class Commentary {
     }
 
   private:
+    /// Who drives by itself and was not told that it may overtake?
+    void hear(const world::Command& command) {
+        const bool spawns = command.kind() == world::CommandKind::spawn &&
+                            command.driver() == world::Driver::autopilot &&
+                            command.pilot() == world::Pilot::idm;
+        if (spawns)
+            patient_.insert(command.actor());
+        if (command.kind() == world::CommandKind::may_overtake && command.on())
+            patient_.erase(command.actor());
+    }
+
     void hear(const world::Event& event, std::uint64_t tick) {
         const std::string text = world::to_line(event);
         switch (event.kind()) {
@@ -155,7 +170,12 @@ class Commentary {
             case world::EventKind::blocked:
                 return tell(
                     tick,
-                    fmt::format("{} is blocked {}", crashes_.names().name_of(event.actor()), text));
+                    fmt::format("{} is blocked {}{}",
+                                crashes_.names().name_of(event.actor()),
+                                text,
+                                event.other() != 0 && patient_.contains(event.actor())
+                                    ? "; it would look for a way around with may_overtake = true"
+                                    : ""));
             case world::EventKind::overtakes:
                 return tell(tick,
                             fmt::format("{} overtakes {} {}",
@@ -189,6 +209,7 @@ class Commentary {
     std::uint64_t step_ns_;
     Progress* progress_;
     world::CrashStory crashes_;
+    std::set<std::uint32_t> patient_;  ///< ids
 };
 
 const char* word(Check::Status status) {

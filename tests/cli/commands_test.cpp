@@ -338,6 +338,7 @@ TEST(Run, SaysWhoIsBlockedAndDoesNotPass) {
     EXPECT_EQ(run.code, 1) << run.out;
     EXPECT_THAT(run.out, HasSubstr("ego is blocked since "));
     EXPECT_THAT(run.out, HasSubstr(": vehicle 1 is "));
+    EXPECT_THAT(run.out, HasSubstr("; it would look for a way around with may_overtake = true"));
     EXPECT_THAT(run.out, HasSubstr("check failed: blocked: actor 2 since "));
     const Result info = reprise({"info", folder / "t.mcap"});
     EXPECT_THAT(info.out, HasSubstr("blocked"));
