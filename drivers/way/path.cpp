@@ -129,22 +129,42 @@ double Path::climb(double s, double reach) const {
 }
 
 double Path::project(const Eigen::Vector3d& p_world, double from, double reach) const {
+    const Eigen::Vector2d p = p_world.head<2>();
+    const std::size_t first = index(from);
+    const std::size_t last = index(from + reach);
+    const double bound = least_sample(p, first, last);
     double best = from;
     double least = INFINITY;
-    const std::size_t last = index(from + reach);
-    for (std::size_t i = index(from); i <= last && i + 1 < points_.size(); ++i) {
+    for (std::size_t i = first; i <= last && i + 1 < points_.size();) {
         const Eigen::Vector2d start_point = points_[i].position.head<2>();
         const Eigen::Vector2d step = points_[i + 1].position.head<2>() - start_point;
+        const Eigen::Vector2d offset = p - start_point;
         const double square = std::max(step.squaredNorm(), 1e-12);
-        const double share =
-            std::clamp((p_world.head<2>() - start_point).dot(step) / square, 0.0, 1.0);
-        const double distance = (p_world.head<2>() - start_point - share * step).squaredNorm();
+        const double share = std::clamp(offset.dot(step) / square, 0.0, 1.0);
+        const double distance = (offset - share * step).squaredNorm();
         if (distance < least) {
             least = distance;
             best = s_of(i) + share * spacing;
         }
+        // Samples are no more than `spacing` apart: those next to one that is far away are far,
+        // too.
+        const double passed = (offset.norm() - bound) / spacing;
+        i += passed > 2 ? static_cast<std::size_t>(passed) : 1;
     }
     return std::max(best, from);
+}
+
+/// [m] that nothing nearest to p is farther away than, by one sample of many; infinity where the
+/// stretch is so short that to look at all of them costs less.
+double Path::least_sample(const Eigen::Vector2d& p, std::size_t first, std::size_t last) const {
+    constexpr std::size_t stride = 16;
+    constexpr double rounding = 1e-3;  // [m] more than is lost to it
+    if (last < first + 2 * stride)
+        return INFINITY;
+    double least = INFINITY;
+    for (std::size_t i = first; i <= last; i += stride)
+        least = std::min(least, (points_[i].position.head<2>() - p).squaredNorm());
+    return std::sqrt(least) + rounding;
 }
 
 void Path::add_to(world::Hasher& hasher) const {

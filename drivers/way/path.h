@@ -65,6 +65,7 @@ class Path {
     double climb(double s, double reach) const;
 
     /// The distance of the point of the path nearest to p in plan, in [from, from + reach].
+    /// O(points / 16) where the path leads away from p.
     double project(const Eigen::Vector3d& p_world, double from, double reach) const;
 
     std::span<const PathPoint> points() const { return points_; }
@@ -77,6 +78,8 @@ class Path {
     double s_of(std::size_t index) const { return static_cast<double>(first_ + index) * spacing; }
 
   private:
+    double least_sample(const Eigen::Vector2d& p, std::size_t first, std::size_t last) const;
+
     std::vector<PathPoint> points_;
     std::size_t first_ = 0;  ///< samples dropped so far
     double end_ = 0;
