@@ -1,7 +1,8 @@
 // What it must do: read SUMO's cars after its step, and write them into the tick.
 // What it assumes: between two steps a car moves by speed times step along its lane (SUMO's Euler
 //   update); what it does beside that is no driving.
-// How it goes: libsumo's getters, about 30 ns each, and none for what cannot have changed.
+// How it goes: libsumo's getters, about 30 ns each (SUMO finds the car by its name each time), and
+//   none for what cannot have changed or follows from the speed.
 // What it keeps: nothing beside the cars.
 #include "traffic/car_reader.h"
 
@@ -14,6 +15,7 @@
 
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
+#include "world/units.h"
 
 namespace reprise::traffic {
 
@@ -22,18 +24,6 @@ namespace {
 using libsumo::Vehicle;
 using world::none;
 using world::rounded;
-
-std::vector<bool> only_lanes_of_their_roads(const world::TownT& town) {
-    std::map<std::string_view, int> lanes_of_edge;
-    for (const world::LaneT& lane : town.lanes)
-        if (lane.kind != world::LaneKind::sidewalk)
-            ++lanes_of_edge[lane.edge];
-    std::vector<bool> alone;
-    alone.reserve(town.lanes.size());
-    for (const world::LaneT& lane : town.lanes)
-        alone.push_back(lanes_of_edge[lane.edge] == 1);
-    return alone;
-}
 
 /// SUMO's bits: 1 right indicator, 2 left indicator.
 std::uint16_t indicators_of(int signals) {
@@ -76,10 +66,30 @@ CarReader::CarReader(const world::TownT& town,
     : town_(&town),
       graph_(&graph),
       step_(step),
-      seed_(seed),
-      only_lane_of_road_(only_lanes_of_their_roads(town)) {
-    for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
-        lanes_by_name_.emplace(town.lanes[i].name, i);
+      sumo_step_(std::round(step * 1000) / 1000),
+      seed_(seed) {
+    constexpr double rounding = 0.01;  // [m]
+
+    struct Road {
+        int lanes = 0;
+        double shortest = world::infinity;
+    };
+
+    std::map<std::string_view, Road> roads;
+    for (const world::LaneT& lane : town.lanes)
+        if (lane.kind != world::LaneKind::sidewalk) {
+            Road& road = roads[lane.edge];
+            ++road.lanes;
+            road.shortest = std::min(road.shortest, lane.sumo_length);
+        }
+    measures_.reserve(town.lanes.size());
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
+        const world::LaneT& lane = town.lanes[i];
+        lanes_by_name_.emplace(lane.name, i);
+        const Road& road = roads[lane.edge];
+        measures_.push_back(
+            {lane.length, lane.sumo_length, road.shortest - rounding, lane.index, road.lanes == 1});
+    }
 }
 
 /// Onto the lane of this name. What lies behind is no longer part of the car's route.
@@ -129,8 +139,8 @@ Eigen::Vector3d CarReader::without_jumps(Car& car, const Eigen::Vector3d& sumo_f
     car.sumo_front = sumo_front;
     double driven = car.speed * step_;
     if (car.lane != none)
-        driven *= town_->lanes[car.lane].length / town_->lanes[car.lane].sumo_length;
-    const bool plausible = is_driven(moved, world::ahead_of(car.yaw), driven);
+        driven *= measures_[car.lane].length / measures_[car.lane].sumo_length;
+    const bool plausible = is_driven(moved, car.ahead, driven);
     if (plausible && car.slip.isZero(0))
         return sumo_front;
 
@@ -170,7 +180,7 @@ void CarReader::move_body(Car& car) const {
     car.trail.advance(shown);
     car.rear = rolled(car, car.trail.rear());
     const Eigen::Vector3d body = car.trail.front() - car.rear;
-    car.yaw = std::atan2(body.y(), body.x());
+    car.turn_to(std::atan2(body.y(), body.x()));
     car.pitch = body.z() == 0 ? 0 : std::atan2(body.z(), body.head<2>().norm());
 }
 
@@ -180,7 +190,7 @@ Eigen::Vector3d CarReader::rolled(const Car& car, const Eigen::Vector3d& wanted)
     constexpr double steepest = 0.45;  // metres aside for each metre driven
     constexpr double elsewhere = 6;    // [m] further is a new place
     const Eigen::Vector2d moved = (wanted - car.rear).head<2>();
-    const Eigen::Vector2d ahead = world::ahead_of(car.yaw);
+    const Eigen::Vector2d& ahead = car.ahead;
     const double aside = world::cross(ahead, moved);
     const double most = steepest * car.speed * step_;
     if (std::abs(aside) <= most || moved.norm() > elsewhere)
@@ -190,16 +200,38 @@ Eigen::Vector3d CarReader::rolled(const Car& car, const Eigen::Vector3d& wanted)
     return wanted - Eigen::Vector3d(back.x(), back.y(), 0);
 }
 
+/// [m] along its lane, in SUMO's measure. SUMO's step adds just this to it, wherever no road ends:
+/// so it need not be asked.
+double CarReader::position_of(const Car& car, double speed) const {
+    if (car.lane != none) {
+        const double driven_to = car.lane_position + speed * sumo_step_;
+        if (driven_to < measures_[car.lane].inside)
+            return driven_to;
+    }
+    return Vehicle::getLanePosition(car.sumo);
+}
+
+/// `on_its_road`: it has entered no other one, but may have changed lanes.
+void CarReader::read_lane(Car& car, bool on_its_road) const {
+    if (on_its_road &&
+        (measures_[car.lane].is_alone ||
+         Vehicle::getLaneIndex(car.sumo) == static_cast<int>(measures_[car.lane].index)))
+        return;
+    const std::string lane = Vehicle::getLaneID(car.sumo);
+    if (car.lane == none || town_->lanes[car.lane].name != lane)
+        enter_lane(car, lane);
+}
+
 void CarReader::read_car(Car& car, std::uint64_t tick) const {
     const double speed = Vehicle::getSpeed(car.sumo);
-    const double position = Vehicle::getLanePosition(car.sumo);
-    // A car that neither drives nor moved along its lane is where it was: see LaneChangePace. On a
-    // road of one lane, one that moved by just its speed is on the same lane (entering another one
-    // would take off the length of the last).
+    const double position = position_of(car, speed);
+    // A car that neither drives nor moved along its lane is where it was: see LaneChangePace. One
+    // that moved by just its speed is on the same road (entering another one would take off the
+    // length of the last).
     const bool stands =
         car.lane != none && speed == 0 && car.speed == 0 && position == car.lane_position;
-    const bool keeps_lane = car.lane != none && only_lane_of_road_[car.lane] &&
-                            std::abs(position - car.lane_position - speed * step_) < 1e-6;
+    const bool on_its_road =
+        car.lane != none && std::abs(position - car.lane_position - speed * step_) < 1e-6;
     car.lane_position = position;
     car.acceleration = (speed - car.speed) / step_;
     car.speed = speed;
@@ -216,10 +248,7 @@ void CarReader::read_car(Car& car, std::uint64_t tick) const {
         return;
     if (car.offset_order)
         move_aside(car, tick);
-    const std::string lane =
-        keeps_lane ? town_->lanes[car.lane].name : Vehicle::getLaneID(car.sumo);
-    if (car.lane == none || town_->lanes[car.lane].name != lane)
-        enter_lane(car, lane);
+    read_lane(car, on_its_road);
     move_body(car);
 }
 
@@ -242,8 +271,8 @@ void CarReader::write(const Cars& cars, world::TickDraft& next) const {
     for (const Car& car : cars.all()) {
         double lane_s = 0;
         if (car.lane != none)
-            lane_s = car.lane_position * town_->lanes[car.lane].length /
-                     town_->lanes[car.lane].sumo_length;
+            lane_s =
+                car.lane_position * measures_[car.lane].length / measures_[car.lane].sumo_length;
         double yaw = rounded(car.yaw, per_radian);
         if (yaw > std::acos(-1.0) || yaw <= -std::acos(-1.0))
             yaw = std::floor(std::acos(-1.0) * per_radian) / per_radian;

@@ -25,7 +25,18 @@ class CarReader {
     void write(const Cars& cars, world::TickDraft& next) const;
 
   private:
+    /// What is asked of a lane in every tick, side by side.
+    struct Measures {
+        double length = 0;       ///< [m]
+        double sumo_length = 0;  ///< [m]
+        double inside = 0;       ///< [m] in SUMO's measure: who has come no further is on its road
+        std::uint32_t index = 0;
+        bool is_alone = false;  ///< there is no other lane of its road to change to
+    };
+
+    double position_of(const Car& car, double speed) const;
     void read_car(Car& car, std::uint64_t tick) const;
+    void read_lane(Car& car, bool on_its_road) const;
     void enter_lane(Car& car, std::string_view lane) const;
     Eigen::Vector3d bumper_of(const Car& car) const;
     void move_aside(Car& car, std::uint64_t tick) const;
@@ -37,9 +48,10 @@ class CarReader {
     const world::TownT* town_;
     const RoadGraph* graph_;
     double step_;
+    double sumo_step_;  ///< [s] likewise, as SUMO computes it from milliseconds
     std::uint64_t seed_;
     std::unordered_map<std::string_view, std::uint32_t> lanes_by_name_;  ///< never iterated
-    std::vector<bool> only_lane_of_road_;  ///< by lane: there is no other to change to
+    std::vector<Measures> measures_;                                     ///< [lane]
 };
 
 }  // namespace reprise::traffic

@@ -42,7 +42,7 @@ Placements::Pose Placements::pose_of(const world::CommandT& command) const {
 void Placements::stand(Car& car, const Pose& pose) const {
     const double length = origin_to_front(car.model);
     car.rear = pose.rear;
-    car.yaw = pose.yaw;
+    car.turn_to(pose.yaw);
     car.pitch = pose.pitch;
     const Eigen::Vector3d ahead = ahead_of(pose);
     car.trail.start(car.rear + ahead * length, -ahead, length);
@@ -115,7 +115,7 @@ bool Placements::enter_sumo(Car& car, std::uint64_t tick) const {
     car.slip = (front - car.sumo_front).head<2>();
     car.trail.start(front, -ahead, length);
     car.rear = shown.rear;
-    car.yaw = shown.yaw;
+    car.turn_to(shown.yaw);
     car.pitch = shown.pitch;
     hold_speed(car, tick);
     return true;

@@ -151,7 +151,7 @@ void ScriptedSpawns::park(Car& car, const InsertionPoint& point, double offset) 
     car.lane = point.lane;
     car.lane_position = std::min(point.s / lane.length, 1.0) * lane.sumo_length;
     car.rear = at.position + left * offset;
-    car.yaw = at.yaw;
+    car.turn_to(at.yaw);
     car.pitch = at.pitch;
     const Eigen::Vector3d behind(-std::cos(at.yaw), -std::sin(at.yaw), -std::tan(at.pitch));
     car.trail.start(car.rear - behind * length, behind, length);

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "traffic/cars/trail.h"
+#include "world/geometry2d.h"
 #include "world/tick.h"
 #include "world/trajectory.h"
 #include "world/transition.h"
@@ -66,13 +67,15 @@ struct Car {
     Trail trail;
     Eigen::Vector3d rear = Eigen::Vector3d::Zero();  ///< the origin: ground below the rear axle
     double yaw = 0;
+    Eigen::Vector2d ahead = Eigen::Vector2d::UnitX();  ///< of that yaw
     double pitch = 0;
     std::uint32_t standing_ticks = 0;
 
     // What SUMO was told last of how it may drive.
-    double aside_wanted = 0;  ///< [m/s] sideways, by its last ordered change of lanes; 0: none
-    double aside_limit = -1;  ///< [m/s] sideways; negative: what its type says
-    double bend_limit = 0;    ///< [m/s] for a bend of its lane; 0: none
+    double aside_wanted = 0;    ///< [m/s] sideways, by its last ordered change of lanes; 0: none
+    double aside_limit = -1;    ///< [m/s] sideways; negative: what its type says
+    double bend_limit = 0;      ///< [m/s] for a bend of its lane; 0: none
+    int lane_change_mode = -1;  ///< SUMO's bits, of the demand's cars; negative: nothing yet
 
     // Where it goes: edges, the current one first; `last_lane` is where the plan ends.
     std::vector<std::uint32_t> route;
@@ -96,6 +99,11 @@ struct Car {
 
     bool held_back = false;  ///< by what it sees on its way; see lookout.h
     std::optional<PassOrder> pass;
+
+    void turn_to(double new_yaw) {
+        yaw = new_yaw;
+        ahead = world::ahead_of(new_yaw);
+    }
 };
 
 }  // namespace reprise::traffic

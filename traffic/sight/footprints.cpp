@@ -140,15 +140,15 @@ void gather_footprints(const world::TickView& last,
     // SUMO believes them elsewhere: by order, or where it cut a change of lanes short.
     const auto is_aside = [](const Car& car) {
         return std::abs(car.offset) > far_aside ||
-               std::abs(world::cross(world::ahead_of(car.yaw), car.slip)) > far_aside;
+               std::abs(world::cross(car.ahead, car.slip)) > far_aside;
     };
     for (const Car& car : cars)
         if (car.origin == Origin::parked || car.sumo.empty() || is_aside(car))
             add_car(car.id,
                     car.model,
                     car.rear,
-                    world::ahead_of(car.yaw),
-                    car.speed * world::ahead_of(car.yaw),
+                    car.ahead,
+                    car.speed * car.ahead,
                     car.origin != Origin::parked,
                     footprints);
     add_walkers(last.walkers(), footprints);
@@ -174,8 +174,7 @@ void add_reaching(const world::TownT& town,
         if (lane.kind != world::LaneKind::internal && s > length && std::abs(turn) < turned_to_lane)
             continue;
         const std::size_t first = footprints.size();
-        const Eigen::Vector2d ahead = world::ahead_of(car.yaw);
-        add_car(car.id, car.model, car.rear, ahead, car.speed * ahead, true, footprints);
+        add_car(car.id, car.model, car.rear, car.ahead, car.speed * car.ahead, true, footprints);
         for (std::size_t i = first; i < footprints.size(); ++i)
             footprints[i].reaches = true;
     }

@@ -80,7 +80,7 @@ bool Passing::is_free(const Stretch& stretch,
         if (other.id == car.id)
             continue;
         const world::VehicleModel& model = world::vehicle_models()[other.model];
-        const Eigen::Vector2d ahead = world::ahead_of(other.yaw);
+        const Eigen::Vector2d& ahead = other.ahead;
         const Eigen::Vector2d middle =
             other.rear.head<2>() + (model.length / 2 - model.rear_overhang) * ahead;
         // What is passed stands in the lane itself, and was looked at.
