@@ -89,21 +89,21 @@ void Lookout::look_on(std::uint32_t lane, double start, double aside, Corridor& 
     }
 }
 
-/// This lane, and those behind it on the car's route.
-void Lookout::look_along(std::uint32_t lane,
-                         double start,
-                         const Car& car,
-                         Corridor& corridor) const {
-    look_on(lane, start, 0, corridor);
+/// This lane, and those behind it on the car's route, with the metres from the front bumper to
+/// their start.
+template <typename Visit>
+void Lookout::visit_way(
+    std::uint32_t lane, double start, double reach, const Car& car, const Visit& visit) const {
+    visit(lane, start);
     const world::LaneT& here = town_->lanes[lane];
     const double end = start + here.length;
-    if (end > corridor.reach)
+    if (end > reach)
         return;
     const std::uint32_t edge = graph_->edge_of(lane);
     if (here.kind == world::LaneKind::internal) {
         if (!here.links.empty()) {
             const world::Link& link = here.links.front();
-            look_along(link.via() != none ? link.via() : link.to(), end, car, corridor);
+            visit_way(link.via() != none ? link.via() : link.to(), end, reach, car, visit);
         }
         return;
     }
@@ -112,7 +112,21 @@ void Lookout::look_along(std::uint32_t lane,
         return;
     for (const world::Link& link : here.links)
         if (link.to() != none && graph_->edge_of(link.to()) == *(at + 1))
-            look_along(link.via() != none ? link.via() : link.to(), end, car, corridor);
+            visit_way(link.via() != none ? link.via() : link.to(), end, reach, car, visit);
+}
+
+/// Is nothing on any lane that the car may look at, wherever on its own lane it is? Tells without
+/// the way from the lane to the car, which costs more than all of this.
+bool Lookout::is_clear(const Car& car, double reach) const {
+    const world::LaneT& lane = town_->lanes[car.lane];
+    for (const std::uint32_t beside : {lane.left, lane.right})
+        if (beside != none && obstructions_.any_on(beside))
+            return false;
+    bool clear = true;
+    visit_way(car.lane, -lane.length - 1, reach, car, [&](std::uint32_t ahead, double) {
+        clear = clear && !obstructions_.any_on(ahead);
+    });
+    return clear;
 }
 
 /// SUMO's cars on both lanes, for one who passes something: to SUMO it is still in its own lane.
@@ -123,7 +137,7 @@ void Lookout::look_at_cars(const Cars& cars, double s, const Car& car, Corridor&
         if (other.id == car.id || other.origin == Origin::parked)
             continue;
         const world::VehicleModel& model = world::vehicle_models()[other.model];
-        const Eigen::Vector2d direction = world::ahead_of(other.yaw);
+        const Eigen::Vector2d& direction = other.ahead;
         const Eigen::Vector2d offset = other.rear.head<2>() +
                                        (model.length / 2 - model.rear_overhang) * direction -
                                        on.position.head<2>();
@@ -160,12 +174,15 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     corridor.is_long = model.length > longest_short_car;
     corridor.id = car.id;
     constexpr double longest_piece = 3;  // [m] from a footprint's middle to its end
-    if (!car.pass && !obstructions_.any_near(front.head<2>(), corridor.reach + longest_piece))
+    if (!car.pass && (!obstructions_.any_near(front.head<2>(), corridor.reach + longest_piece) ||
+                      is_clear(car, corridor.reach)))
         return world::infinity;
     const world::LaneT& lane = town_->lanes[car.lane];
     const world::LaneProjection at = world::project(lane, front);
     corridor.aside = at.t;
-    look_along(car.lane, -at.s, car, corridor);
+    visit_way(car.lane, -at.s, corridor.reach, car, [&](std::uint32_t ahead, double start) {
+        look_on(ahead, start, 0, corridor);
+    });
     if (car.pass)
         look_at_cars(cars, at.s, car, corridor);
     // A body that has not left the next lane yet, or not come from it.

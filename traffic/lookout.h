@@ -56,7 +56,10 @@ class Lookout {
 
     double allowed_speed(const Car& car, const Cars& cars) const;
     void look_at_cars(const Cars& cars, double s, const Car& car, Corridor& corridor) const;
-    void look_along(std::uint32_t lane, double start, const Car& car, Corridor& corridor) const;
+    template <typename Visit>
+    void visit_way(
+        std::uint32_t lane, double start, double reach, const Car& car, const Visit& visit) const;
+    bool is_clear(const Car& car, double reach) const;
     void look_on(std::uint32_t lane, double start, double aside, Corridor& corridor) const;
     void hold_back(Car& car, double speed, std::uint64_t tick) const;
 

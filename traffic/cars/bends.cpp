@@ -7,6 +7,7 @@
 
 #include "traffic/cars/fleet.h"
 #include "world/geometry2d.h"
+#include "world/units.h"
 
 namespace reprise::traffic {
 
@@ -135,15 +136,16 @@ void Bends::add_lane(const world::LaneT& lane, const Line& before, const Line& b
 
 /// [m/s] for the bends of its lane, or 0 where there is none ahead.
 double Bends::limit_at(const Car& car) const {
-    double limit = 0;
+    double least = world::infinity;  // [m^2/s^2]
     for (const Bend& bend : bends_[car.lane]) {
         if (car.lane_position > bend.to)
             continue;
         const double distance = std::max(bend.from - car.lane_position, 0.0);
-        const double speed = std::sqrt(bend.speed * bend.speed + 2 * braking * distance);
-        limit = limit == 0 ? speed : std::min(limit, speed);
+        if (2 * braking * distance > least)  // those behind it are further
+            break;
+        least = std::min(least, bend.speed * bend.speed + 2 * braking * distance);
     }
-    return limit;
+    return least == world::infinity ? 0 : std::sqrt(least);
 }
 
 void Bends::follow(Cars& cars) const {

@@ -34,7 +34,7 @@ class Bends {
     double limit_at(const Car& car) const;
 
     const world::TownT* town_;
-    std::vector<std::vector<Bend>> bends_;  ///< [lane]; empty: as fast as the sign says
+    std::vector<std::vector<Bend>> bends_;  ///< [lane], along it; empty: as fast as the sign says
 };
 
 }  // namespace reprise::traffic

@@ -43,33 +43,45 @@ LaneChangePace::LaneChangePace(const world::TownT& town) : town_(&town) {
         has_neighbour_.push_back(lane.left != world::none || lane.right != world::none);
 }
 
+/// Looked for once: few of the cars, and side by side.
+std::vector<LaneChangePace::Waiting> LaneChangePace::waiting(const Cars& cars) {
+    constexpr double slow = 3;  // [m/s] of a queue's cars
+    std::vector<Waiting> found;
+    for (const Car& car : cars.all())
+        if (car.speed < slow && car.lane != world::none)
+            found.push_back(
+                {car.lane, car.lane_position, world::vehicle_models()[car.model].length});
+    return found;
+}
+
 /// Is there way enough for all of a change, before the lane ends and before those who wait on it?
 /// Who begins without would stand across two lanes.
-bool LaneChangePace::has_way(const Car& car, const Cars& cars) const {
-    constexpr double slow = 3;    // [m/s] of a queue's cars
+bool LaneChangePace::has_way(const Car& car, const std::vector<Waiting>& waiting) const {
     constexpr double margin = 4;  // [m]
     const world::LaneT& lane = town_->lanes[car.lane];
     const double wanted = std::max(lane.width / steepest, lane.width / usual * car.speed) + margin;
     double way = lane.sumo_length - car.lane_position;
-    for (const Car& other : cars.all())
-        if (other.lane == car.lane && other.speed < slow && other.lane_position > car.lane_position)
-            way = std::min(way,
-                           other.lane_position - car.lane_position -
-                               world::vehicle_models()[other.model].length);
+    for (const Waiting& other : waiting)
+        if (other.lane == car.lane && other.lane_position > car.lane_position)
+            way = std::min(way, other.lane_position - car.lane_position - other.length);
     return way > wanted;
 }
 
 void LaneChangePace::follow(Cars& cars, std::uint64_t tick) const {
     constexpr int as_it_likes = 1621;  // SUMO's default
     constexpr int never = 0;
+    const std::vector<Waiting> queues = waiting(cars);
     for (Car& car : cars.all()) {
         if (car.sumo.empty() || car.origin == Origin::parked || car.lane == world::none)
             continue;
         const world::LaneT& lane = town_->lanes[car.lane];
         // A quarter of the cars is asked in each tick.
-        if (has_neighbour_[car.lane] && car.origin == Origin::demand && (tick + car.id) % 4 == 0)
-            libsumo::Vehicle::setLaneChangeMode(
-                car.sumo, car.speed > crawl && has_way(car, cars) ? as_it_likes : never);
+        if (has_neighbour_[car.lane] && car.origin == Origin::demand && (tick + car.id) % 4 == 0) {
+            const int mode = car.speed > crawl && has_way(car, queues) ? as_it_likes : never;
+            if (mode != car.lane_change_mode)
+                libsumo::Vehicle::setLaneChangeMode(car.sumo, mode);
+            car.lane_change_mode = mode;
+        }
         if (car.lane_order)
             car.aside_wanted = lane.width / std::max(car.lane_order->duration, 1.0);
         double limit = car.aside_wanted == 0 ? usual : car.aside_wanted;

@@ -16,14 +16,22 @@ class LaneChangePace {
     /// `town` must outlive this.
     explicit LaneChangePace(const world::TownT& town);
 
-    /// Before SUMO's step. O(cars on roads with several lanes x cars).
+    /// Before SUMO's step. O(cars on roads with several lanes x cars that wait).
     void follow(Cars& cars, std::uint64_t tick) const;
 
     /// [m/s] sideways of one that is free to choose: a lane in three seconds.
     static constexpr double usual = 1.1;
 
   private:
-    bool has_way(const Car& car, const Cars& cars) const;
+    /// A car that stands or crawls.
+    struct Waiting {
+        std::uint32_t lane = 0;
+        double lane_position = 0;  ///< [m] as Car's
+        double length = 0;
+    };
+
+    static std::vector<Waiting> waiting(const Cars& cars);
+    bool has_way(const Car& car, const std::vector<Waiting>& waiting) const;
 
     const world::TownT* town_;
     std::vector<bool> has_neighbour_;  ///< [lane]

@@ -159,15 +159,24 @@ void Obstructions::add(const Footprint& footprint) {
 }
 
 bool Obstructions::any_near(const Eigen::Vector2d& p_world, double reach) const {
-    return std::any_of(places_.begin(), places_.end(), [&](const Eigen::Vector2d& place) {
-        return (place - p_world).squaredNorm() < reach * reach;
-    });
+    constexpr double rounding = 1e-6;  // [m]
+    const double last = p_world.x() + reach + rounding;
+    auto place = std::lower_bound(places_.begin(),
+                                  places_.end(),
+                                  p_world.x() - reach - rounding,
+                                  [](const Eigen::Vector2d& one, double x) { return one.x() < x; });
+    for (; place != places_.end() && place->x() <= last; ++place)
+        if ((*place - p_world).squaredNorm() < reach * reach)
+            return true;
+    return false;
 }
 
 void Obstructions::look(const world::TickView& last, std::span<const Car> cars) {
     count_halts(last.vehicles());
     gather_footprints(last, cars, footprints_);
     add_reaching(*town_, cars, step_, footprints_);
+    for (const Obstruction& one : all_)
+        is_obstructed_[one.lane] = false;
     all_.clear();
     places_.clear();
     next_off_.clear();
@@ -181,9 +190,18 @@ void Obstructions::look(const world::TickView& last, std::span<const Car> cars) 
         all_.begin(), all_.end(), [](const Obstruction& one, const Obstruction& other) {
             return std::tie(one.lane, one.begin) < std::tie(other.lane, other.begin);
         });
+    for (const Obstruction& one : all_)
+        is_obstructed_[one.lane] = true;
+    std::sort(places_.begin(),
+              places_.end(),
+              [](const Eigen::Vector2d& one, const Eigen::Vector2d& other) {
+                  return one.x() < other.x();
+              });
 }
 
 std::span<const Obstruction> Obstructions::on(std::uint32_t lane) const {
+    if (!is_obstructed_[lane])
+        return {};
     const auto first = std::lower_bound(
         all_.begin(), all_.end(), lane, [](const Obstruction& one, std::uint32_t wanted) {
             return one.lane < wanted;

@@ -40,7 +40,8 @@ class Obstructions {
     Obstructions(const world::TownT& town, const world::LaneMap& lanes, double step)
         : town_(&town),
           lanes_(&lanes),
-          step_(step) {}
+          step_(step),
+          is_obstructed_(town.lanes.size()) {}
 
     /// As the last tick has them, and `cars`, which SUMO does not drive.
     void look(const world::TickView& last, std::span<const Car> cars);
@@ -53,8 +54,10 @@ class Obstructions {
     /// By lane, then along it.
     std::span<const Obstruction> all() const { return all_; }
 
-    /// Those of one lane, along it. O(log n).
+    /// Those of one lane, along it. O(log n); where there is none, O(1).
     std::span<const Obstruction> on(std::uint32_t lane) const;
+
+    bool any_on(std::uint32_t lane) const { return is_obstructed_[lane]; }
 
     /// Nothing where nobody has stood for long.
     void add_to(world::Hasher& hasher) const;
@@ -86,7 +89,8 @@ class Obstructions {
     std::vector<Halt> halts_;  ///< sorted by id
     std::vector<Footprint> footprints_;
     std::vector<Obstruction> all_;
-    std::vector<Eigen::Vector2d> places_;  ///< of the footprints on lanes
+    std::vector<bool> is_obstructed_;      ///< [lane] is any of them on it?
+    std::vector<Eigen::Vector2d> places_;  ///< of the footprints on lanes, by x
     std::vector<Off> off_;                 ///< sorted by id; decides nothing but the cost
     std::vector<Off> next_off_;
 };
