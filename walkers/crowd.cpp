@@ -1,6 +1,7 @@
 #include "walkers/crowd.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -34,6 +35,16 @@ Eigen::Vector2d turned(const Eigen::Vector2d& v, double angle) {
     const double sine = std::sin(angle);
     return {cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()};
 }
+
+/// What everybody keeps, in one piece: a digest of many small ones costs more.
+struct WalkerDigest {
+    std::uint32_t id;
+    std::uint32_t polygon;
+    std::array<double, 9> numbers;
+    std::array<std::uint64_t, 9> counts;
+};
+
+static_assert(sizeof(WalkerDigest) == 152, "no padding");
 
 }  // namespace
 
@@ -89,11 +100,15 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
                          world::walker_models()[walker.model()].shoulder_width / 2,
                          walker.id()},
                         false);
-    for (const Walker& walker : walkers_)
-        neighbours_.add(
-            {walker.place.position.head<2>(), walker.velocity, walker.person.radius, walker.id},
-            false);
-    add_things(last, next, neighbours_);
+    on_road_.clear();
+    for (Walker& walker : walkers_) {
+        const Eigen::Vector2d place = walker.place.position.head<2>();
+        neighbours_.add({place, walker.velocity, walker.person.radius, walker.id}, false);
+        walker.on_road = map_of(walker.person).surface(walker.place) != Surface::sidewalk;
+        if (walker.on_road)
+            on_road_.push_back(place);
+    }
+    add_things(last, next, on_road_, neighbours_);
     neighbours_.sort();
 
     // Where to, around whom, and the step.
@@ -353,7 +368,6 @@ void Crowd::want(Walker& walker, std::uint64_t tick) {
     constexpr std::uint32_t hopeless = 160;   // ticks in somebody's way
     walker.wanted.setZero();
     walker.may_enter = false;
-    walker.on_road = map_of(walker.person).surface(walker.place) != Surface::sidewalk;
     if (walker.down_until != 0 || tick < walker.pause_until)
         return;
     const Eigen::Vector2d p = walker.place.position.head<2>();
@@ -554,26 +568,27 @@ void Crowd::add_to(world::Hasher& hasher) const {
     hasher.add(tries_);
     lights_.add_to(hasher);
     for (const Walker& walker : walkers_) {
-        hasher.add(walker.id);
-        hasher.add(walker.place.polygon);
-        hasher.add(world::to_vec3(walker.place.position));
-        for (const double value : {walker.velocity.x(),
-                                   walker.velocity.y(),
-                                   walker.yaw,
-                                   walker.phase,
-                                   walker.was_at.x(),
-                                   walker.was_at.y()})
-            hasher.add(value);
-        for (const std::uint64_t count : {std::uint64_t{walker.way.size()},
-                                          std::uint64_t{walker.corner},
-                                          std::uint64_t{walker.gate},
-                                          std::uint64_t{walker.waited},
-                                          std::uint64_t{walker.stuck},
-                                          walker.pause_until,
-                                          walker.was_at_tick,
-                                          walker.down_until,
-                                          walker.draws})
-            hasher.add(count);
+        const Eigen::Vector3d& p = walker.place.position;
+        hasher.add(WalkerDigest{walker.id,
+                                walker.place.polygon,
+                                {p.x(),
+                                 p.y(),
+                                 p.z(),
+                                 walker.velocity.x(),
+                                 walker.velocity.y(),
+                                 walker.yaw,
+                                 walker.phase,
+                                 walker.was_at.x(),
+                                 walker.was_at.y()},
+                                {walker.way.size(),
+                                 walker.corner,
+                                 walker.gate,
+                                 walker.waited,
+                                 walker.stuck,
+                                 walker.pause_until,
+                                 walker.was_at_tick,
+                                 walker.down_until,
+                                 walker.draws}});
         if (!walker.way.empty())
             hasher.add(world::to_vec3(walker.way.back().position));
     }

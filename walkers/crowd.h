@@ -113,8 +113,9 @@ class Crowd {
     WalkerLights lights_;
     Steering steering_;
     Neighbours neighbours_;
-    std::vector<Body> around_;     ///< of one, while looking
-    std::vector<Walker> walkers_;  ///< by id
+    std::vector<Eigen::Vector2d> on_road_;  ///< places of those who are, in this tick
+    std::vector<Body> around_;              ///< of one, while looking
+    std::vector<Walker> walkers_;           ///< by id
     std::uint32_t next_id_ = first_walker_id;
     std::uint64_t tries_ = 0;  ///< of places to appear at
     unsigned plans_ = 0;       ///< made in this tick

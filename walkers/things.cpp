@@ -53,14 +53,30 @@ Thing car_of(const Eigen::Vector2d& rear_axle, double yaw, std::uint16_t model, 
     return thing;
 }
 
-void add_cars(const world::TickView& last, const world::TickDraft& next, Neighbours& neighbours) {
+/// Can any of them come close to a car within a tick?
+bool is_near(const world::CarState& car, std::span<const Eigen::Vector2d> people) {
+    constexpr double close = 5;  // [m] more than anybody looks around himself
+    const double reach = world::vehicle_models()[car.model()].length + close;
+    const Eigen::Vector2d place = world::in_plan(car.position());
+    return std::any_of(people.begin(), people.end(), [&](const Eigen::Vector2d& one) {
+        return (one - place).squaredNorm() < reach * reach;
+    });
+}
+
+void add_cars(const world::TickView& last,
+              const world::TickDraft& next,
+              std::span<const Eigen::Vector2d> on_road,
+              Neighbours& neighbours) {
     for (const world::CarState& car : next.traffic.cars) {
         const double yaw = static_cast<double>(car.yaw());
         const auto speed = static_cast<double>(car.speed());
+        // Of the scenario's, those that stand are parked, or as good as that.
+        const bool drives = car.id() >= world::first_background_id || speed > stands;
+        if (drives && !is_near(car, on_road))
+            continue;
         Thing thing = car_of(world::in_plan(car.position()), yaw, car.model(), car.id());
         thing.velocity = speed * thing.ahead;
-        // Of the scenario's, those that stand are parked, or as good as that.
-        thing.drives = car.id() >= world::first_background_id || speed > stands;
+        thing.drives = drives;
         add(thing, neighbours);
     }
     for (const world::VehicleState& vehicle : last.vehicles()) {
@@ -122,8 +138,11 @@ void add_doors(const world::TickView& last, const world::TickDraft& next, Neighb
 
 }  // namespace
 
-void add_things(const world::TickView& last, const world::TickDraft& next, Neighbours& neighbours) {
-    add_cars(last, next, neighbours);
+void add_things(const world::TickView& last,
+                const world::TickDraft& next,
+                std::span<const Eigen::Vector2d> on_road,
+                Neighbours& neighbours) {
+    add_cars(last, next, on_road, neighbours);
     add_props(last, neighbours);
     add_doors(last, next, neighbours);
 }

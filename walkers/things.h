@@ -1,5 +1,9 @@
 #pragma once
 
+#include <span>
+
+#include <Eigen/Core>
+
 #include "walkers/neighbours.h"
 #include "world/tick.h"
 
@@ -8,7 +12,11 @@ namespace reprise::walkers {
 /// What drives, stands or lies where people go, as round bodies in a row along each: SUMO's cars
 /// as `next` has them, vehicles with mass, props and open doors as `last` had them. Whoever is on
 /// the road keeps away from what drives; everybody goes around what stands for good: parked cars,
-/// wrecks, props and doors.
-void add_things(const world::TickView& last, const world::TickDraft& next, Neighbours& neighbours);
+/// wrecks, props and doors. Of SUMO's cars that drive only those near somebody on the road are
+/// added: `on_road`, where such people are.
+void add_things(const world::TickView& last,
+                const world::TickDraft& next,
+                std::span<const Eigen::Vector2d> on_road,
+                Neighbours& neighbours);
 
 }  // namespace reprise::walkers

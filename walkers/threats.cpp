@@ -93,6 +93,18 @@ void Threats::look(const world::TickView& last, const world::TickDraft& next, do
              ahead.dot(world::to_eigen(vehicle.acceleration())),
              vehicle.model()});
     }
+    sort();
+}
+
+void Threats::sort() {
+    keys_.clear();
+    widest_ = 0;
+    for (std::uint32_t i = 0; i < threats_.size(); ++i) {
+        const world::Box& around = threats_[i].around;
+        keys_.push_back({around.low.x(), i});
+        widest_ = std::max(widest_, around.high.x() - around.low.x());
+    }
+    std::sort(keys_.begin(), keys_.end());
 }
 
 std::optional<Eigen::Vector2d> Threats::way_out(const Eigen::Vector2d& p, double radius) const {
@@ -100,7 +112,11 @@ std::optional<Eigen::Vector2d> Threats::way_out(const Eigen::Vector2d& p, double
     const double room = radius + margin;
     std::optional<Eigen::Vector2d> way;
     double nearest = 0;
-    for (const Threat& threat : threats_) {
+    std::uint32_t first = 0;           // of those that are as near the first one counts
+    constexpr double rounding = 1e-6;  // [m]
+    auto key = std::lower_bound(keys_.begin(), keys_.end(), Key{p.x() - widest_ - rounding, 0});
+    for (; key != keys_.end() && key->west <= p.x(); ++key) {
+        const Threat& threat = threats_[key->index];
         if (p.x() < threat.around.low.x() || p.x() > threat.around.high.x() ||
             p.y() < threat.around.low.y() || p.y() > threat.around.high.y())
             continue;
@@ -111,8 +127,9 @@ std::optional<Eigen::Vector2d> Threats::way_out(const Eigen::Vector2d& p, double
         const Eigen::Vector2d left = world::turned_left(threat.ahead);
         const double across = from.dot(left);
         const double gap = std::abs(across) - threat.half_width - room;
-        if (gap < nearest) {
+        if (gap < nearest || (way && gap == nearest && key->index < first)) {
             nearest = gap;
+            first = key->index;
             way = across < 0 ? Eigen::Vector2d(-left) : left;
         }
     }

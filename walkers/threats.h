@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -46,7 +47,19 @@ class Threats {
     void add(const Rolling& car);
     void add_box(const Rolling& car, double rear, double front);
 
+    /// A threat by the western edge of its surroundings.
+    struct Key {
+        double west = 0;  ///< [m]
+        std::uint32_t index = 0;
+
+        auto operator<=>(const Key&) const = default;
+    };
+
+    void sort();
+
     std::vector<Threat> threats_;  ///< SUMO's cars, then those with mass, each by id
+    std::vector<Key> keys_;        ///< of them, sorted
+    double widest_ = 0;            ///< [m] of their surroundings, from west to east
 };
 
 }  // namespace reprise::walkers
