@@ -18,7 +18,6 @@ constexpr double straight_radius = 1e6;
 /// Where a point falls on a segment, and how far away that is.
 struct Foot {
     double share = 0;  ///< of the segment, in [0, 1]
-    double length = 0;
     double squared_distance = 0;
     Eigen::Vector3d position;
 };
@@ -27,13 +26,18 @@ Foot foot_on(const Vec3& from, const Vec3& to, const Eigen::Vector3d& p_world) {
     const Eigen::Vector3d start = to_eigen(from);
     const Eigen::Vector3d along = to_eigen(to) - start;
     const double squared_length = along.squaredNorm();
+    const double passed = (p_world - start).dot(along);
     Foot foot;
-    foot.length = std::sqrt(squared_length);
-    if (squared_length > 0)
-        foot.share = std::clamp((p_world - start).dot(along) / squared_length, 0.0, 1.0);
+    // Most segments are passed, or not come to: these need no division.
+    if (passed > 0)
+        foot.share = passed < squared_length ? passed / squared_length : 1.0;
     foot.position = start + foot.share * along;
     foot.squared_distance = (p_world - foot.position).squaredNorm();
     return foot;
+}
+
+double length_of(const LaneT& lane, std::size_t segment) {
+    return (to_eigen(lane.centre[segment + 1]) - to_eigen(lane.centre[segment])).norm();
 }
 
 /// Unit vector along a segment in plan; null where it is vertical.
@@ -89,19 +93,18 @@ LaneProjection project(const LaneT& lane, const Eigen::Vector3d& p_world) {
     REPRISE_CHECK(lane.centre.size() >= 2, "lane " + lane.name);
     Foot nearest;
     std::size_t nearest_segment = 0;
-    double nearest_s = 0;
-    double passed = 0;
     for (std::size_t segment = 0; segment + 1 < lane.centre.size(); ++segment) {
         const Foot foot = foot_on(lane.centre[segment], lane.centre[segment + 1], p_world);
         if (segment == 0 || foot.squared_distance < nearest.squared_distance) {
             nearest = foot;
             nearest_segment = segment;
-            nearest_s = passed + foot.share * foot.length;
         }
-        passed += foot.length;
     }
+    double passed = 0;
+    for (std::size_t segment = 0; segment < nearest_segment; ++segment)
+        passed += length_of(lane, segment);
     LaneProjection projection;
-    projection.s = nearest_s;
+    projection.s = passed + nearest.share * length_of(lane, nearest_segment);
     projection.t = left_of(lane, nearest_segment, nearest, p_world);
     projection.distance = std::sqrt(nearest.squared_distance);
     return projection;
