@@ -46,10 +46,15 @@ Ahead nearest_ahead(const world::VehicleState& vehicle, const world::TickDraft& 
         if (near && std::max(0.0, *near - front) < ahead.gap)
             ahead = {std::max(0.0, *near - front), other.id()};
     };
-    for (const world::CarState& car : next.traffic.cars)
-        if ((world::to_eigen(car.position()) - pose_world_vehicle.translation()).norm() <
-            sensing_range + 20)
+    const Eigen::Vector3d forward = pose_world_vehicle.linear().col(0);
+    for (const world::CarState& car : next.traffic.cars) {
+        const Eigen::Vector3d offset =
+            world::to_eigen(car.position()) - pose_world_vehicle.translation();
+        // Whose rear axle is behind ours is none of them; most are told without their pose.
+        constexpr double rounding = 1e-6;  // [m]
+        if (offset.dot(forward) > -rounding && offset.norm() < sensing_range + 20)
             look_at(world::pose(car.position(), double{car.yaw()}, double{car.pitch()}), car);
+    }
     for (const world::VehicleState& other : next.tick.vehicles)
         if (other.id() != vehicle.id())
             look_at(world::pose(other.position(), other.orientation()), other);
