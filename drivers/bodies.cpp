@@ -22,7 +22,12 @@ void set_box(Body& body, const Eigen::Vector2d& rear_axle, const world::VehicleM
     body.kind = world::is_two_wheeler(model.body) ? BodyKind::two_wheeler : BodyKind::vehicle;
 }
 
-Body body_of(const world::VehicleState& state, const world::TickView& last) {
+/// As far as one sees: no foot on the brake, or the hazard lights on.
+bool looks_abandoned(std::uint16_t lamps) {
+    return (lamps & world::lamp_brake) == 0 || has_hazard_lights(lamps);
+}
+
+Body body_of(const world::VehicleState& state) {
     const Ego other = ego_of(state);
     Body body;
     body.direction = other.direction;
@@ -31,9 +36,7 @@ Body body_of(const world::VehicleState& state, const world::TickView& last) {
     body.speed = body.velocity.norm();
     body.z = other.position.z();
     body.id = state.id();
-    const world::Control* control = world::find(last.controls(), state.id());
-    body.abandoned =
-        (state.lamps() & world::lamp_brake) == 0 || (control != nullptr && control->hand_brake());
+    body.abandoned = looks_abandoned(state.lamps());
     return body;
 }
 
@@ -49,7 +52,7 @@ Body body_of(const world::CarState& car) {
     body.id = car.id();
     body.lane = car.lane();
     body.lane_s = static_cast<double>(car.lane_s());
-    body.abandoned = (car.lamps() & world::lamp_brake) == 0;
+    body.abandoned = looks_abandoned(car.lamps());
     return body;
 }
 
@@ -152,7 +155,7 @@ void collect_bodies(const world::TickView& last,
     for (const world::VehicleState& state : last.vehicles())
         if (state.id() != self &&
             !far(state.position(), std::hypot(state.velocity().x(), state.velocity().y())))
-            bodies.push_back(body_of(state, last));
+            bodies.push_back(body_of(state));
     for (const world::CarState& car : last.cars())
         if (!far(car.position(), static_cast<double>(car.speed())))
             bodies.push_back(body_of(car));

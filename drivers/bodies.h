@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "world/geometry2d.h"
+#include "world/models/catalogue.h"
 #include "world/tick.h"
 #include "world/units.h"
 
@@ -28,8 +29,8 @@ struct Body {
     std::uint32_t lane = world::none;  ///< of SUMO's cars
     double lane_s = 0;                 ///< of the front bumper
     BodyKind kind = BodyKind::vehicle;
-    /// A thing, a fallen walker, or a vehicle whose driver does not even brake, or has pulled the
-    /// hand brake: who stands so goes on standing.
+    /// A thing, a fallen walker, or a vehicle whose driver does not even brake, or has the hazard
+    /// lights on: who stands so goes on standing.
     bool abandoned = false;
 
     double radius() const { return std::hypot(half_length, half_width); }
@@ -37,6 +38,11 @@ struct Body {
     /// Does the segment middle +- half touch the box?
     bool meets(const Eigen::Vector2d& middle, const Eigen::Vector2d& half) const;
 };
+
+inline bool has_hazard_lights(std::uint16_t lamps) {
+    constexpr std::uint16_t both = world::lamp_left | world::lamp_right;
+    return (lamps & both) == both;
+}
 
 /// All but `self` that may come within 10 m of `around` in the next `horizon` seconds, and every
 /// open door: vehicles, cars, walkers, props, doors. What a car drives over is none.

@@ -15,6 +15,7 @@ namespace {
 constexpr double side_margin = 0.3;     // [m] between our side and theirs
 constexpr double horizon = 1.5;         // [s] of foresight
 constexpr double look_step = 0.25;      // [s]
+constexpr double side_by_side = 0.9;    // cosine of the angle to us: drives as we do
 constexpr std::size_t coarse_step = 8;  // [samples] = 4 m
 
 }  // namespace
@@ -131,12 +132,15 @@ void Hazards::foresee(const Body& body, const Scene& scene, double distance) {
     const double along = moved.speed * moved.direction.dot(scene.path.at(contact).direction);
     const double gap = contact - ego.front_s();
     if (along > 0.7 * body.speed && along > 1) {
-        // Joins our way: follow at once, from where it is now.
+        // Joins our way: follow at once, from where it is now. Who comes onto it beside us at an
+        // angle crosses before us first.
         const double behind = gap - along * entered;
-        if (behind > 0)
-            acceleration_ =
-                std::min(acceleration_, follow_acceleration(behind, ego.speed, along, scene.style));
-        return;
+        if (behind > 0 || heading > side_by_side) {
+            if (behind > 0)
+                acceleration_ = std::min(
+                    acceleration_, follow_acceleration(behind, ego.speed, along, scene.style));
+            return;
+        }
     }
     // Crosses: into our side, where braking helps nobody; or before us, then only if we are there
     // at the same time, half a second more or less.

@@ -18,6 +18,7 @@ constexpr double slow_walker = 2.5;     // [m/s]
 constexpr double crawling = 3;          // [m/s]
 constexpr double worth_it = 1.4;        // times as fast is what the road allows
 constexpr double for_queue = 40;        // [m] before a junction cars may stand in a queue
+constexpr double dark_time = 2.5;       // [s] that one who starts has no foot on the brake, at most
 constexpr double before_oncoming = 2;   // [s] longer to wait for the other direction's lane
 constexpr double hardly_out = 0.35;     // share of the way aside until which it gives up
 constexpr double pass_gain = 0.8;       // [1/s]
@@ -127,10 +128,15 @@ void Passing::come_back(const Ego& ego, double beside) {
     plan_ = std::move(home);
 }
 
+/// Anew when somebody else is ahead, and when the same one begins or ends to look as if nobody were
+/// at the wheel: in a queue that moves up the brake lamps go out before the cars go on.
 void Passing::watch(const Neighbour& one) {
     const std::uint32_t slow = one.body.speed < slow_two_wheeler ? one.body.id : 0;
-    watched_ticks_ = slow == 0 ? 0 : slow == watched_ ? watched_ticks_ + 1 : 1;
+    const bool abandoned = one.stands() && one.body.abandoned;
+    const bool same = slow == watched_ && abandoned == watched_abandoned_;
+    watched_ticks_ = slow == 0 ? 0 : same ? watched_ticks_ + 1 : 1;
     watched_ = slow;
+    watched_abandoned_ = abandoned;
 }
 
 /// [s] of watching until one knows that somebody will not go on soon, or never faster. Infinity:
@@ -161,7 +167,7 @@ double Passing::patience(const Neighbour& one, const PassingScene& scene) const 
             break;
     }
     if (body.abandoned)
-        return 1;
+        return dark_time;
     return has_no_reason(one, scene) ? 15 : world::infinity;
 }
 
@@ -216,6 +222,8 @@ void Passing::add_to(world::Hasher& hasher) const {
         return;
     hasher.add(watched_);
     hasher.add(watched_ticks_);
+    if (watched_abandoned_)
+        hasher.add(watched_abandoned_);
     hasher.add(plan_.has_value());
     if (!plan_)
         return;

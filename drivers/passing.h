@@ -76,7 +76,8 @@ class Passing {
     double step_;
     std::optional<PassingPlan> plan_;
     std::uint32_t watched_ = 0;          ///< the first one ahead, that stands or crawls
-    std::uint32_t watched_ticks_ = 0;    ///< for so long
+    std::uint32_t watched_ticks_ = 0;    ///< for so long, looking the same
+    bool watched_abandoned_ = false;     ///< it stands, and nobody seems to be at the wheel
     double stop_s_ = world::infinity;    ///< where to stop, to have room; follows from the tick
     double missing_room_ = 0;            ///< likewise
     std::vector<Neighbour> neighbours_;  ///< of this tick

@@ -124,9 +124,8 @@ bool somebody_comes(const PassingScene& scene, const PassingPlan& plan) {
         if (other.id() == scene.ego.id || measured == nullptr)
             continue;
         const Ego seen = ego_of(other);
-        // Who stands with the hand brake on, or backwards on the lane, does not come along it.
-        const world::Control* control = world::find(scene.last.controls(), other.id());
-        if (control != nullptr && control->hand_brake() && std::abs(seen.speed) < 0.3)
+        // Who stands with the hazard lights on does not come along it.
+        if (has_hazard_lights(other.lamps()) && std::abs(seen.speed) < 0.3)
             continue;
         if (comes(measured->lane(),
                   measured->lane_s() + seen.model->length - seen.model->rear_overhang,

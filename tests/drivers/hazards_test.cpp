@@ -92,6 +92,15 @@ TEST(Hazards, TheNearestOfSeveralDecides) {
     EXPECT_EQ(road.hazards.overlaps().size(), 2U);
 }
 
+TEST(Hazards, WhoTurnsInBesideOurNoseIsLetIn) {
+    // From the left, on our lane in a quarter of a second, where our nose is by then.
+    const double turned = -45 * std::numbers::pi / 180;
+    for (const double speed : {8.0, 10.0})
+        EXPECT_LT(Road(6).look({test::car_at(1'000'000, 3, 4.5, turned, speed)}), -5) << speed;
+    // Far ahead of us it is somebody to follow.
+    EXPECT_GT(Road(6).look({test::car_at(1'000'000, 30, 4.5, turned, 8)}), 0);
+}
+
 TEST(Hazards, AWalkerWhoWillStepOntoThePathIsSeenBeforeHeIsThere) {
     // 2.2 m beside the path at 1.5 m/s he reaches our corridor within the 1.5 s that are foreseen;
     // at 10 m/s we are 20 m ahead of the bumper in 2 s.

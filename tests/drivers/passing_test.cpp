@@ -283,5 +283,22 @@ TEST(Passing, NobodyWhoDrivesOrWaits) {
     EXPECT_LT(drive_past(queue, 60).farthest_left, 0.1) << "a queue";
 }
 
+TEST(Passing, NobodyWhoseBrakeLampsGoOutToMoveUp) {
+    Overtaker drive({2, true});
+    drive.place(ours, 80, 5);
+    drive.cars = {car_on(120, 0, 0, 0, "sedan")};
+    while (drive.seconds() < 60) {
+        // Two seconds of every twelve dark: that is all one sees of a queue that does not move
+        // after all.
+        const bool dark = std::fmod(drive.seconds(), 12) > 10;
+        drive.cars[0].mutate_lamps(dark ? std::uint16_t{0} : std::uint16_t{world::lamp_brake});
+        EXPECT_LT(drive_past(drive, drive.seconds() + 0.04).farthest_left, 0.1)
+            << "at " << drive.seconds() << " s";
+        ASSERT_GT(drive.car.speed, -0.1) << "it backs off, to get around";
+        if (drive.seconds() > 14.9)
+            break;  // behind has_no_reason's 15 s of standing it may
+    }
+}
+
 }  // namespace
 }  // namespace reprise::test
