@@ -18,6 +18,8 @@ const char* through(PassingPlan::Uses uses) {
             return "within its lane";
         case PassingPlan::Uses::next_lane:
             return "through the lane beside";
+        case PassingPlan::Uses::junction:
+            return "over the junction";
         case PassingPlan::Uses::oncoming_lane:
             break;
     }

@@ -13,6 +13,7 @@ constexpr double far_behind = 100;      // [m]
 constexpr double far_ahead = 160;       // [m]
 constexpr double plan_time = 4;         // [s] before it, at most
 constexpr double plan_distance = 14;    // [m]
+constexpr double far_wait = 30;         // [m] standing
 constexpr double slow_two_wheeler = 7;  // [m/s]
 constexpr double slow_walker = 2.5;     // [m/s]
 constexpr double crawling = 3;          // [m/s]
@@ -96,7 +97,9 @@ bool Passing::consider(const world::TickView& last,
     const double watched = watched_ticks_ * step_;
     const double wait = patience(*first, scene);
     const double gap = nearest->s - ego.front_s();
-    if (wait == world::infinity || gap > plan_distance + plan_time * ego.speed)
+    // Who waits before a junction looks across it.
+    const double sight = ego.speed < 0.5 ? far_wait : plan_distance + plan_time * ego.speed;
+    if (wait == world::infinity || gap > sight)
         return false;
     std::optional<PassingPlan> plan = plan_passing(scene, *first);
     if (!plan)
@@ -105,7 +108,7 @@ bool Passing::consider(const world::TickView& last,
             return change.start < plan->bypass.back_end + 2 && change.end > ego.rear_s();
         }))
         return false;
-    const bool oncoming = plan->uses == PassingPlan::Uses::oncoming_lane;
+    const bool oncoming = plan->uses >= PassingPlan::Uses::oncoming_lane;
     const bool may = watched >= wait + (oncoming ? before_oncoming : 0);
     if (may && plan->is_free && plan->missing <= 0) {
         plan_ = std::move(plan);
@@ -168,7 +171,7 @@ double Passing::patience(const Neighbour& one, const PassingScene& scene) const 
     }
     if (body.abandoned)
         return dark_time;
-    return has_no_reason(one, scene) ? 15 : world::infinity;
+    return has_no_reason(one, scene) || faces_us(one, scene.way) ? 15 : world::infinity;
 }
 
 /// No junction, nobody before it: nothing that a driver would wait for.

@@ -31,6 +31,9 @@ constexpr double follower_time = 4.5;    // [s] that somebody faster needs to se
 constexpr double pace = 1.2;             // [m/s^2] with which we get going
 constexpr double longest_row = 40;       // [m]
 constexpr int most_in_row = 8;
+constexpr double over_junction = 3;  // [m/s] where no lanes tell who may come
+constexpr double on_road = 0.3;      // [m] that the surfaces of lanes may leave between them
+constexpr double from_poles = 0.2;   // [m]
 
 double sharpest_step(const world::VehicleModel& model) {
     return steering_share * std::tan(model.max_steering_angle) / model.wheelbase;
@@ -158,7 +161,8 @@ bool somebody_follows(const PassingScene& scene, const PassingPlan& plan) {
 }
 
 /// The line past the row on one side; nothing is looked at but the row.
-PassingPlan line_past(const PassingScene& scene, const Row& row, bool to_left) {
+/// [m/s] at most.
+PassingPlan line_past(const PassingScene& scene, const Row& row, bool to_left, double most) {
     const world::VehicleModel& model = *scene.ego.model;
     const double half = model.width / 2 + tracking;
     PassingPlan plan;
@@ -170,7 +174,7 @@ PassingPlan line_past(const PassingScene& scene, const Row& row, bool to_left) {
     const double width = way.aside - way.from;
     const double s = scene.tracked_s();
     const double limit = std::sqrt(scene.way.path().at(s).squared_speed);
-    plan.speed = std::min(row.speed, std::max(limit, 3.0));
+    plan.speed = std::min({row.speed, std::max(limit, 3.0), most});
 
     const double least = Bypass::shortest_step(width, sharpest_step(model));
     way.out_end = row.rear - before_them;
@@ -181,7 +185,7 @@ PassingPlan line_past(const PassingScene& scene, const Row& row, bool to_left) {
     const double length = std::clamp(ahead, std::min(least, wanted), wanted);
     way.out_start = way.out_end - length;
     plan.out_speed = std::min(plan.speed, Bypass::fastest(width, length, quickest_step));
-    plan.speed = std::min(plan.speed, std::max(plan.out_speed, brisk));
+    plan.speed = std::min({plan.speed, std::max(plan.out_speed, brisk), most});
 
     // Those who go on are some metres farther when we have passed them.
     way.back_start = row.front + scene.to_rear() + behind_them;
@@ -214,6 +218,36 @@ std::optional<PassingPlan::Uses> road_for(const PassingScene& scene,
     return std::nullopt;
 }
 
+bool reaches_junction(const PassingScene& scene, const PassingPlan& plan) {
+    const auto& gates = scene.way.gates();
+    return std::any_of(gates.begin(), gates.end(), [&](const Gate& gate) {
+        return gate.s - before_junction < plan.bypass.back_end && gate.exit_s > scene.tracked_s();
+    });
+}
+
+/// Is there road under all of the car, all along the line? Junctions have no lanes beside each
+/// other, but ways over them in all directions.
+bool lies_on_road(const PassingScene& scene, const PassingPlan& plan) {
+    constexpr double step = 2;  // [m]
+    const Path& path = scene.way.path();
+    const double half = scene.ego.model->width / 2;
+    if (plan.bypass.back_end > path.end() - 1)
+        return false;
+    for (double s = scene.tracked_s(); s < plan.bypass.back_end + step; s += step) {
+        const PathPoint here = path.at(s);
+        const Eigen::Vector3d left(-here.direction.y(), here.direction.x(), 0);
+        const Eigen::Vector3d middle = here.position + plan.bypass.offset(s) * left;
+        for (const double side : {-1.0, 1.0}) {
+            const Eigen::Vector3d edge = middle + side * (half + from_edge) * left;
+            if (scene.map.lanes.at(edge, on_road).empty() ||
+                scene.map.clearances.look(middle, side * left.head<2>()).to_obstacle <
+                    half + from_poles)
+                return false;
+        }
+    }
+    return true;
+}
+
 enum class Met : std::uint8_t { nobody, thing, somebody };
 
 /// Who else is in the way of the plan?
@@ -241,10 +275,16 @@ std::optional<PassingPlan> plan_side(const PassingScene& scene,
                                      bool to_left) {
     Row row;
     row.take(first, true);
+    const bool stays = first.stands() && (first.body.abandoned || faces_us(first, scene.way));
     std::vector<std::uint32_t> ids{first.body.id};
     for (int round = 0; round < most_in_row; ++round) {
-        PassingPlan plan = line_past(scene, row, to_left);
-        const auto uses = road_for(scene, plan, to_left);
+        PassingPlan plan = line_past(scene, row, to_left, world::infinity);
+        auto uses = road_for(scene, plan, to_left);
+        if (!uses && stays) {
+            plan = line_past(scene, row, to_left, over_junction);
+            if (reaches_junction(scene, plan) && lies_on_road(scene, plan))
+                uses = PassingPlan::Uses::junction;
+        }
         if (!uses || row.front - row.rear > longest_row)
             return std::nullopt;
         plan.uses = *uses;
@@ -292,6 +332,11 @@ double PassingScene::to_rear() const {
     return ego.model->rear_overhang + tracked_ahead(*ego.model);
 }
 
+bool faces_us(const Neighbour& one, const Way& way) {
+    return one.body.kind == BodyKind::vehicle && one.stands() &&
+           one.body.direction.dot(way.path().at(one.rear).direction) < -0.5;
+}
+
 double clearance_of(const Neighbour& one) {
     return one.body.kind == BodyKind::walker || one.body.kind == BodyKind::two_wheeler
                ? from_people
@@ -309,13 +354,16 @@ bool is_free(const PassingScene& scene, const PassingPlan& plan) {
         return true;
     if (somebody_follows(scene, plan))
         return false;
-    return plan.uses != PassingPlan::Uses::oncoming_lane || !somebody_comes(scene, plan);
+    return plan.uses == PassingPlan::Uses::next_lane || !somebody_comes(scene, plan);
 }
 
 std::optional<PassingPlan> plan_passing(const PassingScene& scene, const Neighbour& first) {
     std::optional<PassingPlan> best;
-    const auto cost = [](const PassingPlan& plan) {
-        return std::abs(plan.bypass.aside) + (plan.is_free ? 0 : 2) +
+    const auto cost = [&](const PassingPlan& plan) {
+        // Two who meet nose to nose both go around on the side on which they drive.
+        const bool wrong_side =
+            (plan.bypass.aside > 0) != scene.map.town.left_hand && faces_us(first, scene.way);
+        return std::abs(plan.bypass.aside) + (plan.is_free ? 0 : 2) + (wrong_side ? 10 : 0) +
                3 * static_cast<double>(plan.uses);
     };
     for (const bool to_left : {true, false}) {

@@ -33,7 +33,7 @@ struct PassingScene {
 /// A way past a row of things, as one would drive it from here.
 struct PassingPlan {
     /// What it takes of the road.
-    enum class Uses : std::uint8_t { own_lane, next_lane, oncoming_lane };
+    enum class Uses : std::uint8_t { own_lane, next_lane, oncoming_lane, junction };
 
     Bypass bypass;
     double out_speed = 0;            ///< [m/s] at most, while it turns out
@@ -44,6 +44,9 @@ struct PassingPlan {
     double room = 0;      ///< [m] from the bumper to the first of them, that getting out takes
     bool is_free = true;  ///< nobody comes
 };
+
+/// Does it stand on our way with its front towards us? No queue that we are in will move it.
+bool faces_us(const Neighbour& one, const Way& way);
 
 /// How far from them one keeps. [m]
 double clearance_of(const Neighbour& one);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/drivers/junction_road.h"
 #include "tests/drivers/kinematic_car.h"
 #include "world/models/prop_models.h"
 
@@ -298,6 +299,63 @@ TEST(Passing, NobodyWhoseBrakeLampsGoOutToMoveUp) {
         if (drive.seconds() > 14.9)
             break;  // behind has_no_reason's 15 s of standing it may
     }
+}
+
+/// junction_road with a lane back west, 3.5 m to the left of ours.
+world::TownT two_way_junction() {
+    using world::LaneKind;
+    constexpr double west = std::numbers::pi;
+    world::TownT town = junction_road(false);
+    town.lanes.push_back(make_lane("from_east", Turtle(410, 3.5, west).ahead(200)));
+    town.lanes.push_back(
+        make_lane(":2", Turtle(210, 3.5, west).ahead(10), 13.89, LaneKind::internal));
+    town.lanes.push_back(make_lane("to_west", Turtle(200, 3.5, west).ahead(200)));
+    town.lanes[6].links = {make_link(8, 7, world::Turn::straight)};
+    town.lanes[7].links = {make_link(8, world::none, world::Turn::straight)};
+    town.lanes[6].junction = 0;
+    town.lanes[0].opposite = 8;
+    town.lanes[8].opposite = 0;
+    town.lanes[2].opposite = 6;
+    town.lanes[6].opposite = 2;
+    return town;
+}
+
+TEST(Passing, AWreckInAJunctionOrJustBeforeIt) {
+    for (const double x : {185.0, 195.0, 205.0, 212.0})
+        for (const double yaw : {0.0, 0.6, quarter}) {
+            Drive drive(two_way_junction());
+            drive.autopilot->may_overtake(true);
+            drive.place(ours, 100, 10);
+            drive.cars = {car_on(x, yaw == quarter ? -2 : 0, yaw, 0, "sedan")};
+            const Outcome outcome = drive_past(drive, 90);
+            EXPECT_GT(outcome.clearance, 0.3) << x << " m, " << yaw;
+            EXPECT_GT(outcome.x, 300) << x << " m, " << yaw;
+            EXPECT_NEAR(outcome.at_end, 0, 0.1) << x << " m, " << yaw;
+        }
+}
+
+TEST(Passing, NobodyWhoComesOverTheJunctionMeetsUsThere) {
+    for (const double from : {260.0, 300.0, 340.0}) {
+        Drive drive(two_way_junction());
+        drive.autopilot->may_overtake(true);
+        drive.place(ours, 180, 0);
+        world::CarState comer = car_on(from, 3.5, std::numbers::pi, 10, "sedan");
+        comer.mutate_id(51);
+        drive.cars = {car_on(205, 0, 0, 0, "sedan"), comer};
+        const Outcome outcome = drive_past(drive, 90);
+        EXPECT_GT(outcome.clearance, 0.3) << from;
+        EXPECT_GT(outcome.x, 300) << from;
+    }
+}
+
+TEST(Passing, WhoStandsNoseToNoseWithUs) {
+    Overtaker drive({1, true});
+    drive.place(ours, 20, 8);
+    drive.cars = {car_on(120, 0, std::numbers::pi, 0, "sedan")};
+    drive.cars[0].mutate_lamps(world::lamp_brake);
+    const Outcome outcome = drive_past(drive, 90);
+    EXPECT_GT(outcome.clearance, 0.45);
+    EXPECT_GT(outcome.x, 300);
 }
 
 }  // namespace
