@@ -28,6 +28,9 @@ constexpr double gives_up = 3;          // [s] of standing while it wants back
 constexpr double turn_of_tail = 0.3;    // [rad] for each metre beside the path
 constexpr double most_turn = 0.5;       // [rad]
 constexpr double turn_gain = 2;
+constexpr double patience_circling = 6;  // [s]
+constexpr double full_lock = 0.95;       // share of the steering
+constexpr double getting_on = 1;         // [m]
 
 }  // namespace
 
@@ -57,12 +60,26 @@ bool BackOff::notice(const world::TickView& last, const Ego& ego, double throttl
     return true;
 }
 
+bool BackOff::notice_circling(const Ego& ego, double s, double steer) {
+    const bool turns = std::abs(steer) > full_lock && ego.speed > 0.1;
+    if (!turns || circling_ticks_ == 0 || std::abs(s - circling_from_) > getting_on) {
+        circling_ticks_ = turns ? 1 : 0;
+        circling_from_ = s;
+        return false;
+    }
+    ++circling_ticks_;
+    if (circling_ticks_ * step_ < patience_circling)
+        return false;
+    begin(first_distance + more_each_time * std::min(tries_, most_more), ego);
+    ++tries_;
+    return true;
+}
+
 bool BackOff::make_room(double distance, const world::TickView& last, const Ego& ego) {
     if (going_back_ || tries_ >= most_more || somebody_is_behind(last, ego))
         return false;
     begin(distance, ego);
     ++tries_;
-    free_ticks_ = 0;
     return true;
 }
 
@@ -75,7 +92,8 @@ void BackOff::begin(double distance, const Ego& ego) {
     going_back_ = true;
     distance_ = distance;
     from_ = ego.position.head<2>();
-    pushing_ticks_ = standing_ticks_ = 0;
+    pushing_ticks_ = standing_ticks_ = circling_ticks_ = 0;
+    free_ticks_ = 0;
 }
 
 bool BackOff::somebody_is_behind(const world::TickView& last, const Ego& ego) const {
@@ -134,6 +152,10 @@ void BackOff::add_to(world::Hasher& hasher) const {
     for (const std::uint32_t ticks : {pushing_ticks_, free_ticks_, tries_})
         if (ticks > 0)
             hasher.add(ticks);
+    if (circling_ticks_ > 0) {
+        hasher.add(circling_ticks_);
+        hasher.add(circling_from_);
+    }
     if (!going_back_)
         return;
     hasher.add(distance_);

@@ -32,6 +32,10 @@ class BackOff {
     /// begins to go back.
     bool notice(const world::TickView& last, const Ego& ego, double throttle);
 
+    /// After each tick of driving: `s` is where the car is along its path, `steer` as in Control.
+    /// True: at full lock it gets nowhere along it, and begins to go back.
+    bool notice_circling(const Ego& ego, double s, double steer);
+
     /// Goes back by so much, to have room ahead [m]; false: somebody is behind, or it did often.
     bool make_room(double distance, const world::TickView& last, const Ego& ego);
 
@@ -53,10 +57,12 @@ class BackOff {
     bool somebody_is_behind(const world::TickView& last, const Ego& ego) const;
 
     double step_;
-    double impulse_ = 0;               ///< [N s] taken up so far, of all kinds
-    std::uint32_t pushing_ticks_ = 0;  ///< of throttle, contact and standing
-    std::uint32_t free_ticks_ = 0;     ///< since the last contact
-    std::uint32_t tries_ = 0;          ///< one after another
+    double impulse_ = 0;                ///< [N s] taken up so far, of all kinds
+    std::uint32_t pushing_ticks_ = 0;   ///< of throttle, contact and standing
+    std::uint32_t free_ticks_ = 0;      ///< since the last contact
+    std::uint32_t tries_ = 0;           ///< one after another
+    std::uint32_t circling_ticks_ = 0;  ///< at full lock, without getting on
+    double circling_from_ = 0;          ///< along the path, where that began
     bool going_back_ = false;
     double distance_ = 0;
     Eigen::Vector2d from_ = {0, 0};     ///< where it began

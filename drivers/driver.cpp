@@ -161,6 +161,11 @@ world::Control Autopilot::decide(const world::TickView& last) {
         state.gatekeeper.reset();
 
     state.rear_axle_s = ego.rear_axle_s;
+    state.notice_circling(last, ego);
+    if (state.back_off.is_going_back()) {
+        state.go_back(last, ego, control);
+        return control;
+    }
     state.take_jump(ego);
 
     state.at_end = state.way().ended() && state.way().path().end() - ego.front_s() < end_reach;
@@ -271,6 +276,18 @@ void DriverState::notice_pushing(const world::TickView& last, const Ego& ego) {
                 0,
                 fmt::format("backs off {:.1f} m, after pushing against something for 2 s",
                             back_off.distance())};
+}
+
+/// Where the lanes of a map bend more than the car can, or jump aside, it would drive in circles.
+void DriverState::notice_circling(const world::TickView& last, const Ego& ego) {
+    const world::Control* given = world::find(last.controls(), actor);
+    const bool told = speed_order.reacts_to_nothing();
+    if (given == nullptr || told || pid)
+        return;
+    if (back_off.notice_circling(ego, ego.rear_axle_s, given->steer()))
+        news = {world::EventKind::backed_off,
+                0,
+                fmt::format("backs off {:.1f} m, to get around a bend", back_off.distance())};
 }
 
 /// Hands and feet while we go back; when that is done, a new path from there.

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
+#include "drivers/driver_news.h"
 #include "drivers/road_map.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"
@@ -13,13 +13,6 @@
 namespace reprise::drivers {
 
 struct DriverState;  // driver_state.h
-
-/// What a driver does of its own will, as its event tells it.
-struct DriverNews {
-    world::EventKind kind;    ///< backed_off, overtakes
-    std::uint32_t other = 0;  ///< overtakes: whom
-    std::string text;         ///< why, how
-};
 
 /// The built-in driver: follows lanes with Stanley steering, holds speed by feed-forward with
 /// proportional and integral terms, keeps its distance (IDM), stops at red and at stop signs, gives

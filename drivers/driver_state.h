@@ -13,7 +13,7 @@
 #include "drivers/control/pid_driver.h"
 #include "drivers/control/turn_around.h"
 #include "drivers/control/wide_turn.h"
-#include "drivers/driver.h"
+#include "drivers/driver_news.h"
 #include "drivers/gatekeeper.h"
 #include "drivers/hazards.h"
 #include "drivers/navigator.h"
@@ -51,6 +51,7 @@ struct DriverState {
     std::uint16_t lamps(const world::TickView& last, const Ego& ego) const;
     void creep(double speed, double along, double climb, world::Control& control);
     void notice_pushing(const world::TickView& last, const Ego& ego);
+    void notice_circling(const world::TickView& last, const Ego& ego);
     void go_back(const world::TickView& last, Ego& ego, world::Control& control);
     void pass(const world::TickView& last, const Ego& ego);
     void take_jump(const Ego& ego);
