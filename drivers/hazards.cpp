@@ -16,6 +16,9 @@ constexpr double side_margin = 0.3;     // [m] between our side and theirs
 constexpr double horizon = 1.5;         // [s] of foresight
 constexpr double look_step = 0.25;      // [s]
 constexpr double side_by_side = 0.9;    // cosine of the angle to us: drives as we do
+constexpr double long_half = 3.5;       // [m]
+constexpr double swing = 0.8;           // [m] to both sides
+constexpr double turning = 0.5;         // [rad] over the junction
 constexpr std::size_t coarse_step = 8;  // [samples] = 4 m
 
 }  // namespace
@@ -75,8 +78,23 @@ void Hazards::look(const world::TickView& last,
     make_corridor(ego, path);
     const Scene scene{ego, path, style};
     collect_bodies(last, ego.id, box_, horizon, bodies_);
-    for (const Body& body : bodies_)
+    for (Body& body : bodies_) {
+        if (swings_out(body))
+            body.half_width += swing;
         consider(body, scene);
+    }
+}
+
+/// A long vehicle that turns in a junction: its tail leaves the way of its front.
+bool Hazards::swings_out(const Body& body) const {
+    if (body.half_length < long_half || body.speed < 0.3 || body.lane >= town_->lanes.size())
+        return false;
+    const world::LaneT& lane = town_->lanes[body.lane];
+    if (lane.kind != world::LaneKind::internal)
+        return false;
+    const double from = world::point_at(lane, 0).yaw;
+    const double to = world::point_at(lane, lane.length).yaw;
+    return std::abs(world::wrap_angle(to - from)) > turning;
 }
 
 void Hazards::consider(const Body& body, const Scene& scene) {

@@ -54,6 +54,7 @@ class Hazards {
 
     void make_corridor(const Ego& ego, const Path& path);
     SweptWidth corridor_at(std::size_t sample) const;
+    bool swings_out(const Body& body) const;
     void consider(const Body& body, const Scene& scene);
     void foresee(const Body& body, const Scene& scene, double distance);
     bool place_after(const Body& body, double time, Body& moved) const;

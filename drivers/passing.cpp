@@ -33,7 +33,7 @@ void Passing::follow(const world::TickView& last, const Ego& ego, const Way& way
     if (!plan_)
         return;
     Bypass& line = plan_->bypass;
-    const PassingScene where{last, ego, way, *map_, {}, 0};
+    const PassingScene where{last, ego, way, *map_, {}, 0, 0};
     const double s = where.tracked_s();
     if (s > line.back_end) {
         plan_.reset();
@@ -43,7 +43,7 @@ void Passing::follow(const world::TickView& last, const Ego& ego, const Way& way
     if (s >= line.back_start)
         return;
     look_along(last, ego, way.path(), far_behind, far_ahead, neighbours_);
-    const PassingScene scene{last, ego, way, *map_, neighbours_, line.offset(s)};
+    const PassingScene scene{last, ego, way, *map_, neighbours_, line.offset(s), 0};
 
     // Who moves is passed when it is passed.
     double front = -world::infinity;
@@ -93,8 +93,8 @@ bool Passing::consider(const world::TickView& last,
     if (first == nullptr)
         return false;
     watch(*first);
-    const PassingScene scene{last, ego, way, *map_, neighbours_, beside};
     const double watched = watched_ticks_ * step_;
+    const PassingScene scene{last, ego, way, *map_, neighbours_, beside, watched};
     const double wait = patience(*first, scene);
     const double gap = nearest->s - ego.front_s();
     // Who waits before a junction looks across it.
@@ -235,6 +235,8 @@ void Passing::add_to(world::Hasher& hasher) const {
     hasher.add(plan_->speed);
     hasher.add(std::span<const std::uint32_t>(plan_->row));
     hasher.add(plan_->uses);
+    if (plan_->past_waiting)
+        hasher.add(plan_->past_waiting);
 }
 
 }  // namespace reprise::drivers

@@ -31,6 +31,7 @@ constexpr double follower_time = 4.5;    // [s] that somebody faster needs to se
 constexpr double pace = 1.2;             // [m/s^2] with which we get going
 constexpr double longest_row = 40;       // [m]
 constexpr int most_in_row = 8;
+constexpr double long_wait = 12;     // [s] then those who stand wait for the same thing as we
 constexpr double over_junction = 3;  // [m/s] where no lanes tell who may come
 constexpr double on_road = 0.3;      // [m] that the surfaces of lanes may leave between them
 constexpr double from_poles = 0.2;   // [m]
@@ -112,7 +113,7 @@ bool somebody_comes(const PassingScene& scene, const PassingPlan& plan) {
     const double behind_us =
         world::project(town.lanes[opposite], scene.way.path().at(s).position).s;
     const auto comes = [&](std::uint32_t on, double at, double speed) {
-        if (on >= town.lanes.size())
+        if (on >= town.lanes.size() || (plan.past_waiting && speed < 0.3))
             return false;
         if (on == opposite && at > goal)
             return at < behind_us && speed > 0.3;
@@ -306,6 +307,7 @@ std::optional<PassingPlan> plan_side(const PassingScene& scene,
         if (grown)
             continue;
         plan.row = std::move(ids);
+        plan.past_waiting = scene.waited > long_wait;
         // Too fast to turn out so soon: later, when it has slowed down.
         const double braking =
             (scene.ego.speed * scene.ego.speed - plan.out_speed * plan.out_speed) /

@@ -21,6 +21,7 @@ struct PassingScene {
     const RoadMap& map;
     std::span<const Neighbour> neighbours;
     double beside = 0;  ///< [m] left of the path, where the car is
+    double waited = 0;  ///< [s] for the first of them
 
     /// Of the point that is steered along the path. [m]
     double tracked_s() const;
@@ -43,6 +44,7 @@ struct PassingPlan {
     double missing = 0;   ///< [m] ahead of the car to get out at all; 0: it has the room
     double room = 0;      ///< [m] from the bumper to the first of them, that getting out takes
     bool is_free = true;  ///< nobody comes
+    bool past_waiting = false;  ///< who stands does not count as coming: they wait for us
 };
 
 /// Does it stand on our way with its front towards us? No queue that we are in will move it.

@@ -17,7 +17,8 @@ constexpr double northward = std::numbers::pi / 2;
 class Road {
   public:
     explicit Road(double speed)
-        : hazards(town_),
+        : town_(town_with_a_turn()),
+          hazards(town_),
           ego_(ego_of(test::vehicle_at(1, 0, 0, 0, speed))) {
         std::vector<Eigen::Vector3d> line;
         for (const world::Vec3& point : test::Turtle(0, 0, 0).ahead(300).line())
@@ -38,6 +39,17 @@ class Road {
     double front() const { return ego_.front_s(); }
 
   private:
+    /// Lane 0: in a junction, from (10, 30) southward into a left turn that ends eastward.
+    static world::TownT town_with_a_turn() {
+        world::TownT town;
+        town.lanes = {
+            test::make_lane(":turn",
+                            test::Turtle(10, 30, -northward).ahead(12).turn(northward, 14),
+                            8,
+                            world::LaneKind::internal)};
+        return town;
+    }
+
     world::TownT town_;
     Path path_;
 
@@ -99,6 +111,21 @@ TEST(Hazards, WhoTurnsInBesideOurNoseIsLetIn) {
         EXPECT_LT(Road(6).look({test::car_at(1'000'000, 3, 4.5, turned, speed)}), -5) << speed;
     // Far ahead of us it is somebody to follow.
     EXPECT_GT(Road(6).look({test::car_at(1'000'000, 30, 4.5, turned, 8)}), 0);
+}
+
+TEST(Hazards, TheTailOfALongVehicleThatTurnsInAJunctionNeedsRoom) {
+    // Beside our lane, its side 1.5 m from the middle of it; in a junction or not, long or not.
+    const auto beside_us = [](const char* model, std::uint32_t lane) {
+        const world::VehicleModel& of = world::vehicle_models()[*world::find_vehicle_model(model)];
+        world::CarState car = test::car_at(1'000'000, 18, 1.5 + of.width / 2, 0, 4);
+        car.mutate_model(*world::find_vehicle_model(model));
+        car.mutate_lane(lane);
+        car.mutate_lane_s(20);
+        return Road(6).look({car});
+    };
+    EXPECT_LT(beside_us("bus", 0), 1);
+    EXPECT_EQ(beside_us("bus", world::none), world::infinity);
+    EXPECT_EQ(beside_us("sedan", 0), world::infinity);
 }
 
 TEST(Hazards, AWalkerWhoWillStepOntoThePathIsSeenBeforeHeIsThere) {

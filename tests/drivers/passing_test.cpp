@@ -348,6 +348,21 @@ TEST(Passing, NobodyWhoComesOverTheJunctionMeetsUsThere) {
     }
 }
 
+TEST(Passing, WhoWaitsForTheSameWreckDoesNotHoldUsForEver) {
+    Drive drive(two_way_junction());
+    drive.autopilot->may_overtake(true);
+    drive.place(ours, 150, 5);
+    world::CarState waits = car_on(230, 3.5, std::numbers::pi, 0, "sedan");
+    waits.mutate_id(51);
+    waits.mutate_lane(6);
+    waits.mutate_lane_s(180);
+    waits.mutate_lamps(world::lamp_brake);
+    drive.cars = {car_on(200, 0.3, 0.3, 0, "sedan"), waits};
+    const Outcome outcome = drive_past(drive, 90);
+    EXPECT_GT(outcome.clearance, 0.3);
+    EXPECT_GT(outcome.x, 300);
+}
+
 TEST(Passing, WhoStandsNoseToNoseWithUs) {
     Overtaker drive({1, true});
     drive.place(ours, 20, 8);
