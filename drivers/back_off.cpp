@@ -28,6 +28,8 @@ constexpr double gives_up = 3;          // [s] of standing while it wants back
 constexpr double turn_of_tail = 0.3;    // [rad] for each metre beside the path
 constexpr double most_turn = 0.5;       // [rad]
 constexpr double turn_gain = 2;
+constexpr double nose_room = 0.8;        // [m] that the nose swings out, about
+constexpr double nearly_straight = 0.1;  // [rad] of the wheels
 constexpr double patience_circling = 6;  // [s]
 constexpr double full_lock = 0.95;       // share of the steering
 constexpr double getting_on = 1;         // [m]
@@ -119,6 +121,29 @@ bool BackOff::somebody_is_behind(const world::TickView& last, const Ego& ego) co
     });
 }
 
+/// Going back with the wheels turned, the nose swings out to the other side. `side`: 1 left, -1
+/// right.
+bool BackOff::somebody_is_beside_nose(const world::TickView& last,
+                                      const Ego& ego,
+                                      double side) const {
+    world::Box around;
+    around.take(ego.position.head<2>(), 10);
+    std::vector<Body> bodies;
+    collect_bodies(last, ego.id, around, 0, bodies);
+    const Eigen::Vector2d out = side * Eigen::Vector2d(-ego.direction.y(), ego.direction.x());
+    const Eigen::Vector2d middle_out = (ego.model->width / 2 + nose_room / 2) * out;
+    const double front = ego.model->length - ego.model->rear_overhang;
+    return std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+        if (std::abs(body.z - ego.position.z()) > world::level_clearance)
+            return false;
+        for (double ahead = ego.model->wheelbase / 2; ahead < front + nose_room; ahead += 0.3)
+            if (body.meets(ego.position.head<2>() + ahead * ego.direction + middle_out,
+                           nose_room / 2 * out))
+                return true;
+        return false;
+    });
+}
+
 BackOff::Move BackOff::next(const world::TickView& last,
                             const Ego& ego,
                             const Path* path,
@@ -140,7 +165,11 @@ BackOff::Move BackOff::next(const world::TickView& last,
             -1.0,
             1.0);
     }
-    if (!done && !somebody_is_behind(last, ego))
+    const bool straight = somebody_is_beside_nose(last, ego, move.steer > 0 ? -1 : 1);
+    if (straight)
+        move.steer = 0;
+    const bool may_swing = straight && std::abs(ego.steering_angle) > nearly_straight;
+    if (!done && !may_swing && !somebody_is_behind(last, ego))
         move.speed = backwards;
     standing_ticks_ = std::abs(ego.speed) < 0.1 ? standing_ticks_ + 1 : 0;
     return move;

@@ -55,6 +55,7 @@ class BackOff {
   private:
     void begin(double distance, const Ego& ego);
     bool somebody_is_behind(const world::TickView& last, const Ego& ego) const;
+    bool somebody_is_beside_nose(const world::TickView& last, const Ego& ego, double side) const;
 
     double step_;
     double impulse_ = 0;                ///< [N s] taken up so far, of all kinds

@@ -92,6 +92,30 @@ TEST(BackOff, NotIntoWhoStandsBehind) {
     EXPECT_GT(least, model.length) << "touches who stands behind it";
 }
 
+TEST(BackOff, ItsNoseDoesNotSwingIntoWhoStandsBesideIt) {
+    // It stands 0.8 m left of its path, and would turn its tail to the path, its nose away from it.
+    constexpr double aside = 0.8;
+    const world::VehicleModel& model = world::vehicle_models()[0];
+    Drive drive(long_lane());
+    drive.place(0, 45, 0);
+    drive.car.y = aside;
+    Wall wall(45 + drive.car.front() + 0.1);
+    world::CarState beside{};
+    beside.mutate_id(50);
+    beside.mutate_lane(world::none);
+    const double right_side = aside + model.width / 2 + 0.25;
+    beside.mutable_position() = world::Vec3(46, right_side + model.width / 2, 0);
+    drive.cars = {beside};
+    std::vector<std::string> news;
+    while (drive.seconds() < 12) {
+        wall.step(drive, news);
+        const double left_corner = drive.car.y + drive.car.front() * std::sin(drive.car.yaw) +
+                                   model.width / 2 * std::cos(drive.car.yaw);
+        ASSERT_LT(left_corner, right_side - 0.1) << "at " << drive.seconds() << " s";
+    }
+    EXPECT_FALSE(news.empty());
+}
+
 TEST(BackOff, NotWhoWasToldASpeed) {
     Drive drive(long_lane());
     drive.place(0, 20, 5);
