@@ -115,10 +115,13 @@ void* WheelRays::castRay(const btVector3& from,
     result.m_distFraction = hit.fraction;
     result.m_hitPointInWorld = from + (to - from) * hit.fraction;
     // A round wheel rolls over a kerb's edge; a ray that meets the upright face would be thrown
-    // back by it. So faces steeper than 60 degrees count as steps: support against the ray.
+    // back by it. So faces steeper than 60 degrees count as steps: support against the ray. Not
+    // for a car that lies on its side: its springs would push it along the ground for ever.
+    constexpr double steep = 0.5;  // cosine
     const btVector3 against = (from - to).normalized();
     const btVector3 normal = hit.normal.normalized();
-    result.m_hitNormalInWorld = normal.dot(against) > 0.5 ? normal : against;
+    const bool is_step = normal.z() < steep && against.z() > steep;
+    result.m_hitNormalInWorld = is_step ? against : normal;
     return this;  // anything but null means "hit": btRaycastVehicle uses it as a fixed ground
 }
 

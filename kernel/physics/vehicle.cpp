@@ -129,6 +129,7 @@ Vehicle::Vehicle(std::uint32_t id,
 void Vehicle::put_down(btDynamicsWorld& bullet,
                        const Eigen::Isometry3d& pose_world_vehicle,
                        double speed) {
+    lies_still_ = 0;
     chassis_.reset();  // Bullet hears of the old one's end first
     chassis_ = std::make_unique<Chassis>(model_, bullet, *ground_);
     const Eigen::Isometry3d pose_world_body =
@@ -194,7 +195,26 @@ void Vehicle::press_pedals(double road_friction, double step) {
     car.total_brake = std::clamp(control_.brake(), 0.0, 1.0) * model_.brake_deceleration * m.mass;
 }
 
+/// Who lies off its wheels and has hardly moved for a while stays: Bullet's friction leaves some
+/// millimetres a second, for ever. Who rocks is as slow at times, but not for so long.
+void Vehicle::stay_where_it_lies(double step) {
+    constexpr double off_its_wheels = 0.5;  // cosine of its lean
+    constexpr double slow = 0.03;           // [m/s]
+    constexpr double slow_spin = 0.1;       // [rad/s]
+    constexpr double a_while = 0.5;         // [s]
+    const bool lies =
+        body().getCenterOfMassTransform().getBasis().getColumn(2).z() < off_its_wheels &&
+        body().getLinearVelocity().length() < slow &&
+        body().getAngularVelocity().length() < slow_spin;
+    lies_still_ = lies ? lies_still_ + step : 0;
+    if (lies_still_ < a_while)
+        return;
+    body().setLinearVelocity(btVector3(0, 0, 0));
+    body().setAngularVelocity(btVector3(0, 0, 0));
+}
+
 void Vehicle::drive(double road_friction, double step) {
+    stay_where_it_lies(step);
     const btVector3 velocity = body().getLinearVelocity();
     const double drag = 0.5 * world::air_density * model_.catalogue->drag_area * velocity.length();
     body().setLinearVelocity(velocity * (1 - drag * step / model_.catalogue->mass));
@@ -483,6 +503,8 @@ void Vehicle::add_to(world::Hasher& hasher) const {
         guide_->add_to(hasher);
     if (guided_)
         hasher.add(guided_);
+    if (lies_still_ > 0)
+        hasher.add(lies_still_);
 }
 
 }  // namespace reprise::kernel

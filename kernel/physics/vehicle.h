@@ -144,6 +144,7 @@ class Vehicle {
     void roll_wheels(double step);
     void nudge_wheel(int index, std::string_view field, std::int64_t units);
 
+    void stay_where_it_lies(double step);
     void steer(double step);
     void press_pedals(double road_friction, double step);
 
@@ -156,6 +157,7 @@ class Vehicle {
     world::Control control_;
     double steering_angle_ = 0;
     double odometer_ = 0;
+    double lies_still_ = 0;  ///< [s] off its wheels
     world::Vec3 last_position_;
     world::Vec3 last_velocity_;
     std::optional<Guide> guide_;  ///< what it follows, or is about to
