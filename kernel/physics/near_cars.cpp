@@ -10,9 +10,6 @@ namespace reprise::kernel {
 
 namespace {
 
-/// [m] A car that moves further in one tick was put elsewhere (SUMO teleports): no velocity then.
-constexpr double longest_move = 5;
-
 double nearest_squared(std::span<const btVector3> centres, const world::Vec3& p) {
     double nearest = 1e300;
     for (const btVector3& centre : centres)
@@ -34,7 +31,24 @@ btTransform box_pose(const world::CarState& car) {
     return to_bullet(world::pose(car.position(), yaw, pitch) * middle_of(car.model()));
 }
 
+btVector3 half_of(const world::VehicleModel& m) {
+    return btVector3(m.length, m.width, m.height - NearCars::clearance) / 2;
+}
+
 }  // namespace
+
+PlacedBox box_of(const world::CarState& car) {
+    return {box_pose(car), half_of(world::vehicle_models()[car.model()])};
+}
+
+btTransform between(const btTransform& from, const btTransform& to, double share) {
+    const btQuaternion turn_from = from.getRotation();
+    btQuaternion turn_to = to.getRotation();
+    if (turn_to.dot(turn_from) < 0)
+        turn_to = -turn_to;
+    const btQuaternion turn = turn_from + (turn_to - turn_from) * share;
+    return btTransform(turn.normalized(), from.getOrigin().lerp(to.getOrigin(), share));
+}
 
 struct NearCars::Box {
     std::uint32_t id = 0;
@@ -51,8 +65,7 @@ struct NearCars::Box {
 
 NearCars::NearCars(btDynamicsWorld& world) : world_(&world) {
     for (const world::VehicleModel& m : world::vehicle_models())
-        shapes_.push_back(std::make_unique<btBoxShape>(
-            btVector3(m.length / 2, m.width / 2, (m.height - clearance) / 2)));
+        shapes_.push_back(std::make_unique<btBoxShape>(half_of(m)));
 }
 
 NearCars::~NearCars() {

@@ -8,12 +8,19 @@
 
 #include <Eigen/Geometry>
 
+#include "kernel/physics/box_gap.h"
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/displaced.h"
 #include "world/digest.h"
 #include "world/tick.h"
 
 namespace reprise::kernel {
+
+/// The box of a car without mass, where it is.
+PlacedBox box_of(const world::CarState& car);
+
+/// After a share of the way.
+btTransform between(const btTransform& from, const btTransform& to, double share);
 
 /// The cars without mass (SUMO's, the scenario's, parked ones) as kinematic boxes: they move as
 /// told and push like walls. Boxes far from every vehicle with mass cannot be hit in this tick and
@@ -25,6 +32,8 @@ class NearCars {
   public:
     static constexpr double enter_distance = 60;
     static constexpr double leave_distance = 80;
+    /// [m] A car that moves further in one tick was put elsewhere (SUMO teleports): no velocity.
+    static constexpr double longest_move = 5;
     static constexpr double clearance = 0.2;  ///< [m] under a box: it never rubs on the road
 
     explicit NearCars(btDynamicsWorld& world);

@@ -159,6 +159,7 @@ struct Physics::World {
     Vehicles vehicles;
     Wrecks wrecks;
     DoorBoxes doors;
+    CarCrashes crashes;              ///< of the tick
     std::vector<btVector3> centres;  ///< of the vehicles, at the start of the tick
 };
 
@@ -252,9 +253,10 @@ void Physics::advance(const world::TickView& last, world::TickDraft& next) {
     w.props.set_road_friction(next.tick.road_friction);
     for (const auto& vehicle : w.vehicles)
         vehicle->aim(next.tick.index, w.step);
-    w.wrecks.begin(w.cars, w.vehicles, w.props);
+    const bool crash = !w.crashes.empty();
+    w.wrecks.begin(w.cars, w.vehicles, w.props, std::move(w.crashes));
     // Without a vehicle or a prop that moves nothing can happen.
-    if (!w.vehicles.empty() || w.props.any_awake())
+    if (!w.vehicles.empty() || w.props.any_awake() || crash)
         for (int i = 1; i <= w.substeps; ++i)
             w.make_substep(i, next.tick.road_friction);
     for (const auto& vehicle : w.vehicles)
@@ -273,6 +275,10 @@ void Physics::World::choose_neighbours(const world::TickView& last, const world:
     walkers.choose(last.walkers(), next.traffic.walkers, centres, step, displaced);
     wake_props(last, next);
     props.add_centres(centres);
+    crashes = crashes_among(last.cars(), next.traffic.cars, displaced);
+    for (const auto& [one, other] : crashes)
+        for (const std::uint32_t id : {one, other})
+            centres.push_back(to_bullet(world::find(next.traffic.cars, id)->position()));
     obstacles.choose(centres);
     cars.choose(last.cars(), next.traffic.cars, centres, displaced);
     doors.choose(next, vehicles, centres);

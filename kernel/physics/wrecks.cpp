@@ -1,6 +1,7 @@
 #include "kernel/physics/wrecks.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace reprise::kernel {
 
@@ -39,7 +40,11 @@ void Wrecks::find_near(const NearCars& cars, std::span<const Pusher> pushers) {
     }
 }
 
-void Wrecks::begin(const NearCars& cars, const Vehicles& vehicles, const Props& props) {
+void Wrecks::begin(const NearCars& cars,
+                   const Vehicles& vehicles,
+                   const Props& props,
+                   CarCrashes crashes) {
+    crashes_ = std::move(crashes);
     trials_.clear();
     made_.clear();
     heavy_props_.clear();
@@ -51,7 +56,11 @@ void Wrecks::begin(const NearCars& cars, const Vehicles& vehicles, const Props& 
 std::vector<Vehicle*> Wrecks::stand_in(
     double before, double after, NearCars& cars, Vehicles& vehicles, const Props& props) {
     std::vector<Vehicle*> stand_ins;
-    if (near_.empty())
+    if (before == 0 && !crashes_.empty())
+        for (std::size_t index = 0; index < cars.size(); ++index)
+            if (const auto way = cars.way(index); way && drives_into_one(way->id))
+                stand_ins.push_back(&replace(index, before, cars, vehicles));
+    if (near_.empty() && stand_ins.empty())
         return stand_ins;
     for (bool again = true; again;) {
         again = false;
@@ -98,7 +107,18 @@ Vehicle& Wrecks::replace(std::size_t index, double share, NearCars& cars, Vehicl
     return **vehicles.insert(at, std::move(vehicle));
 }
 
-/// Who hit it, of those who may: what had mass before, and those who were hit by that. 0: nobody.
+bool Wrecks::drives_into_one(std::uint32_t id) const {
+    return std::any_of(crashes_.begin(), crashes_.end(), [id](const auto& pair) {
+        return pair.first == id || pair.second == id;
+    });
+}
+
+bool Wrecks::drove_into(std::uint32_t one, std::uint32_t other) const {
+    return std::binary_search(crashes_.begin(), crashes_.end(), std::minmax({one, other}));
+}
+
+/// Who hit it, of those who may: what had mass before, those who were hit by that, and whom it
+/// drove into. 0: nobody.
 std::uint32_t Wrecks::hit_by(const Trial& trial,
                              const Touching& touching,
                              const Vehicles& vehicles) const {
@@ -115,7 +135,7 @@ std::uint32_t Wrecks::hit_by(const Trial& trial,
                          vehicles.end(),
                          [&](const auto& vehicle) { return vehicle->id() == pusher; }) ||
              std::binary_search(heavy_props_.begin(), heavy_props_.end(), pusher));
-        if (was_hit || had_mass)
+        if (was_hit || had_mass || drove_into(trial.id, pusher))
             return pusher;
     }
     return 0;

@@ -8,6 +8,7 @@
 
 #include "kernel/physics/box_gap.h"
 #include "kernel/physics/bullet.h"
+#include "kernel/physics/car_crashes.h"
 #include "kernel/physics/collisions.h"
 #include "kernel/physics/impact.h"
 #include "kernel/physics/near_cars.h"
@@ -20,17 +21,18 @@ class Ground;
 
 using Vehicles = std::vector<std::unique_ptr<Vehicle>>;  ///< sorted by id
 
-/// Cars without mass (SUMO's, the scenario's, parked ones) that something with mass hits: they
-/// become vehicles with mass, and stay that.
+/// Cars without mass (SUMO's, the scenario's, parked ones) that something with mass hits, or that
+/// drive into each other: they become vehicles with mass, and stay that.
 ///
 /// MUST    let the first impulse of a crash act between the masses and the true velocities of both;
 ///         leave those alone that are only passed closely.
 /// ASSUMES Bullet finds a contact where the gap is less than its breaking threshold of 2 cm.
 /// GOES    before a substep, a car whose box comes within `reach` of a body with mass is taken out
 ///         of Bullet's world, and a vehicle stands in for it where it is, as fast as it is. So do
-///         those that are within reach of such a one: it may be pushed against them. At the end of
-///         the tick those are wrecks that were touched (see Collisions) by what had mass before, or
-///         by another wreck; for the others it is as if nothing had been.
+///         those that are within reach of such a one: it may be pushed against them. Two that drive
+///         into each other in this tick are vehicles from its start on. At the end of
+///         the tick those are wrecks that were touched (see Collisions) by what had mass before, by
+///         another wreck, or by whom they drove into; for the others it is as if nothing had been.
 /// KEEPS   nothing from one tick to the next.
 class Wrecks {
   public:
@@ -43,7 +45,11 @@ class Wrecks {
           step_(step) {}
 
     /// Start of a tick, when all know where they go.
-    void begin(const NearCars& cars, const Vehicles& vehicles, const Props& props);
+    /// `crashes` are those of the tick.
+    void begin(const NearCars& cars,
+               const Vehicles& vehicles,
+               const Props& props,
+               CarCrashes crashes);
 
     /// Before a substep that goes from `before` to `after`, shares of the tick; the vehicles on
     /// trajectories are where it ends. Returns those who stand in from this substep on.
@@ -72,6 +78,8 @@ class Wrecks {
 
     std::vector<Pusher> pushers(const Vehicles& vehicles, const Props& props) const;
     void find_near(const NearCars& cars, std::span<const Pusher> pushers);
+    bool drives_into_one(std::uint32_t id) const;
+    bool drove_into(std::uint32_t one, std::uint32_t other) const;
     Vehicle& replace(std::size_t index, double share, NearCars& cars, Vehicles& vehicles);
     using Touching = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -84,7 +92,8 @@ class Wrecks {
     double step_;
     std::vector<std::size_t> near_;  ///< boxes that somebody may reach; indices in NearCars
     std::vector<std::uint32_t> heavy_props_;  ///< their ids
-    std::vector<Trial> trials_;               ///< sorted by id
+    CarCrashes crashes_;
+    std::vector<Trial> trials_;  ///< sorted by id
     std::vector<Wreck> made_;
 };
 

@@ -155,6 +155,47 @@ INSTANTIATE_TEST_SUITE_P(Crashes,
                                          Ramming{"suv", 25, "bus", 0, -45},
                                          Ramming{"sedan", 15, "motorcycle", 0, -60}));
 
+/// Neither of the two has mass before, and nothing but the crash would stop them.
+TEST(Crashes, CarsThatDriveIntoEachOtherAreWreckedAndKeepTheirMomentum) {
+    const std::string second = "local b = spawn{ model = 'van', ";
+    const std::vector<std::pair<std::string, std::string>> stories = {
+        {"rear end",
+         second + "driver = 'traffic', lane = 'main_1', s = 120, speed = 3 }\n"
+                  "b:hold_speed(3) a:hold_speed(15)"},
+        {"parked", second + "driver = 'parked', lane = 'main_1', s = 120 }\na:hold_speed(15)"},
+        {"from the side",
+         second + "driver = 'traffic', lane = 'main_2', s = 100, speed = 15 }\n"
+                  "b:hold_speed(15) a:follow{ { t = 2, lane = 'main_2', s = 130 } }"}};
+    for (const auto& [name, story] : stories) {
+        const auto ticks = run(on_ice(
+            "local a = spawn{ model = 'sedan', driver = 'traffic', lane = 'main_1', s = 100, "
+            "speed = 15 }\n" +
+                story + "\nwait(60)",
+            8));
+        const std::size_t hit = tick_of(ticks, world::EventKind::wrecked, 1);
+        ASSERT_LT(hit, ticks.size()) << name;
+        ASSERT_GT(hit, 1U) << name;
+        EXPECT_EQ(tick_of(ticks, world::EventKind::wrecked, 2), hit) << name;
+        EXPECT_EQ(find_event(ticks[hit], world::EventKind::wrecked, 1)->other(), 2U) << name;
+        EXPECT_NE(find_event(ticks[hit], world::EventKind::collision, 1), nullptr) << name;
+        const Eigen::Vector2d before = momentum(ticks[hit - 1], 1) + momentum(ticks[hit - 1], 2);
+        const Eigen::Vector2d after = momentum(ticks[hit + 1], 1) + momentum(ticks[hit + 1], 2);
+        EXPECT_LT((after - before).norm(), 0.05 * before.norm()) << name;
+    }
+}
+
+TEST(Crashes, CarsThatPassOrFollowCloselyAreLeftAlone) {
+    const auto ticks = run(on_straight_lanes(
+        "local a = spawn{ model = 'sedan', driver = 'traffic', lane = 'main_1', s = 100, speed = "
+        "15 }\n"
+        "spawn{ model = 'bus', driver = 'parked', x = 160, y = -2.3, heading_deg = 0 }\n"
+        "local b = spawn{ model = 'van', driver = 'traffic', lane = 'main_1', s = 90, speed = 15 "
+        "}\n"
+        "a:hold_speed(15) b:hold_speed(15) wait(60)",
+        10));
+    EXPECT_EQ(count_events(ticks, world::EventKind::wrecked), 0U);
+}
+
 const std::string rear_end =
     "local ego = spawn{ name = 'ego', model = 'sedan', driver = 'manual', lane = 'main_1', s = "
     "100, speed = 20 }\n"
