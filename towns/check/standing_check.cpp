@@ -77,6 +77,29 @@ Criterion check_things(const world::TownT& town, const ground::GroundProbe& prob
     return std::move(off).verdict(looked_at);
 }
 
+/// What grows or stands in the road, wherever in its width: the ground itself says what is road.
+/// Parapets of bridges do, at its edge, and parked cars where the lane has room for them.
+Criterion check_off_road(const world::TownT& town, const ground::GroundProbe& probe) {
+    std::vector<Criterion::Place> faults;
+    std::size_t count = 0;
+    const auto take = [&](const std::string& name, const world::Vec3& foot) {
+        ++count;
+        const auto hit = probe.nearest(world::to_eigen(foot));
+        if (hit &&
+            (hit->surface == ground::Surface::road || hit->surface == ground::Surface::crossing))
+            faults.push_back({name, world::in_plan(foot), 1});
+    };
+    for (std::size_t i = 0; i < town.trees.size(); ++i)
+        take(numbered("plant", i), town.trees[i].position());
+    for (std::size_t i = 0; i < town.heads.size(); ++i)
+        take(numbered("signal head", i), town.heads[i].foot);
+    for (std::size_t i = 0; i < town.props.size(); ++i)
+        if (town.props[i].kind() != world::PropKind::wall &&
+            town.props[i].kind() != world::PropKind::parked_vehicle)
+            take(numbered(EnumNamePropKind(town.props[i].kind()), i), town.props[i].position());
+    return none_of("things on roads", std::move(faults), std::to_string(count) + " things");
+}
+
 /// How far the door on one of its sides is off the ground, at best; more where a wall's foundation
 /// does not reach down.
 double door_gap(const ground::GroundProbe& probe,
@@ -123,7 +146,7 @@ Criterion check_doors(const world::TownT& town, const ground::GroundProbe& probe
 
 std::vector<Criterion> check_standing(const world::TownT& town, const ground::GroundMesh& ground) {
     const ground::GroundProbe probe(ground);
-    return {check_things(town, probe), check_doors(town, probe)};
+    return {check_things(town, probe), check_doors(town, probe), check_off_road(town, probe)};
 }
 
 }  // namespace reprise::towns

@@ -1,11 +1,15 @@
 #include "towns/check/standing_check.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "ground/mesh/build_ground.h"
 #include "ground/mesh/ground_probe.h"
 #include "tests/support/places.h"
 #include "tests/support/plumb_line.h"
+#include "world/frames.h"
+#include "world/town.h"
 
 namespace reprise {
 namespace {
@@ -18,6 +22,7 @@ using world::Vec3;
 
 constexpr std::size_t things = 0;
 constexpr std::size_t doors = 1;
+constexpr std::size_t on_roads = 2;
 
 std::vector<Criterion> check(const TownT& town) {
     return towns::check_standing(town, ground::build_ground(town));
@@ -112,6 +117,29 @@ TEST(StandingCheck, IsContentWithOneDoorOfADrawnBuilding) {
     for (Vec3& corner : town.drawn_buildings[0].outline)
         corner.mutate_z(z - 0.5);
     EXPECT_EQ(check(town)[doors].worst.at(0).name, "drawn building 0");
+}
+
+TEST(StandingCheck, FindsWhatGrowsOrStandsInARoad) {
+    TownT town = test::t_junction();
+    const auto lane = std::find_if(town.lanes.begin(), town.lanes.end(), [](const auto& each) {
+        return each.kind == world::LaneKind::driving;
+    });
+    const auto beside = [&](double share_of_half) {
+        const world::LanePoint at = world::point_at(*lane, lane->length / 2);
+        const Eigen::Vector2d p =
+            at.position.head<2>() - world::left_of(at.yaw) * (share_of_half * lane->width / 2);
+        return on_ground(town, p.x(), p.y());
+    };
+    // Near its edge, where no centre line is near; and 10 m beside it.
+    const Vec3 edge = beside(0.9), off = beside(1 + 20 / lane->width);
+    town.trees = {world::Tree(off, 8, 2, 0, {})};
+    town.props = {prop(PropKind::bin, off), prop(PropKind::parked_vehicle, edge)};
+    EXPECT_TRUE(check(town)[on_roads].passed());
+    town.trees = {world::Tree(edge, 8, 2, 0, {})};
+    EXPECT_EQ(check(town)[on_roads].worst.at(0).name, "plant 0");
+    town.trees.clear();
+    town.props = {prop(PropKind::bin, edge)};
+    EXPECT_EQ(check(town)[on_roads].worst.at(0).name, "bin 0");
 }
 
 TEST(StandingCheck, SaysWhatStandsBeyondTheTerrain) {
