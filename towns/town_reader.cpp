@@ -34,10 +34,8 @@ void measure(world::TownT& town) {
     town.high = world::Vec3(high.x(), high.y(), high.z());
 }
 
-}  // namespace
-
-world::TownT read_town(const Network& network) {
-    pugi::xml_document document;
+/// The network's element; the document keeps it.
+pugi::xml_node parse(const Network& network, pugi::xml_document& document) {
     const pugi::xml_parse_result parsed =
         document.load_buffer(network.xml.data(), network.xml.size());
     const pugi::xml_node net = document.child("net");
@@ -46,7 +44,10 @@ world::TownT read_town(const Network& network) {
             network.name + ".net.xml:" +
             std::to_string(line_of(network.xml, static_cast<std::size_t>(parsed.offset))) +
             ": is not a SUMO network");
+    return net;
+}
 
+world::TownT streets_of(const pugi::xml_node& net, const Network& network) {
     world::TownT town;
     town.name = network.name;
     town.left_hand = net.attribute("lefthand").as_bool();
@@ -58,6 +59,20 @@ world::TownT read_town(const Network& network) {
     if (!drivable)
         throw world::Error(network.name + ".net.xml:1: has no lane that a passenger car may use");
     ground::level_paths(town);
+    return town;
+}
+
+}  // namespace
+
+world::TownT read_streets(const Network& network) {
+    pugi::xml_document document;
+    return streets_of(parse(network, document), network);
+}
+
+world::TownT read_town(const Network& network) {
+    pugi::xml_document document;
+    const pugi::xml_node net = parse(network, document);
+    world::TownT town = streets_of(net, network);
     read_links(net, town);
     const Place place =
         network.place.empty() ? Place() : read_place(network.place, network.name + ".place.xml");

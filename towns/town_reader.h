@@ -11,4 +11,8 @@ namespace reprise::towns {
 /// that a car may use. Town 1: 60 ms.
 world::TownT read_town(const Network& network);
 
+/// Only its streets: lanes and junctions as read_town() has them, without what leads where, and
+/// with nothing beside them. A tenth of the time, or less.
+world::TownT read_streets(const Network& network);
+
 }  // namespace reprise::towns

@@ -144,12 +144,14 @@ void print_criterion(const Criterion& criterion) {
         criterion.at_least ? ">=" : "<=",
         with_unit(criterion.limit, criterion.unit),
         criterion.looked_at);
-    for (const Criterion::Place& place : criterion.worst)
+    for (std::size_t i = 0; i < std::min(criterion.worst.size(), towns::shown_places); ++i) {
+        const Criterion::Place& place = criterion.worst[i];
         say("         {} at ({:.2f}, {:.2f}){}\n",
             place.name,
             place.position.x(),
             place.position.y(),
             criterion.unit.empty() ? "" : ": " + with_unit(place.value, criterion.unit));
+    }
 }
 
 void print_table(const Built& built, const std::vector<Criterion>& criteria) {

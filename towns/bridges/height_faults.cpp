@@ -88,11 +88,12 @@ bool HeightFaultFinder::was_there(const Criterion& criterion, const Criterion::P
 }
 
 std::vector<HeightFault> HeightFaultFinder::faults(const std::string& xml) {
-    const world::TownT town = read_town({flat_.name, xml, "", flat_.place});
+    const Network network{flat_.name, xml, "", flat_.place};
     std::vector<HeightFault> found;
-    find_ramps(town, found);
+    find_ramps(read_streets(network), found);
     if (!found.empty())
         return found;
+    const world::TownT town = read_town(network);
     const ground::GroundMesh ground = ground::build_ground(town);
     find_low_roads(town, ground::GroundProbe(ground), found);
     std::vector<Criterion> criteria = towns::check_ground(town, ground);

@@ -189,22 +189,33 @@ struct Flattened {
 };
 
 /// Few at a time, those with the most faults first: with one bridge flat, its neighbours may do.
+/// Those that are far from each other have nothing to do with each other, so that a large network
+/// needs no more rounds than a small one.
 std::vector<Flattened> to_flatten(const Raised& raised, const std::vector<HeightFault>& faults) {
     constexpr std::size_t parts = 8;
+    constexpr double far_apart = 400;  // [m] more than two ramps
     const ResponsibleSpan responsible_span(raised.roads, raised.levels, raised.heights);
-    std::map<std::uint32_t, std::vector<HeightFault::Kind>> faults_of;
+    std::map<std::uint32_t, std::vector<HeightFault>> faults_of;
     for (const HeightFault& fault : faults)
-        faults_of[responsible_span.at(fault.place)].push_back(fault.kind);
+        faults_of[responsible_span.at(fault.place)].push_back(fault);
     std::vector<std::uint32_t> order;
-    for (const auto& [span, kinds] : faults_of)
+    for (const auto& [span, its_faults] : faults_of)
         order.push_back(span);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t one, std::uint32_t other) {
         return faults_of[one].size() > faults_of[other].size();
     });
-    order.resize((order.size() + parts - 1) / parts);
     std::vector<Flattened> worst;
-    for (const std::uint32_t span : order)
-        worst.push_back({span, faults_of[span].front()});
+    std::vector<Vector2d> places;  // of those
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const HeightFault& first = faults_of[order[i]].front();
+        const bool is_alone = std::none_of(places.begin(), places.end(), [&](const Vector2d& p) {
+            return (p - first.place).norm() < far_apart;
+        });
+        if (i * parts >= order.size() && !is_alone)
+            continue;
+        worst.push_back({order[i], first.kind});
+        places.push_back(first.place);
+    }
     return worst;
 }
 

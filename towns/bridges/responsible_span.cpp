@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <tuple>
+#include <utility>
 
 #include "world/town.h"
 
@@ -20,28 +23,46 @@ ResponsibleSpan::ResponsibleSpan(const RoadChains& roads,
                                  const std::vector<double>& heights)
     : roads_(roads),
       levels_(levels),
-      heights_(heights),
       nearest_(roads.places.size(), world::none),
       distances_(roads.places.size(), farthest) {
-    for (std::uint32_t span = 0; span < levels.spans.size(); ++span) {
-        std::vector<Source> sources;
+    // One search from all spans at once; of two as near the first in order wins.
+    std::set<std::tuple<double, std::uint32_t, std::uint32_t>> open;  // distance, span, point
+    const auto reach = [&](std::uint32_t point, double distance, std::uint32_t span) {
+        if (std::pair(distance, span) >= std::pair(distances_[point], nearest_[point]))
+            return;
+        distances_[point] = distance;
+        nearest_[point] = span;
+        open.emplace(distance, span, point);
+    };
+    for (std::uint32_t span = 0; span < levels.spans.size(); ++span)
         for (const std::uint32_t point : levels.spans[span])
-            sources.push_back({point, 0});
-        const std::vector<double> reached = distances(roads, sources, farthest);
-        for (std::size_t i = 0; i < reached.size(); ++i)
-            if (reached[i] < distances_[i]) {
-                distances_[i] = reached[i];
-                nearest_[i] = span;
-            }
+            reach(point, 0, span);
+    while (!open.empty()) {
+        const auto [distance, span, point] = *open.begin();
+        open.erase(open.begin());
+        if (std::pair(distance, span) != std::pair(distances_[point], nearest_[point]))
+            continue;
+        for (const RoadChains::Step& step : roads.steps[point])
+            if (distance + step.length < farthest)
+                reach(step.to, distance + step.length, span);
     }
+    std::vector<world::BoxGrid::Entry> entries;
+    for (std::uint32_t i = 0; i < roads.places.size(); ++i)
+        if (std::abs(heights[i]) > raised && nearest_[i] != world::none) {
+            world::Box box;
+            box.take(roads.places[i], 0);
+            entries.push_back({box, i});
+        }
+    raised_by_place_ = world::BoxGrid(entries);
 }
 
 std::uint32_t ResponsibleSpan::at(const Eigen::Vector2d& place) const {
     std::uint32_t found = world::none;
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < roads_.places.size(); ++i)
-        if (std::abs(heights_[i]) > raised && nearest_[i] != world::none && distances_[i] < least &&
-            (roads_.places[i] - place).norm() < around) {
+    world::Box box;
+    box.take(place, around);
+    for (const std::uint32_t i : raised_by_place_.near(box))
+        if (distances_[i] < least && (roads_.places[i] - place).norm() < around) {
             least = distances_[i];
             found = nearest_[i];
         }

@@ -4,12 +4,6 @@
 
 namespace reprise::towns {
 
-namespace {
-
-constexpr std::size_t most_places = 5;
-
-}  // namespace
-
 Measured::Measured(std::string name, double limit, std::string unit, bool at_least) {
     criterion_.name = std::move(name);
     criterion_.limit = criterion_.figure = limit;
@@ -39,8 +33,6 @@ Criterion Measured::verdict(std::string looked_at) && {
         criterion_.worst.begin(), criterion_.worst.end(), [&](const auto& one, const auto& other) {
             return is_worse(one.value, other.value);
         });
-    if (criterion_.worst.size() > most_places)
-        criterion_.worst.resize(most_places);
     criterion_.looked_at = std::move(looked_at);
     return std::move(criterion_);
 }
@@ -50,8 +42,6 @@ Criterion none_of(std::string name, std::vector<Criterion::Place> faults, std::s
     criterion.name = std::move(name);
     criterion.figure = static_cast<double>(faults.size());
     criterion.looked_at = std::move(looked_at);
-    if (faults.size() > most_places)
-        faults.resize(most_places);
     criterion.worst = std::move(faults);
     return criterion;
 }

@@ -24,7 +24,7 @@ struct Criterion {
     std::string unit;          ///< "m", "%"; empty: a count
     bool at_least = false;     ///< must the figure reach the limit, or may it not exceed it?
     std::string looked_at;     ///< such as "23,120 places on 184 lanes"
-    std::vector<Place> worst;  ///< beyond the limit, at most five, the worst first
+    std::vector<Place> worst;  ///< all beyond the limit, the worst first
 
     bool passed() const { return at_least ? figure >= limit : figure <= limit; }
 };
@@ -50,6 +50,9 @@ class Measured {
     std::size_t count_ = 0;
     std::map<std::string, Criterion::Place> worst_of_name_;
 };
+
+/// Of Criterion::worst as many are shown.
+inline constexpr std::size_t shown_places = 5;
 
 /// A criterion that nothing may break: `faults` in the order in which they were found.
 Criterion none_of(std::string name, std::vector<Criterion::Place> faults, std::string looked_at);

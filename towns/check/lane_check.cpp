@@ -172,7 +172,7 @@ Criterion check_covered(const world::TownT& town) {
     std::stable_sort(worst.begin(), worst.end(), [](const Covered& one, const Covered& other) {
         return one.metres > other.metres;
     });
-    for (std::size_t i = 0; i < std::min<std::size_t>(worst.size(), 5) && !criterion.passed(); ++i)
+    for (std::size_t i = 0; i < worst.size() && !criterion.passed(); ++i)
         criterion.worst.push_back({worst[i].name, worst[i].place, 100 * worst[i].metres / total});
     return criterion;
 }

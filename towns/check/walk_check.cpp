@@ -158,7 +158,7 @@ towns::Criterion check_walking(const world::TownT& town, const walkers::WalkMap&
         if (const auto way = map.path(from.position, to.position)) {
             ++reached;
             add_way(*way, walked);
-        } else if (connected.worst.size() < 5) {
+        } else if (connected.worst.size() < shown_places) {
             connected.worst.push_back(
                 {from.lane->name + " to " + to.lane->name, from.position.head<2>(), 0});
         }

@@ -338,6 +338,52 @@ TEST_F(RaiseRoads, ABridgeOverATunnelAloneGoesUp) {
     EXPECT_NEAR(town.high.z() - town.low.z(), 6, 0.1) << report_;
 }
 
+/// Roads that cross without a junction, each pair a kilometre from the next one.
+std::string crossings_in_a_row(int count) {
+    std::string junctions, edges;
+    for (int i = 0; i < count; ++i)
+        for (const bool up : {false, true}) {
+            const auto point = [&](double at) {
+                return fmt::format("{},{}", 1000 * i + (up ? 0 : at), up ? at : 0);
+            };
+            const std::string id = fmt::format("{}{}", up ? "up" : "low", i);
+            edges += fmt::format(
+                "<edge id='{0}' from='{0}a' to='{0}b'><lane id='{0}_0' index='0' speed='14' "
+                "length='600' shape='{1} {2}'/></edge>",
+                id,
+                point(-300),
+                point(300));
+            for (const auto& [end, at] : {std::pair("a", -300), std::pair("b", 300)})
+                junctions += fmt::format(
+                    "<junction id='{}{}' type='dead_end' x='{}' y='{}' incLanes='' intLanes='' "
+                    "shape=''/>",
+                    id,
+                    end,
+                    1000 * i + (up ? 0 : at),
+                    up ? at : 0);
+        }
+    return "<net>" + edges + junctions + "</net>";
+}
+
+TEST(RaiseRoadsOfALargeNetwork, TakesNoMoreRoundsThanThatOfASmallOne) {
+    for (const int count : {1, 20}) {
+        const GuessedBridges guessed = guess_bridges(crossings_in_a_row(count));
+        ASSERT_EQ(guessed.ways.size(), count);
+        std::string network = guessed.network;
+        int rounds = 0;
+        // A judge who minds every bridge.
+        const RaisedRoads raised = raise_roads(network, guessed.ways, [&](const std::string&) {
+            ++rounds;
+            std::vector<HeightFault> faults;
+            for (int i = 0; i < count; ++i)
+                faults.push_back({HeightFault::Kind::low, Vector2d(1000.0 * i, 0)});
+            return faults;
+        });
+        EXPECT_EQ(rounds, 1) << count;
+        EXPECT_EQ(raised.flat.at(HeightFault::Kind::low), count);
+    }
+}
+
 /// A network with all of its heights multiplied.
 std::string stretched(const std::string& network, double factor) {
     const std::regex height("([-0-9.]+,[-0-9.]+,)([-0-9.]+)");

@@ -80,7 +80,7 @@ TEST(GroundCheck, MeasuresHowFarTheGroundIsOffItsLane) {
     const Criterion& off = find(criteria, "ground under lanes");
     EXPECT_FALSE(off.passed());
     EXPECT_NEAR(off.figure, 0.08, 1e-9);
-    ASSERT_EQ(off.worst.size(), 5U);
+    ASSERT_GE(off.worst.size(), 5U) << "all are known, however many are shown";
     EXPECT_NEAR(off.worst[0].value, 0.08, 1e-9);
 }
 
