@@ -91,10 +91,11 @@ void trace_nearest(const Scene& scene,
 
 void trace_visibility(const Scene& scene,
                       std::span<const Ray> rays,
+                      bool coherent,
                       std::span<std::uint8_t> visible) {
     if (scene.portable_tracer() != nullptr)
         return scene.portable_tracer()->trace_visibility(rays, visible);
-    RTCIntersectContext context = context_of(true);
+    RTCIntersectContext context = context_of(coherent);
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         alignas(32) RTCRay8 packet;
         alignas(32) std::array<int, lanes> valid{};

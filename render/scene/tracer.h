@@ -18,9 +18,11 @@ void trace_nearest(const Scene& scene,
                    bool coherent,
                    std::span<Hit> hits);
 
-/// Shadow rays: 1 where nothing is hit up to Ray::far, 0 where something is.
+/// Shadow rays: 1 where nothing is hit up to Ray::far, 0 where something is. `coherent`: neighbours
+/// run alike, as to the sun; it changes the time that it takes, not what is found.
 void trace_visibility(const Scene& scene,
                       std::span<const Ray> rays,
+                      bool coherent,
                       std::span<std::uint8_t> visible);
 
 /// The same hit in double precision from the triangle's own corners: equal ids give equal bits,

@@ -148,7 +148,7 @@ void refine_tile(ShadingJob& job,
             offset_origin(sample.surface.position, sample.surface.flat, sample.surface.distance);
         rays.sun.add(sun_ray(job, origin, static_cast<int>(i % 16)), i);
     }
-    trace_batch(job, rays, rays.sun, [&](std::size_t owner, bool visible) {
+    trace_batch(job, rays, rays.sun, true, [&](std::size_t owner, bool visible) {
         samples[owner].light.sun_visibility = visible ? 1.0F : 0.0F;
     });
     for (std::size_t i = 0; i < samples.size(); i += subpixels) {

@@ -69,9 +69,13 @@ struct TileRays {
 
 /// Traces visibility rays and calls `store(owner, visible)` for each.
 template <typename Store>
-void trace_batch(const ShadingJob& job, TileRays& rays, const RayBatch& batch, const Store& store) {
+void trace_batch(const ShadingJob& job,
+                 TileRays& rays,
+                 const RayBatch& batch,
+                 bool coherent,
+                 const Store& store) {
     rays.visible.resize(batch.rays.size());
-    trace_visibility(job.input.scene, batch.rays, rays.visible);
+    trace_visibility(job.input.scene, batch.rays, coherent, rays.visible);
     for (std::size_t i = 0; i < batch.rays.size(); ++i)
         store(batch.owners[i], rays.visible[i] != 0);
 }
