@@ -29,7 +29,8 @@ struct Sensors::Scene {
         }
         arena.execute([&] {
             const DefaultFloatMode plain;
-            scene.emplace(town, options.portable);
+            still.emplace(town, options.portable);
+            scene.emplace(*still);
         });
     }
 
@@ -47,6 +48,7 @@ struct Sensors::Scene {
     // cores.
     std::optional<tbb::global_control> limit;
     tbb::task_arena arena;
+    std::optional<TownScene> still;
     std::optional<render::Scene> scene;
     std::optional<Sky> sky;
     Frame frame;

@@ -122,7 +122,7 @@ Surface surface_at(const Scene& scene,
                    const Vector3f& eye,
                    const Vector3f& direction,
                    float pixel) {
-    const Instance& instance = scene.instances()[hit.instance];
+    const Instance& instance = scene.instance(hit.instance);
     const Mesh& mesh = instance.prototype->mesh;
     const std::array<std::uint32_t, 3>& corners = mesh.triangles[hit.triangle];
     const Vector3f& a = mesh.vertices[corners[0]];
@@ -213,7 +213,7 @@ Look shade_surface(const ShadingInput& input, const Surface& at) {
 world::SemanticClass semantic_class(const Scene& scene, const Hit& hit) {
     if (hit.instance == no_instance)
         return SemanticClass::sky;
-    const Instance& instance = scene.instances()[hit.instance];
+    const Instance& instance = scene.instance(hit.instance);
     switch (instance.kind) {
         case Kind::tree:
         case Kind::plant:

@@ -1,46 +1,21 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <deque>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include <Eigen/Geometry>
-
-#include "render/scene/lane_raster.h"
-#include "render/shapes/buildings/building_mesh.h"
-#include "render/shapes/cars/car_shape.h"
-#include "render/shapes/fast_math.h"
-#include "render/shapes/people/figure_part.h"
+#include "render/scene/town_scene.h"
 #include "render/shapes/people/wardrobe.h"
-#include "render/shapes/street/plot_mesh.h"
-#include "render/trace/instance.h"
-#include "render/trace/portable_tracer.h"
-#include "world/tick.h"
-#include "world/town_generated.h"
-
-struct RTCSceneTy;
 
 namespace reprise::render {
 
-/// A building's frame, for painting its faces.
-struct BuildingFrame {
-    Eigen::Vector3f centre;
-    float cosine;
-    float sine;
-    Eigen::Vector2f half;
-    Facade facade;
-};
-
-/// All geometry at a tick, in Embree, or in our own PortableTracer when pictures must be `portable`
-/// between CPUs. Owns the device. The scene's frame is the world's, moved to
-/// `origin` (whole metres), so that single precision stays exact to 0.1 mm far from the map's zero.
+/// All geometry at a tick: a town, which is borrowed, and everybody in it. Instances of the town
+/// are numbered first, then those of the tick.
 class Scene {
   public:
-    Scene(const world::TownT& town, bool portable);
+    explicit Scene(const TownScene& town) : town_(town) {}
+
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
@@ -54,50 +29,47 @@ class Scene {
     /// For rays of a camera that sits inside this actor.
     std::uint32_t mask_hiding(std::uint32_t actor) const;
 
-    RTCSceneTy* tree() const { return top_; }
+    const TownScene& town() const { return town_; }
 
-    /// Instead of tree() when pictures must be portable; else none.
+    /// Embree's tree of who was placed; none when nobody was, or when pictures must be portable.
+    RTCSceneTy* tree() const { return tree_; }
+
+    /// Instead of Embree's trees when pictures must be portable: of the town and who is in it.
     const PortableTracer* portable_tracer() const {
         return portable_tracer_ ? &*portable_tracer_ : nullptr;
     }
 
-    std::span<const Instance> instances() const { return instances_; }
+    const Instance& instance(std::uint32_t number) const {
+        const std::span<const Instance> still = town_.instances();
+        return number < still.size() ? still[number] : moving_[number - still.size()];
+    }
+
+    /// Those that are not of the town.
+    std::span<const Instance> moving() const { return moving_; }
 
     std::span<const world::SignalColor> signals() const { return signals_; }
 
-    std::span<const BuildingFrame> buildings() const { return buildings_; }
+    std::span<const BuildingFrame> buildings() const { return town_.buildings(); }
 
-    const Facades& facades() const { return facades_; }
+    const Facades& facades() const { return town_.facades(); }
 
-    std::span<const PlotFrame> plots() const { return plots_; }
+    std::span<const PlotFrame> plots() const { return town_.plots(); }
 
-    const CarShape& car_shape(std::uint16_t model) const { return car_shapes_[model]; }
+    const CarShape& car_shape(std::uint16_t model) const {
+        return town_.prototypes().car_shapes[model];
+    }
 
     std::span<const Outfit> outfits() const { return outfits_; }
 
-    const LaneRaster& lanes() const { return lanes_; }
+    const LaneRaster& lanes() const { return town_.lanes(); }
 
-    const Eigen::Vector3d& origin() const { return origin_; }
+    const Eigen::Vector3d& origin() const { return town_.origin(); }
 
   private:
-    struct Device;
-
-    const Prototype* add_prototype(Mesh mesh);
-    void build_town(const world::TownT& town);
-    void place_trees(const world::TownT& town);
-    void place_props(const world::TownT& town);
-    void park(const world::Prop& prop);
-    void build_models();
-    void build_people();
     Instance body_of(std::uint32_t id,
                      std::uint16_t model,
                      std::uint16_t lamps,
                      std::span<const world::Look> looks) const;
-    void place_car(const Eigen::Isometry3d& pose_world_car,
-                   const Instance& body,
-                   double steering,
-                   std::span<const world::WheelState> wheels,
-                   double roll);
     void place_two_wheeler(const Eigen::Isometry3d& pose_world_vehicle,
                            const Instance& body,
                            double steering,
@@ -111,32 +83,19 @@ class Scene {
                       std::size_t person,
                       const Eigen::Isometry3d& pose,
                       Instance part);
-    void add_instance(Instance instance, const Eigen::Affine3d& pose_world);
+
+    void add_instance(const Instance& instance, const Eigen::Affine3d& pose_world) {
+        town_.add_instance(moving_, instance, pose_world);
+    }
+
+    void hide_mounts();
     void commit();
 
-    std::unique_ptr<Device> device_;  // none when portable
-    RTCSceneTy* top_ = nullptr;
+    const TownScene& town_;
+    std::vector<Instance> moving_;
+    RTCSceneTy* tree_ = nullptr;
     std::optional<PortableTracer> portable_tracer_;
-    Eigen::Vector3d origin_;
-    LaneRaster lanes_;
-    std::deque<Prototype> prototypes_;  // a deque keeps their addresses
-    std::vector<CarShape> car_shapes_;
-    std::vector<const Prototype*> car_bodies_;
-    const Prototype* door_ = nullptr;
-    std::vector<const Prototype*> things_;  // by model of a scenario's props
-    std::vector<const Prototype*> wheels_;
-    std::vector<const Prototype*> forks_;   // of two-wheelers, else none
-    std::vector<const Prototype*> cranks_;  // of bicycles, else none
-    // Of the pedestrian models, then of the riders of a motorcycle and a bicycle.
-    std::vector<const Prototype*> trunks_;
-    std::vector<const Prototype*> hems_;
-    std::array<const Prototype*, figure_part_shapes> figure_parts_{};  // by FigurePart::Shape
     std::vector<Outfit> outfits_;
-    std::vector<BuildingFrame> buildings_;
-    Facades facades_;
-    std::vector<PlotFrame> plots_;
-    std::vector<Instance> town_;  // the instances that never move
-    std::vector<Instance> instances_;
     std::vector<world::SignalColor> signals_;
     std::vector<std::uint32_t> mounts_;
 };

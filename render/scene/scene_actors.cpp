@@ -14,74 +14,14 @@
 
 namespace reprise::render {
 
-namespace {
-
 using Eigen::Vector3d;
-
-double mean_length(std::span<const world::WheelState> wheels) {
-    double sum = 0;
-    for (const world::WheelState& wheel : wheels)
-        sum += wheel.suspension_length();
-    return sum / static_cast<double>(wheels.size());
-}
-
-}  // namespace
-
-void Scene::build_models() {
-    for (const world::VehicleModel& model : world::vehicle_models()) {
-        const CarShape& shape = car_shapes_.emplace_back(model);
-        const bool thin = world::is_two_wheeler(model.body);
-        const bool pedalled = thin && seat_of(shape).crank > 0;
-        car_bodies_.push_back(add_prototype(thin ? two_wheeler_mesh(shape) : car_body_mesh(shape)));
-        wheels_.push_back(add_prototype(thin ? thin_wheel_mesh(shape) : wheel_mesh(shape)));
-        forks_.push_back(thin ? add_prototype(fork_mesh(shape)) : nullptr);
-        cranks_.push_back(pedalled ? add_prototype(crank_mesh(shape)) : nullptr);
-    }
-    for (const world::PropModel& model : world::prop_models())
-        things_.push_back(add_prototype(thing_mesh(model)));
-    door_ = add_prototype(door_mesh());
-    build_people();
-}
-
-void Scene::place_car(const Eigen::Isometry3d& pose_world_car,
-                      const Instance& body,
-                      double steering,
-                      std::span<const world::WheelState> wheels,
-                      double roll) {
-    const world::VehicleModel& model = *car_shape(body.model).model;
-    Instance part = body;
-    part.kind = Kind::car_body;
-    part.prototype = car_bodies_[body.model];
-    add_instance(part, pose_world_car);
-    part.kind = Kind::wheel;
-    part.prototype = wheels_[body.model];
-    for (std::size_t i = 0; i < 4; ++i) {
-        const bool ahead = i < 2;
-        const double side = i % 2 == 0 ? 1 : -1;
-        Vector3d centre(ahead ? model.wheelbase : 0, side * model.track / 2, model.wheel_radius);
-        double turn = ahead ? steering : 0;
-        double rotation = roll;
-        if (wheels.size() == 4) {
-            turn = wheels[i].steering_angle();
-            rotation = wheels[i].rotation();
-            // A wheel that is pressed in more than the others sits higher in the body.
-            centre.z() += mean_length(wheels) - wheels[i].suspension_length();
-        }
-        Eigen::Affine3d pose(pose_world_car * Eigen::Translation3d(centre));
-        pose.rotate(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
-        pose.rotate(Eigen::AngleAxisd(rotation, Vector3d::UnitY()));
-        if (side < 0)
-            pose.rotate(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitZ()));
-        add_instance(part, pose);
-    }
-}
 
 /// What an actor's own triangles have in common. Traces from before looks were recorded: by id.
 Instance Scene::body_of(std::uint32_t id,
                         std::uint16_t model,
                         std::uint16_t lamps,
                         std::span<const world::Look> looks) const {
-    REPRISE_CHECK(model < car_bodies_.size(), "vehicle " + std::to_string(id));
+    REPRISE_CHECK(model < town_.prototypes().car_bodies.size(), "vehicle " + std::to_string(id));
     const world::Look* look = world::find(looks, id);
     Instance body;
     body.actor = id;
@@ -104,7 +44,7 @@ void Scene::place_vehicles(const world::TickView& tick) {
             body_of(vehicle.id(), vehicle.model(), vehicle.lamps(), tick.vehicle_looks());
         const Eigen::Isometry3d pose = world::pose(vehicle.position(), vehicle.orientation());
         if (!world::is_two_wheeler(world::vehicle_models()[vehicle.model()].body)) {
-            place_car(pose, body, vehicle.steering_angle(), wheels.first(own), 0);
+            town_.add_car(moving_, pose, body, vehicle.steering_angle(), wheels.first(own), 0);
             continue;
         }
         // Its four-wheeled body stands upright: it is drawn leaning as much as the bend asks for.
@@ -133,16 +73,17 @@ void Scene::place_cars(const world::TickView& tick) {
         if (world::is_two_wheeler(model.body))
             place_two_wheeler(pose, body, 0, rolled);
         else
-            place_car(pose, body, 0, {}, rolled / model.wheel_radius);
+            town_.add_car(moving_, pose, body, 0, {}, rolled / model.wheel_radius);
     }
 }
 
 void Scene::place_things(const world::TickView& tick) {
     for (const world::PropState& prop : tick.props()) {
-        REPRISE_CHECK(prop.model() < things_.size(), "prop " + std::to_string(prop.id()));
+        REPRISE_CHECK(prop.model() < town_.prototypes().things.size(),
+                      "prop " + std::to_string(prop.id()));
         Instance instance;
         instance.kind = Kind::thing;
-        instance.prototype = things_[prop.model()];
+        instance.prototype = town_.prototypes().things[prop.model()];
         instance.actor = prop.id();
         add_instance(instance, Eigen::Affine3d(world::pose(prop.position(), prop.orientation())));
     }
@@ -162,7 +103,7 @@ void Scene::place_doors(const world::TickView& tick) {
         const world::DoorLeaf leaf =
             world::door_leaf(world::vehicle_models()[part.model], *pose, door.door(), door.angle());
         part.kind = Kind::car_body;
-        part.prototype = door_;
+        part.prototype = town_.prototypes().door;
         Eigen::Affine3d stretched(leaf.pose);
         stretched.scale(2 * leaf.half);
         add_instance(part, stretched);
@@ -172,7 +113,7 @@ void Scene::place_doors(const world::TickView& tick) {
 void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mounts) {
     mounts_.assign(mounts.begin(), mounts.end());
     signals_.assign(tick.signals().begin(), tick.signals().end());
-    instances_ = town_;
+    moving_.clear();
     outfits_.clear();
     place_vehicles(tick);
     place_cars(tick);
@@ -182,6 +123,7 @@ void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mo
     const bool rains = weather != nullptr && weather->rain() > 0;
     for (const world::WalkerState& walker : tick.walkers())
         place_walker(walker, rains);
+    hide_mounts();
     commit();
 }
 

@@ -8,23 +8,7 @@
 
 namespace reprise::render {
 
-void Scene::build_people() {
-    const auto add = [&](const world::WalkerModel& model) {
-        trunks_.push_back(add_prototype(figure_part_mesh(FigurePart::Shape::trunk, model)));
-        hems_.push_back(add_prototype(figure_part_mesh(FigurePart::Shape::hem, model)));
-    };
-    for (const world::WalkerModel& model : world::walker_models())
-        add(model);
-    add(rider_of(world::BodyStyle::motorcycle));
-    add(rider_of(world::BodyStyle::bicycle));
-    const world::WalkerModel& any = world::walker_models().front();
-    for (auto shape = static_cast<std::size_t>(FigurePart::Shape::ball); shape < figure_part_shapes;
-         ++shape)
-        figure_parts_.at(shape) =
-            add_prototype(figure_part_mesh(static_cast<FigurePart::Shape>(shape), any));
-}
-
-/// `person`: whose trunk it is, index in trunks_.
+/// `person`: whose trunk it is, index in Prototypes::trunks.
 void Scene::place_figure(std::span<const FigurePart> figure,
                          std::size_t person,
                          const Eigen::Isometry3d& pose,
@@ -32,10 +16,11 @@ void Scene::place_figure(std::span<const FigurePart> figure,
     part.outfit = static_cast<std::uint16_t>(outfits_.size() - 1);
     for (const FigurePart& piece : figure) {
         part.material = piece.material;
-        part.prototype = piece.shape == FigurePart::Shape::trunk ? trunks_[person]
-                         : piece.shape == FigurePart::Shape::hem
-                             ? hems_[person]
-                             : figure_parts_.at(static_cast<std::size_t>(piece.shape));
+        part.prototype =
+            piece.shape == FigurePart::Shape::trunk ? town_.prototypes().trunks[person]
+            : piece.shape == FigurePart::Shape::hem
+                ? town_.prototypes().hems[person]
+                : town_.prototypes().figure_parts.at(static_cast<std::size_t>(piece.shape));
         add_instance(part, pose * piece.pose);
     }
 }
@@ -62,16 +47,16 @@ void Scene::place_two_wheeler(const Eigen::Isometry3d& pose_world_vehicle,
     const world::VehicleModel& model = *shape.model;
     Instance part = body;
     part.kind = Kind::car_body;
-    part.prototype = car_bodies_[body.model];
+    part.prototype = town_.prototypes().car_bodies[body.model];
     add_instance(part, pose_world_vehicle);
     const Eigen::Isometry3d pose_world_fork = pose_world_vehicle *
                                               Eigen::Translation3d(model.wheelbase, 0, 0) *
                                               Eigen::AngleAxisd(steering, Eigen::Vector3d::UnitZ());
-    part.prototype = forks_[body.model];
+    part.prototype = town_.prototypes().forks[body.model];
     add_instance(part, pose_world_fork);
 
     part.kind = Kind::wheel;
-    part.prototype = wheels_[body.model];
+    part.prototype = town_.prototypes().wheels[body.model];
     const Eigen::Isometry3d turned =
         Eigen::Translation3d(0, 0, model.wheel_radius) *
         Eigen::AngleAxisd(rolled / model.wheel_radius, Eigen::Vector3d::UnitY()) *
@@ -84,7 +69,7 @@ void Scene::place_two_wheeler(const Eigen::Isometry3d& pose_world_vehicle,
     const double crank = seat.crank > 0 ? 2 * std::numbers::pi * rolled / development : 0;
     if (seat.crank > 0) {
         part.kind = Kind::car_body;
-        part.prototype = cranks_[body.model];
+        part.prototype = town_.prototypes().cranks[body.model];
         for (const double side : {1.0, -1.0}) {
             const Eigen::Vector3d middle(seat.foot.x(), side * 0.05, seat.foot.z());
             const double angle = crank + (side > 0 ? 0 : std::numbers::pi);

@@ -3,7 +3,7 @@
 #include <string>
 #include <tuple>
 
-#include "render/scene/scene.h"
+#include "render/scene/town_scene.h"
 #include "render/shapes/noise.h"
 #include "render/shapes/paint.h"
 #include "render/shapes/street/prop_mesh.h"
@@ -42,7 +42,7 @@ struct SizeClass {
 
 }  // namespace
 
-void Scene::place_props(const world::TownT& town) {
+void TownScene::place_props(const world::TownT& town) {
     std::map<std::pair<world::PropKind, SizeClass>, const Prototype*> prototypes;
     for (const world::Prop& prop : town.props) {
         if (prop.kind() == world::PropKind::parked_vehicle) {
@@ -64,14 +64,14 @@ void Scene::place_props(const world::TownT& town) {
         pose.scale(Vector3d(static_cast<double>(size.length / made.length),
                             static_cast<double>(size.width / made.width),
                             static_cast<double>(size.height / made.height)));
-        add_instance(instance, pose);
+        add_instance(instances_, instance, pose);
     }
 }
 
-void Scene::park(const world::Prop& prop) {
-    REPRISE_CHECK(prop.value() < car_bodies_.size(),
+void TownScene::park(const world::Prop& prop) {
+    REPRISE_CHECK(prop.value() < prototypes_.car_bodies.size(),
                   "parked vehicle of model " + std::to_string(prop.value()));
-    const world::VehicleModel& model = *car_shape(prop.value()).model;
+    const world::VehicleModel& model = *prototypes_.car_shapes[prop.value()].model;
     Instance body;
     body.model = prop.value();
     body.look = hash(prop.style());
@@ -81,7 +81,7 @@ void Scene::park(const world::Prop& prop) {
         world::pose(prop.position(), prop.yaw(), 0) *
         Eigen::Translation3d(model.rear_overhang - model.length / 2, 0, 0);
     const std::size_t first = instances_.size();
-    place_car(pose, body, 0, {}, 0);
+    add_car(instances_, pose, body, 0, {}, 0);
     for (std::size_t i = first; i < instances_.size(); ++i)
         if (instances_[i].kind == Kind::car_body)
             instances_[i].kind = Kind::parked;

@@ -4,7 +4,7 @@
 
 #include "ground/mesh/build_ground.h"
 #include "ground/paint/markings.h"
-#include "render/scene/scene.h"
+#include "render/scene/town_scene.h"
 #include "render/shapes/street/plant_mesh.h"
 #include "render/shapes/street/signal_parts.h"
 #include "world/frames.h"
@@ -70,9 +70,9 @@ BuildingFrame frame_of(const world::Building& building, const Vector3d& origin) 
 
 }  // namespace
 
-void Scene::build_town(const world::TownT& town) {
+void TownScene::build_town(const world::TownT& town) {
     const auto add = [&](Mesh mesh, Kind kind, std::uint32_t mask) {
-        Instance& instance = town_.emplace_back();
+        Instance& instance = instances_.emplace_back();
         instance.prototype = add_prototype(std::move(mesh));
         instance.kind = kind;
         instance.mask = mask;
@@ -111,11 +111,9 @@ void Scene::build_town(const world::TownT& town) {
         add(std::move(houses), Kind::town, solid_bit);
     place_trees(town);
     place_props(town);
-    town_.insert(town_.end(), instances_.begin(), instances_.end());
-    instances_.clear();
 }
 
-void Scene::place_trees(const world::TownT& town) {
+void TownScene::place_trees(const world::TownT& town) {
     // Prototypes are made when the first of their kind is met.
     std::array<const Prototype*, tree_kinds> trees{};
     std::map<world::PlantKind, const Prototype*> plants;
@@ -144,7 +142,7 @@ void Scene::place_trees(const world::TownT& town) {
         Eigen::Affine3d pose(Eigen::Translation3d(world::to_eigen(tree.position())));
         pose.rotate(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
         pose.scale(Vector3d(tree.crown_radius(), tree.crown_radius(), tree.height()));
-        add_instance(instance, pose);
+        add_instance(instances_, instance, pose);
     }
 }
 

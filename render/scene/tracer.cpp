@@ -57,6 +57,31 @@ RTCIntersectContext context_of(bool coherent) {
     return context;
 }
 
+/// Looks up who is there at this tick, ahead of what of the town was met already, and tells what
+/// each lane met as the number of its instance.
+std::array<std::uint32_t, lanes> nearer_of_tick(const Scene& scene,
+                                                const std::array<int, lanes>& valid,
+                                                RTCIntersectContext& context,
+                                                RTCRayHit8& packet) {
+    // Embree numbers the instances of each tree from 0: a lane whose instance changed met another.
+    static_assert(RTC_INVALID_GEOMETRY_ID == no_instance);
+    std::array<std::uint32_t, lanes> numbers;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        numbers[lane] = packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID
+                            ? no_instance
+                            : packet.hit.instID[0][lane];
+        packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    }
+    if (scene.tree() == nullptr)
+        return numbers;
+    rtcIntersect8(valid.data(), scene.tree(), &context, &packet);
+    const auto of_town = static_cast<std::uint32_t>(scene.town().instances().size());
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+        if (packet.hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID)
+            numbers[lane] = of_town + packet.hit.instID[0][lane];
+    return numbers;
+}
+
 }  // namespace
 
 void trace_nearest(const Scene& scene,
@@ -73,15 +98,22 @@ void trace_nearest(const Scene& scene,
             packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
             packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         }
-        if (fill_packet(packet.ray, valid, rays, first))
-            rtcIntersect8(valid.data(), scene.tree(), &context, &packet);
+        if (!fill_packet(packet.ray, valid, rays, first)) {
+            std::fill_n(hits.begin() + static_cast<std::ptrdiff_t>(first),
+                        std::min(lanes, rays.size() - first),
+                        Hit{});
+            continue;
+        }
+        rtcIntersect8(valid.data(), scene.town().tree(), &context, &packet);
+        const std::array<std::uint32_t, lanes> numbers =
+            nearer_of_tick(scene, valid, context, packet);
         for (std::size_t lane = 0; lane < lanes && first + lane < rays.size(); ++lane) {
             Hit& hit = hits[first + lane];
             hit = Hit{};
-            if (valid[lane] == 0 || packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID)
+            if (valid[lane] == 0 || numbers[lane] == no_instance)
                 continue;
             hit = {packet.ray.tfar[lane],
-                   packet.hit.instID[0][lane],
+                   numbers[lane],
                    packet.hit.primID[lane],
                    packet.hit.u[lane],
                    packet.hit.v[lane]};
@@ -99,9 +131,17 @@ void trace_visibility(const Scene& scene,
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         alignas(32) RTCRay8 packet;
         alignas(32) std::array<int, lanes> valid{};
-        if (fill_packet(packet, valid, rays, first))
-            rtcOccluded8(valid.data(), scene.tree(), &context, &packet);
         // Embree sets tfar to minus infinity where the way is blocked.
+        if (fill_packet(packet, valid, rays, first))
+            rtcOccluded8(valid.data(), scene.town().tree(), &context, &packet);
+        bool open = false;
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            if (packet.tfar[lane] < 0)
+                valid[lane] = 0;
+            open |= valid[lane] != 0;
+        }
+        if (open && scene.tree() != nullptr)
+            rtcOccluded8(valid.data(), scene.tree(), &context, &packet);
         for (std::size_t lane = 0; lane < lanes && first + lane < rays.size(); ++lane)
             visible[first + lane] = static_cast<std::uint8_t>(packet.tfar[lane] >= 0);
     }
@@ -136,24 +176,27 @@ void trace_primary(const Scene& scene,
     tbb::parallel_for(0, columns * rows, [&](int index) {
         const DefaultFloatMode plain;
         std::array<Ray, tile * tile> rays;
+        std::array<Eigen::Vector2i, tile * tile> pixels;
         std::array<Hit, tile * tile> found;
+        std::size_t count = 0;  // fewer at the right and lower edge
         const Eigen::Vector2i corner(index % columns * tile, index / columns * tile);
         const Eigen::Vector3f origin = camera.position().cast<float>();
         for (int i = 0; i < tile * tile; ++i) {
             const Eigen::Vector2i pixel = corner + tile_pixel(i);
-            const Eigen::Vector3d direction = camera.ray(pixel.x() + 0.5, pixel.y() + 0.5);
-            rays[static_cast<std::size_t>(i)] = {
-                origin, direction.cast<float>(), std::numeric_limits<float>::infinity(), mask};
-        }
-        trace_nearest(scene, rays, true, found);
-        for (int i = 0; i < tile * tile; ++i) {
-            const Eigen::Vector2i pixel = corner + tile_pixel(i);
             if (pixel.x() >= width || pixel.y() >= height)
                 continue;
-            Hit hit = found[static_cast<std::size_t>(i)];
+            const Eigen::Vector3d direction = camera.ray(pixel.x() + 0.5, pixel.y() + 0.5);
+            pixels[count] = pixel;
+            rays[count++] = {
+                origin, direction.cast<float>(), std::numeric_limits<float>::infinity(), mask};
+        }
+        trace_nearest(scene, std::span(rays).first(count), true, std::span(found).first(count));
+        for (std::size_t i = 0; i < count; ++i) {
+            const Eigen::Vector2i& pixel = pixels[i];
+            Hit hit = found[i];
             if (hit.instance != no_instance)
                 hit.distance = static_cast<float>(
-                    refined_distance(scene.instances()[hit.instance],
+                    refined_distance(scene.instance(hit.instance),
                                      hit.triangle,
                                      camera.position(),
                                      camera.ray(pixel.x() + 0.5, pixel.y() + 0.5),

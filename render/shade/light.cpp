@@ -55,7 +55,7 @@ float highlight(float roughness, float normal_half) {
 
 std::vector<Beam> find_beams(const ShadingInput& input, const Vector3f& eye) {
     std::vector<std::pair<float, Beam>> found;
-    for (const Instance& car : input.scene.instances()) {
+    for (const Instance& car : input.scene.moving()) {
         const bool on = (car.lamps & world::lamp_low_beam) != 0 || input.sky.lamps_on();
         if (car.kind != Kind::car_body || !on || !input.sky.dim())
             continue;

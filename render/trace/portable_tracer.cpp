@@ -115,18 +115,19 @@ void move(const Bundle& world,
     local.prepare();
 }
 
+}  // namespace
+
 /// Calls `reach = take(lane, found, instance, triangle)` for each hit found: how far the
 /// ray of this lane is of interest from now on.
 template <typename Take>
-void walk(const BoundingVolumes& tree,
-          std::span<const PortableTracer::Placed> placed,
-          Bundle& world,
-          const Take& take) {
+void PortableTracer::walk(Bundle& world, const Take& take) const {
+    if (before_ != nullptr)
+        before_->walk(world, take);
     TriangleHits found;
     Bundle moved;
-    tree.walk(world.packet, [&](std::uint32_t place, std::uint32_t, unsigned met) {
-        const std::uint32_t instance = tree.order()[place];
-        const PortableTracer::Placed& thing = placed[instance];
+    tree_.walk(world.packet, [&](std::uint32_t place, std::uint32_t, unsigned met) {
+        const std::uint32_t index = tree_.order()[place];
+        const Placed& thing = placed_[index];
         const unsigned wanted = met & world.lanes_matching(thing.mask);
         if (wanted == 0)
             return;
@@ -139,7 +140,8 @@ void walk(const BoundingVolumes& tree,
                     const MeshTree::Triangle& triangle = thing.mesh->triangles()[i];
                     for_lanes(intersect_triangle(triangle, local, lanes_met & wanted, found),
                               [&](std::size_t lane) {
-                                  const float far = take(lane, found, instance, triangle.number);
+                                  const float far =
+                                      take(lane, found, first_ + index, triangle.number);
                                   local.packet.far[lane] = far;
                                   world.packet.far[lane] = far;
                               });
@@ -148,10 +150,12 @@ void walk(const BoundingVolumes& tree,
     });
 }
 
-}  // namespace
-
-PortableTracer::PortableTracer(std::span<const Instance> instances)
-    : tree_(placed_boxes(instances), 1) {
+PortableTracer::PortableTracer(std::span<const Instance> instances, const PortableTracer* before)
+    : before_(before),
+      first_(before == nullptr
+                 ? 0
+                 : before->first_ + static_cast<std::uint32_t>(before->placed_.size())),
+      tree_(placed_boxes(instances), 1) {
     placed_.reserve(instances.size());
     for (const Instance& instance : instances) {
         Placed& placed = placed_.emplace_back();
@@ -172,9 +176,7 @@ void PortableTracer::trace_nearest(std::span<const Ray> rays, std::span<Hit> hit
         Nearest nearest;
         for (std::size_t lane = 0; lane < lanes; ++lane)
             nearest.distance[lane] = static_cast<double>(bundle.packet.far[lane]);
-        walk(tree_,
-             placed_,
-             bundle,
+        walk(bundle,
              [&](std::size_t lane,
                  const TriangleHits& found,
                  std::uint32_t instance,
@@ -192,9 +194,7 @@ void PortableTracer::trace_visibility(std::span<const Ray> rays,
     for (std::size_t first = 0; first < rays.size(); first += lanes) {
         Bundle bundle = bundle_of(rays, first);
         unsigned blocked = 0;
-        walk(tree_,
-             placed_,
-             bundle,
+        walk(bundle,
              [&](std::size_t lane, const TriangleHits& found, std::uint32_t, std::uint32_t) {
                  const float far = rays[first + lane].far;
                  const bool blocks = found.distance[lane] <= static_cast<double>(far);

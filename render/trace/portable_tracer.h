@@ -9,6 +9,7 @@
 
 namespace reprise::render {
 
+struct Bundle;
 struct Hit;
 struct Instance;
 struct Ray;
@@ -19,8 +20,10 @@ struct Ray;
 /// Embree's time.
 class PortableTracer {
   public:
-    /// Keeps nothing of earlier instances; borrows these ones' prototypes.
-    explicit PortableTracer(std::span<const Instance> instances);
+    /// Borrows these instances' prototypes. Rays also meet what is `before`, which is borrowed:
+    /// its instances are numbered first.
+    explicit PortableTracer(std::span<const Instance> instances,
+                            const PortableTracer* before = nullptr);
 
     /// As the functions of these names in render/scene/tracer.h.
     void trace_nearest(std::span<const Ray> rays, std::span<Hit> hits) const;
@@ -35,6 +38,11 @@ class PortableTracer {
     };
 
   private:
+    template <typename Take>
+    void walk(Bundle& world, const Take& take) const;
+
+    const PortableTracer* before_;
+    std::uint32_t first_;  // number of the first instance here
     std::vector<Placed> placed_;
     BoundingVolumes tree_;
 };

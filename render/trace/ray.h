@@ -19,7 +19,7 @@ inline constexpr std::uint32_t no_instance = 0xffffffffu;
 /// What a ray met first.
 struct Hit {
     float distance = 0;                    ///< in lengths of the ray's direction
-    std::uint32_t instance = no_instance;  ///< index in Scene.instances(), or none: sky
+    std::uint32_t instance = no_instance;  ///< number of a Scene.instance(), or none: sky
     std::uint32_t triangle = 0;
     float u = 0;  ///< weight of the triangle's second corner
     float v = 0;  ///< of its third

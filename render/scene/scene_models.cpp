@@ -1,0 +1,94 @@
+#include <numbers>
+
+#include "render/scene/town_scene.h"
+#include "render/shapes/cars/two_wheeler.h"
+#include "render/shapes/people/figure.h"
+#include "render/shapes/street/thing_mesh.h"
+#include "world/models/actors.h"
+#include "world/models/doors.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector3d;
+
+double mean_length(std::span<const world::WheelState> wheels) {
+    double sum = 0;
+    for (const world::WheelState& wheel : wheels)
+        sum += wheel.suspension_length();
+    return sum / static_cast<double>(wheels.size());
+}
+
+}  // namespace
+
+void TownScene::build_models() {
+    for (const world::VehicleModel& model : world::vehicle_models()) {
+        const CarShape& shape = prototypes_.car_shapes.emplace_back(model);
+        const bool thin = world::is_two_wheeler(model.body);
+        const bool pedalled = thin && seat_of(shape).crank > 0;
+        prototypes_.car_bodies.push_back(
+            add_prototype(thin ? two_wheeler_mesh(shape) : car_body_mesh(shape)));
+        prototypes_.wheels.push_back(
+            add_prototype(thin ? thin_wheel_mesh(shape) : wheel_mesh(shape)));
+        prototypes_.forks.push_back(thin ? add_prototype(fork_mesh(shape)) : nullptr);
+        prototypes_.cranks.push_back(pedalled ? add_prototype(crank_mesh(shape)) : nullptr);
+    }
+    for (const world::PropModel& model : world::prop_models())
+        prototypes_.things.push_back(add_prototype(thing_mesh(model)));
+    prototypes_.door = add_prototype(door_mesh());
+    build_people();
+}
+
+void TownScene::add_car(std::vector<Instance>& instances,
+                        const Eigen::Isometry3d& pose_world_car,
+                        const Instance& body,
+                        double steering,
+                        std::span<const world::WheelState> wheels,
+                        double roll) const {
+    const world::VehicleModel& model = *prototypes_.car_shapes[body.model].model;
+    Instance part = body;
+    part.kind = Kind::car_body;
+    part.prototype = prototypes_.car_bodies[body.model];
+    add_instance(instances, part, pose_world_car);
+    part.kind = Kind::wheel;
+    part.prototype = prototypes_.wheels[body.model];
+    for (std::size_t i = 0; i < 4; ++i) {
+        const bool ahead = i < 2;
+        const double side = i % 2 == 0 ? 1 : -1;
+        Vector3d centre(ahead ? model.wheelbase : 0, side * model.track / 2, model.wheel_radius);
+        double turn = ahead ? steering : 0;
+        double rotation = roll;
+        if (wheels.size() == 4) {
+            turn = wheels[i].steering_angle();
+            rotation = wheels[i].rotation();
+            // A wheel that is pressed in more than the others sits higher in the body.
+            centre.z() += mean_length(wheels) - wheels[i].suspension_length();
+        }
+        Eigen::Affine3d pose(pose_world_car * Eigen::Translation3d(centre));
+        pose.rotate(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
+        pose.rotate(Eigen::AngleAxisd(rotation, Vector3d::UnitY()));
+        if (side < 0)
+            pose.rotate(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitZ()));
+        add_instance(instances, part, pose);
+    }
+}
+
+void TownScene::build_people() {
+    const auto add = [&](const world::WalkerModel& model) {
+        prototypes_.trunks.push_back(
+            add_prototype(figure_part_mesh(FigurePart::Shape::trunk, model)));
+        prototypes_.hems.push_back(add_prototype(figure_part_mesh(FigurePart::Shape::hem, model)));
+    };
+    for (const world::WalkerModel& model : world::walker_models())
+        add(model);
+    add(rider_of(world::BodyStyle::motorcycle));
+    add(rider_of(world::BodyStyle::bicycle));
+    const world::WalkerModel& any = world::walker_models().front();
+    for (auto shape = static_cast<std::size_t>(FigurePart::Shape::ball); shape < figure_part_shapes;
+         ++shape)
+        prototypes_.figure_parts.at(shape) =
+            add_prototype(figure_part_mesh(static_cast<FigurePart::Shape>(shape), any));
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,150 @@
+// What it must do: hold the town, and the shapes of all that moves in it, as triangles that rays
+// can
+//   find.
+// What it assumes: Debian's Embree has assertions on, so that triangles without area and rays that
+//   are not numbers must never reach it.
+// How it goes: one tree for each distinct mesh, and one of the town's placed meshes, built once.
+//   Who moves gets a tree of its own at each tick, see scene.h: a ray looks into both.
+// What it keeps: the device, the meshes, the town's instances.
+#include "render/scene/town_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <embree3/rtcore.h>
+#include <tbb/parallel_for.h>
+
+#include "world/check.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Pictures depend on the instruction set in the last bits: always the same one on one machine.
+const char* device_settings() {
+    __builtin_cpu_init();
+    if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0)
+        return "isa=avx2";
+    return __builtin_cpu_supports("sse4.2") != 0 ? "isa=sse4.2" : "isa=sse2";
+}
+
+Vector3d whole_metres_amid(const world::TownT& town) {
+    const auto middle = [](double low, double high) { return std::floor((low + high) / 2); };
+    return {middle(town.low.x(), town.high.x()),
+            middle(town.low.y(), town.high.y()),
+            middle(town.low.z(), town.high.z())};
+}
+
+}  // namespace
+
+struct TownScene::Device {
+    Device() {
+        // Embree must not be the first to use TBB in this process: workers that it starts keep its
+        // floating-point mode (flush to zero) for everybody else's loops.
+        tbb::parallel_for(0, 64, [](int) {});
+        handle = rtcNewDevice(device_settings());
+        REPRISE_CHECK(handle != nullptr, "Embree: no device");
+    }
+
+    ~Device() { rtcReleaseDevice(handle); }
+
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    void check() const {
+        const RTCError error = rtcGetDeviceError(handle);
+        REPRISE_CHECK(error == RTC_ERROR_NONE, "Embree error " + std::to_string(error));
+    }
+
+    RTCDevice handle = nullptr;
+};
+
+TownScene::TownScene(const world::TownT& town, bool portable)
+    : device_(portable ? nullptr : std::make_unique<Device>()),
+      origin_(whole_metres_amid(town)),
+      lanes_(town, origin_) {
+    build_models();
+    build_town(town);
+    tree_ = tree_of(instances_);
+    if (portable)
+        portable_tracer_.emplace(instances_);
+}
+
+TownScene::~TownScene() {
+    if (!device_)
+        return;
+    rtcReleaseScene(tree_);
+    for (const Prototype& prototype : meshes_)
+        rtcReleaseScene(prototype.tree);
+}
+
+const Prototype* TownScene::add_prototype(Mesh mesh) {
+    Prototype& prototype = meshes_.emplace_back(Prototype{std::move(mesh), nullptr, nullptr});
+    if (!device_) {
+        prototype.plain_tree = std::make_unique<MeshTree>(prototype.mesh);
+        return &prototype;
+    }
+    prototype.tree = rtcNewScene(device_->handle);
+    rtcSetSceneBuildQuality(prototype.tree, RTC_BUILD_QUALITY_MEDIUM);
+    // Watertight: else some rays in a picture slip through between two triangles of the ground.
+    rtcSetSceneFlags(prototype.tree, RTC_SCENE_FLAG_ROBUST);
+    if (!prototype.mesh.triangles.empty()) {
+        RTCGeometry geometry = rtcNewGeometry(device_->handle, RTC_GEOMETRY_TYPE_TRIANGLE);
+        const std::size_t vertices = prototype.mesh.vertices.size();
+        const std::size_t triangles = prototype.mesh.triangles.size();
+        auto* positions =
+            static_cast<Eigen::Vector3f*>(rtcSetNewGeometryBuffer(geometry,
+                                                                  RTC_BUFFER_TYPE_VERTEX,
+                                                                  0,
+                                                                  RTC_FORMAT_FLOAT3,
+                                                                  sizeof(Eigen::Vector3f),
+                                                                  vertices));
+        std::copy(prototype.mesh.vertices.begin(), prototype.mesh.vertices.end(), positions);
+        using Corners = std::array<std::uint32_t, 3>;
+        auto* corners = static_cast<Corners*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Corners), triangles));
+        std::copy(prototype.mesh.triangles.begin(), prototype.mesh.triangles.end(), corners);
+        // Rays choose by the instance; everything inside one is visible to all.
+        rtcSetGeometryMask(geometry, 0xffffffffu);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(prototype.tree, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(prototype.tree);
+    return &prototype;
+}
+
+void TownScene::add_instance(std::vector<Instance>& instances,
+                             Instance instance,
+                             const Eigen::Affine3d& pose_world) const {
+    instance.pose = pose_world;
+    instance.pose.translation() -= origin_;
+    instance.normal_to_scene = pose_world.linear().inverse().transpose().cast<float>();
+    instances.push_back(instance);
+}
+
+RTCSceneTy* TownScene::tree_of(std::span<const Instance> instances) const {
+    if (!device_)
+        return nullptr;
+    RTCScene tree = rtcNewScene(device_->handle);
+    rtcSetSceneBuildQuality(tree, RTC_BUILD_QUALITY_MEDIUM);
+    for (const Instance& instance : instances) {
+        RTCGeometry geometry = rtcNewGeometry(device_->handle, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, instance.prototype->tree);
+        const Eigen::Affine3f pose = instance.pose.cast<float>();
+        Eigen::Matrix<float, 3, 4> columns = pose.matrix().topRows<3>();
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+        rtcSetGeometryMask(geometry, instance.mask);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(tree, geometry);  // ids count up from 0: an id is the index here
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(tree);
+    device_->check();
+    return tree;
+}
+
+}  // namespace reprise::render

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "render/scene/lane_raster.h"
+#include "render/shapes/buildings/building_mesh.h"
+#include "render/shapes/cars/car_shape.h"
+#include "render/shapes/people/figure_part.h"
+#include "render/shapes/street/plot_mesh.h"
+#include "render/trace/instance.h"
+#include "render/trace/portable_tracer.h"
+#include "world/tick.h"
+#include "world/town_generated.h"
+
+struct RTCDeviceTy;
+struct RTCSceneTy;
+
+namespace reprise::render {
+
+/// A building's frame, for painting its faces.
+struct BuildingFrame {
+    Eigen::Vector3f centre;
+    float cosine;
+    float sine;
+    Eigen::Vector2f half;
+    Facade facade;
+};
+
+/// The shapes of all that can be anywhere: what is placed is an instance of one of these.
+struct Prototypes {
+    std::vector<CarShape> car_shapes;  // by model, as those that follow
+    std::vector<const Prototype*> car_bodies;
+    std::vector<const Prototype*> wheels;
+    std::vector<const Prototype*> forks;   // of two-wheelers, else none
+    std::vector<const Prototype*> cranks;  // of bicycles, else none
+    const Prototype* door = nullptr;
+    std::vector<const Prototype*> things;  // by model of a scenario's props
+    // Of the pedestrian models, then of the riders of a motorcycle and a bicycle.
+    std::vector<const Prototype*> trunks;
+    std::vector<const Prototype*> hems;
+    std::array<const Prototype*, figure_part_shapes> figure_parts{};  // by FigurePart::Shape
+};
+
+/// All that stays: the town, in Embree, or in our own PortableTracer when pictures must be
+/// `portable` between CPUs, and the shapes of all that moves in it. Owns the device. The scene's
+/// frame is the world's, moved to `origin` (whole metres), so that single precision stays exact to
+/// 0.1 mm far from the map's zero. Never changes: any number of Scenes may borrow it at once.
+class TownScene {
+  public:
+    TownScene(const world::TownT& town, bool portable);
+    ~TownScene();
+    TownScene(const TownScene&) = delete;
+    TownScene& operator=(const TownScene&) = delete;
+
+    /// Embree's tree of these instances, to be released by the caller; none when portable.
+    RTCSceneTy* tree_of(std::span<const Instance> instances) const;
+
+    RTCSceneTy* tree() const { return tree_; }
+
+    /// Instead of tree() when pictures must be portable; else none.
+    const PortableTracer* portable_tracer() const {
+        return portable_tracer_ ? &*portable_tracer_ : nullptr;
+    }
+
+    std::span<const Instance> instances() const { return instances_; }
+
+    const Prototypes& prototypes() const { return prototypes_; }
+
+    std::span<const BuildingFrame> buildings() const { return buildings_; }
+
+    const Facades& facades() const { return facades_; }
+
+    std::span<const PlotFrame> plots() const { return plots_; }
+
+    const LaneRaster& lanes() const { return lanes_; }
+
+    const Eigen::Vector3d& origin() const { return origin_; }
+
+    /// Adds an instance in its place, in the scene's frame.
+    void add_instance(std::vector<Instance>& instances,
+                      Instance instance,
+                      const Eigen::Affine3d& pose_world) const;
+
+    /// Adds a car's body and its wheels.
+    void add_car(std::vector<Instance>& instances,
+                 const Eigen::Isometry3d& pose_world_car,
+                 const Instance& body,
+                 double steering,
+                 std::span<const world::WheelState> wheels,
+                 double roll) const;
+
+  private:
+    struct Device;
+
+    const Prototype* add_prototype(Mesh mesh);
+    void build_models();
+    void build_people();
+    void build_town(const world::TownT& town);
+    void place_trees(const world::TownT& town);
+    void place_props(const world::TownT& town);
+    void park(const world::Prop& prop);
+
+    std::unique_ptr<Device> device_;  // none when portable
+    Eigen::Vector3d origin_;
+    LaneRaster lanes_;
+    std::deque<Prototype> meshes_;  // a deque keeps their addresses
+    Prototypes prototypes_;
+    std::vector<BuildingFrame> buildings_;
+    Facades facades_;
+    std::vector<PlotFrame> plots_;
+    std::vector<Instance> instances_;
+    RTCSceneTy* tree_ = nullptr;
+    std::optional<PortableTracer> portable_tracer_;
+};
+
+}  // namespace reprise::render
