@@ -66,9 +66,10 @@ std::string text_of(const Infraction& infraction, const world::TownT& town) {
 }  // namespace
 
 void Infractions::note(const world::TickView& last, world::TickDraft& next) {
+    hear_spawns(*last.tick, spawns_);
     for (const world::VehicleState& vehicle : last.vehicles()) {
         const world::Measurement* measured = world::find(last.measurements(), vehicle.id());
-        if (measured == nullptr)
+        if (measured == nullptr || !replay::is_driven(spawns_, vehicle.id()))
             continue;
         const auto [found, is_new] = watched_.try_emplace(vehicle.id());
         Watched& watched = found->second;

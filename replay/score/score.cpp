@@ -35,13 +35,20 @@ class Scorer {
           step_(step),
           actor_(actor) {}
 
-    world::ActorNames& names() { return names_; }
+    /// A slice's: who was there before.
+    void know(const world::Spawns& spawns) {
+        spawns_ = spawns;
+        for (const auto& [id, spawn] : spawns)
+            names_.know(id, spawn.command.text);
+    }
 
     void look(const world::TickView& tick) {
         names_.hear(tick);
+        hear_spawns(*tick.tick, spawns_);
         for (const world::VehicleState& vehicle : tick.vehicles()) {
             const world::Measurement* measured = world::find(tick.measurements(), vehicle.id());
             if ((actor_ && vehicle.id() != *actor_) || measured == nullptr ||
+                !is_driven(spawns_, vehicle.id()) ||
                 vehicle.model() >= world::vehicle_models().size())
                 continue;
             look(tick, vehicle, *measured);
@@ -161,6 +168,7 @@ class Scorer {
     double step_;
     std::optional<std::uint32_t> actor_;
     world::ActorNames names_;
+    world::Spawns spawns_;
     std::map<std::uint32_t, Scored> scored_;
 };
 
@@ -200,8 +208,7 @@ std::vector<VehicleScore> score(TraceReader& trace, std::optional<std::uint32_t>
     Scorer scorer(
         trace.recording().town, static_cast<double>(trace.episode().step_ns) * 1e-9, actor);
     if (const auto slice = trace.slice())
-        for (const auto& [id, spawn] : slice->spawns)
-            scorer.names().know(id, spawn.command.text);
+        scorer.know(slice->spawns);
     for (std::uint64_t index = trace.first(); index <= trace.last(); ++index)
         scorer.look(trace.recorded(index).view);
     return scorer.finish();

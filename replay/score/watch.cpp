@@ -55,6 +55,15 @@ Sight see(const world::TickView& tick,
     return sight;
 }
 
+bool is_driven(const world::Spawns& spawns, std::uint32_t vehicle) {
+    const auto spawn = spawns.find(vehicle);
+    if (spawn == spawns.end())
+        return false;  // of the demand's
+    const world::Driver driver = spawn->second.command.driver;
+    return driver == world::Driver::autopilot || driver == world::Driver::manual ||
+           driver == world::Driver::external;
+}
+
 std::vector<Infraction> Watch::take_begun() {
     return std::exchange(begun_, {});
 }

@@ -10,6 +10,7 @@
 #include "replay/score/infraction.h"
 #include "world/lanes/stop_lines.h"
 #include "world/models/catalogue.h"
+#include "world/spawns.h"
 #include "world/town.h"
 
 namespace reprise::replay {
@@ -58,6 +59,10 @@ Sight see(const world::TickView& tick,
           const world::Measurement& measured,
           double step,
           LastSeen& last);
+
+/// Somebody drives it, and may do wrong. Nobody drives a wreck: it was a car without mass, until
+/// something hit it. `spawns`: up to this tick.
+bool is_driven(const world::Spawns& spawns, std::uint32_t vehicle);
 
 /// Watches one vehicle for one infraction. Ticks are shown in their order, from the one of its
 /// spawn on. What it says depends on these ticks and the town alone.

@@ -35,6 +35,14 @@ TEST_F(WreckedCar, IsToldWhileTheRunGoesOn) {
                 HasSubstr("van is hit at 5.0 m/s, and a wreck from here on"));
 }
 
+/// It is pushed over the limit, and past a line perhaps; nobody drives it.
+TEST_F(WreckedCar, DoesNothingWrong) {
+    const std::string scores = reprise({"score", "a.mcap"}, folder->path()).out;
+    EXPECT_THAT(scores, HasSubstr("ego ("));
+    EXPECT_THAT(scores, testing::Not(HasSubstr("\nvan (")));
+    EXPECT_NE(reprise({"score", "a.mcap", "--actor", "van"}, folder->path()).code, 0);
+}
+
 /// It has rows in `vehicles`, so a vehicle is what it is; until then it was a car.
 TEST_F(WreckedCar, IsOneActorThatIsAVehicleSinceThen) {
     const std::string actors =
