@@ -24,7 +24,7 @@ void PictureFolders::take(std::size_t sensor,
     const bool for_people = frame.kind == world::SensorKind::rgb;
     render::write_png(for_people ? shown : frame, of_sensors_[sensor] / name);
     if (!for_people)
-        render::write_png(shown, of_sensors_[sensor] / "view" / name);
+        render::write_png(shown, of_sensors_[sensor] / "view" / name, render::Texture::flat);
 }
 
 Film::Film(const std::filesystem::path& path,

@@ -66,7 +66,7 @@ int town_show(const TownShowOptions& options) {
     require_some_town(region, town);
     const world::SensorFrame map = render::town_map(
         town, ground::build_ground(town), ground::build_markings(town), {region, options.size});
-    render::write_png(map, options.output);
+    render::write_png(map, options.output, render::Texture::flat);
     say("{}: {} x {} pixels\n", options.output, map.width, map.height);
     return exit_good;
 }
