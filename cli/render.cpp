@@ -55,14 +55,94 @@ std::unique_ptr<PictureOutput> open_output(const RenderOptions& options,
                                            std::uint64_t step_ns) {
     const std::string ending = film_ending(options.output);
     if (ending.empty())
-        return std::make_unique<PictureFolders>(options.output, cameras);
+        return std::make_unique<PictureFolders>(options.output, cameras, !options.no_view);
     const std::uint64_t every =
         as_recorded(options, cameras) ? cameras.recorded()->every.front() : ticks.every;
     return std::make_unique<Film>(
         options.output, ending, cameras, 1e9 / static_cast<double>(step_ns * every));
 }
 
-/// Renders the ticks, one after the other.
+/// A tick's cameras and what becomes of their pictures. Keeps the tick: the trace is read on while
+/// it is looked at.
+class LookAtTick : public render::Observation {
+  public:
+    LookAtTick(const replay::RecordedTick& tick,
+               const Annotation& annotation,
+               PictureOutput& output)
+        : tick_bytes_(tick.tick_bytes.begin(), tick.tick_bytes.end()),
+          traffic_bytes_(tick.traffic_bytes.begin(), tick.traffic_bytes.end()),
+          annotation_(annotation),
+          output_(output) {}
+
+    world::TickView tick() const override {
+        return {world::GetTick(tick_bytes_.data()), world::GetTraffic(traffic_bytes_.data())};
+    }
+
+    const world::SensorRig& rig() const override { return rig_; }
+
+    const world::Weather& weather() const override { return weather_; }
+
+    /// `last`: nothing comes after it, and the run ends so.
+    void point(const Cameras& cameras,
+               const std::vector<std::size_t>& looking,
+               std::uint32_t actor,
+               const world::WeatherPreset* weather,
+               bool last) {
+        looking_ = looking;
+        actor_ = actor;
+        last_ = last;
+        weather_ = weather != nullptr ? weather->weather : *tick().tick->weather();
+        for (const std::size_t i : looking)
+            rig_.push_back(cameras.placed(i, actor, tick()));
+        words_ = annotation_.words({tick(), rig_.front(), actor, last});
+        // Cameras of one place look together: what is seen is found once.
+        if (annotation_.needs_depth())
+            for (std::size_t i = 0; i < looking.size(); ++i) {
+                rig_.push_back(rig_[i]);
+                rig_.back().kind = world::SensorKind::depth;
+            }
+    }
+
+    void seen(std::vector<world::SensorFrame> frames) override {
+        frames_ = std::move(frames);
+        for (std::size_t i = 0; i < looking_.size(); ++i) {
+            shown_.push_back(output_.shows(looking_[i]) ? shown(i) : world::SensorFrame());
+            if (!output_.in_order())
+                output_.take(looking_[i], frames_[i], shown_[i]);
+        }
+    }
+
+    void done() override {
+        for (std::size_t i = 0; i < looking_.size() && output_.in_order(); ++i)
+            output_.take(looking_[i], frames_[i], shown_[i]);
+    }
+
+  private:
+    world::SensorFrame shown(std::size_t i) const {
+        world::SensorFrame shown = render::viewable(frames_[i]);
+        const std::size_t depth = looking_.size() + i;
+        annotation_.write(shown,
+                          depth < frames_.size() ? &frames_[depth] : nullptr,
+                          {tick(), rig_[i], actor_, last_},
+                          words_);
+        return shown;
+    }
+
+    std::vector<std::uint8_t> tick_bytes_;
+    std::vector<std::uint8_t> traffic_bytes_;
+    const Annotation& annotation_;
+    PictureOutput& output_;
+    std::vector<std::size_t> looking_;  ///< by their index in Cameras::sensors()
+    std::uint32_t actor_ = 0;
+    bool last_ = false;
+    world::Weather weather_;
+    world::SensorRig rig_;
+    Annotation::Words words_;
+    std::vector<world::SensorFrame> frames_;
+    std::vector<world::SensorFrame> shown_;
+};
+
+/// Goes through the ticks, and says who looks at each.
 class Renderer {
   public:
     Renderer(const RenderOptions& options,
@@ -73,41 +153,24 @@ class Renderer {
           cameras_(cameras),
           output_(output),
           annotation_(options, trace),
-          sensors_(trace.recording().town,
-                   {.threads = options.threads, .portable = options.portable}),
           weather_(world::find_weather(options.weather)) {}
 
-    /// Returns how many pictures were taken. `last`: nothing comes after it, and the run ends so.
-    std::size_t look(std::uint64_t index, bool last) {
+    /// Nobody looks at some ticks. `last`: nothing comes after it, and the run ends so.
+    std::unique_ptr<LookAtTick> look(std::uint64_t index, bool last) {
         const std::vector<std::size_t> looking = cameras_.due(index);
         if (looking.empty())
-            return 0;
+            return nullptr;
         annotation_.read_to(last ? trace_.last() : index);
-        const world::TickView tick = trace_.tick(index).view;
-        const auto actor = cameras_.actor(tick);
+        auto look = std::make_unique<LookAtTick>(trace_.tick(index), annotation_, output_);
+        const auto actor = cameras_.actor(look->tick());
         if (!actor)
-            return 0;
-        world::SensorRig rig;
-        for (const std::size_t i : looking)
-            rig.push_back(cameras_.placed(i, *actor, tick));
-        // Cameras of one place look together: what is seen is found once.
-        if (annotation_.needs_depth())
-            for (std::size_t i = 0; i < looking.size(); ++i) {
-                rig.push_back(rig[i]);
-                rig.back().kind = world::SensorKind::depth;
-            }
-        const std::vector<world::SensorFrame> frames = sensors_.observe(
-            tick, rig, weather_ != nullptr ? weather_->weather : *tick.tick->weather());
-        for (std::size_t i = 0; i < looking.size(); ++i) {
-            world::SensorFrame shown = render::viewable(frames[i]);
-            const std::size_t depth = looking.size() + i;
-            annotation_.write(shown,
-                              depth < frames.size() ? &frames[depth] : nullptr,
-                              {tick, rig[i], *actor, last});
-            output_.take(looking[i], frames[i], shown);
-        }
-        return looking.size();
+            return nullptr;
+        look->point(cameras_, looking, *actor, weather_, last);
+        pictures_ += looking.size();
+        return look;
     }
+
+    std::size_t pictures() const { return pictures_; }
 
     std::string weather_name() const {
         return weather_ != nullptr ? weather_->name : trace_.episode().weather_name;
@@ -118,8 +181,8 @@ class Renderer {
     const Cameras& cameras_;
     PictureOutput& output_;
     Annotation annotation_;
-    render::Sensors sensors_;
     const world::WeatherPreset* weather_;  ///< none: as recorded
+    std::size_t pictures_ = 0;
 };
 
 }  // namespace
@@ -132,21 +195,29 @@ int render(const RenderOptions& options) {
     if (as_recorded(options, cameras))
         ticks.every = 1;
     Renderer renderer(options, trace, cameras, *output);
+    render::Sensors sensors(trace.recording().town,
+                            {.threads = options.threads, .portable = options.portable});
     Progress progress("rendering", "ticks", (ticks.to - ticks.from) / ticks.every + 1);
     std::uint64_t done = 0;
-    std::size_t pictures = 0;
-    for (std::uint64_t index = ticks.from; index <= ticks.to; index += ticks.every) {
-        progress.update(++done);
-        const bool ends = ticks.to == trace.last() && index + ticks.every > ticks.to;
-        pictures += renderer.look(index, ends);
-    }
-    if (pictures == 0)
+    std::uint64_t index = ticks.from;
+    sensors.observe_each([&]() -> std::unique_ptr<render::Observation> {
+        for (; index <= ticks.to; index += ticks.every) {
+            progress.update(++done);
+            const bool ends = ticks.to == trace.last() && index + ticks.every > ticks.to;
+            if (auto look = renderer.look(index, ends)) {
+                index += ticks.every;
+                return look;
+            }
+        }
+        return nullptr;
+    });
+    if (renderer.pictures() == 0)
         throw world::Error("no vehicle to mount the camera on in these ticks of " + options.trace);
     output->finish();
     progress.clear();
     say("{}: {} pictures of {} in {:.2f} s\n",
         options.output,
-        pictures,
+        renderer.pictures(),
         renderer.weather_name(),
         progress.seconds());
     return exit_good;

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <string>
 
 #include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include "render/scene/scene.h"
@@ -18,9 +20,35 @@
 
 namespace reprise::render {
 
-/// What is kept between calls: the town, the sky of the last weather, and memory for pictures.
-struct Sensors::Scene {
-    Scene(const world::TownT& town, const Options& options) {
+namespace {
+
+/// Looks at one tick after another. What is kept between calls: the sky of the last weather, and
+/// memory for pictures.
+class Observer {
+  public:
+    explicit Observer(const TownScene& town) : scene_(town) {}
+
+    std::vector<world::SensorFrame> observe(const world::TickView& tick,
+                                            const world::SensorRig& rig,
+                                            const world::Weather& weather);
+
+  private:
+    const Sky& sky_of(const world::Weather& weather) {
+        if (!sky_ || !(sky_->weather() == weather))
+            sky_.emplace(weather);
+        return *sky_;
+    }
+
+    Scene scene_;
+    std::optional<Sky> sky_;
+    Frame frame_;
+};
+
+}  // namespace
+
+/// What is kept between calls: the town, and who looked at it.
+struct Sensors::Studio {
+    Studio(const world::TownT& town, const Options& options) {
         REPRISE_CHECK(options.threads >= 0, std::to_string(options.threads) + " threads");
         if (options.threads > 0) {
             const auto threads = static_cast<std::size_t>(options.threads);
@@ -30,18 +58,25 @@ struct Sensors::Scene {
         arena.execute([&] {
             const DefaultFloatMode plain;
             still.emplace(town, options.portable);
-            scene.emplace(*still);
         });
     }
 
-    std::vector<world::SensorFrame> observe(const world::TickView& tick,
-                                            const world::SensorRig& rig,
-                                            const world::Weather& weather);
-
-    const Sky& sky_of(const world::Weather& weather) {
-        if (!sky || !(sky->weather() == weather))
-            sky.emplace(weather);
-        return *sky;
+    /// Calls `work` with an observer that nobody else has meanwhile.
+    template <typename Work>
+    void with_observer(const Work& work) {
+        std::unique_ptr<Observer> observer;
+        {
+            const std::lock_guard hold(lock);
+            if (!idle.empty()) {
+                observer = std::move(idle.back());
+                idle.pop_back();
+            }
+        }
+        if (!observer)
+            observer = std::make_unique<Observer>(*still);
+        work(*observer);
+        const std::lock_guard hold(lock);
+        idle.push_back(std::move(observer));
     }
 
     // The limit also binds Embree, which has an arena of its own, and allows more threads than
@@ -49,9 +84,8 @@ struct Sensors::Scene {
     std::optional<tbb::global_control> limit;
     tbb::task_arena arena;
     std::optional<TownScene> still;
-    std::optional<render::Scene> scene;
-    std::optional<Sky> sky;
-    Frame frame;
+    std::mutex lock;
+    std::vector<std::unique_ptr<Observer>> idle;
 };
 
 namespace {
@@ -115,21 +149,58 @@ std::vector<std::uint8_t> class_bytes(const Scene& scene, const std::vector<Hit>
 }  // namespace
 
 Sensors::Sensors(const world::TownT& town, const Options& options)
-    : scene_(std::make_unique<Scene>(town, options)) {}
+    : studio_(std::make_unique<Studio>(town, options)) {}
 
 Sensors::~Sensors() = default;
 
 std::vector<world::SensorFrame> Sensors::observe(const world::TickView& tick,
                                                  const world::SensorRig& rig,
                                                  const world::Weather& weather) {
-    return scene_->arena.execute([&] { return scene_->observe(tick, rig, weather); });
+    std::vector<world::SensorFrame> frames;
+    studio_->arena.execute([&] {
+        studio_->with_observer(
+            [&](Observer& observer) { frames = observer.observe(tick, rig, weather); });
+    });
+    return frames;
 }
 
-std::vector<world::SensorFrame> Sensors::Scene::observe(const world::TickView& tick,
-                                                        const world::SensorRig& rig,
-                                                        const world::Weather& weather) {
+void Sensors::observe_each(const std::function<std::unique_ptr<Observation>()>& next) {
+    using tbb::filter_mode;
+    // A few more than there are threads, so that nobody waits for who is late. Not more: what is
+    // unfinished has to be noted down, see files/ending.h.
+    const auto most =
+        static_cast<std::size_t>(std::min(studio_->arena.max_concurrency() * 3 / 2 + 1, 40));
+    using Asked = std::unique_ptr<Observation>;
+    const auto ask = [&](tbb::flow_control& control) {
+        Asked look = next();
+        if (!look)
+            control.stop();
+        return look;
+    };
+    const auto see = [&](Asked look) {
+        // Who waits for others in the middle of a picture helps them, and begins no other picture.
+        tbb::this_task_arena::isolate([&] {
+            studio_->with_observer([&](Observer& observer) {
+                look->seen(observer.observe(look->tick(), look->rig(), look->weather()));
+            });
+        });
+        return look;
+    };
+    const auto finish = [](const Asked& look) { look->done(); };
+    studio_->arena.execute([&] {
+        tbb::parallel_pipeline(
+            most,
+            tbb::make_filter<void, Asked>(filter_mode::serial_in_order, ask) &
+                tbb::make_filter<Asked, Asked>(filter_mode::parallel, see) &
+                tbb::make_filter<Asked, void>(filter_mode::serial_in_order, finish));
+    });
+}
+
+std::vector<world::SensorFrame> Observer::observe(const world::TickView& tick,
+                                                  const world::SensorRig& rig,
+                                                  const world::Weather& weather) {
     const DefaultFloatMode plain;
-    render::Scene& placed = *scene;
+    Scene& placed = scene_;
     // From where cameras look, and who carries them out of their sight.
     std::vector<std::uint32_t> mounts;
     std::vector<Camera> cameras;
@@ -164,9 +235,9 @@ std::vector<world::SensorFrame> Sensors::Scene::observe(const world::TickView& t
                     break;
                 case world::SensorKind::rgb: {
                     const ShadingInput input{placed, sky_of(weather), tick.index()};
-                    shade(input, cameras[i], mask, hits, frame);
-                    draw_rain(input, cameras[i], hits, frame);
-                    frames[i].data = tone_map(frame, tick.index());
+                    shade(input, cameras[i], mask, hits, frame_);
+                    draw_rain(input, cameras[i], hits, frame_);
+                    frames[i].data = tone_map(frame_, tick.index());
                     break;
                 }
             }

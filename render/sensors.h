@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -9,6 +10,25 @@
 
 namespace reprise::render {
 
+/// One of many, see Sensors::observe_each.
+class Observation {
+  public:
+    Observation() = default;
+    virtual ~Observation() = default;
+    Observation(const Observation&) = delete;
+    Observation& operator=(const Observation&) = delete;
+
+    virtual world::TickView tick() const = 0;
+    virtual const world::SensorRig& rig() const = 0;
+    virtual const world::Weather& weather() const = 0;
+
+    /// What was seen, from any thread, while others look.
+    virtual void seen(std::vector<world::SensorFrame> frames) = 0;
+
+    /// All this: one look at a time, in the order in which they were asked for.
+    virtual void done() {}
+};
+
 /// What the cameras see at a tick, under any weather. Reads a tick and a Town, nothing else: live
 /// and replayed frames come out of the same code. Embree traces the rays, or PortableTracer. Frames
 /// do not depend on the number of threads, depth and semantic ones not on the weather either.
@@ -16,7 +36,7 @@ namespace reprise::render {
 class Sensors {
   public:
     struct Options {
-        /// How many work on a picture; 0: one a core. While this object lives TBB gives the whole
+        /// How many work on pictures; 0: one a core. While this object lives TBB gives the whole
         /// process no more.
         int threads = 0;
 
@@ -38,9 +58,14 @@ class Sensors {
                                             const world::SensorRig& rig,
                                             const world::Weather& weather);
 
+    /// Many looks, several at a time, so that cores share no picture and do not wait for each
+    /// other: frames are those that observe() makes. `next` is called by one thread at a time, and
+    /// says with nothing that this was all. A look in the making takes 180 bytes a pixel.
+    void observe_each(const std::function<std::unique_ptr<Observation>()>& next);
+
   private:
-    struct Scene;
-    std::unique_ptr<Scene> scene_;
+    struct Studio;
+    std::unique_ptr<Studio> studio_;
 };
 
 }  // namespace reprise::render

@@ -86,6 +86,7 @@ void add_views(CLI::App& command, RenderOptions& render, RenderWords& words) {
     command.add_flag("--overlay",
                      render.overlay,
                      "Write onto the pictures who is where and how fast, what happens, and when");
+    command.add_flag("--no-view", render.no_view, "Without DIR/view/, which takes programs time");
 }
 
 /// A preset says itself where the camera is.

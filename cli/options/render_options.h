@@ -32,7 +32,8 @@ struct RenderOptions {
     std::optional<double> distance;  ///< [m] of a preset's camera; none: as the preset has it
     bool heading_up = false;         ///< of the preset top
     bool overlay = false;
-    int threads = 0;  ///< 0: one a core
+    bool no_view = false;  ///< no versions for people beside depths and classes
+    int threads = 0;       ///< 0: one a core
     bool portable = false;
 };
 

@@ -40,9 +40,16 @@ void Annotation::read_to(std::uint64_t tick) {
         story_->read_to(tick);
 }
 
+Annotation::Words Annotation::words(const Subject& subject) const {
+    if (!story_)
+        return {};
+    return {story_->names(), story_->text(subject.tick, subject.actor, subject.last)};
+}
+
 void Annotation::write(world::SensorFrame& shown,
                        const world::SensorFrame* depth,
-                       const Subject& subject) const {
+                       const Subject& subject,
+                       const Words& words) const {
     if (from_above_) {
         const auto pose = world::find_pose(subject.tick, subject.actor);
         const render::Camera camera(subject.camera, Eigen::Isometry3d::Identity());
@@ -58,8 +65,8 @@ void Annotation::write(world::SensorFrame& shown,
     render::write_overlay(
         shown,
         render::tags_of(
-            subject.tick, story_->names(), camera, *depth, carrier(subject.tick, subject.camera)),
-        story_->text(subject.tick, subject.actor, subject.last));
+            subject.tick, words.names, camera, *depth, carrier(subject.tick, subject.camera)),
+        words.text);
 }
 
 }  // namespace reprise::cli

@@ -28,9 +28,19 @@ class Annotation {
         bool last;                        ///< nothing is shown after it, and the run ends so
     };
 
+    /// What is said at the tick that was read to.
+    struct Words {
+        render::ActorNames names;
+        render::OverlayText text;
+    };
+
+    Words words(const Subject& subject) const;
+
+    /// May be called by several threads, also while others read on.
     void write(world::SensorFrame& shown,
                const world::SensorFrame* depth,
-               const Subject& subject) const;
+               const Subject& subject,
+               const Words& words) const;
 
   private:
     bool from_above_;

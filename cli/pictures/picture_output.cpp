@@ -7,23 +7,26 @@
 
 namespace reprise::cli {
 
-PictureFolders::PictureFolders(const std::filesystem::path& folder, const Cameras& cameras) {
+PictureFolders::PictureFolders(const std::filesystem::path& folder,
+                               const Cameras& cameras,
+                               bool view)
+    : view_(view) {
     const world::SensorRig& sensors = cameras.sensors();
     for (const world::SensorSpec& sensor : sensors)
         of_sensors_.push_back(cameras.recorded() || sensors.size() > 1 ? folder / sensor.name
                                                                        : folder);
-    for (std::size_t i = 0; i < sensors.size(); ++i)
-        made_.emplace_front(sensors[i].kind == world::SensorKind::rgb ? of_sensors_[i]
-                                                                      : of_sensors_[i] / "view");
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+        for_people_.push_back(sensors[i].kind == world::SensorKind::rgb);
+        made_.emplace_front(for_people_[i] || !view ? of_sensors_[i] : of_sensors_[i] / "view");
+    }
 }
 
 void PictureFolders::take(std::size_t sensor,
                           const world::SensorFrame& frame,
                           const world::SensorFrame& shown) {
     const std::string name = fmt::format("{:06}.png", frame.tick);
-    const bool for_people = frame.kind == world::SensorKind::rgb;
-    render::write_png(for_people ? shown : frame, of_sensors_[sensor] / name);
-    if (!for_people)
+    render::write_png(for_people_[sensor] ? shown : frame, of_sensors_[sensor] / name);
+    if (!for_people_[sensor] && view_)
         render::write_png(shown, of_sensors_[sensor] / "view" / name, render::Texture::flat);
 }
 

@@ -22,6 +22,13 @@ class PictureOutput {
     PictureOutput(const PictureOutput&) = delete;
     PictureOutput& operator=(const PictureOutput&) = delete;
 
+    /// Whether pictures are taken one at a time, in the order of their ticks; else by several
+    /// threads at once.
+    virtual bool in_order() const = 0;
+
+    /// Whether it is asked how people are shown what this sensor saw.
+    virtual bool shows(std::size_t sensor) const = 0;
+
     /// What a sensor saw, and how that is shown to people.
     virtual void take(std::size_t sensor,
                       const world::SensorFrame& frame,
@@ -35,13 +42,20 @@ class PictureOutput {
 /// is one camera, and it is not of a recorded rig. Folders that stay empty go again.
 class PictureFolders : public PictureOutput {
   public:
-    PictureFolders(const std::filesystem::path& folder, const Cameras& cameras);
+    /// `view`: with versions for people of what is for programs.
+    PictureFolders(const std::filesystem::path& folder, const Cameras& cameras, bool view);
+
+    bool in_order() const override { return false; }
+
+    bool shows(std::size_t sensor) const override { return view_ || for_people_[sensor]; }
 
     void take(std::size_t sensor,
               const world::SensorFrame& frame,
               const world::SensorFrame& shown) override;
 
   private:
+    bool view_;
+    std::vector<bool> for_people_;  ///< by sensor: rgb
     std::vector<std::filesystem::path> of_sensors_;
     std::list<NewFolder> made_;
 };
@@ -54,6 +68,10 @@ class Film : public PictureOutput {
          const std::string& ending,
          const Cameras& cameras,
          double rate);
+
+    bool in_order() const override { return true; }
+
+    bool shows(std::size_t /*sensor*/) const override { return true; }
 
     void take(std::size_t sensor,
               const world::SensorFrame& frame,

@@ -1,9 +1,12 @@
 #include <cmath>
 #include <map>
+#include <memory>
+#include <optional>
 
 #include <gmock/gmock.h>
 
 #include "tests/render/street.h"
+#include "world/check.h"
 
 namespace reprise {
 
@@ -19,7 +22,69 @@ void expect_equal(const std::vector<SensorFrame>& expected,
         EXPECT_TRUE(expected[i].data == found[i].data) << what << ": frame " << i;
 }
 
+/// Keeps what was seen from a car that stands farther on at each look.
+class KeptLook : public render::Observation {
+  public:
+    KeptLook(int number, std::vector<int>& done) : number_(number), done_(done) {
+        sealed_.emplace(test::tick_with({test::vehicle_at(1, 40 + 5.0 * number, -1.75)},
+                                        {test::car_at(10, 75, 1.75)}));
+    }
+
+    world::TickView tick() const override { return sealed_->view(); }
+
+    const world::SensorRig& rig() const override { return rig_; }
+
+    const world::Weather& weather() const override { return weather_; }
+
+    void seen(std::vector<SensorFrame> frames) override { frames_ = std::move(frames); }
+
+    void done() override {
+        done_.push_back(number_);
+        render::Sensors alone(test::street(), {.threads = 1});
+        expect_equal(alone.observe(tick(), rig_, weather_), frames_, std::to_string(number_));
+    }
+
+  private:
+    int number_;
+    std::vector<int>& done_;
+    std::optional<world::SealedTick> sealed_;
+    world::SensorRig rig_ = test::street_rig(120, 90);
+    world::Weather weather_ = test::weathers()[static_cast<std::size_t>(number_) % 3].weather;
+    std::vector<SensorFrame> frames_;
+};
+
 }  // namespace
+
+TEST(Sensors, LooksSeveralAtATimeAreThoseOneByOneAndAreDoneInTheirOrder) {
+    for (const int threads : {1, 3}) {
+        render::Sensors sensors(test::street(), {.threads = threads});
+        std::vector<int> done;
+        int asked = 0;
+        sensors.observe_each([&]() -> std::unique_ptr<render::Observation> {
+            if (asked == 7)
+                return nullptr;
+            return std::make_unique<KeptLook>(asked++, done);
+        });
+        EXPECT_THAT(done, testing::ElementsAre(0, 1, 2, 3, 4, 5, 6));
+    }
+}
+
+TEST(Sensors, ALookThatFailsEndsTheOthersWithItsReason) {
+    render::Sensors sensors(test::street(), {.threads = 2});
+    std::vector<int> done;
+
+    class Failing : public KeptLook {
+        using KeptLook::KeptLook;
+
+        void seen(std::vector<SensorFrame>) override { throw world::Error("the disk is full"); }
+    };
+
+    EXPECT_THROW(sensors.observe_each([&]() -> std::unique_ptr<render::Observation> {
+        return std::make_unique<Failing>(0, done);
+    }),
+                 world::Error);
+    EXPECT_THAT(done, testing::IsEmpty());
+}
 
 TEST(Sensors, EveryNumberOfThreadsAndEveryRepeatGiveTheSameBytes) {
     const world::TownT town = test::street();
