@@ -261,6 +261,47 @@ void FootTraffic::enter(const world::WalkerState& walker, const world::TickView&
         add(at_red, {tick_, walker.id(), crossings.front(), since, p.x(), p.y()});
 }
 
+/// Who stays within a metre of where he was, and for how long.
+void FootTraffic::see_stay(const world::WalkerState& walker, bool on_road, Walker& known) {
+    constexpr double within = 1;         // [m]
+    constexpr double long_stay = 60;     // [s]
+    constexpr double long_on_road = 10;  // [s]
+    const Eigen::Vector2d p = world::in_plan(walker.position());
+    standing += !walker.down() && walker.speed() < 0.1F;
+    if (known.seen == 0 || walker.down() || (p - known.stay).norm() > within) {
+        known.stay = p;
+        known.stay_since = tick_;
+    }
+    const auto ticks = tick_ - known.stay_since;
+    const auto after = [&](double seconds) {
+        return ticks == static_cast<std::uint64_t>(std::lround(seconds / step_));
+    };
+    const Place place{tick_, walker.id(), 0, static_cast<double>(ticks) * step_, p.x(), p.y()};
+    if (after(long_stay))
+        add(stood, place);
+    if (on_road && after(long_on_road))
+        add(stood_on_road, place);
+}
+
+/// Who turns to and fro.
+void FootTraffic::see_swings(const world::WalkerState& walker, Walker& known) {
+    constexpr double least = 0.35;  // [rad]
+    constexpr unsigned many = 4;
+    const auto yaw = static_cast<double>(walker.yaw());
+    const double turn = known.seen == 0 ? 0 : world::wrap_angle(yaw - known.yaw);
+    known.yaw = yaw;
+    const auto second = static_cast<std::uint64_t>(std::lround(1 / step_));
+    if (tick_ > known.turned_at + second)
+        known.swings = 0;
+    const double before = known.turn;
+    known.turn = turn * before < 0 ? turn : before + turn;
+    if (turn * before >= 0 || std::abs(before) < least)
+        return;
+    known.turned_at = tick_;
+    if (++known.swings == many)
+        add(dithers, {tick_, walker.id(), 0, many, walker.position().x(), walker.position().y()});
+}
+
 void FootTraffic::look_at(const world::WalkerState& walker, const world::TickView& tick) {
     const Eigen::Vector3d p = world::to_eigen(walker.position());
     ++walker_ticks;
@@ -270,6 +311,7 @@ void FootTraffic::look_at(const world::WalkerState& walker, const world::TickVie
     const bool on_road = is_on_road(p, crossings);
     if (!is_new) {
         const double way = (p - known.place).head<2>().norm();
+        this->way += way;
         const double most = static_cast<double>(walker.speed()) * step_ + 0.05;
         if (way > most)
             add(jumps, {tick_, walker.id(), 0, way - most, p.x(), p.y()});
@@ -286,6 +328,8 @@ void FootTraffic::look_at(const world::WalkerState& walker, const world::TickVie
         add(walker.down() ? hit : in_cars, place);
         return true;
     });
+    see_stay(walker, on_road, known);
+    see_swings(walker, known);
     known.place = p;
     known.on_road = on_road;
     known.down = walker.down();
@@ -345,6 +389,40 @@ std::string FootTraffic::text() const {
                         who_crossed_elsewhere.size(),
                         who_crossed.size());
     text += fmt::format("{:<34}{:>9}\n", "removed without being hit", removed);
+    const auto ticks = static_cast<double>(std::max<std::uint64_t>(walker_ticks, 1));
+    text += fmt::format("{:<34}{:>9.2f}\n", "mean speed [m/s]", way / (ticks * step_));
+    text +=
+        fmt::format("{:<34}{:>9.1f}\n", "stand [%]", 100 * static_cast<double>(standing) / ticks);
+    text += line("within a metre for a minute", stood);
+    text += line("on the road, there for 10 s", stood_on_road);
+    text += line("turn to and fro", dithers);
+    return text;
+}
+
+std::string FootTraffic::places() const {
+    std::string text;
+    const auto tell = [&](const char* name, const Count& count) {
+        for (const Place& place : count.first)
+            text += fmt::format("{}: {:.3f}: walker {} and {} in tick {} at {:.2f}, {:.2f}\n",
+                                name,
+                                place.value,
+                                place.walker,
+                                place.other,
+                                place.tick,
+                                place.x,
+                                place.y);
+    };
+    tell("in a car, on his feet", in_cars);
+    tell("in a car, falls or lies", hit);
+    tell("in what stands there", in_obstacles);
+    tell("in a prop", in_props);
+    tell("in somebody else", in_others);
+    tell("jumps", jumps);
+    tell("onto a lit crossing at red", at_red);
+    tell("onto the road before a car", without_gap);
+    tell("within a metre for a minute", stood);
+    tell("on the road, there for 10 s", stood_on_road);
+    tell("turn to and fro", dithers);
     return text;
 }
 

@@ -53,12 +53,20 @@ class FootTraffic {
     Count at_red;                 ///< [s] since it was green
     Count without_gap;  ///< [s] until a car that drives on as it does would be where he steps,
                         ///< below 1.5
-    std::uint64_t removed = 0;  ///< gone, and not from lying
+    std::uint64_t removed = 0;   ///< gone, and not from lying
+    std::uint64_t standing = 0;  ///< walker-ticks below 0.1 m/s, on their feet
+    double way = 0;              ///< [m] by all of them
+    Count stood;          ///< [s] within a metre, from one minute on; once for each such stay
+    Count stood_on_road;  ///< likewise, of who is on the road, from 10 s on
+    Count dithers;  ///< [1] turns to the other side by more than 20 deg within a second, from 4 on
     std::set<std::uint32_t> who_crossed;
     std::set<std::uint32_t> who_crossed_elsewhere;
 
     /// A table of them all, for people.
     std::string text() const;
+
+    /// Every place that was kept, a line each.
+    std::string places() const;
 
   private:
     struct Walker {
@@ -66,10 +74,18 @@ class FootTraffic {
         bool on_road = false;
         bool down = false;
         std::uint64_t seen = 0;
-        std::vector<Place> inside;  ///< of cars, lately
+        std::vector<Place> inside;   ///< of cars, lately
+        Eigen::Vector2d stay{0, 0};  ///< where he has been since
+        std::uint64_t stay_since = 0;
+        double yaw = 0;
+        double turn = 0;  ///< [rad] that he turns to one side
+        std::uint64_t turned_at = 0;
+        unsigned swings = 0;
     };
 
     void look_at(const world::WalkerState& walker, const world::TickView& tick);
+    void see_stay(const world::WalkerState& walker, bool on_road, Walker& known);
+    void see_swings(const world::WalkerState& walker, Walker& known);
     void find_in_boxes(const world::WalkerState& walker,
                        const world::TickView& tick,
                        Walker& known);
