@@ -29,6 +29,22 @@ struct Thing {
     bool drives = false;
 };
 
+/// Of a car's corners a quarter of a metre looks out of the circle around its end.
+void add_corners(const Thing& thing, Neighbours& neighbours) {
+    constexpr double round = 0.3;  // [m]
+    constexpr double broad = 0.6;  // [m] half of it, from which on that is enough to be walked into
+    if (std::min(thing.half_length, thing.half_width) < broad)
+        return;
+    const Eigen::Vector2d along = (thing.half_length - round) * thing.ahead;
+    const Eigen::Vector2d across = (thing.half_width - round) * world::turned_left(thing.ahead);
+    for (const Eigen::Vector2d& corner :
+         {Eigen::Vector2d(along + across), Eigen::Vector2d(along - across)})
+        for (const double end : {1.0, -1.0})
+            neighbours.add(
+                {thing.middle + end * corner, thing.velocity, round + beside_cars, thing.id},
+                thing.drives);
+}
+
 void add(const Thing& thing, Neighbours& neighbours) {
     const bool lies_along = thing.half_length >= thing.half_width;
     const Eigen::Vector2d along = lies_along ? thing.ahead : world::turned_left(thing.ahead);
@@ -40,6 +56,7 @@ void add(const Thing& thing, Neighbours& neighbours) {
         const double at = count > 1 ? -end + 2 * end * i / (count - 1) : 0;
         neighbours.add({thing.middle + at * along, thing.velocity, radius, thing.id}, thing.drives);
     }
+    add_corners(thing, neighbours);
 }
 
 Thing car_of(const Eigen::Vector2d& rear_axle, double yaw, std::uint16_t model, std::uint32_t id) {
