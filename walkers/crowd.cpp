@@ -30,6 +30,13 @@ constexpr double turn_rate = 5;       // [rad/s] of somebody on his feet
 constexpr double beside = 0.8;        // [m] between two who walk together
 constexpr unsigned plans_a_tick = 4;  // ways found in one tick, behind the first
 
+Surface more_road(Surface one, Surface other) {
+    for (const Surface surface : {Surface::road, Surface::crossing})
+        if (one == surface || other == surface)
+            return surface;
+    return Surface::sidewalk;
+}
+
 Eigen::Vector2d turned(const Eigen::Vector2d& v, double angle) {
     const double cosine = std::cos(angle);
     const double sine = std::sin(angle);
@@ -117,6 +124,7 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
         want(walker, tick);
     }
     for (Walker& walker : walkers_) {
+        make_way(walker);
         avoid(walker);
         flee(walker);
     }
@@ -149,7 +157,7 @@ void Crowd::lay_down(const world::TickView& last, std::uint64_t tick) {
 /// Who has lain long enough; and who gets nowhere, as in a corner that no way leads out of: cars
 /// would wait for him for ever.
 void Crowd::remove_hit_and_lost(world::TickDraft& next) {
-    constexpr double lost_for = 15;  // [s]
+    constexpr double lost_for = 30;  // [s]
     const auto lost_ticks = static_cast<std::uint64_t>(lost_for / step_);
     std::erase_if(walkers_, [&](const Walker& walker) {
         const bool lain = walker.down_until != 0 && next.tick.index >= walker.down_until;
@@ -298,7 +306,9 @@ void Crowd::keep_to_side(const WalkMap& map,
             const Eigen::Vector2d aside = walker.person.side * right;
             const WalkMap::Place there =
                 map.slide(at, at.position + Eigen::Vector3d(aside.x(), aside.y(), 0));
-            if (map.is_clear(before, there.position) && map.is_clear(there, way[i + 1].position))
+            // Over the end of a crossing that he does not take he would not get.
+            if (map.is_clear(before, there.position, way[i - 1].surface) &&
+                map.is_clear(there, way[i + 1].position, way[i].surface))
                 at = there;
         }
         way[i].position = at.position;
@@ -371,7 +381,9 @@ void Crowd::want(Walker& walker, std::uint64_t tick) {
     if (walker.down_until != 0 || tick < walker.pause_until)
         return;
     const Eigen::Vector2d p = walker.place.position.head<2>();
-    if (walker.corner >= walker.way.size() || walker.waited > patience || walker.stuck > hopeless)
+    const std::uint64_t idle = tick - walker.was_at_tick;
+    if (walker.corner >= walker.way.size() || walker.waited > patience || walker.stuck > hopeless ||
+        (idle > 0 && idle % hopeless == 0))
         plan(walker, tick);
     while (walker.corner < walker.way.size()) {
         const Eigen::Vector2d gap = walker.way[walker.corner].position.head<2>() - p;
@@ -380,8 +392,11 @@ void Crowd::want(Walker& walker, std::uint64_t tick) {
         if (gap.norm() > corner_reach && (gap.norm() > 2 * corner_reach || gap.dot(leg) > 0))
             break;
         // Who cuts a corner of the map would walk against its edge, and stay there.
+        const auto most =
+            more_road(walker.way[walker.corner - 1].surface, walker.way[walker.corner].surface);
         if (gap.norm() > at_corner && walker.corner + 1 < walker.way.size() &&
-            !map_of(walker.person).is_clear(walker.place, walker.way[walker.corner + 1].position))
+            !map_of(walker.person)
+                 .is_clear(walker.place, walker.way[walker.corner + 1].position, most))
             break;
         ++walker.corner;
     }
@@ -414,14 +429,17 @@ void Crowd::want(Walker& walker, std::uint64_t tick) {
 /// [m/s] Slower before a gate that is shut, and on the road before a lane where a car comes.
 double Crowd::speed_at_gate(Walker& walker, double speed) {
     constexpr double hold = 0.2;         // [m] before the road
+    constexpr double on_the_kerb = 0.3;  // [m] along a gate, where it still is pavement
     constexpr std::uint32_t asked = 60;  // ticks of waiting, behind which one trusts in brakes
     while (walker.gate < walker.gates.size()) {
         const Gate& gate = walker.gates[walker.gate];
-        const bool behind =
-            !walker.on_road && gate.progress(walker.place.position) > gate.length() / 2;
-        if (!behind && walker.corner <= gate.last + 1)
-            break;
-        if (!behind && walker.on_road)
+        // Only of who has walked up to it: elsewhere in town its far side is just a direction.
+        const bool behind = !walker.on_road && walker.corner > gate.first &&
+                            gate.progress(walker.place.position) > gate.length() / 2;
+        const bool on_the_next = walker.gate + 1 < walker.gates.size() &&
+                                 walker.gates[walker.gate + 1].first == gate.last &&
+                                 walker.corner > gate.last;
+        if (!behind && !on_the_next && (walker.corner <= gate.last + 1 || walker.on_road))
             break;
         ++walker.gate;
         walker.waited = 0;
@@ -430,8 +448,11 @@ double Crowd::speed_at_gate(Walker& walker, double speed) {
         return speed;
     const Gate& gate = walker.gates[walker.gate];
     Pace pace{gate.progress(walker.place.position), speed, Trust::none};
-    if (walker.on_road) {
+    // Ends of crossings lie on the pavement, and who comes off one may stand on that of another.
+    const bool begins = gate.first > 0 && pace.progress < on_the_kerb;
+    if (walker.on_road && !begins) {
         pace.trust = gate.marked ? Trust::seen : Trust::none;
+        pace.on_road = true;
         return must_hold(gate, pace, traffic_) ? 0 : speed * 1.1;
     }
     const double left = (gate.from - walker.place.position).head<2>().norm();
@@ -460,6 +481,26 @@ void Crowd::watch(Walker& walker, std::uint64_t tick) {
         return;
     walker.was_at = p;
     walker.was_at_tick = tick;
+}
+
+/// Who waits at the end of a crossing steps back from those who come off it: there they all pass
+/// the same corner.
+void Crowd::make_way(Walker& walker) {
+    constexpr double near = 1.2;  // [m]
+    constexpr double pace = 0.6;  // [m/s]
+    if (walker.waited == 0 || walker.may_enter || walker.on_road)
+        return;
+    const Body self{
+        walker.place.position.head<2>(), walker.velocity, walker.person.radius, walker.id};
+    neighbours_.around(self, near, false, around_);
+    for (const Body& body : around_) {
+        const Walker* other = find(body.id);
+        const Eigen::Vector2d gap = self.place - body.place;
+        if (other == nullptr || !other->on_road || other->wanted.dot(gap) <= 0)
+            continue;
+        walker.wanted = pace * gap.normalized();
+        return;
+    }
 }
 
 void Crowd::avoid(Walker& walker) {

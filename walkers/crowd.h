@@ -95,6 +95,7 @@ class Crowd {
                              std::vector<WalkMap::Step>& way);
     void want(Walker& walker, std::uint64_t tick);
     double speed_at_gate(Walker& walker, double speed);
+    void make_way(Walker& walker);
     void avoid(Walker& walker);
     void flee(Walker& walker) const;
     void step(Walker& walker, std::uint64_t tick);

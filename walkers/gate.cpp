@@ -13,7 +13,8 @@ bool is_free_at(const Conflict& conflict, const Pace& pace, const RoadTraffic& t
     const double speed = std::max(pace.speed, least_pace);
     const double near = conflict.at - conflict.half_width - pace.progress;
     const double far = conflict.at + conflict.half_width - pace.progress;
-    return traffic.is_free(conflict, std::max(0.0, near / speed), far / speed, pace.trust);
+    const Stay stay{std::max(0.0, near / speed), far / speed};
+    return traffic.is_free(conflict, stay, pace.trust, pace.on_road);
 }
 
 /// Or only past its mouth, on the sidewalk?
@@ -21,6 +22,20 @@ bool goes_over(const world::LaneT& crossing, const Gate& gate) {
     constexpr double least = 1;  // [m]
     return std::abs(world::project(crossing, gate.to).s - world::project(crossing, gate.from).s) >
            least;
+}
+
+/// Does one crossing end at this corner of the way, and another begin? Their ends reach over the
+/// kerb, and meet there where the pavement is narrow.
+bool is_next_crossing(const std::vector<WalkMap::Step>& way, std::size_t corner) {
+    using ground::Surface;
+    constexpr double least_leg = 1;         // [m]
+    constexpr double cosine_of_bend = 0.7;  // 45 degrees
+    if (way[corner - 1].surface != Surface::crossing || way[corner].surface != Surface::crossing)
+        return false;
+    const Eigen::Vector2d in = (way[corner].position - way[corner - 1].position).head<2>();
+    const Eigen::Vector2d out = (way[corner + 1].position - way[corner].position).head<2>();
+    return in.norm() > least_leg && out.norm() > least_leg &&
+           in.dot(out) < cosine_of_bend * in.norm() * out.norm();
 }
 
 /// Lights of the crossings below a straight way.
@@ -67,10 +82,15 @@ std::vector<Gate> gates_of(const std::vector<WalkMap::Step>& way,
         gate.first = i;
         gate.from = way[i].position;
         gate.marked = true;
-        for (; i + 1 < way.size() && way[i].surface != Surface::sidewalk; ++i)
+        for (; i + 1 < way.size() && way[i].surface != Surface::sidewalk; ++i) {
+            if (i > gate.first && is_next_crossing(way, i))
+                break;
             gate.marked = gate.marked && way[i].surface == Surface::crossing;
+        }
         gate.last = i;
         gate.to = way[i].position;
+        if (way[i].surface != Surface::sidewalk && i + 1 < way.size())
+            --i;  // the next one begins here
         if (gate.marked)
             add_signals(town, lanes, lights, gate);
         gate.conflicts = traffic.conflicts(gate.from, gate.to);

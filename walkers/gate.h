@@ -41,6 +41,7 @@ struct Pace {
     double progress = 0;  ///< [m] along the gate; negative before it
     double speed = 0;     ///< [m/s]
     Trust trust = Trust::none;
+    bool on_road = false;  ///< already: whatever stands in his way he goes around
 };
 
 /// May somebody step onto the road? Only at green, and where no car is in the way all the way over.

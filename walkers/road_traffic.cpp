@@ -157,9 +157,9 @@ void RoadTraffic::look(const world::TickView& last, const world::TickDraft& next
 }
 
 bool RoadTraffic::is_free(const Conflict& conflict,
-                          double enters,
-                          double leaves,
-                          Trust trust) const {
+                          Stay stay,
+                          Trust trust,
+                          bool around_standing) const {
     for (const Conflict::Approach& approach : conflict.approaches) {
         auto comer = std::lower_bound(
             comers_.begin(), comers_.end(), approach.lane, [](const Comer& one, auto wanted) {
@@ -169,15 +169,15 @@ bool RoadTraffic::is_free(const Conflict& conflict,
             const double left = approach.distance - comer->s;  // [m] of its front to the place
             if (left + comer->length < -1)
                 continue;  // is past it
-            if (left < 1 && comer->speed < standing)
-                return false;  // stands on it
-            if (left >= 1 && comer->speed < standing)
+            if (comer->speed < standing && (left >= 1 || around_standing))
                 continue;
+            if (comer->speed < standing)
+                return false;  // stands on it
             const double clears = (left + comer->length + 1) / std::max(comer->speed, standing);
-            if (clears + behind_it < enters)
+            if (clears + behind_it < stay.from)
                 continue;  // is past it by then
             const double arrives = left / (comer->speed + 1);
-            if (arrives > leaves + before_us)
+            if (arrives > stay.to + before_us)
                 continue;  // comes later
             const double room = left - stop_short;
             const bool trusted = trust == Trust::all || (trust == Trust::seen && comer->yields);

@@ -27,6 +27,12 @@ struct Conflict {
 /// is slow or brakes already; that it will.
 enum class Trust : std::uint8_t { none, seen, all };
 
+/// When somebody is in the way of cars. [s] from now
+struct Stay {
+    double from = 0;
+    double to = 0;
+};
+
 /// Who drives where, at a tick, as somebody sees it who wants to cross.
 class RoadTraffic {
   public:
@@ -39,8 +45,10 @@ class RoadTraffic {
     /// Takes in who is on the road: SUMO's cars as `next` has them, those with mass as `last` had.
     void look(const world::TickView& last, const world::TickDraft& next);
 
-    /// Can somebody be in the way of cars from `enters` to `leaves` [s] from now?
-    bool is_free(const Conflict& conflict, double enters, double leaves, Trust trust) const;
+    /// Can somebody be in the way of cars that long? `around_standing`: what stands there is no
+    /// hindrance, he goes around it. A car that waits for him with its nose in his way and he for
+    /// the car would else wait for ever.
+    bool is_free(const Conflict& conflict, Stay stay, Trust trust, bool around_standing) const;
 
   private:
     struct Comer {

@@ -21,7 +21,9 @@ class Crossing {
           conflicts(traffic_.conflicts({200, -3.5, 0}, {200, 3.5, 0})) {}
 
     /// Both lanes, at 1.4 m/s from the kerb.
-    bool is_free(const std::vector<world::CarState>& cars, Trust trust = Trust::none) {
+    bool is_free(const std::vector<world::CarState>& cars,
+                 Trust trust = Trust::none,
+                 bool around_standing = false) {
         const world::SealedTick last = test::tick_with({});
         world::TickDraft next;
         next.traffic.cars = cars;
@@ -29,9 +31,10 @@ class Crossing {
         bool free = true;
         for (const Conflict& conflict : conflicts)
             free = free && traffic_.is_free(conflict,
-                                            (conflict.at - conflict.half_width) / 1.4,
-                                            (conflict.at + conflict.half_width) / 1.4,
-                                            trust);
+                                            {(conflict.at - conflict.half_width) / 1.4,
+                                             (conflict.at + conflict.half_width) / 1.4},
+                                            trust,
+                                            around_standing);
         return free;
     }
 
@@ -70,6 +73,13 @@ TEST(RoadTraffic, LetsNobodyStepInFrontOfACar) {
     EXPECT_TRUE(crossing.is_free({crossing.car(215, 14)})) << "past";
     EXPECT_FALSE(crossing.is_free({crossing.car(201, 0)})) << "stands on it";
     EXPECT_TRUE(crossing.is_free({crossing.car(190, 0)})) << "stands before it";
+}
+
+TEST(RoadTraffic, WhoIsOnTheRoadWaitsForNoCarThatStands) {
+    Crossing crossing;
+    EXPECT_TRUE(crossing.is_free({crossing.car(201, 0)}, Trust::none, true)) << "on his way";
+    EXPECT_TRUE(crossing.is_free({crossing.car(199.3, 0)}, Trust::none, true)) << "its nose is";
+    EXPECT_FALSE(crossing.is_free({crossing.car(199.3, 2)}, Trust::none, true)) << "rolls";
 }
 
 TEST(RoadTraffic, WhoTrustsInBrakesGoesWhereACarCanStop) {

@@ -36,6 +36,12 @@ ground::Surface surface_of(unsigned char area) {
     return area == walk_crossing ? ground::Surface::crossing : ground::Surface::road;
 }
 
+unsigned char area_on(ground::Surface surface) {
+    if (surface == ground::Surface::sidewalk)
+        return walk_sidewalk;
+    return surface == ground::Surface::crossing ? walk_crossing : walk_road;
+}
+
 /// Row by row. Tiles do not know of each other: as many at a time as the machine has cores.
 std::vector<WalkTile> build_all(const WalkTiles& source) {
     constexpr unsigned most_workers = 8;
@@ -222,7 +228,9 @@ WalkMap::Place WalkMap::slide(const Place& from, const Eigen::Vector3d& p_world)
     return {passed[static_cast<std::size_t>(count) - 1], from_recast(found.data(), mesh_->origin)};
 }
 
-bool WalkMap::is_clear(const Place& from, const Eigen::Vector3d& p_world) const {
+bool WalkMap::is_clear(const Place& from,
+                       const Eigen::Vector3d& p_world,
+                       ground::Surface most) const {
     constexpr int most_passed = 64;    // polygons
     constexpr float very_end = 0.99F;  // of the way: corners lie on the mesh's edge
     const Point start = to_recast(from.position, mesh_->origin);
@@ -240,7 +248,15 @@ bool WalkMap::is_clear(const Place& from, const Eigen::Vector3d& p_world) const 
                           passed.data(),
                           &count,
                           most_passed);
-    return share > very_end;
+    if (share <= very_end)
+        return false;
+    const unsigned char least_area = area_on(most);
+    const auto end_of_passed = passed.begin() + count;
+    return std::all_of(passed.begin(), end_of_passed, [&](dtPolyRef polygon) {
+        unsigned char area = walk_sidewalk;
+        mesh_->tiles->getPolyArea(polygon, &area);
+        return area >= least_area;
+    });
 }
 
 ground::Surface WalkMap::surface(const Place& place) const {

@@ -57,8 +57,11 @@ class WalkMap {
     /// where it ends. 1 us.
     Place slide(const Place& from, const Eigen::Vector3d& p_world) const;
 
-    /// Is the straight way from `from` to `p_world` on the mesh all along? 1 us.
-    bool is_clear(const Place& from, const Eigen::Vector3d& p_world) const;
+    /// Is the straight way from `from` to `p_world` on the mesh all along, and nowhere on what is
+    /// more road than `most` (sidewalk, crossing, road)? 1 us.
+    bool is_clear(const Place& from,
+                  const Eigen::Vector3d& p_world,
+                  ground::Surface most = ground::Surface::road) const;
 
     ground::Surface surface(const Place& place) const;
 
