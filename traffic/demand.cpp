@@ -18,13 +18,6 @@ constexpr double out_of_sight = 80;  // [m] from every physics vehicle
 constexpr double far_too_long = 150;  // [s] of standing
 constexpr double not_beside = 30;     // [m]
 
-bool is_seen(const Eigen::Vector3d& p, const world::TickView& last, double sight) {
-    const auto vehicles = last.vehicles();
-    return std::any_of(vehicles.begin(), vehicles.end(), [&](const world::VehicleState& vehicle) {
-        return std::hypot(vehicle.position().x() - p.x(), vehicle.position().y() - p.y()) < sight;
-    });
-}
-
 /// A speed at which a car may appear there without anybody braking hard; `room` [m] ahead. [m/s]
 double entry_speed(const world::LaneT& lane, const InsertionPoint& point, double room) {
     constexpr double gentle = 2.5;  // [m/s^2]
@@ -117,7 +110,25 @@ void Demand::fill_up(Cars& cars, const world::TickView& last, world::TickDraft& 
     }
 }
 
-void Demand::remove_leaving(Cars& cars, const world::TickView& last, world::TickDraft& next) const {
+void Demand::hear_of_wrecks(const world::TickView& last) {
+    if (last.tick->events() == nullptr)
+        return;
+    for (const world::Event* event : *last.tick->events())
+        if (event->kind() == world::EventKind::wrecked)
+            wrecks_.insert(std::lower_bound(wrecks_.begin(), wrecks_.end(), event->actor()),
+                           event->actor());
+}
+
+bool Demand::is_seen(const Eigen::Vector3d& p, const world::TickView& last, double sight) const {
+    const auto vehicles = last.vehicles();
+    return std::any_of(vehicles.begin(), vehicles.end(), [&](const world::VehicleState& vehicle) {
+        return std::hypot(vehicle.position().x() - p.x(), vehicle.position().y() - p.y()) < sight &&
+               !std::binary_search(wrecks_.begin(), wrecks_.end(), vehicle.id());
+    });
+}
+
+void Demand::remove_leaving(Cars& cars, const world::TickView& last, world::TickDraft& next) {
+    hear_of_wrecks(last);
     for (std::size_t i = cars.size(); i-- > 0;) {
         const Car& car = cars[i];
         if (car.origin != Origin::demand || car.lane == world::none)
@@ -138,6 +149,7 @@ void Demand::remove_leaving(Cars& cars, const world::TickView& last, world::Tick
 void Demand::add_to(world::Hasher& hasher) const {
     hasher.add(next_id_);
     hasher.add(draws_);
+    hasher.add(std::span<const std::uint32_t>(wrecks_));
 }
 
 }  // namespace reprise::traffic

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "traffic/cars/cars.h"
 #include "traffic/insertion.h"
@@ -15,7 +16,7 @@
 namespace reprise::traffic {
 
 /// As many background cars as the episode asks for: new ones for those that leave at a dead end or
-/// have stood for minutes where no physics vehicle sees them, or not from near.
+/// have stood for minutes where no physics vehicle sees them, or not from near. Wrecks see nobody.
 class Demand {
   public:
     /// All of them must outlive this.
@@ -26,7 +27,7 @@ class Demand {
            const Insertion& insertion);
 
     /// Takes out the cars that leave.
-    void remove_leaving(Cars& cars, const world::TickView& last, world::TickDraft& next) const;
+    void remove_leaving(Cars& cars, const world::TickView& last, world::TickDraft& next);
 
     /// Fills up the number. Says so in an event when in the first tick there is no room for all.
     void fill_up(Cars& cars, const world::TickView& last, world::TickDraft& next);
@@ -34,6 +35,8 @@ class Demand {
     void add_to(world::Hasher& hasher) const;
 
   private:
+    void hear_of_wrecks(const world::TickView& last);
+    bool is_seen(const Eigen::Vector3d& p, const world::TickView& last, double sight) const;
     bool add_car(Cars& cars,
                  std::span<const OccupiedBox> occupied,
                  double& scanned,
@@ -47,7 +50,8 @@ class Demand {
     double step_;              ///< [s]
     world::ClassSet at_home_;  ///< classes that most roads are open to
     std::uint32_t next_id_ = world::first_background_id;
-    std::uint64_t draws_ = 0;  ///< of insertion points so far
+    std::uint64_t draws_ = 0;            ///< of insertion points so far
+    std::vector<std::uint32_t> wrecks_;  ///< ids, sorted: nobody looks out of them
 };
 
 }  // namespace reprise::traffic
