@@ -455,7 +455,11 @@ double Crowd::speed_at_gate(Walker& walker, double speed) {
         pace.on_road = true;
         return must_hold(gate, pace, traffic_) ? 0 : speed * 1.1;
     }
-    const double left = (gate.from - walker.place.position).head<2>().norm();
+    // Past the corner that it begins at, who is beside it must not walk along the kerb to get
+    // there.
+    const double left = walker.corner > gate.first
+                            ? std::max(0.0, -pace.progress)
+                            : (gate.from - walker.place.position).head<2>().norm();
     const bool is_next = walker.corner >= gate.first;
     if (!is_next || left > 1.5 + speed)
         return speed;

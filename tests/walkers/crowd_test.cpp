@@ -236,6 +236,17 @@ TEST(Crowd, NobodyStandsOnACrossingForLong) {
     }
 }
 
+TEST(Crowd, LosesNobodyInTwoMinutes) {
+    Scene scene(150);
+    for (int i = 0; i < 2400; ++i) {
+        scene.step();
+        for (const world::EventT& event : scene.next.tick.events)
+            EXPECT_NE(event.kind, world::EventKind::despawned)
+                << "walker " << event.actor << " in tick " << scene.next.tick.index << " at "
+                << event.position.x() << ", " << event.position.y();
+    }
+}
+
 TEST(Crowd, GoesAroundWhatStandsOnThePavement) {
     Scene scene(60);
     const auto crate = world::find_prop_model("crate");
