@@ -6,6 +6,7 @@
 #include <libsumo/libsumo.h>
 
 #include "traffic/cars/fleet.h"
+#include "traffic/sight/braking.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/units.h"
@@ -16,38 +17,23 @@ namespace {
 
 using world::none;
 
-constexpr double reaction = 1;         // [s] as SUMO's tau
-constexpr double least_gap = 0.5;      // [m] for which everybody brakes as hard as it takes
 constexpr double steepest_way = 0.45;  // [m] aside for each metre driven, of one who pulls out
 constexpr double steepest_pass = 0.9;  // of one who has stood behind what it passes,
 constexpr double corner_reach = 0.25;  // [m] and how far its bumper's corner reaches out then
 constexpr double starting = 3;         // [m/s^2] no car of the fleet starts quicker
-constexpr double spare_braking = 1.1;
-
-/// The speed from which a car still stops within `gap` metres of one that drives at `speed` and
-/// brakes as hard. Krauss, "Microscopic Modeling of Traffic Flow", 1998, ch. 2.
-double safe_speed(double gap, double speed, double deceleration) {
-    const double delay = deceleration * reaction;
-    return -delay +
-           std::sqrt(delay * delay + speed * speed + 2 * deceleration * std::max(gap, 0.0));
-}
 
 }  // namespace
 
 /// The way of one car's body, and what is found on it.
 struct Lookout::Corridor {
-    double speed;       ///< [m/s] of the car
+    Braking braking;
     double half_width;  ///< [m]
     double aside;       ///< [m] left of its lane's middle
     double wanted_aside;
     double most_gap;  ///< [m] that it leaves behind what it stops for
     double reach;     ///< [m] that it looks ahead
     double z;
-    double comfortable;  ///< [m/s^2]
-    double hardest;      ///< [m/s^2]
-    double step;         ///< [s]
-    double steepest;     ///< [m] aside for each metre driven
-    bool is_long;
+    double steepest;  ///< [m] aside for each metre driven
     std::uint32_t id;
     double allowed = world::infinity;  ///< [m/s]
 
@@ -62,13 +48,8 @@ struct Lookout::Corridor {
         const double middle = aside_at(distance);
         if (left < middle - half_width || right > middle + half_width)
             return;
-        double wanted =
-            safe_speed(distance - std::min(other.gap, most_gap), other.speed, comfortable);
-        // Who is surprised brakes as hard as it takes.
-        const double room = std::max(distance - least_gap, 0.1);
-        const double needed = (speed * speed - other.speed * other.speed) / (2 * room);
-        const double braking = std::clamp(spare_braking * needed, comfortable, hardest);
-        wanted = std::max({wanted, speed - braking * step, 0.0});
+        const double wanted =
+            braking.speed_before(distance, std::min(other.gap, most_gap), other.speed);
         allowed = std::min(allowed, wanted);
     }
 };
@@ -81,9 +62,6 @@ void Lookout::look_on(std::uint32_t lane, double start, double aside, Corridor& 
         const double distance = start + one.begin;
         if (one.id == corridor.id || distance < -nose || distance > corridor.reach ||
             std::abs(one.z - corridor.z) > world::level_clearance + corridor.reach * 0.1)
-            continue;
-        // Two long ones that meet in a bend would wait for each other.
-        if (one.meets && corridor.is_long)
             continue;
         corridor.meet(distance, one.right + aside, one.left + aside, one);
     }
@@ -161,17 +139,14 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     const world::VehicleModel& model = world::vehicle_models()[car.model];
     const Eigen::Vector3d& front = car.trail.front();
     Corridor corridor{};
-    corridor.speed = car.speed;
+    corridor.braking = {
+        car.speed, comfortable_braking(car.model), emergency_braking(car.model), step_};
     corridor.half_width = model.width / 2 + (car.pass ? corner_reach : 0);
     corridor.wanted_aside = car.offset_order ? car.offset_order->change.to : car.offset;
     corridor.most_gap = car.pass ? 1 : world::infinity;
-    corridor.reach = 10 + (reaction + car.speed / (2 * easy_braking)) * car.speed;
+    corridor.reach = 10 + (Braking::reaction + car.speed / (2 * easy_braking)) * car.speed;
     corridor.z = front.z();
-    corridor.comfortable = comfortable_braking(car.model);
-    corridor.hardest = emergency_braking(car.model);
-    corridor.step = step_;
     corridor.steepest = car.pass ? steepest_pass : steepest_way;
-    corridor.is_long = model.length > longest_short_car;
     corridor.id = car.id;
     constexpr double longest_piece = 3;  // [m] from a footprint's middle to its end
     if (!car.pass && (!obstructions_.any_near(front.head<2>(), corridor.reach + longest_piece) ||
@@ -208,7 +183,9 @@ void Lookout::hold_back(Car& car, double speed, std::uint64_t tick) const {
 void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tick) {
     obstructions_.look(last, cars.all());
     stand_ins_.advance(obstructions_.all(), cars, tick);
-    for (Car& car : cars.all()) {
+    meetings_.look(cars, tick);
+    for (std::size_t i = 0; i < cars.size(); ++i) {
+        Car& car = cars[i];
         if (car.sumo.empty() || car.origin == Origin::parked || car.lane == none ||
             car.held_in == tick || (car.speed_order && !car.speed_order->reacts))
             continue;
@@ -222,6 +199,8 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
         }
         if (car.pass)
             allowed = std::min(allowed, Passing::speed);
+        else
+            allowed = std::min(allowed, meetings_.allowed_speed(i));
         if (car.pass || allowed < car.speed + starting * step_) {
             hold_back(car, allowed, tick);
         } else if (car.held_back) {

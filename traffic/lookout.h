@@ -5,6 +5,7 @@
 #include "traffic/cars/cars.h"
 #include "traffic/orders.h"
 #include "traffic/roads/road_graph.h"
+#include "traffic/sight/meetings.h"
 #include "traffic/sight/obstructions.h"
 #include "traffic/sight/passing.h"
 #include "traffic/sight/stand_ins.h"
@@ -14,7 +15,8 @@
 
 namespace reprise::traffic {
 
-/// SUMO's cars look where they drive: they brake for what SUMO does not know.
+/// SUMO's cars look where they drive: they brake for what SUMO does not know, and for bodies that
+/// SUMO takes for lines.
 ///
 /// MUST    stop before everything that is in the way of a car's body, as well as its brakes allow;
 ///         change nothing where nothing is in the way.
@@ -37,7 +39,8 @@ class Lookout {
           step_(world::seconds(1, episode.step_ns)),
           obstructions_(town, lanes, step_),
           stand_ins_(town, graph, step_),
-          passing_(town, obstructions_, step_) {}
+          passing_(town, obstructions_, step_),
+          meetings_(town, graph, step_) {}
 
     Lookout(const Lookout&) = delete;
     Lookout& operator=(const Lookout&) = delete;
@@ -70,6 +73,7 @@ class Lookout {
     Obstructions obstructions_;
     StandIns stand_ins_;
     Passing passing_;
+    Meetings meetings_;
 };
 
 }  // namespace reprise::traffic

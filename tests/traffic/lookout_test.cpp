@@ -324,33 +324,6 @@ TEST(Lookout, AWalkerWhoCrossesIsLetThrough) {
     EXPECT_GT(crossing.front_there, start) << "drove on";
 }
 
-/// SUMO has it in the middle lane of three; it stands 0.25 rad askew there.
-std::size_t seen_in_the_next_lane(const char* model, std::uint32_t standing_ticks) {
-    const world::TownT& town = own_town("straight").town;
-    const world::LaneMap lanes(town);
-    Car car;
-    car.id = world::first_background_id;
-    car.model = world::find_vehicle_model(model).value();
-    car.sumo = "known";
-    car.lane = lane(town, "east_1");
-    car.lane_position = 500;
-    car.speed = 3;
-    car.standing_ticks = standing_ticks;
-    const world::LanePoint at = world::point_at(town.lanes[car.lane], 490);
-    car.rear = at.position;
-    car.yaw = at.yaw + 0.25;
-    Obstructions obstructions(town, lanes, 0.05);
-    world::TickDraft nothing;
-    obstructions.look(world::seal(nothing, {}).view(), {&car, 1});
-    return obstructions.on(lane(town, "east_2")).size();
-}
-
-TEST(Obstructions, ABusThatReachesOverIsSeenInTheNextLane) {
-    EXPECT_GT(seen_in_the_next_lane("bus", 0), 0U);
-    EXPECT_EQ(seen_in_the_next_lane("bus", 600), 0U) << "two would wait for each other for ever";
-    EXPECT_EQ(seen_in_the_next_lane("sedan", 0), 0U);
-}
-
 INSTANTIATE_TEST_SUITE_P(
     ,
     LookoutIn,

@@ -1,5 +1,6 @@
 #include "traffic/cars/trail.h"
 
+#include <algorithm>
 #include <array>
 
 #include "world/digest.h"
@@ -54,10 +55,23 @@ void Trail::advance(const Eigen::Vector3d& front) {
 }
 
 Eigen::Vector3d Trail::rear() const {
-    const Point& from = points_[at_];
-    const Point to = at_ + 1 < points_.size() ? points_[at_ + 1] : Point{front_, travelled_};
+    return between(at_, travelled_ - distance_);
+}
+
+Eigen::Vector3d Trail::behind(double distance) const {
+    const double wanted = travelled_ - std::min(distance, distance_);
+    std::size_t at = points_.size() - 1;
+    while (at > at_ && points_[at].travelled > wanted)
+        --at;
+    return between(at, wanted);
+}
+
+/// Where it was, by then `travelled` [m] from the start, between points_[at] and the one after it.
+Eigen::Vector3d Trail::between(std::size_t at, double travelled) const {
+    const Point& from = points_[at];
+    const Point to = at + 1 < points_.size() ? points_[at + 1] : Point{front_, travelled_};
     const double length = to.travelled - from.travelled;
-    const double share = length > 0 ? (travelled_ - distance_ - from.travelled) / length : 0;
+    const double share = length > 0 ? (travelled - from.travelled) / length : 0;
     return from.position + share * (to.position - from.position);
 }
 

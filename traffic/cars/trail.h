@@ -26,6 +26,10 @@ class Trail {
     /// Where the rear axle is, on the ground.
     Eigen::Vector3d rear() const;
 
+    /// Where the bumper was when it had `distance` [m] less behind it; no further back than the
+    /// rear axle is. O(points).
+    Eigen::Vector3d behind(double distance) const;
+
     const Eigen::Vector3d& front() const { return front_; }
 
     /// [m] by the bumper so far.
@@ -37,6 +41,7 @@ class Trail {
 
   private:
     void add_point();
+    Eigen::Vector3d between(std::size_t at, double travelled) const;
 
     struct Point {
         Eigen::Vector3d position;

@@ -18,8 +18,6 @@ constexpr double least_prop_height = 0.2;  // [m] what is lower passes below a c
 constexpr double far_aside = 0.6;          // [m] from where SUMO believes a car
 constexpr double beside_walkers = 0.4;     // [m]
 constexpr double beside_things = 0.1;      // [m]
-constexpr double turned_to_lane = 0.05;    // [rad] of one who may reach over
-constexpr double reaching_halt = 20;       // [s]
 
 /// In pieces of equal length.
 void add_pieces(const Footprint& whole, std::vector<Footprint>& footprints) {
@@ -154,30 +152,6 @@ void gather_footprints(const world::TickView& last,
     add_walkers(last.walkers(), footprints);
     add_props(last.props(), footprints);
     add_doors(last, footprints);
-}
-
-void add_reaching(const world::TownT& town,
-                  std::span<const Car> cars,
-                  double step,
-                  std::vector<Footprint>& footprints) {
-    for (const Car& car : cars) {
-        const double length = world::vehicle_models()[car.model].length;
-        if (length < longest_short_car || car.sumo.empty() || car.origin == Origin::parked ||
-            car.lane == world::none || std::abs(car.offset) > far_aside)
-            continue;
-        // Who waits for one that waits for it would do so for ever.
-        if (car.standing_ticks * step > reaching_halt)
-            continue;
-        const world::LaneT& lane = town.lanes[car.lane];
-        const double s = car.lane_position / lane.sumo_length * lane.length;
-        const double turn = world::wrap_angle(car.yaw - world::point_at(lane, s).yaw);
-        if (lane.kind != world::LaneKind::internal && s > length && std::abs(turn) < turned_to_lane)
-            continue;
-        const std::size_t first = footprints.size();
-        add_car(car.id, car.model, car.rear, car.ahead, car.speed * car.ahead, true, footprints);
-        for (std::size_t i = first; i < footprints.size(); ++i)
-            footprints[i].reaches = true;
-    }
 }
 
 }  // namespace reprise::traffic

@@ -25,7 +25,6 @@ struct Footprint {
     Eigen::Vector2d velocity;
     double clearance = 0;  ///< [m] that one who passes leaves beside it
     bool drives = false;   ///< a vehicle with mass, or on a trajectory: SUMO has a copy of it
-    bool reaches = false;  ///< SUMO's own: reaches over to lanes where SUMO does not have it
     std::uint32_t id = 0;
 };
 
@@ -36,13 +35,5 @@ struct Footprint {
 void gather_footprints(const world::TickView& last,
                        std::span<const Car> cars,
                        std::vector<Footprint>& footprints);
-
-/// And the long ones that SUMO drives, where they may reach over: in junctions and behind them, in
-/// bends, on their way from lane to lane. SUMO knows the lanes that their middle line is on, not
-/// that a bus's tail swings out, or that a lorry cuts the corner. `step` [s] of a tick.
-void add_reaching(const world::TownT& town,
-                  std::span<const Car> cars,
-                  double step,
-                  std::vector<Footprint>& footprints);
 
 }  // namespace reprise::traffic

@@ -74,13 +74,10 @@ void Obstructions::add_to(world::Hasher& hasher) const {
 }
 
 /// [m] that one who stops behind it leaves: room to get around what will stand there for longer;
-/// before who comes around a bend on more than his lane, what he will need; behind others that SUMO
-/// has a copy of, less than SUMO keeps.
-double Obstructions::gap_behind(const Footprint& footprint, const Obstruction& seen) const {
-    if (seen.lasts)
+/// behind others that SUMO has a copy of, less than SUMO keeps.
+double Obstructions::gap_behind(const Footprint& footprint, bool lasts) const {
+    if (lasts)
         return 5.5;
-    if (seen.meets)
-        return 8;
     if (!footprint.drives)
         return 4;
     return stood(footprint.id) > halts_shortly ? 4.5 : 1.5;
@@ -104,9 +101,7 @@ void Obstructions::add(const Footprint& footprint) {
     const std::size_t before = all_.size();
     for (const std::uint32_t index : lanes_->near(place, reach + (is_small ? most_clear : 0))) {
         const world::LaneT& lane = town_->lanes[index];
-        // In junctions SUMO's cars mind each other's ways.
-        if (!world::is_for_cars(lane) ||
-            (footprint.reaches && lane.kind == world::LaneKind::internal))
+        if (!world::is_for_cars(lane))
             continue;
         const world::LaneProjection at = world::project(lane, place);
         if (is_small) {
@@ -145,10 +140,9 @@ void Obstructions::add(const Footprint& footprint) {
         one.speed = std::max(footprint.velocity.dot(ahead), 0.0);
         one.z = place.z();
         const bool askew = std::abs(footprint.direction.dot(ahead)) < along_its_lane;
-        one.meets = footprint.reaches && footprint.direction.dot(ahead) < 0;
-        one.lasts = !footprint.reaches && footprint.velocity.norm() < least_walk &&
+        one.lasts = footprint.velocity.norm() < least_walk &&
                     (!footprint.drives || askew || stood(footprint.id) > halts_at_most);
-        one.gap = gap_behind(footprint, one);
+        one.gap = gap_behind(footprint, one.lasts);
         one.id = footprint.id;
         all_.push_back(one);
     }
@@ -174,7 +168,6 @@ bool Obstructions::any_near(const Eigen::Vector2d& p_world, double reach) const 
 void Obstructions::look(const world::TickView& last, std::span<const Car> cars) {
     count_halts(last.vehicles());
     gather_footprints(last, cars, footprints_);
-    add_reaching(*town_, cars, step_, footprints_);
     for (const Obstruction& one : all_)
         is_obstructed_[one.lane] = false;
     all_.clear();

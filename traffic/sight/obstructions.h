@@ -21,7 +21,6 @@ struct Obstruction {
     double speed = 0;  ///< [m/s] along the lane, 0 for what comes towards us
     double z = 0;
     bool lasts = false;  ///< stands or lies still, and is not somebody who waits to drive on
-    bool meets = false;  ///< reaches over from the oncoming lane
     double gap = 0;      ///< [m] that one who stops behind it leaves
     std::uint32_t id = 0;
 };
@@ -79,7 +78,7 @@ class Obstructions {
 
     void count_halts(std::span<const world::VehicleState> vehicles);
     double stood(std::uint32_t id) const;
-    double gap_behind(const Footprint& footprint, const Obstruction& seen) const;
+    double gap_behind(const Footprint& footprint, bool lasts) const;
     void add(const Footprint& footprint);
     const Off* still_off(const Footprint& footprint, const Eigen::Vector2d& tip) const;
 

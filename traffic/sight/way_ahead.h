@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "traffic/cars/car.h"
+#include "traffic/roads/road_graph.h"
+#include "world/town.h"
+
+namespace reprise::traffic {
+
+/// A car's body seen from above. [m]
+struct BodyBox {
+    Eigen::Vector2d middle;
+    Eigen::Vector2d ahead;  ///< unit
+    double half_length = 0;
+    double half_width = 0;
+
+    BodyBox widened(double margin) const {
+        return {middle, ahead, half_length + margin, half_width + margin};
+    }
+};
+
+/// Does one lie in the other? By the axes of both.
+bool overlap(const BodyBox& one, const BodyBox& other);
+
+/// The lane that a car comes to behind this one of its route; none where its route ends.
+std::uint32_t lane_after(std::uint32_t lane,
+                         const Car& car,
+                         const world::TownT& town,
+                         const RoadGraph& graph);
+
+/// Where a car's body will be when it has driven on so far: its bumper along the lanes of its
+/// route, its rear axle where the bumper has been.
+class WayAhead {
+  public:
+    /// `reach` [m] from the bumper that are looked at. All are read here only.
+    WayAhead(const Car& car, const world::TownT& town, const RoadGraph& graph, double reach);
+
+    /// When the bumper is `driven` [m] ahead of where it is now; beyond the end of the way, there.
+    BodyBox at(double driven) const;
+
+    /// That the bumper is on, now and until the end of the way; in their order.
+    std::span<const std::uint32_t> lanes() const { return lanes_; }
+
+    double length() const { return ends_.back(); }
+
+  private:
+    void add(const Eigen::Vector2d& p);
+    Eigen::Vector2d bumper_at(double driven) const;
+
+    const Car* car_;
+    std::vector<std::uint32_t> lanes_;
+    std::vector<Eigen::Vector2d> points_;  ///< of the bumper, from where it is
+    std::vector<double> ends_;             ///< [i] metres to points_[i]
+    Eigen::Vector2d rolled_;               ///< [m] of the rear axle beside the bumper's way
+};
+
+}  // namespace reprise::traffic
