@@ -32,6 +32,7 @@
 #include "traffic/scripted_spawns.h"
 #include "traffic/signal_orders.h"
 #include "traffic/signal_programs.h"
+#include "traffic/standoffs.h"
 #include "traffic/sumo.h"
 #include "world/digest.h"
 #include "world/models/vehicle_classes.h"
@@ -74,6 +75,7 @@ struct Background::Parts {
           spawns(episode, town, graph, points, insertion, placements),
           orders(episode, town, graph, routes),
           lookout(episode, town, lanes, graph, orders),
+          standoffs(town, graph, world::seconds(1, episode.step_ns)),
           bends(town),
           lane_change_pace(town),
           mirrors(town, lanes, graph, world::seconds(1, episode.step_ns)),
@@ -99,6 +101,7 @@ struct Background::Parts {
     ScriptedSpawns spawns;
     Orders orders;
     Lookout lookout;
+    Standoffs standoffs;
     Bends bends;
     LaneChangePace lane_change_pace;
     Mirrors mirrors;
@@ -215,6 +218,7 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     parts.bends.follow(parts.cars);
     parts.lane_change_pace.follow(parts.cars, next.tick.index);
     parts.lookout.advance(last, parts.cars, next.tick.index);
+    parts.standoffs.advance(last, parts.cars, next.tick.index);
     parts.signal_orders.follow(next.tick.index);
     parts.mirrors.advance(last, parts.cars.all(), beside_sumo, wrecks);
 

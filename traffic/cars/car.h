@@ -100,9 +100,10 @@ struct Car {
     bool held_back = false;  ///< by what it sees on its way; see lookout.h
     std::optional<PassOrder> pass;
 
-    // Among others of SUMO's; see meetings.h.
+    // Among others of SUMO's; see meetings.h and standoffs.h.
     std::vector<std::uint32_t> waits_for;  ///< ids of those whom it lets go first
     std::uint64_t pushes_until = 0;        ///< tick; until then it stops for no body beside its way
+    bool ignores_standing = false;         ///< SUMO was told so
 
     void turn_to(double new_yaw) {
         yaw = new_yaw;

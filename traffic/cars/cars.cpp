@@ -147,9 +147,10 @@ void Cars::add_to(world::Hasher& hasher) const {
             hasher.add(car.pass->lane);
             hasher.add(car.pass->end);
         }
-        if (!car.waits_for.empty() || car.pushes_until != 0) {
+        if (!car.waits_for.empty() || car.pushes_until != 0 || car.ignores_standing) {
             hasher.add(std::span<const std::uint32_t>(car.waits_for));
             hasher.add(car.pushes_until);
+            hasher.add(car.ignores_standing);
         }
         if (car.trajectory) {
             car.trajectory->add_to(hasher);
