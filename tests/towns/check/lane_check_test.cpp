@@ -1,5 +1,7 @@
 #include "towns/check/lane_check.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "ground/mesh/build_ground.h"
@@ -116,6 +118,21 @@ TEST(EndsCheck, FindsAStreetThatEndsInTheAir) {
     EXPECT_GT(ends.figure, 1);
     ASSERT_FALSE(ends.worst.empty());
     EXPECT_NEAR(ends.worst[0].position.x(), 100, 0.1);
+}
+
+TEST(EndsCheck, AStreetWhereOneCanOnlyTurnRoundEndsToo) {
+    TownT town = test::straight_road(100);
+    const auto is_driving = [](const auto& lane) { return lane.kind == world::LaneKind::driving; };
+    ASSERT_EQ(std::count_if(town.lanes.begin(), town.lanes.end(), is_driving), 2);
+    const auto one = std::find_if(town.lanes.begin(), town.lanes.end(), is_driving);
+    const auto other = std::find_if(one + 1, town.lanes.end(), is_driving);
+    const auto back = static_cast<std::uint32_t>(other - town.lanes.begin());
+    const auto ends = [&] { return check_ends(town, ground::build_ground(town)).looked_at; };
+    EXPECT_EQ(ends(), "4 ends of streets");
+    one->links = {{back, world::none, world::none, world::Turn::around, false, 0}};
+    EXPECT_EQ(ends(), "4 ends of streets");
+    one->links = {{back, world::none, world::none, world::Turn::straight, false, 0}};
+    EXPECT_EQ(ends(), "2 ends of streets");
 }
 
 }  // namespace
