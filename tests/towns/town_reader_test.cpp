@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -235,6 +237,25 @@ TEST(TownReader, LeftHandTrafficHasItsNeighboursMirrored) {
     EXPECT_EQ(town.lanes[lane(town, "out_0")].right, lane(town, "out_1"));
     EXPECT_EQ(town.lanes[lane(town, "out_0")].left, none);
     EXPECT_EQ(town.lanes[lane(town, "out_1")].opposite, lane(town, "back_0"));
+}
+
+TEST(TownReader, NoGrassGrowsBetweenTheLanesOfARoad) {
+    // SUMO once drew lanes of 3.2 m every 3.3 m. A metre between them is meant.
+    const auto widths = [](double spacing) {
+        std::string lanes;
+        for (int i = 0; i < 3; ++i)
+            lanes += "<lane id='a_" + std::to_string(i) + "' index='" + std::to_string(i) +
+                     "' speed='14' length='100' shape='0," + std::to_string(i * spacing) + " 100," +
+                     std::to_string(i * spacing) + "'/>";
+        const TownT town = read_town(
+            {"slit", "<net><edge id='a' from='b' to='c'>" + lanes + "</edge></net>", "", ""});
+        return std::vector<double>{town.lanes[0].width, town.lanes[1].width, town.lanes[2].width};
+    };
+    for (const double width : widths(3.3))
+        EXPECT_NEAR(width, 3.3, 1e-9);
+    for (const double spacing : {3.2, 4.2})
+        for (const double width : widths(spacing))
+            EXPECT_EQ(width, 3.2) << spacing;
 }
 
 TEST(TownReader, LanesOfNoLengthHaveTwoPointsAllTheSame) {

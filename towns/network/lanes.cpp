@@ -171,6 +171,30 @@ void link_neighbours(TownT& town) {
     }
 }
 
+/// Old networks have lanes of 3.2 m every 3.3 m: grass would grow between them.
+void close_slits(TownT& town) {
+    constexpr double rounding = 0.02, widest = 0.3;  // [m]
+    std::map<std::pair<std::string, int>, std::uint32_t> by_place;
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
+        if (town.lanes[i].kind == LaneKind::driving || town.lanes[i].kind == LaneKind::other)
+            by_place[{town.lanes[i].edge, town.lanes[i].index}] = i;
+    std::vector<double> wider(town.lanes.size(), 0.0);
+    for (const auto& [place, i] : by_place) {
+        const auto inner = by_place.find({place.first, place.second + 1});
+        if (inner == by_place.end())
+            continue;
+        const LaneT& lane = town.lanes[i];
+        const LaneT& other = town.lanes[inner->second];
+        const auto middle = world::point_at(lane, lane.length / 2).position;
+        const double slit = world::project(other, middle).distance - (lane.width + other.width) / 2;
+        if (slit > rounding && slit < widest)
+            for (const std::uint32_t each : {i, inner->second})
+                wider[each] = std::max(wider[each], slit);
+    }
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
+        town.lanes[i].width += wider[i];
+}
+
 bool touches(const LaneT& lane, const LaneT& other) {
     const double side_by_side = (lane.width + other.width) / 2;
     constexpr double slack = 0.8;
@@ -269,6 +293,7 @@ void read_lanes(const pugi::xml_node& net, TownT& town) {
         return p.name < q.name;
     });
     link_neighbours(town);
+    close_slits(town);
     link_opposites(net, town);
 }
 
