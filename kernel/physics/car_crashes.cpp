@@ -1,5 +1,3 @@
-#include "kernel/physics/car_crashes.h"
-
 #include <algorithm>
 
 #include "kernel/physics/near_cars.h"

@@ -1,20 +1,37 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "kernel/physics/box_gap.h"
 #include "kernel/physics/bullet.h"
-#include "kernel/physics/displaced.h"
 #include "world/digest.h"
 #include "world/tick.h"
 
 namespace reprise::kernel {
+
+/// Who was put elsewhere in a tick, sorted: from there to here nobody has moved.
+using Displaced = std::vector<std::uint32_t>;
+
+inline Displaced displaced_by(std::span<const world::CommandT> commands) {
+    Displaced actors;
+    for (const world::CommandT& command : commands)
+        if (command.kind == world::CommandKind::teleport)
+            actors.push_back(command.actor);
+    std::sort(actors.begin(), actors.end());
+    return actors;
+}
+
+inline bool holds(const Displaced& displaced, std::uint32_t actor) {
+    return std::binary_search(displaced.begin(), displaced.end(), actor);
+}
 
 /// The box of a car without mass, where it is.
 PlacedBox box_of(const world::CarState& car);
@@ -98,5 +115,23 @@ class NearCars {
     std::vector<std::unique_ptr<btBoxShape>> shapes_;  ///< [i] of vehicle_models()[i]
     std::vector<std::unique_ptr<Box>> boxes_;          ///< sorted by id
 };
+
+/// Cars without mass of which one drives into the other in a tick; the lower id first, sorted.
+using CarCrashes = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// Whom the scenario sends into another car: one that holds its speed or follows a trajectory
+/// reacts to nothing, and nothing else would stop the two from going through each other.
+///
+/// MUST    find each pair of which one is the scenario's, one moves, and whose boxes are more than
+///         `deepest_scrape` in each other on their way through the tick.
+/// ASSUMES that cars of the demand's keep clear of each other: SUMO sees to that.
+/// GOES    by x, so that each of the scenario's cars looks at the few around it.
+/// KEEPS   nothing; a pure function of two ticks. About 0.2 us a car.
+CarCrashes crashes_among(std::span<const world::CarState> last,
+                         std::span<const world::CarState> next,
+                         const Displaced& displaced);
+
+/// [m] Less is none: SUMO rounds places, and its cars cut bends.
+constexpr double deepest_scrape = 0.1;
 
 }  // namespace reprise::kernel

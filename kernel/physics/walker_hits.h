@@ -8,7 +8,7 @@
 
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/collisions.h"
-#include "kernel/physics/displaced.h"
+#include "kernel/physics/near_cars.h"
 #include "kernel/physics/vehicle.h"
 #include "world/tick.h"
 

@@ -8,7 +8,6 @@
 
 #include "kernel/physics/box_gap.h"
 #include "kernel/physics/bullet.h"
-#include "kernel/physics/car_crashes.h"
 #include "kernel/physics/collisions.h"
 #include "kernel/physics/impact.h"
 #include "kernel/physics/near_cars.h"
