@@ -171,4 +171,29 @@ void collect_bodies(const world::TickView& last,
     collect_doors(last, self, bodies);
 }
 
+bool something_is_before(const world::TickView& last, const Ego& ego, double reach) {
+    constexpr double step = 0.2;    // [m]
+    constexpr double margin = 0.1;  // [m] to both sides
+    world::Box around;
+    around.take(ego.position.head<2>(), 10);
+    std::vector<Body> bodies;
+    collect_bodies(last, ego.id, around, 0, bodies);
+    const double half = ego.model->width / 2 + margin;
+    const double front = ego.model->length - ego.model->rear_overhang;
+    const double curvature = std::tan(ego.steering_angle) / ego.model->wheelbase;
+    Eigen::Vector2d axle = ego.position.head<2>();
+    double yaw = ego.yaw;
+    for (double driven = 0; driven <= reach; driven += step) {
+        const Eigen::Vector2d ahead(std::cos(yaw), std::sin(yaw));
+        const Eigen::Vector2d left(-ahead.y(), ahead.x());
+        for (const Body& body : bodies)
+            if (std::abs(body.z - ego.position.z()) < world::level_clearance &&
+                body.meets(axle + front * ahead, half * left))
+                return true;
+        axle += step * ahead;
+        yaw += step * curvature;
+    }
+    return false;
+}
+
 }  // namespace reprise::drivers

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "drivers/control/ego.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/tick.h"
@@ -51,5 +52,8 @@ void collect_bodies(const world::TickView& last,
                     const world::Box& around,
                     double horizon,
                     std::vector<Body>& bodies);
+
+/// Would the front of the car touch somebody within `reach` [m], its wheels as they stand?
+bool something_is_before(const world::TickView& last, const Ego& ego, double reach);
 
 }  // namespace reprise::drivers

@@ -231,10 +231,26 @@ double DriverState::careful_acceleration(const world::TickView& last, Ego& ego) 
     passing.follow(last, ego, way());
     hazards.look(last, ego, way().path(), style, corridor(ego));
     pass(last, ego);
+    acceleration = std::min(acceleration, past_junction_things(last, ego));
     acceleration =
         std::min({acceleration, hazards.acceleration(), passing.acceleration(ego, style)});
     return std::min(acceleration,
                     gatekeeper.decide(last, ego, way(), hazards.overlaps(), style, step));
+}
+
+/// Over a junction a line past something may bend more than the car follows: hazards see what is on
+/// the line, this what is where the car goes as its wheels stand. [m/s^2]
+double DriverState::past_junction_things(const world::TickView& last, const Ego& ego) {
+    constexpr double braking = 3;  // [m/s^2]
+    if (!passing.plan() || passing.plan()->uses != PassingPlan::Uses::junction)
+        return world::infinity;
+    const double speed = std::max(ego.speed, 0.0);
+    const double reach = 0.4 + 0.3 * speed + speed * speed / (2 * braking);
+    if (!something_is_before(last, ego, reach))
+        return world::infinity;
+    if (speed < 0.1)
+        passing.give_up();
+    return -braking;
 }
 
 /// Hands and feet while we turn around; when that is done, a new path on the lane behind it.

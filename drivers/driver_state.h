@@ -43,6 +43,7 @@ struct DriverState {
     double cruise(const Ego& ego) const;
     double ordered_acceleration(const Ego& ego) const;
     double obedient_acceleration(const world::TickView& last, Ego& ego);
+    double past_junction_things(const world::TickView& last, const Ego& ego);
     double careful_acceleration(const world::TickView& last, Ego& ego);
     double ended_acceleration(const Ego& ego) const;
     std::span<const SweptWidth> corridor(const Ego& ego);

@@ -56,6 +56,12 @@ class Passing {
 
     void drop() { plan_.reset(); }
 
+    /// The line led to where somebody stands: watch anew, then look for another one.
+    void give_up() {
+        plan_.reset();
+        watched_ticks_ = 0;
+    }
+
     /// The line leads from where the car is, `beside` metres left of the path, back to it.
     void come_back(const Ego& ego, double beside);
 

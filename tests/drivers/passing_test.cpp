@@ -334,6 +334,16 @@ TEST(Passing, AWreckInAJunctionOrJustBeforeIt) {
         }
 }
 
+TEST(Passing, NotOverAJunctionBesideTheRoad) {
+    Drive drive(junction_road(false));  // one lane, and one that crosses it
+    drive.autopilot->may_overtake(true);
+    drive.place(ours, 150, 5);
+    drive.cars = {car_on(195, 0, 0, 0, "sedan")};
+    const Outcome outcome = drive_past(drive, 60);
+    EXPECT_LT(outcome.farthest_left, 0.1);
+    EXPECT_LT(outcome.x, 195);
+}
+
 TEST(Passing, NobodyWhoComesOverTheJunctionMeetsUsThere) {
     for (const double from : {260.0, 300.0, 340.0}) {
         Drive drive(two_way_junction());
