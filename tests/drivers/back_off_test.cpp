@@ -1,10 +1,14 @@
 // Who is held by what it touches goes back, and tries again.
+#include "drivers/back_off.h"
+
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "tests/drivers/kinematic_car.h"
+#include "tests/support/worlds.h"
+#include "world/units.h"
 
 namespace reprise::test {
 namespace {
@@ -127,26 +131,19 @@ TEST(BackOff, NotWhoWasToldASpeed) {
     EXPECT_TRUE(news.empty());
 }
 
-TEST(BackOff, WhereTheWayJumpsBackItDoesNotDriveInCircles) {
-    // As in a net of Berlin: the next lane begins behind the end of this one, 3 m to its left.
-    world::TownT town;
-    town.name = "jog";
-    town.lanes = {
-        make_lane("before", Turtle(-60, 0, 0).ahead(60)),
-        make_lane(":jog", Turtle(0, 0, 2.34).ahead(3.73), 13.89, world::LaneKind::internal),
-        make_lane("behind", Turtle(-2.6, 2.68, 0.71).ahead(5).turn(0.25, 4).ahead(80))};
-    town.junctions.resize(1);
-    town.lanes[0].junction = 0;
-    town.lanes[0].links = {make_link(2, 1, world::Turn::straight)};
-    town.lanes[1].links = {make_link(2, world::none, world::Turn::straight)};
-    Drive drive(town);
-    drive.place(0, 20, 5);
-    int backs_off = 0;
-    while (drive.seconds() < 120 && drive.car.y < 30) {
-        drive.step();
-        backs_off += drive.autopilot->news() != nullptr ? 1 : 0;
-    }
-    EXPECT_GE(drive.car.y, 30) << "after " << backs_off << " times back";
+TEST(BackOff, AfterSixSecondsAtFullLockWithoutGettingOn) {
+    const drivers::Ego ego = drivers::ego_of(vehicle_at(1, 0, 0, 0, 0.5));
+    const auto seconds_until = [&](double steer, double speed_along) {
+        drivers::BackOff back_off(0.05);
+        for (int tick = 1; tick <= 400; ++tick)
+            if (back_off.notice_circling(ego, 100 + 0.05 * tick * speed_along, steer))
+                return 0.05 * tick;
+        return world::infinity;
+    };
+    EXPECT_NEAR(seconds_until(1, 0), 6, 0.11);
+    EXPECT_NEAR(seconds_until(-1, 0.05), 6, 0.11);
+    EXPECT_EQ(seconds_until(1, 0.5), world::infinity) << "a tight bend";
+    EXPECT_EQ(seconds_until(0.8, 0), world::infinity);
 }
 
 }  // namespace

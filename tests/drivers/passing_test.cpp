@@ -374,12 +374,14 @@ TEST(Passing, WhoWaitsForTheSameWreckDoesNotHoldUsForEver) {
 }
 
 TEST(Passing, WhoStandsNoseToNoseWithUs) {
-    Overtaker drive({1, true});
-    drive.place(ours, 20, 8);
-    drive.cars = {car_on(120, 0, std::numbers::pi, 0, "sedan")};
+    // Just before a junction, where one who stands on the brake in our direction would be a queue.
+    Drive drive(two_way_junction());
+    drive.autopilot->may_overtake(true);
+    drive.place(ours, 100, 8);
+    drive.cars = {car_on(185, 0, std::numbers::pi, 0, "sedan")};
     drive.cars[0].mutate_lamps(world::lamp_brake);
-    const Outcome outcome = drive_past(drive, 90);
-    EXPECT_GT(outcome.clearance, 0.45);
+    const Outcome outcome = drive_past(drive, 120);
+    EXPECT_GT(outcome.clearance, 0.3);
     EXPECT_GT(outcome.x, 300);
 }
 
