@@ -201,9 +201,9 @@ Eigen::Vector3d CarReader::rolled(const Car& car, const Eigen::Vector3d& wanted)
 }
 
 /// [m] along its lane, in SUMO's measure. SUMO's step adds just this to it, wherever no road ends:
-/// so it need not be asked.
+/// so it need not be asked. Of the scenario's cars it is: their words may put them elsewhere.
 double CarReader::position_of(const Car& car, double speed) const {
-    if (car.lane != none) {
+    if (car.lane != none && car.origin == Origin::demand) {
         const double driven_to = car.lane_position + speed * sumo_step_;
         if (driven_to < measures_[car.lane].inside)
             return driven_to;
