@@ -176,6 +176,30 @@ TEST(Background, CarsMoveAlongTheirLanesWithoutJumps) {
     EXPECT_GT(checked, 500);
 }
 
+/// Traffic does not ask SUMO for what follows from a car's speed.
+TEST(Background, EveryCarIsWhereSumoHasItsBumper) {
+    const world::TownT& town = own_town("town1").town;
+    Stage stage(own_town("town1"), 150);
+    int driving = 0;
+    for (int i = 0; i < 400; ++i) {
+        stage.step();
+        for (const world::CarState& car : stage.draft().traffic.cars) {
+            const world::LaneT& lane = town.lanes[car.lane()];
+            const double position = libsumo::Vehicle::getLanePosition(sumo_id(car.id()));
+            ASSERT_EQ(
+                car.lane_s(),
+                static_cast<float>(world::rounded(position * lane.length / lane.sumo_length, 1024)))
+                << car.id() << " in tick " << stage.tick();
+            // Of one that stands the lane is not asked: see LaneChangePace.
+            if (car.speed() == 0)
+                continue;
+            ASSERT_EQ(lane.name, libsumo::Vehicle::getLaneID(sumo_id(car.id()))) << car.id();
+            ++driving;
+        }
+    }
+    EXPECT_GT(driving, 20'000);
+}
+
 TEST(Background, WritesRoundedNumbers) {
     Stage stage(own_town("town1"), 20);
     stage.steps(40);
