@@ -19,7 +19,8 @@ void trace_nearest(const Scene& scene,
                    std::span<Hit> hits);
 
 /// Shadow rays: 1 where nothing is hit up to Ray::far, 0 where something is. `coherent`: neighbours
-/// run alike, as to the sun; it changes the time that it takes, not what is found.
+/// run alike, as to the sun. It changes the time that it takes, and for some rays in a million that
+/// graze an edge what is found: part of what a picture is.
 void trace_visibility(const Scene& scene,
                       std::span<const Ray> rays,
                       bool coherent,

@@ -25,7 +25,10 @@ void expect_equal(const std::vector<SensorFrame>& expected,
 /// Keeps what was seen from a car that stands farther on at each look.
 class KeptLook : public render::Observation {
   public:
-    KeptLook(int number, std::vector<int>& done) : number_(number), done_(done) {
+    KeptLook(int number, render::Sensors& alone, std::vector<int>& done)
+        : number_(number),
+          alone_(alone),
+          done_(done) {
         sealed_.emplace(test::tick_with({test::vehicle_at(1, 40 + 5.0 * number, -1.75)},
                                         {test::car_at(10, 75, 1.75)}));
     }
@@ -40,12 +43,12 @@ class KeptLook : public render::Observation {
 
     void done() override {
         done_.push_back(number_);
-        render::Sensors alone(test::street(), {.threads = 1});
-        expect_equal(alone.observe(tick(), rig_, weather_), frames_, std::to_string(number_));
+        expect_equal(alone_.observe(tick(), rig_, weather_), frames_, std::to_string(number_));
     }
 
   private:
     int number_;
+    render::Sensors& alone_;
     std::vector<int>& done_;
     std::optional<world::SealedTick> sealed_;
     world::SensorRig rig_ = test::street_rig(120, 90);
@@ -56,6 +59,7 @@ class KeptLook : public render::Observation {
 }  // namespace
 
 TEST(Sensors, LooksSeveralAtATimeAreThoseOneByOneAndAreDoneInTheirOrder) {
+    render::Sensors alone(test::street());
     for (const int threads : {1, 3}) {
         render::Sensors sensors(test::street(), {.threads = threads});
         std::vector<int> done;
@@ -63,7 +67,7 @@ TEST(Sensors, LooksSeveralAtATimeAreThoseOneByOneAndAreDoneInTheirOrder) {
         sensors.observe_each([&]() -> std::unique_ptr<render::Observation> {
             if (asked == 7)
                 return nullptr;
-            return std::make_unique<KeptLook>(asked++, done);
+            return std::make_unique<KeptLook>(asked++, alone, done);
         });
         EXPECT_THAT(done, testing::ElementsAre(0, 1, 2, 3, 4, 5, 6));
     }
@@ -80,7 +84,7 @@ TEST(Sensors, ALookThatFailsEndsTheOthersWithItsReason) {
     };
 
     EXPECT_THROW(sensors.observe_each([&]() -> std::unique_ptr<render::Observation> {
-        return std::make_unique<Failing>(0, done);
+        return std::make_unique<Failing>(0, sensors, done);
     }),
                  world::Error);
     EXPECT_THAT(done, testing::IsEmpty());
