@@ -34,6 +34,7 @@ struct Frame {
     std::vector<Sample> samples;
     std::vector<RawLight> lights;
     std::vector<Color> colors;  ///< radiance times exposure
+    std::vector<float> tones;   ///< how bright each looks, in [0, 1): before edges are refined
 
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +

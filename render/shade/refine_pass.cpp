@@ -16,25 +16,20 @@ constexpr std::size_t subpixels = 4;  // of a pixel, no two in one row or column
 constexpr std::array<std::array<double, 2>, subpixels> subpixel_offsets{
     {{.375, .125}, {.875, .375}, {.625, .875}, {.125, .625}}};
 
-float brightness(const Color& color) {
-    const float light = luminance(color);
-    return light / (light + 0.5F);
-}
-
 bool is_edge(const Frame& frame, int x, int y) {
     const std::size_t index = frame.index(x, y);
     const RawLight& own = frame.lights[index];
-    const float light = brightness(frame.colors[index]);
+    const float tone = frame.tones[index];
     constexpr std::array<std::array<int, 2>, 4> sides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
     for (const auto& side : sides) {
         const int i = std::clamp(x + side[0], 0, frame.width - 1);
         const int j = std::clamp(y + side[1], 0, frame.height - 1);
         const std::size_t next = frame.index(i, j);
-        const RawLight& other = frame.lights[next];
-        if (std::abs(brightness(frame.colors[next]) - light) > 0.045F)
+        const float step = std::abs(frame.tones[next] - tone);
+        if (step > 0.045F)
             return true;
-        if (own.instance != other.instance && own.instance != no_instance &&
-            std::abs(brightness(frame.colors[next]) - light) > 0.01F)
+        if (step > 0.01F && own.instance != no_instance &&
+            own.instance != frame.lights[next].instance)
             return true;
     }
     return false;

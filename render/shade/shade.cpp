@@ -67,6 +67,8 @@ void combine_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
             color = through_atmosphere(job.input.sky, color, view, sample.distance);
         }
         frame.colors[index] = color * job.input.sky.exposure();
+        const float light = luminance(frame.colors[index]);
+        frame.tones[index] = light / (light + 0.5F);
     }
 }
 
@@ -80,6 +82,7 @@ void shade(const ShadingInput& input,
     frame.samples.resize(hits.size());
     frame.lights.resize(hits.size());
     frame.colors.resize(hits.size());
+    frame.tones.resize(hits.size());
     const Vector3f eye = camera.position().cast<float>();
     const float ambient = luminance(input.sky.ambient(Vector3f::UnitZ()));
     ShadingJob job{input,
