@@ -81,7 +81,7 @@ void Meetings::gather(Cars& cars) {
 
 /// Near enough, and one of them in a place where bodies turn.
 bool Meetings::could_meet(const Driver& one, const Driver& other) const {
-    if ((!one.is_turning && !other.is_turning) || one.car->lane == other.car->lane ||
+    if ((!one.is_turning && !other.is_turning) ||
         std::abs(one.car->rear.z() - other.car->rear.z()) > world::level_clearance)
         return false;
     const double reach = one.reach + other.reach + one.half_length + other.half_length + 2 * room;
@@ -195,6 +195,18 @@ bool Meetings::first_waits(const Driver& one,
     return one.car->id > other.car->id;
 }
 
+/// In one lane SUMO's cars follow each other, at more than this distance; but when a vehicle with
+/// mass overtakes them there it loses their order, and some look at the wrong one ahead.
+void Meetings::follow(const Driver& one, const Driver& other) {
+    const bool is_ahead = one.car->lane_position > other.car->lane_position;
+    const Driver& leader = is_ahead ? one : other;
+    const Driver& follower = is_ahead ? other : one;
+    const double distance =
+        leader.car->lane_position - 2 * leader.half_length - follower.car->lane_position;
+    if (distance > 0)
+        hold(follower, {distance, leader.car->speed});
+}
+
 /// On its way through the lane that the other's bumper is on.
 bool Meetings::follows(const Driver& driver, const Driver& leader) {
     const auto lanes = driver.way->lanes();
@@ -237,7 +249,9 @@ void Meetings::look(Cars& cars, std::uint64_t tick) {
             const double apart = drivers_[j].middle.x() - drivers_[i].middle.x();
             if (apart > drivers_[i].reach + longest_body / 2 + farthest)
                 break;
-            if (could_meet(drivers_[i], drivers_[j]))
+            if (drivers_[i].car->lane == drivers_[j].car->lane)
+                follow(drivers_[i], drivers_[j]);
+            else if (could_meet(drivers_[i], drivers_[j]))
                 meet(drivers_[i], drivers_[j]);
         }
     for (Driver& driver : drivers_)

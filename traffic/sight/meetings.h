@@ -66,6 +66,7 @@ class Meetings {
     void gather(Cars& cars);
     bool could_meet(const Driver& one, const Driver& other) const;
     void meet(Driver& one, Driver& other);
+    void follow(const Driver& one, const Driver& other);
     void wait(Driver& driver, Driver& other, const Stop& stop);
     void prepare(Driver& driver) const;
     bool has_stood(const Driver& driver) const;
