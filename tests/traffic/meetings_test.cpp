@@ -1,0 +1,150 @@
+#include "traffic/sight/meetings.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/towns.h"
+#include "traffic/cars/fleet.h"
+#include "traffic/sight/way_ahead.h"
+#include "world/geometry2d.h"
+#include "world/models/catalogue.h"
+#include "world/models/vehicle_classes.h"
+
+namespace reprise::traffic {
+namespace {
+
+using test::own_town;
+using world::TownT;
+
+constexpr double meeting_step = 0.05;
+
+RoadGraph graph_for(const TownT& town) {
+    return {town,
+            std::vector<world::ClassSet>(town.lanes.size(), world::permitted("", "pedestrian"))};
+}
+
+/// Of SUMO, that far [m] before the end of a lane that leads into `via`, on its way through that.
+Car car_before(const TownT& town,
+               const RoadGraph& graph,
+               std::uint32_t id,
+               const char* model,
+               std::uint32_t lane,
+               std::uint32_t via,
+               double before,
+               double speed) {
+    Car car;
+    car.id = id;
+    car.model = world::find_vehicle_model(model).value();
+    car.sumo = "known";
+    car.lane = lane;
+    const world::LaneT& on = town.lanes[lane];
+    car.lane_position = (on.length - before) / on.length * on.sumo_length;
+    car.speed = speed;
+    car.route = {graph.edge_of(lane), graph.edge_after(via)};
+    const world::LanePoint at = world::point_at(on, on.length - before);
+    car.yaw = at.yaw;
+    const Eigen::Vector3d ahead(std::cos(at.yaw), std::sin(at.yaw), 0);
+    car.trail.start(at.position, -ahead, origin_to_front(car.model));
+    car.rear = car.trail.rear();
+    return car;
+}
+
+/// A lane and the one of a junction that it leads to.
+using Entry = std::pair<std::uint32_t, std::uint32_t>;
+
+std::vector<Entry> entries_of(const TownT& town) {
+    std::vector<Entry> entries;
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
+        if (world::is_for_cars(town.lanes[i]) && town.lanes[i].kind != world::LaneKind::internal &&
+            town.lanes[i].length > 25)
+            for (const world::Link& link : town.lanes[i].links)
+                if (link.via() != world::none)
+                    entries.emplace_back(i, link.via());
+    return entries;
+}
+
+/// Two routes that must agree: what is foretold, and a trail that is led along the lanes.
+TEST(WayAhead, BodiesComeWhereTheirTrailWillLead) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    int turned = 0;
+    for (const auto& [lane, via] : entries_of(town)) {
+        const Car car = car_before(town, graph, 7, "bus", lane, via, 5, 4);
+        Trail trail = car.trail;
+        const WayAhead way(car, town, graph, 16);
+        const world::LaneT& on = town.lanes[lane];
+        const world::LaneT& behind = town.lanes[via];
+        for (double driven = 0.05; driven < 5 + behind.length && driven < 15; driven += 0.05) {
+            const double s = on.length - 5 + driven;
+            trail.advance(s < on.length ? world::point_at(on, s).position
+                                        : world::point_at(behind, s - on.length).position);
+            const Eigen::Vector2d body = (trail.front() - trail.rear()).head<2>();
+            const BodyBox foretold = way.at(driven);
+            ASSERT_LT(std::abs(world::cross(foretold.ahead, body.normalized())), 0.06)
+                << on.name << " to " << behind.name << " after " << driven << " m";
+            turned += std::abs(world::cross(world::ahead_of(car.yaw), foretold.ahead)) > 0.3;
+        }
+    }
+    EXPECT_GT(turned, 100) << "no bend: nothing is shown";
+}
+
+/// Of two whose bodies would come into each other one waits, and only one.
+TEST(Meetings, OneOfTwoWhoseWaysCrossWaits) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const std::vector<Entry> entries = entries_of(town);
+    int crossed = 0;
+    for (const Entry& one : entries)
+        for (const Entry& other : entries) {
+            if (graph.edge_of(one.first) >= graph.edge_of(other.first) ||
+                town.lanes[one.second].junction != town.lanes[other.second].junction)
+                continue;
+            Cars cars;
+            world::TickDraft draft;
+            for (const auto& [id, entry] : {std::pair{7U, one}, std::pair{8U, other}})
+                cars.add(car_before(town, graph, id, "sedan", entry.first, entry.second, 3, 6),
+                         "",
+                         0,
+                         draft);
+            // As they would drive on.
+            bool would_touch = false;
+            const WayAhead way(cars[0], town, graph, 20);
+            const WayAhead its_way(cars[1], town, graph, 20);
+            for (double driven = 0; driven < 14; driven += 0.25)
+                would_touch |= overlap(way.at(driven), its_way.at(driven));
+            Meetings meetings(town, graph, meeting_step);
+            meetings.look(cars, 2);
+            const int waiting = static_cast<int>(std::isfinite(meetings.allowed_speed(0))) +
+                                static_cast<int>(std::isfinite(meetings.allowed_speed(1)));
+            if (would_touch) {
+                ++crossed;
+                EXPECT_EQ(waiting, 1)
+                    << town.lanes[one.second].name << " and " << town.lanes[other.second].name;
+            }
+            // Whom it waits for is kept.
+            EXPECT_EQ(cars[0].waits_for.size() + cars[1].waits_for.size(),
+                      static_cast<std::size_t>(waiting));
+        }
+    EXPECT_GT(crossed, 10);
+}
+
+/// SUMO loses the order of a lane's cars when a vehicle with mass overtakes them.
+TEST(Meetings, NobodyDrivesIntoWhoIsAheadOnHisLane) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const auto [lane, via] = entries_of(town).front();
+    Cars cars;
+    world::TickDraft draft;
+    cars.add(car_before(town, graph, 7, "sedan", lane, via, 19, 10), "", 0, draft);
+    cars.add(car_before(town, graph, 8, "sedan", lane, via, 9, 1), "", 0, draft);
+    Meetings meetings(town, graph, meeting_step);
+    meetings.look(cars, 2);
+    EXPECT_LT(meetings.allowed_speed(0), 10);
+    EXPECT_TRUE(std::isinf(meetings.allowed_speed(1)));
+}
+
+}  // namespace
+}  // namespace reprise::traffic
