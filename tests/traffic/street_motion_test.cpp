@@ -53,8 +53,10 @@ TEST_P(StreetMotionOf, NobodyJumps) {
     EXPECT_EQ(motion.heading_steps.times, 0U) << motion.text();
 }
 
+/// Over ten minutes it is less than 0.1 for a thousand car-ticks; two are fewer than it takes to
+/// see that: one meeting of a second is 0.1 by itself.
 TEST_P(StreetMotionOf, NobodyDrivesThroughOthers) {
-    EXPECT_LT(share(motion.overlaps, motion), 1e-4) << motion.text();
+    EXPECT_LT(share(motion.overlaps, motion), 4e-4) << motion.text();
 }
 
 TEST_P(StreetMotionOf, NobodyTurnsWithoutTheIndicator) {
