@@ -2,7 +2,8 @@
 //   must      leave nothing unfinished behind, at whatever moment the signal comes
 //   assumes   nothing of whom it interrupts: only calls that POSIX allows in a handler
 //   goes      files are noted down in a fixed table as they are made; the handler unlinks them,
-//             then the signal does what it does without us
+//             then the signal does what it does without us; it waits for threads that are between
+//             making a file and noting it down, and none makes another one
 //   keeps     the table and the signal that came, for the whole process
 #include "files/ending.h"
 
@@ -11,6 +12,7 @@
 #include <cerrno>
 #include <climits>
 #include <cstring>
+#include <poll.h>
 #include <unistd.h>
 
 #include "world/check.h"
@@ -27,8 +29,11 @@ struct Slot {
     std::array<char, PATH_MAX> path{};
 };
 
-std::array<Slot, 64> slots;
+std::array<Slot, 1024> slots;  // some for each thread
 
+std::atomic<bool> is_ending = false;
+std::atomic<int> makers = 0;  ///< threads that hold endings back
+thread_local int held_by_us = 0;
 std::atomic<bool> only_remember = false;
 std::atomic<int> came = 0;
 void (*say_last)(int) = nullptr;
@@ -40,6 +45,10 @@ extern "C" void on_ending(int signal) {
         errno = error;
         return;
     }
+    is_ending = true;
+    // None of them is this thread. A child may have been forked beside one, and waits in vain.
+    for (int waited = 0; makers > 0 && waited < 1000; ++waited)
+        poll(nullptr, 0, 1);
     remove_unfinished();
     if (say_last != nullptr)
         say_last(signal);
@@ -92,9 +101,19 @@ void tidy_up_when_ended(void (*last)(int)) {
 EndingHeld::EndingHeld() {
     const sigset_t held = all_endings();
     pthread_sigmask(SIG_BLOCK, &held, &before_);
+    if (held_by_us++ > 0)
+        return;
+    ++makers;
+    if (!is_ending)
+        return;
+    --makers;
+    for (;;)  // another thread ends us
+        pause();
 }
 
 EndingHeld::~EndingHeld() {
+    if (--held_by_us == 0)
+        --makers;
     pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 

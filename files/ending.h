@@ -15,7 +15,8 @@ void tidy_up_when_ended(void (*last)(int signal) = nullptr);
 void remove_unfinished() noexcept;
 
 /// While it lives, signals that would end this program wait: between making a file and noting it
-/// down. Of the calling thread.
+/// down. In the calling thread; one that comes to another thread waits for this to end, and who
+/// begins after it came never gets on.
 class EndingHeld {
   public:
     EndingHeld();
