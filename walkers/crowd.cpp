@@ -443,14 +443,16 @@ double Crowd::speed_at_gate(Walker& walker, double speed) {
             break;
         ++walker.gate;
         walker.waited = 0;
+        walker.entered = false;
     }
     if (walker.gate >= walker.gates.size())
         return speed;
     const Gate& gate = walker.gates[walker.gate];
     Pace pace{gate.progress(walker.place.position), speed, Trust::none};
-    // Ends of crossings lie on the pavement, and who comes off one may stand on that of another.
-    const bool begins = gate.first > 0 && pace.progress < on_the_kerb;
-    if (walker.on_road && !begins) {
+    // Ends of crossings lie on the pavement: who comes off one may stand on that of another, and
+    // who waits there may have found himself another way, which begins on the crossing.
+    walker.entered = walker.on_road && (walker.entered || pace.progress >= on_the_kerb);
+    if (walker.entered) {
         pace.trust = gate.marked ? Trust::seen : Trust::none;
         pace.on_road = true;
         return must_hold(gate, pace, traffic_) ? 0 : speed * 1.1;
@@ -479,9 +481,8 @@ double Crowd::speed_at_gate(Walker& walker, double speed) {
 void Crowd::watch(Walker& walker, std::uint64_t tick) {
     constexpr double on = 1;  // [m]
     const Eigen::Vector2d p = walker.place.position.head<2>();
-    const bool on_road = map_of(walker.person).surface(walker.place) != Surface::sidewalk;
     const bool waits = tick < walker.pause_until || walker.waited > 0 || walker.way.empty();
-    if ((on_road || !waits) && (p - walker.was_at).norm() < on)
+    if ((walker.entered || !waits) && (p - walker.was_at).norm() < on)
         return;
     walker.was_at = p;
     walker.was_at_tick = tick;
@@ -627,7 +628,7 @@ void Crowd::add_to(world::Hasher& hasher) const {
                                  walker.was_at.y()},
                                 {walker.way.size(),
                                  walker.corner,
-                                 walker.gate,
+                                 2 * walker.gate + (walker.entered ? 1 : 0),
                                  walker.waited,
                                  walker.stuck,
                                  walker.pause_until,

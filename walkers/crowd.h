@@ -64,6 +64,7 @@ class Crowd {
         std::size_t gate = 0;          ///< the next one of them
         bool may_enter = false;        ///< the next gate, in this tick
         bool on_road = false;          ///< before the step
+        bool entered = false;          ///< the next gate: he is past the kerb
         std::uint32_t waited = 0;      ///< [ticks] at the next gate
         std::uint32_t stuck = 0;       ///< [ticks] in somebody's way
         Eigen::Vector2d was_at{0, 0};  ///< where he was last seen to get on, or to wait

@@ -87,8 +87,8 @@ void add_cars(const world::TickView& last,
     for (const world::CarState& car : next.traffic.cars) {
         const double yaw = static_cast<double>(car.yaw());
         const auto speed = static_cast<double>(car.speed());
-        // Of the scenario's, those that stand are parked, or as good as that.
-        const bool drives = car.id() >= world::first_background_id || speed > stands;
+        // One that stands may reach over the kerb with a corner: nobody walks through it there.
+        const bool drives = speed > stands;
         if (drives && !is_near(car, on_road))
             continue;
         Thing thing = car_of(world::in_plan(car.position()), yaw, car.model(), car.id());
