@@ -171,8 +171,8 @@ TEST(Drill, OneUnitInOneNumberIsReportedAsExactlyThat) {
                                  "  field     vehicles[id 1].angular_velocity.z\n",
                                  " (0x",
                                  "  note      1 unit in the last place apart\n",
-                                 "  script    last said at tick 1 (0.05 s): spawn of ego (1), "
-                                 "free_drive.lua:"})
+                                 "  script    last said at tick 1 (0.05 s): may_overtake of "
+                                 "ego (1), free_drive.lua:"})
             EXPECT_THAT(report.out, HasSubstr(text));
     }
 }

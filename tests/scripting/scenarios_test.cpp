@@ -59,8 +59,9 @@ TEST(Scenarios, FreeDriveLeavesThePlaceToTheKernel) {
     EXPECT_EQ(rehearsal.episode.cars, 100U);
     world::TickDraft next;
     rehearsal.scenario.advance(test::tick_with({}, {}, {}, 0).view(), next);
-    ASSERT_EQ(next.tick.commands.size(), 1U);
+    ASSERT_EQ(next.tick.commands.size(), 2U);
     EXPECT_EQ(next.tick.commands[0].lane, world::none);
+    EXPECT_EQ(next.tick.commands[1].kind, world::CommandKind::may_overtake);
 }
 
 TEST(Scenarios, CutInChangesLanesOnceTheOtherCarIsAhead) {

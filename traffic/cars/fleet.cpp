@@ -76,10 +76,7 @@ std::string type_xml(const std::string& id,
 }  // namespace
 
 std::string vehicle_types_xml() {
-    // Where there is never room behind a junction, as before a lane that is shorter than a car,
-    // nobody would ever enter it.
-    constexpr const char* moody =
-        "sigma='0.5' speedFactor='normc(1.0,0.1,0.7,1.2)' jmIgnoreKeepClearTime='30'";
+    constexpr const char* moody = "sigma='0.5' speedFactor='normc(1.0,0.1,0.7,1.2)'";
     constexpr const char* even = "sigma='0' speedFactor='1' speedDev='0'";
     std::string xml = "<additional>\n";
     for (std::uint16_t i = 0; i < manners.size(); ++i) {
