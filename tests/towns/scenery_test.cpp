@@ -92,7 +92,8 @@ TEST_P(AnyScenery, NothingStandsOnALaneOrTurningPath) {
 TEST_P(AnyScenery, EverythingStandsOnTheGround) {
     for (const towns::Criterion& criterion :
          towns::check_standing(town(), ground::build_ground(town())))
-        if (criterion.name == "things on roads" && GetParam() == "DRT/osm.net.xml")
+        if (criterion.name == "things on roads" &&
+            std::string_view(GetParam()) == "DRT/osm.net.xml")
             // Poles on refuges of less than 4 m2, which the ground leaves out: known, and open.
             EXPECT_LE(criterion.figure, 7) << criterion.figure;
         else
