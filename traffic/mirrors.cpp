@@ -139,6 +139,28 @@ bool Mirrors::start_where_sumo_has_it(const Mirror& mirror, std::vector<std::uin
     return true;
 }
 
+/// What has been driven stays before a new way in SUMO's route. A vehicle that comes round again is
+/// then on an edge that its route has twice; inside the junction behind it SUMO takes the first of
+/// the two, which goes on to another road, and aborts (an assertion of MSVehicle::updateBestLanes).
+/// A named route is taken as it is.
+void Mirrors::set_route(const Mirror& mirror, const std::vector<std::uint32_t>& way) {
+    using libsumo::Vehicle;
+    const std::vector<std::string> names = graph_->names(way);
+    const std::vector<std::string> route = Vehicle::getRoute(mirror.sumo);
+    const auto driven = std::min(
+        static_cast<std::size_t>(std::max(Vehicle::getRouteIndex(mirror.sumo), 0)), route.size());
+    const bool comes_round = std::any_of(names.begin(), names.end(), [&](const std::string& edge) {
+        return std::find(route.begin(),
+                         route.begin() + static_cast<std::ptrdiff_t>(driven),
+                         edge) != route.begin() + static_cast<std::ptrdiff_t>(driven);
+    });
+    if (!comes_round)
+        return Vehicle::setRoute(mirror.sumo, names);
+    const std::string name = fmt::format("mirror {} {}", mirror.id, added_++);
+    libsumo::Route::add(name, names);
+    Vehicle::setRouteID(mirror.sumo, name);
+}
+
 void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Target& target) {
     using libsumo::Vehicle;
     auto place = [&](const std::string& edge, int index, int keep_route) {
@@ -178,7 +200,7 @@ void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Tar
             mirror.lamps = 0xffff;
             return;
         }
-        Vehicle::setRoute(mirror.sumo, graph_->names(way));
+        set_route(mirror, way);
         mirror.lamps = vehicle.lamps();
     }
     if (lane.kind == world::LaneKind::internal) {

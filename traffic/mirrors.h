@@ -64,6 +64,7 @@ class Mirrors {
                         const std::string& sumo,
                         const Target& target);
     Target target_of(const world::VehicleState& vehicle) const;
+    void set_route(const Mirror& mirror, const std::vector<std::uint32_t>& way);
     void move(Mirror& mirror, const world::VehicleState& vehicle, const Target& target);
     bool start_where_sumo_has_it(const Mirror& mirror, std::vector<std::uint32_t>& way) const;
     void enter_again(const Mirror& mirror, const world::VehicleState& vehicle) const;
