@@ -51,6 +51,8 @@ class Crowd {
     void add_to(world::Hasher& hasher) const;
 
   private:
+    static constexpr double beside = 0.8;  ///< [m] between two who walk together
+
     struct Walker {
         std::uint32_t id = 0;
         Person person;
