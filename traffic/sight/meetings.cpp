@@ -29,6 +29,23 @@ constexpr std::uint64_t pushes_for = 240;  // [ticks]
 constexpr double halt = 0.1;               // [m/s]
 constexpr double hard = 0.8;               // of the hardest braking, that one plans with
 constexpr double longest_body = 12;        // [m]
+constexpr double spacing = 0.4;            // [m] of its steps
+
+/// With a hair of room, as rounding must not tell bodies apart that touch.
+world::Box box_around(const BodyBox& body) {
+    constexpr double hair = 1e-6;  // [m]
+    const Eigen::Vector2d reach = body.half_length * body.ahead.cwiseAbs() +
+                                  body.half_width * world::turned_left(body.ahead).cwiseAbs();
+    world::Box box;
+    box.take(body.middle + reach, hair);
+    box.take(body.middle - reach, hair);
+    return box;
+}
+
+bool touch(const world::Box& one, const world::Box& other) {
+    return (one.low.array() <= other.high.array()).all() &&
+           (other.low.array() <= one.high.array()).all();
+}
 
 }  // namespace
 
@@ -53,6 +70,7 @@ Meetings::Meetings(const world::TownT& town, const RoadGraph& graph, double step
 
 void Meetings::gather(Cars& cars) {
     drivers_.clear();
+    foreseen_ = 0;
     const auto all = cars.all();
     allowed_.assign(all.size(), world::infinity);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -88,21 +106,69 @@ bool Meetings::could_meet(const Driver& one, const Driver& other) const {
     return (one.middle - other.middle).squaredNorm() < reach * reach;
 }
 
-void Meetings::prepare(Driver& driver) const {
-    if (driver.way)
+void Meetings::Swath::clear() {
+    bodies.clear();
+    around = {};
+}
+
+void Meetings::Swath::add(const BodyBox& body) {
+    bodies.push_back(body);
+    around.take(box_around(body));
+}
+
+void Meetings::prepare(Driver& driver) {
+    if (driver.seen != nullptr)
         return;
+    if (foreseen_ == foresights_.size())
+        foresights_.push_back(std::make_unique<Foresight>());
+    Foresight& seen = *foresights_[foreseen_++];
+    driver.seen = &seen;
     const Car& car = *driver.car;
-    driver.way.emplace(car, *town_, *graph_, driver.reach + 1);
+    seen.way.emplace(car, *town_, *graph_, driver.reach + 1);
+    seen.around = {};
+    seen.soon.clear();
+    seen.sweep.clear();
+    seen.steps.clear();
     for (std::size_t i = 0; i < samples; ++i) {
-        const auto share = static_cast<double>(i);
-        driver.bodies[i] = driver.way->at(car.speed * sample * share);
-        driver.sweep[i] = driver.way->at(driver.reach / (samples - 1) * share);
+        const bool same = i > 0 && car.speed == 0;
+        seen.bodies[i] =
+            same ? seen.bodies[0] : seen.way->at(car.speed * sample * static_cast<double>(i));
+        if (!same)
+            seen.around.take(box_around(seen.bodies[i]));
     }
-    for (const std::uint32_t lane : driver.way->lanes())
+    for (const std::uint32_t lane : seen.way->lanes())
         if (town_->lanes[lane].kind == world::LaneKind::internal) {
             driver.yields = yields_[lane];
             break;
         }
+}
+
+const Meetings::Swath& Meetings::soon(const Driver& driver) {
+    Swath& soon = driver.seen->soon;
+    if (soon.bodies.empty()) {
+        const double speed = driver.car->speed;
+        for (const double tried : {std::max(speed, least_speed), speed + speeding_up})
+            for (std::size_t i = 1; i < samples; ++i)
+                soon.add(
+                    driver.seen->way->at(tried * sample * static_cast<double>(i)).widened(room));
+    }
+    return soon;
+}
+
+const Meetings::Swath& Meetings::sweep(const Driver& driver) {
+    Swath& sweep = driver.seen->sweep;
+    if (sweep.bodies.empty())
+        for (std::size_t i = 0; i < samples; ++i)
+            sweep.add(driver.seen->way->at(driver.reach / (samples - 1) * static_cast<double>(i)));
+    return sweep;
+}
+
+const Meetings::Swath& Meetings::steps(const Driver& driver) {
+    Swath& steps = driver.seen->steps;
+    if (steps.bodies.empty())
+        for (double s = 0; s <= driver.reach; s += spacing)
+            steps.add(driver.seen->way->at(s).widened(room));
+    return steps;
 }
 
 bool Meetings::has_stood(const Driver& driver) const {
@@ -111,26 +177,34 @@ bool Meetings::has_stood(const Driver& driver) const {
 
 /// Would it come into the other's body, as that drives on, at about the speed that it has or will
 /// have in a moment?
-bool Meetings::would_meet(const Driver& driver, const Bodies& bodies) {
-    const double speed = driver.car->speed;
-    for (const double tried : {std::max(speed, least_speed), speed + speeding_up})
-        for (std::size_t i = 1; i < samples; ++i)
-            if (overlap(driver.way->at(tried * sample * static_cast<double>(i)).widened(room),
-                        bodies[i]))
-                return true;
+bool Meetings::would_meet(const Driver& driver, const Bodies& bodies, const world::Box& around) {
+    const Swath& own = soon(driver);
+    if (!touch(own.around, around))
+        return false;
+    for (std::size_t i = 0; i < own.bodies.size(); ++i)
+        if (overlap(own.bodies[i], bodies[1 + i % (samples - 1)]))
+            return true;
     return false;
+}
+
+bool Meetings::would_meet(const Driver& driver, const BodyBox& standing) {
+    const Swath& own = soon(driver);
+    return touch(own.around, box_around(standing)) &&
+           std::any_of(own.bodies.begin(), own.bodies.end(), [&](const BodyBox& body) {
+               return overlap(body, standing);
+           });
 }
 
 /// Before the first place where its body would lie on the other's way, which begins where that is.
 Meetings::Stop Meetings::stop_before(const Driver& driver,
                                      const Driver& other,
                                      std::span<const BodyBox> way) const {
-    constexpr double spacing = 0.4;  // [m]
     const Car& car = *driver.car;
     Stop stop;
     stop.distance = driver.reach;
-    for (double s = 0; s <= driver.reach; s += spacing) {
-        const BodyBox body = driver.way->at(s).widened(room);
+    double s = -spacing;
+    for (const BodyBox& body : steps(driver).bodies) {
+        s = s < 0 ? 0 : s + spacing;
         const auto on = std::find_if(
             way.begin(), way.end(), [&](const BodyBox& box) { return overlap(body, box); });
         if (on == way.end())
@@ -160,16 +234,15 @@ void Meetings::hold(const Driver& driver, const Stop& stop) {
 void Meetings::wait(Driver& driver, Driver& other, const Stop& stop) {
     driver.waits_for.push_back(other.car->id);
     hold(driver, stop);
-    Bodies standing;
-    standing.fill(driver.bodies[0]);
-    const bool is_in_its_way = would_meet(other, standing);
+    const BodyBox& here = driver.seen->bodies[0];
+    const bool is_in_its_way = would_meet(other, here);
     if (is_in_its_way)
-        hold(other, stop_before(other, driver, std::span(standing).first(1)));
+        hold(other, stop_before(other, driver, {&here, 1}));
     if (!has_stood(driver) || !has_stood(other))
         return;
     // Both stand, each for the other's body: nobody else will solve it.
-    standing.fill(other.bodies[0]);
-    if (is_in_its_way && would_meet(driver, standing) && driver.car->pushes_until <= tick_)
+    if (is_in_its_way && would_meet(driver, other.seen->bodies[0]) &&
+        driver.car->pushes_until <= tick_)
         driver.car->pushes_until = tick_ + pushes_for;
 }
 
@@ -209,7 +282,7 @@ void Meetings::follow(const Driver& one, const Driver& other) {
 
 /// On its way through the lane that the other's bumper is on.
 bool Meetings::follows(const Driver& driver, const Driver& leader) {
-    const auto lanes = driver.way->lanes();
+    const auto lanes = driver.seen->way->lanes();
     return std::find(lanes.begin(), lanes.end(), leader.car->lane) != lanes.end();
 }
 
@@ -224,14 +297,15 @@ void Meetings::meet(Driver& one, Driver& other) {
     const bool one_follows = follows(one, other);
     const bool other_follows = follows(other, one);
     if ((one_follows && other_follows) || (one_follows && is_all_on_its_lane(other)) ||
-        (other_follows && is_all_on_its_lane(one)) || overlap(one.bodies[0], other.bodies[0]))
+        (other_follows && is_all_on_its_lane(one)) ||
+        overlap(one.seen->bodies[0], other.seen->bodies[0]))
         return;
-    const bool first = !other_follows && would_meet(one, other.bodies);
-    const bool second = !one_follows && would_meet(other, one.bodies);
+    const bool first = !other_follows && would_meet(one, other.seen->bodies, other.seen->around);
+    const bool second = !one_follows && would_meet(other, one.seen->bodies, one.seen->around);
     if (!first && !second)
         return;
-    const Stop stop_one = stop_before(one, other, other.sweep);
-    const Stop stop_other = stop_before(other, one, one.sweep);
+    const Stop stop_one = stop_before(one, other, sweep(other).bodies);
+    const Stop stop_other = stop_before(other, one, sweep(one).bodies);
     if (first && (!second || first_waits(one, other, stop_one, stop_other)))
         wait(one, other, stop_one);
     else

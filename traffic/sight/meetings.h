@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "traffic/cars/cars.h"
 #include "traffic/roads/road_graph.h"
 #include "traffic/sight/way_ahead.h"
+#include "world/geometry2d.h"
 #include "world/town.h"
 
 namespace reprise::traffic {
@@ -40,16 +42,33 @@ class Meetings {
 
     using Bodies = std::array<BodyBox, samples>;
 
-    /// One of the cars, and its bodies of the next seconds once they are asked for.
+    /// Bodies, and the box around all of them: most pairs are told apart by that.
+    struct Swath {
+        std::vector<BodyBox> bodies;
+        world::Box around;
+
+        void clear();
+        void add(const BodyBox& body);
+    };
+
+    /// What a driver will cover in the next seconds. Made where somebody is near, each part once.
+    struct Foresight {
+        std::optional<WayAhead> way;
+        Bodies bodies;      ///< as it drives on now, by time
+        world::Box around;  ///< of these
+        Swath soon;         ///< at about the speeds that it will have: by speed, then by time
+        Swath sweep;        ///< all that it will drive over, by way
+        Swath steps;        ///< likewise, closer to each other, with room beside
+    };
+
+    /// One of the cars.
     struct Driver {
         Car* car = nullptr;
         std::size_t index = 0;
         Eigen::Vector2d middle;
         double half_length = 0;
-        double reach = 0;  ///< [m] of way that is looked at
-        std::optional<WayAhead> way;
-        Bodies bodies;  ///< as it drives on now, by time
-        Bodies sweep;   ///< all that it will drive over, by way
+        double reach = 0;           ///< [m] of way that is looked at
+        Foresight* seen = nullptr;  ///< once it is asked for
         bool yields = false;
         bool is_turning = false;               ///< or will be in a moment
         std::vector<std::uint32_t> waits_for;  ///< ids, of this tick
@@ -68,7 +87,7 @@ class Meetings {
     void meet(Driver& one, Driver& other);
     void follow(const Driver& one, const Driver& other);
     void wait(Driver& driver, Driver& other, const Stop& stop);
-    void prepare(Driver& driver) const;
+    void prepare(Driver& driver);
     bool has_stood(const Driver& driver) const;
     bool first_waits(const Driver& one,
                      const Driver& other,
@@ -76,7 +95,11 @@ class Meetings {
                      const Stop& stop_other) const;
     static bool follows(const Driver& driver, const Driver& leader);
     static bool is_all_on_its_lane(const Driver& driver);
-    static bool would_meet(const Driver& driver, const Bodies& bodies);
+    static const Swath& soon(const Driver& driver);
+    static const Swath& sweep(const Driver& driver);
+    static const Swath& steps(const Driver& driver);
+    static bool would_meet(const Driver& driver, const Bodies& bodies, const world::Box& around);
+    static bool would_meet(const Driver& driver, const BodyBox& standing);
     Stop stop_before(const Driver& driver, const Driver& other, std::span<const BodyBox> way) const;
     void hold(const Driver& driver, const Stop& stop);
 
@@ -86,6 +109,8 @@ class Meetings {
     std::vector<bool> yields_;  ///< by lane of a junction: has to let others go first
     std::vector<double> allowed_;
     std::vector<Driver> drivers_;
+    std::vector<std::unique_ptr<Foresight>> foresights_;  ///< of drivers, kept for their memory
+    std::size_t foreseen_ = 0;                            ///< that are in use in this tick
     std::uint64_t tick_ = 0;
 };
 
