@@ -125,22 +125,35 @@ void Meetings::prepare(Driver& driver) {
     driver.seen = &seen;
     const Car& car = *driver.car;
     seen.way.emplace(car, *town_, *graph_, driver.reach + 1);
-    seen.around = {};
+    seen.area = seen.way->around(driver.reach);
+    seen.area.take(seen.area.low, room);
+    seen.area.take(seen.area.high, room);
+    seen.now = seen.way->at(0);
+    seen.has_bodies = false;
     seen.soon.clear();
     seen.sweep.clear();
     seen.steps.clear();
-    for (std::size_t i = 0; i < samples; ++i) {
-        const bool same = i > 0 && car.speed == 0;
-        seen.bodies[i] =
-            same ? seen.bodies[0] : seen.way->at(car.speed * sample * static_cast<double>(i));
-        if (!same)
-            seen.around.take(box_around(seen.bodies[i]));
-    }
     for (const std::uint32_t lane : seen.way->lanes())
         if (town_->lanes[lane].kind == world::LaneKind::internal) {
             driver.yields = yields_[lane];
             break;
         }
+}
+
+const Meetings::Foresight& Meetings::with_bodies(const Driver& driver) {
+    Foresight& seen = *driver.seen;
+    if (seen.has_bodies)
+        return seen;
+    seen.has_bodies = true;
+    const double speed = driver.car->speed;
+    seen.around = {};
+    for (std::size_t i = 0; i < samples; ++i) {
+        const bool same = i == 0 || speed == 0;
+        seen.bodies[i] = same ? seen.now : seen.way->at(speed * sample * static_cast<double>(i));
+        if (i == 0 || !same)
+            seen.around.take(box_around(seen.bodies[i]));
+    }
+    return seen;
 }
 
 const Meetings::Swath& Meetings::soon(const Driver& driver) {
@@ -177,12 +190,14 @@ bool Meetings::has_stood(const Driver& driver) const {
 
 /// Would it come into the other's body, as that drives on, at about the speed that it has or will
 /// have in a moment?
-bool Meetings::would_meet(const Driver& driver, const Bodies& bodies, const world::Box& around) {
+bool Meetings::would_meet(const Driver& driver, const Foresight& other) {
+    if (!touch(driver.seen->area, other.around))
+        return false;
     const Swath& own = soon(driver);
-    if (!touch(own.around, around))
+    if (!touch(own.around, other.around))
         return false;
     for (std::size_t i = 0; i < own.bodies.size(); ++i)
-        if (overlap(own.bodies[i], bodies[1 + i % (samples - 1)]))
+        if (overlap(own.bodies[i], other.bodies[1 + i % (samples - 1)]))
             return true;
     return false;
 }
@@ -234,15 +249,14 @@ void Meetings::hold(const Driver& driver, const Stop& stop) {
 void Meetings::wait(Driver& driver, Driver& other, const Stop& stop) {
     driver.waits_for.push_back(other.car->id);
     hold(driver, stop);
-    const BodyBox& here = driver.seen->bodies[0];
+    const BodyBox& here = driver.seen->now;
     const bool is_in_its_way = would_meet(other, here);
     if (is_in_its_way)
         hold(other, stop_before(other, driver, {&here, 1}));
     if (!has_stood(driver) || !has_stood(other))
         return;
     // Both stand, each for the other's body: nobody else will solve it.
-    if (is_in_its_way && would_meet(driver, other.seen->bodies[0]) &&
-        driver.car->pushes_until <= tick_)
+    if (is_in_its_way && would_meet(driver, other.seen->now) && driver.car->pushes_until <= tick_)
         driver.car->pushes_until = tick_ + pushes_for;
 }
 
@@ -294,14 +308,15 @@ bool Meetings::is_all_on_its_lane(const Driver& driver) {
 void Meetings::meet(Driver& one, Driver& other) {
     prepare(one);
     prepare(other);
+    if (!touch(one.seen->area, other.seen->area))
+        return;
     const bool one_follows = follows(one, other);
     const bool other_follows = follows(other, one);
     if ((one_follows && other_follows) || (one_follows && is_all_on_its_lane(other)) ||
-        (other_follows && is_all_on_its_lane(one)) ||
-        overlap(one.seen->bodies[0], other.seen->bodies[0]))
+        (other_follows && is_all_on_its_lane(one)) || overlap(one.seen->now, other.seen->now))
         return;
-    const bool first = !other_follows && would_meet(one, other.seen->bodies, other.seen->around);
-    const bool second = !one_follows && would_meet(other, one.seen->bodies, one.seen->around);
+    const bool first = !other_follows && would_meet(one, with_bodies(other));
+    const bool second = !one_follows && would_meet(other, with_bodies(one));
     if (!first && !second)
         return;
     const Stop stop_one = stop_before(one, other, sweep(other).bodies);

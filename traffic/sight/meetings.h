@@ -54,6 +54,9 @@ class Meetings {
     /// What a driver will cover in the next seconds. Made where somebody is near, each part once.
     struct Foresight {
         std::optional<WayAhead> way;
+        world::Box area;  ///< that it does not leave
+        BodyBox now;
+        bool has_bodies = false;
         Bodies bodies;      ///< as it drives on now, by time
         world::Box around;  ///< of these
         Swath soon;         ///< at about the speeds that it will have: by speed, then by time
@@ -95,10 +98,11 @@ class Meetings {
                      const Stop& stop_other) const;
     static bool follows(const Driver& driver, const Driver& leader);
     static bool is_all_on_its_lane(const Driver& driver);
+    static const Foresight& with_bodies(const Driver& driver);
     static const Swath& soon(const Driver& driver);
     static const Swath& sweep(const Driver& driver);
     static const Swath& steps(const Driver& driver);
-    static bool would_meet(const Driver& driver, const Bodies& bodies, const world::Box& around);
+    static bool would_meet(const Driver& driver, const Foresight& other);
     static bool would_meet(const Driver& driver, const BodyBox& standing);
     Stop stop_before(const Driver& driver, const Driver& other, std::span<const BodyBox> way) const;
     void hold(const Driver& driver, const Stop& stop);

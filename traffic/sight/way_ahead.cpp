@@ -54,6 +54,10 @@ std::uint32_t lane_after(std::uint32_t lane,
 
 WayAhead::WayAhead(const Car& car, const world::TownT& town, const RoadGraph& graph, double reach)
     : car_(&car),
+      to_axle_(origin_to_front(car.model)),
+      half_length_(world::vehicle_models()[car.model].length / 2),
+      half_width_(world::vehicle_models()[car.model].width / 2),
+      rear_overhang_(world::vehicle_models()[car.model].rear_overhang),
       rolled_((car.rear - car.trail.rear()).head<2>()) {
     constexpr std::size_t most_lanes = 16;  // nobody drives over more of them in seconds
     const Eigen::Vector2d front = car.trail.front().head<2>();
@@ -99,19 +103,35 @@ Eigen::Vector2d WayAhead::bumper_at(double driven) const {
 
 BodyBox WayAhead::at(double driven) const {
     driven = std::min(driven, length());
-    const world::VehicleModel& model = world::vehicle_models()[car_->model];
-    const double to_axle = origin_to_front(car_->model);
     const Eigen::Vector2d front = bumper_at(driven);
-    Eigen::Vector2d rear = driven >= to_axle ? bumper_at(driven - to_axle)
-                                             : car_->trail.behind(to_axle - driven).head<2>();
+    Eigen::Vector2d rear = driven >= to_axle_ ? bumper_at(driven - to_axle_)
+                                              : car_->trail.behind(to_axle_ - driven).head<2>();
     rear += rolled_ * std::max(0.0, 1 - driven / comes_back);
     BodyBox box;
     const Eigen::Vector2d body = front - rear;
     box.ahead =
         body.squaredNorm() > 1e-6 ? Eigen::Vector2d(body.normalized()) : world::ahead_of(car_->yaw);
-    box.half_length = model.length / 2;
-    box.half_width = model.width / 2;
-    box.middle = rear + (box.half_length - model.rear_overhang) * box.ahead;
+    box.half_length = half_length_;
+    box.half_width = half_width_;
+    box.middle = rear + (half_length_ - rear_overhang_) * box.ahead;
+    return box;
+}
+
+world::Box WayAhead::around(double driven) const {
+    constexpr double spacing = 1;  // [m]
+    constexpr double bulge = 0.1;  // [m] of the trail between two places
+    world::Box box;
+    for (double behind = 0; behind < to_axle_ + spacing; behind += spacing)
+        box.take(car_->trail.behind(std::min(behind, to_axle_)).head<2>());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        box.take(points_[i]);
+        if (ends_[i] > driven)
+            break;
+    }
+    // From axle to bumper a body is as wide as it is; behind the axle its tail swings out.
+    const double aside = std::hypot(rear_overhang_, half_width_) + rolled_.norm() + bulge;
+    box.low -= Eigen::Vector2d::Constant(aside);
+    box.high += Eigen::Vector2d::Constant(aside);
     return box;
 }
 

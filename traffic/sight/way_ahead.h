@@ -8,6 +8,7 @@
 
 #include "traffic/cars/car.h"
 #include "traffic/roads/road_graph.h"
+#include "world/geometry2d.h"
 #include "world/town.h"
 
 namespace reprise::traffic {
@@ -43,6 +44,9 @@ class WayAhead {
     /// When the bumper is `driven` [m] ahead of where it is now; beyond the end of the way, there.
     BodyBox at(double driven) const;
 
+    /// A box that no body leaves until the bumper is `driven` [m] ahead; somewhat too large.
+    world::Box around(double driven) const;
+
     /// That the bumper is on, now and until the end of the way; in their order.
     std::span<const std::uint32_t> lanes() const { return lanes_; }
 
@@ -53,6 +57,8 @@ class WayAhead {
     Eigen::Vector2d bumper_at(double driven) const;
 
     const Car* car_;
+    double to_axle_;  ///< [m] from the bumper
+    double half_length_, half_width_, rear_overhang_;
     std::vector<std::uint32_t> lanes_;
     std::vector<Eigen::Vector2d> points_;  ///< of the bumper, from where it is
     std::vector<double> ends_;             ///< [i] metres to points_[i]
