@@ -14,10 +14,13 @@ LEVELS = {
     "inputs": "inputs: what was driven by hand, and digests",
 }
 PICTURES = {
-    "depth": "depth",
-    "semantic": "semantic classes",
-    "rgb_clear_noon": "colour, clear noon",
-    "rgb_hard_rain_sunset": "colour, hard rain at sunset",
+    "depth": "depth, 800x600",
+    "semantic": "semantic classes, 800x600",
+    "rgb_clear_noon": "colour, 800x600, clear noon",
+    "rgb_hard_rain_sunset": "colour, 800x600, hard rain at sunset",
+    "rgb_200x88": "colour, 200x88",
+    "rgb_84x84": "colour, 84x84",
+    "semantic_84x84": "semantic classes, 84x84",
 }
 COMMANDS = ("--version", "--help", "info", "diff")
 TICKS_AN_HOUR = 72_000
@@ -98,13 +101,16 @@ def drivers(v):
 
 
 def pictures(v):
-    rows = [["bare Embree primary rays on the ground alone, one core",
-             v.text("BareEmbreePrimaryRays.real_ms", digits=2) + " ms", ""]]
+    rows = []
     for name, words in PICTURES.items():
-        # Two cores give two times as much time of CPU as the clock shows: CPU time is what compares.
-        ratio = v.text(f"portable/{name}.of_normal", decimals=2)
-        rows.append([words, v.text(f"normal/{name}.real_ms", digits=3) + " ms", ratio + " times"])
-    return table(["a picture of 800x600", "time", "with `--portable`: CPU time"], rows)
+        at = f"look/{name}."
+        rows.append([words, v.text(at + "real_ms", digits=3) + " ms", v.text(at + "of_bare", decimals=1),
+                     v.text(at + "portable_ms", digits=3) + " ms"])
+    columns = ["a picture, one core", "with its file", "of bare Embree over all its rays", "`--portable`, without the file"]
+    return table(columns, rows) + (
+        f"\n\nUntil the first picture {v.text('StartUp.real_ms', digits=3)} ms pass. Two threads make "
+        f"{v.text('Threads.times_one', decimals=2)} times the pictures of one; of the bare rays they\n"
+        f"trace {v.text('Threads.bare_times_one', decimals=2)} times as many.")
 
 
 def traces(v):

@@ -1,32 +1,43 @@
-// An 800x600 frame of Town 1 with 100 cars, beside bare Embree: the same number of primary rays, in
-// packets of 8, on the same ground, and nothing else.
-#include <cmath>
-#include <cstring>
-#include <limits>
+// Pictures of Town 1 with 100 cars and 50 walkers on one core, as the file that is written, beside
+// bare Embree: all the rays of the same picture on the same scenes, with nothing in between. Then
+// what a second thread makes of many pictures, beside what it makes of the bare rays. Figures are
+// medians of turns.
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+#include <vector>
 
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
+#include <fmt/format.h>
 
-#include "ground/mesh/build_ground.h"
 #include "kernel/kernel.h"
+#include "render/picture.h"
 #include "render/sensors.h"
 #include "tests/bench/drive.h"
-#include "world/frames.h"
+#include "tests/bench/timer.h"
+#include "tests/bench/traced_rays.h"
+#include "world/check.h"
 #include "world/weather.h"
 
 namespace {
 
 using namespace reprise;
+using world::SensorKind;
 
-constexpr int width = 800;
-constexpr int height = 600;
+constexpr int turns = 7;
 
+/// The town and the tick that is seen.
 struct Scene {
-    world::Recording recording = bench::free_drive(100);
+    world::Recording recording = [] {
+        world::Recording made = bench::free_drive(100);
+        made.episode.walkers = 50;
+        return made;
+    }();
     kernel::Kernel kernel{recording};
     const world::SealedTick* tick = nullptr;
-    render::Sensors sensors{recording.town};
-    render::Sensors portable{recording.town, {.threads = 0, .portable = true}};
 
     Scene() {
         for (int i = 0; i < 300; ++i)
@@ -34,144 +45,182 @@ struct Scene {
     }
 };
 
-Scene& scene() {
-    static Scene once;
+const Scene& scene() {
+    static const Scene once;
     return once;
 }
 
-void frame(benchmark::State& state,
-           world::SensorKind kind,
-           const char* weather,
-           render::Sensors& sensors) {
-    world::SensorSpec sensor;
-    sensor.name = "camera";
-    sensor.kind = kind;
-    sensor.width = width;
-    sensor.height = height;
-    const world::TickView tick = scene().tick->view();
-    sensor.actor = tick.vehicles().front().id();
-    for (auto _ : state)
-        benchmark::DoNotOptimize(
-            sensors.observe(tick, {sensor}, world::find_weather(weather)->weather));
-}
+/// A file that is gone when this is.
+struct ScratchFile {
+    std::filesystem::path path = std::filesystem::temp_directory_path() /
+                                 fmt::format("reprise-render-bench-{}.png", getpid());
 
-void normal(benchmark::State& state, world::SensorKind kind, const char* weather) {
-    frame(state, kind, weather, scene().sensors);
-}
-
-/// What the same bytes on every CPU cost.
-void portable(benchmark::State& state, world::SensorKind kind, const char* weather) {
-    frame(state, kind, weather, scene().portable);
-}
-
-/// Owns an Embree scene of the ground alone.
-struct BareEmbree {
-    RTCDevice device = rtcNewDevice("threads=1,isa=avx2");
-    RTCScene ground = rtcNewScene(device);
-
-    explicit BareEmbree(const ground::GroundMesh& mesh) {
-        const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry,
-                                                                     RTC_BUFFER_TYPE_VERTEX,
-                                                                     0,
-                                                                     RTC_FORMAT_FLOAT3,
-                                                                     3 * sizeof(float),
-                                                                     mesh.vertices.size()));
-        for (const Eigen::Vector3d& v : mesh.vertices)
-            for (int axis = 0; axis < 3; ++axis)
-                *vertices++ = static_cast<float>(v[axis]);
-        void* triangles = rtcSetNewGeometryBuffer(geometry,
-                                                  RTC_BUFFER_TYPE_INDEX,
-                                                  0,
-                                                  RTC_FORMAT_UINT3,
-                                                  3 * sizeof(std::uint32_t),
-                                                  mesh.triangles.size());
-        std::memcpy(
-            triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(std::uint32_t) * 3);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(ground, geometry);
-        rtcReleaseGeometry(geometry);
-        rtcCommitScene(ground);
-    }
-
-    ~BareEmbree() {
-        rtcReleaseScene(ground);
-        rtcReleaseDevice(device);
-    }
+    ~ScratchFile() { std::filesystem::remove(path); }
 };
 
-void BareEmbreePrimaryRays(benchmark::State& state) {
-    const BareEmbree embree(ground::build_ground(scene().recording.town));
-    const world::VehicleState& ego = scene().tick->view().vehicles().front();
-    const Eigen::Isometry3d pose_world_ego = world::pose(ego.position(), ego.orientation());
-    const Eigen::Vector3f eye = (pose_world_ego * Eigen::Vector3d(1, 0, 1.4)).cast<float>();
-    for (auto _ : state) {
-        alignas(32) const int valid[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        for (int row = 0; row < height; ++row) {
-            for (int column = 0; column < width; column += 8) {
-                RTCRayHit8 rays;
-                for (int k = 0; k < 8; ++k) {
-                    const double y = (width / 2.0 - column - k - 0.5) / (width / 2.0);
-                    const double z = (height / 2.0 - row - 0.5) / (width / 2.0);
-                    const Eigen::Vector3f d =
-                        (pose_world_ego.linear() * Eigen::Vector3d(1, y, z)).cast<float>();
-                    rays.ray.org_x[k] = eye.x();
-                    rays.ray.org_y[k] = eye.y();
-                    rays.ray.org_z[k] = eye.z();
-                    rays.ray.dir_x[k] = d.x();
-                    rays.ray.dir_y[k] = d.y();
-                    rays.ray.dir_z[k] = d.z();
-                    rays.ray.tnear[k] = 0;
-                    rays.ray.tfar[k] = std::numeric_limits<float>::infinity();
-                    rays.ray.time[k] = 0;
-                    rays.ray.mask[k] = ~0U;
-                    rays.ray.flags[k] = 0;
-                    rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-                    rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-                }
-                rtcIntersect8(valid, embree.ground, &context, &rays);
-                benchmark::DoNotOptimize(rays);
-            }
+struct Picture {
+    std::vector<SensorKind> kinds;
+    int width;
+    int height;
+    const char* weather = "clear_noon";
+};
+
+world::SensorRig rig_of(const Picture& picture) {
+    world::SensorRig rig;
+    for (const SensorKind kind : picture.kinds) {
+        world::SensorSpec sensor;
+        sensor.name = std::to_string(rig.size());
+        sensor.kind = kind;
+        sensor.width = picture.width;
+        sensor.height = picture.height;
+        sensor.actor = scene().tick->view().vehicles().front().id();
+        rig.push_back(sensor);
+    }
+    return rig;
+}
+
+std::vector<world::SensorFrame> observe(render::Sensors& sensors, const Picture& picture) {
+    return sensors.observe(
+        scene().tick->view(), rig_of(picture), world::find_weather(picture.weather)->weather);
+}
+
+/// Median CPU time of looks. [ms]
+double time_frames(render::Sensors& sensors, const Picture& picture) {
+    bench::ThreadTimer frames;
+    observe(sensors, picture);
+    for (int turn = 0; turn < turns; ++turn)
+        frames.time([&] { benchmark::DoNotOptimize(observe(sensors, picture)); });
+    return 1e3 * frames.median();
+}
+
+void look(benchmark::State& state, const Picture& picture) {
+    bench::ThreadTimer frames, files, bare;
+    std::size_t rays = 0;
+    {
+        render::Sensors sensors(scene().recording.town, {.threads = 1});
+        const ScratchFile file;
+        observe(sensors, picture);
+        const auto packets = bench::traced_packets([&] { observe(sensors, picture); });
+        rays = bench::rays_of(packets);
+        REPRISE_CHECK(rays > 0, "no ray came by");
+        for (int turn = 0; turn < turns; ++turn) {
+            std::vector<world::SensorFrame> seen;
+            frames.time([&] { seen = observe(sensors, picture); });
+            files.time([&] {
+                for (const world::SensorFrame& frame : seen)
+                    render::write_png(frame, file.path);
+            });
+            bare.time([&] { bench::trace_again(packets); });
         }
+    }
+    render::Sensors portable(scene().recording.town, {.threads = 1, .portable = true});
+    const double ms = 1e3 * (frames.median() + files.median());
+    for (auto _ : state)
+        state.SetIterationTime(ms / 1e3);
+    state.counters["frame_ms"] = 1e3 * frames.median();
+    state.counters["png_ms"] = 1e3 * files.median();
+    state.counters["bare_ms"] = 1e3 * bare.median();
+    state.counters["of_bare"] = ms / 1e3 / bare.median();
+    state.counters["frames/s"] = 1 / frames.median();
+    state.counters["portable_ms"] = time_frames(portable, picture);
+    state.counters["Mrays"] = 1e-6 * static_cast<double>(rays);
+}
+
+/// The town as a program finds it: until the first picture can be made.
+void StartUp(benchmark::State& state) {
+    const world::TownT& town = scene().recording.town;
+    for (auto _ : state) {
+        bench::ThreadTimer timer;
+        timer.time([&] { render::Sensors(town, {.threads = 1}); });
+        state.SetIterationTime(timer.median());
     }
 }
 
-BENCHMARK(BareEmbreePrimaryRays)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(normal, depth, world::SensorKind::depth, "clear_noon")
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(portable, depth, world::SensorKind::depth, "clear_noon")
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(normal, semantic, world::SensorKind::semantic, "clear_noon")
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(portable, semantic, world::SensorKind::semantic, "clear_noon")
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(normal, rgb_clear_noon, world::SensorKind::rgb, "clear_noon")
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(portable, rgb_clear_noon, world::SensorKind::rgb, "clear_noon")
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(normal, rgb_hard_rain_sunset, world::SensorKind::rgb, "hard_rain_sunset")
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(portable, rgb_hard_rain_sunset, world::SensorKind::rgb, "hard_rain_sunset")
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+/// Asks for the same picture many times.
+class Many : public render::Observation {
+  public:
+    explicit Many(const Picture& picture)
+        : rig_(rig_of(picture)),
+          weather_(world::find_weather(picture.weather)->weather) {}
+
+    world::TickView tick() const override { return scene().tick->view(); }
+
+    const world::SensorRig& rig() const override { return rig_; }
+
+    const world::Weather& weather() const override { return weather_; }
+
+    void seen(std::vector<world::SensorFrame> frames) override {
+        benchmark::DoNotOptimize(frames.data());
+    }
+
+  private:
+    world::SensorRig rig_;
+    world::Weather weather_;
+};
+
+constexpr int many = 12;
+
+/// Seconds by the clock for `many` pictures.
+double time_many(const Picture& picture, int threads) {
+    render::Sensors sensors(scene().recording.town, {.threads = threads});
+    bench::Timer timer;
+    for (int turn = 0; turn < 3; ++turn) {
+        int left = many;
+        timer.time([&] {
+            sensors.observe_each([&]() -> std::unique_ptr<render::Observation> {
+                return left-- > 0 ? std::make_unique<Many>(picture) : nullptr;
+            });
+        });
+    }
+    return timer.median();
+}
+
+/// Seconds by the clock for the picture's bare rays in each of so many threads.
+double time_bare(std::span<const bench::TracedPacket> packets, int threads) {
+    bench::Timer timer;
+    for (int turn = 0; turn < 3; ++turn)
+        timer.time([&] {
+            std::vector<std::jthread> all;
+            for (int i = 0; i < threads; ++i)
+                all.emplace_back([&] { bench::trace_again(packets); });
+        });
+    return timer.median();
+}
+
+void Threads(benchmark::State& state) {
+    const Picture picture{{SensorKind::rgb}, 400, 300};
+    const double one = time_many(picture, 1);
+    const double two = time_many(picture, 2);
+    double bare = 0;
+    {
+        render::Sensors sensors(scene().recording.town, {.threads = 1});
+        observe(sensors, picture);
+        const auto packets = bench::traced_packets([&] { observe(sensors, picture); });
+        bare = 2 * time_bare(packets, 1) / time_bare(packets, 2);
+    }
+    for (auto _ : state)
+        state.SetIterationTime(two / many);
+    state.counters["times_one"] = one / two;
+    state.counters["bare_times_one"] = bare;
+}
+
+#define LOOK(name, ...)                                \
+    BENCHMARK_CAPTURE(look, name, Picture __VA_ARGS__) \
+        ->Unit(benchmark::kMillisecond)                \
+        ->Iterations(1)                                \
+        ->UseManualTime()
+
+LOOK(depth, {{SensorKind::depth}, 800, 600});
+LOOK(semantic, {{SensorKind::semantic}, 800, 600});
+LOOK(rgb_clear_noon, {{SensorKind::rgb}, 800, 600});
+LOOK(rgb_hard_rain_sunset, {{SensorKind::rgb}, 800, 600, "hard_rain_sunset"});
+LOOK(labels, {{SensorKind::depth, SensorKind::semantic}, 800, 600});
+LOOK(rgb_84x84, {{SensorKind::rgb}, 84, 84});
+LOOK(semantic_84x84, {{SensorKind::semantic}, 84, 84});
+LOOK(rgb_200x88, {{SensorKind::rgb}, 200, 88});
+LOOK(semantic_200x88, {{SensorKind::semantic}, 200, 88});
+BENCHMARK(StartUp)->Unit(benchmark::kMillisecond)->Iterations(5)->UseManualTime();
+BENCHMARK(Threads)->Unit(benchmark::kMillisecond)->Iterations(1)->UseManualTime();
 
 }  // namespace
 

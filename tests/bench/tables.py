@@ -66,10 +66,6 @@ def benchmarks(build, work, repetitions, min_time):
             say(f"{program} failed ({result.returncode}):\n{result.stdout[-2000:]}")
             continue
         measured.update(values_of_benchmarks(json.loads(out.read_text())))
-    for name in figures.PICTURES:
-        normal, portable = (measured.get(f"{kind}/{name}.cpu_ms") for kind in ("normal", "portable"))
-        if normal and portable:
-            measured[f"portable/{name}.of_normal"] = portable / normal
     return measured
 
 
