@@ -204,23 +204,26 @@ void Threads(benchmark::State& state) {
     state.counters["bare_times_one"] = bare;
 }
 
-#define LOOK(name, ...)                                \
-    BENCHMARK_CAPTURE(look, name, Picture __VA_ARGS__) \
-        ->Unit(benchmark::kMillisecond)                \
-        ->Iterations(1)                                \
-        ->UseManualTime()
+/// Its own turns are what repeats it.
+void once(benchmark::internal::Benchmark* look) {
+    look->Unit(benchmark::kMillisecond)->Iterations(1)->UseManualTime();
+}
 
-LOOK(depth, {{SensorKind::depth}, 800, 600});
-LOOK(semantic, {{SensorKind::semantic}, 800, 600});
-LOOK(rgb_clear_noon, {{SensorKind::rgb}, 800, 600});
-LOOK(rgb_hard_rain_sunset, {{SensorKind::rgb}, 800, 600, "hard_rain_sunset"});
-LOOK(labels, {{SensorKind::depth, SensorKind::semantic}, 800, 600});
-LOOK(rgb_84x84, {{SensorKind::rgb}, 84, 84});
-LOOK(semantic_84x84, {{SensorKind::semantic}, 84, 84});
-LOOK(rgb_200x88, {{SensorKind::rgb}, 200, 88});
-LOOK(semantic_200x88, {{SensorKind::semantic}, 200, 88});
+BENCHMARK_CAPTURE(look, depth, Picture{{SensorKind::depth}, 800, 600})->Apply(once);
+BENCHMARK_CAPTURE(look, semantic, Picture{{SensorKind::semantic}, 800, 600})->Apply(once);
+BENCHMARK_CAPTURE(look, rgb_clear_noon, Picture{{SensorKind::rgb}, 800, 600})->Apply(once);
+BENCHMARK_CAPTURE(look,
+                  rgb_hard_rain_sunset,
+                  Picture{{SensorKind::rgb}, 800, 600, "hard_rain_sunset"})
+    ->Apply(once);
+BENCHMARK_CAPTURE(look, labels, Picture{{SensorKind::depth, SensorKind::semantic}, 800, 600})
+    ->Apply(once);
+BENCHMARK_CAPTURE(look, rgb_84x84, Picture{{SensorKind::rgb}, 84, 84})->Apply(once);
+BENCHMARK_CAPTURE(look, semantic_84x84, Picture{{SensorKind::semantic}, 84, 84})->Apply(once);
+BENCHMARK_CAPTURE(look, rgb_200x88, Picture{{SensorKind::rgb}, 200, 88})->Apply(once);
+BENCHMARK_CAPTURE(look, semantic_200x88, Picture{{SensorKind::semantic}, 200, 88})->Apply(once);
 BENCHMARK(StartUp)->Unit(benchmark::kMillisecond)->Iterations(5)->UseManualTime();
-BENCHMARK(Threads)->Unit(benchmark::kMillisecond)->Iterations(1)->UseManualTime();
+BENCHMARK(Threads)->Apply(once);
 
 }  // namespace
 
