@@ -76,7 +76,7 @@ class Benchmarks(unittest.TestCase):
                 continue  # measured by tables.py itself
             with self.subTest(value=name):
                 kind, _, case = benchmark.partition("/")
-                registered = rf"BENCHMARK\({kind}\)|\"{kind}\": |BENCHMARK_CAPTURE\({kind}, {case},"
+                registered = rf"BENCHMARK\({kind}\)|\"{kind}\": |BENCHMARK_CAPTURE\({kind},\s+{case},"
                 source = next((text for text in sources if re.search(registered, text)), None)
                 self.assertIsNotNone(source)
                 if counter not in ("real_ms", "cpu_ms", "of_normal"):
