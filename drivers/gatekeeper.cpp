@@ -17,6 +17,8 @@ constexpr double line_distance = 1;     // [m] from the lane's end to our bumper
 constexpr double yellow_braking = 3.5;  // [m/s^2] harder than this we rather drive through
 constexpr double red_braking = 7;       // [m/s^2] at red only what is hardly possible
 constexpr double patience = 12;         // [s]
+constexpr double row_patience = 20;     // [s] before junctions that have no room between them
+constexpr double room_behind = 2.5;     // [m] more than our length
 constexpr double creep_speed = 1.8;     // [m/s]
 constexpr double conflict_sight = 120;  // [m]
 constexpr double time_margin = 0.8;     // [s] between them and us
@@ -120,13 +122,33 @@ bool conflicts(const Comer& comer,
     return meet(ours, theirs);
 }
 
+bool is_free(std::span<const Overlap> overlaps, double from, double to) {
+    return std::none_of(overlaps.begin(), overlaps.end(), [&](const Overlap& other) {
+        return other.s > from && other.s < to && std::abs(other.speed) < 1.5;
+    });
+}
+
+/// How far along the path nobody may stand, for us to find room where we stand in no way: behind
+/// the junction, or behind the last one of a row that has too little room in between.
+double end_of_room(const Way& way, const Gate& gate, double length) {
+    double exit_s = gate.exit_s;
+    for (const Gate& next : way.gates()) {
+        if (next.s < exit_s || !next.crossed)
+            continue;
+        if (next.s - exit_s >= length)
+            return std::min(exit_s + length + room_behind, next.s - 1);
+        exit_s = next.exit_s;
+    }
+    return exit_s + length + room_behind;
+}
+
 }  // namespace
 
 Gatekeeper::Gatekeeper(const world::TownT& town) : town_(&town) {}
 
 void Gatekeeper::reset() {
-    yellow_gate_ = waiting_gate_ = stopped_gate_ = creeping_gate_ = world::none;
-    waited_ticks_ = 0;
+    yellow_gate_ = waiting_gate_ = full_gate_ = stopped_gate_ = creeping_gate_ = world::none;
+    waited_ticks_ = full_ticks_ = 0;
 }
 
 double Gatekeeper::decide(const world::TickView& last,
@@ -180,7 +202,7 @@ bool Gatekeeper::must_stop(const world::TickView& last,
     // could not stop any more.
     if (needed > yellow_braking)
         return false;
-    bool stop = !has_room(ego, gate, overlaps);
+    bool stop = !has_room(ego, way, gate, overlaps, step);
     if (must_give_way(gate, color)) {
         const bool give_way =
             must_halt(gate, color, ego, to_line) || !has_gap(last, ego, way, gate);
@@ -217,13 +239,27 @@ bool Gatekeeper::must_halt(const Gate& gate, SignalColor color, const Ego& ego, 
 }
 
 bool Gatekeeper::has_room(const Ego& ego,
+                          const Way& way,
                           const Gate& gate,
-                          std::span<const Overlap> overlaps) const {
+                          std::span<const Overlap> overlaps,
+                          double step) {
+    if (!gate.crossed)
+        return true;
+    const double length = ego.model->length;
     const double needed =
-        std::min(ego.model->length + 2.5, std::max(town_->lanes[gate.to].length - 1, 1.0));
-    return std::none_of(overlaps.begin(), overlaps.end(), [&](const Overlap& other) {
-        return other.s > gate.s && other.s < gate.exit_s + needed && std::abs(other.speed) < 1.5;
-    });
+        std::min(length + room_behind, std::max(town_->lanes[gate.to].length - 1, 1.0));
+    if (!is_free(overlaps, gate.s, gate.exit_s + needed))
+        return false;
+    if (is_free(overlaps, gate.s, end_of_room(way, gate, length)))
+        return true;
+    // Those in the next junction may wait for somebody who waits for us.
+    if (gate.serial != full_gate_) {
+        full_gate_ = gate.serial;
+        full_ticks_ = 0;
+    }
+    if (ego.speed < 0.5)
+        ++full_ticks_;
+    return full_ticks_ * step > row_patience;
 }
 
 bool Gatekeeper::has_gap(const world::TickView& last,
@@ -280,6 +316,10 @@ void Gatekeeper::add_to(world::Hasher& hasher) const {
     hasher.add(yellow_stop_);
     hasher.add(waiting_gate_);
     hasher.add(waited_ticks_);
+    if (full_gate_ != world::none) {
+        hasher.add(full_gate_);
+        hasher.add(full_ticks_);
+    }
     hasher.add(stopped_gate_);
     hasher.add(creeping_gate_);
     if (ignores_lights_)

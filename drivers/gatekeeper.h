@@ -22,7 +22,8 @@ namespace reprise::drivers {
 ///         where a car turns.
 /// GOES    through the gates ahead, nearest first, until one says stop.
 /// KEEPS   what was decided at yellow, and how long we have waited: after 12 s it creeps on,
-///         because several who all give way would wait for ever.
+///         because several who all give way would wait for ever; and after 20 s before a row of
+///         junctions it asks no more than that the first be free.
 class Gatekeeper {
   public:
     explicit Gatekeeper(const world::TownT& town);
@@ -50,7 +51,11 @@ class Gatekeeper {
                    double step);
     bool stops_at_yellow(const Gate& gate, double needed);
     bool must_halt(const Gate& gate, world::SignalColor color, const Ego& ego, double to_line);
-    bool has_room(const Ego& ego, const Gate& gate, std::span<const Overlap> overlaps) const;
+    bool has_room(const Ego& ego,
+                  const Way& way,
+                  const Gate& gate,
+                  std::span<const Overlap> overlaps,
+                  double step);
     bool has_gap(const world::TickView& last,
                  const Ego& ego,
                  const Way& way,
@@ -61,6 +66,8 @@ class Gatekeeper {
     bool yellow_stop_ = false;
     std::uint32_t waiting_gate_ = world::none;
     std::uint32_t waited_ticks_ = 0;
+    std::uint32_t full_gate_ = world::none;  ///< where another junction, close behind, was not free
+    std::uint32_t full_ticks_ = 0;
     std::uint32_t stopped_gate_ = world::none;  ///< where a stop sign was obeyed
     std::uint32_t creeping_gate_ = world::none;
     bool ignores_lights_ = false;

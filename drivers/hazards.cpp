@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/control/steering.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
@@ -17,9 +18,46 @@ constexpr double horizon = 1.5;         // [s] of foresight
 constexpr double look_step = 0.25;      // [s]
 constexpr double side_by_side = 0.9;    // cosine of the angle to us: drives as we do
 constexpr double long_half = 3.5;       // [m]
+constexpr double corner_margin = 0.1;   // [m] of the front's outer corner in a bend
 constexpr double swing = 0.8;           // [m] to both sides
 constexpr double turning = 0.5;         // [rad] over the junction
 constexpr std::size_t coarse_step = 8;  // [samples] = 4 m
+
+}  // namespace
+
+namespace {
+
+/// How far the front's outer corner reaches from the path, in a bend of that curvature. [m]
+double corner_reach(const world::VehicleModel& model, double curvature) {
+    const double radius = 1 / std::abs(curvature);
+    const double tracked = tracked_ahead(model);
+    const double to_front = model.length - model.rear_overhang;
+    const double rear = std::sqrt(std::max(radius * radius - tracked * tracked, 0.0));
+    return std::hypot(rear + model.width / 2, to_front) - radius;
+}
+
+/// Where a body is that follows a lane.
+struct LaneFoot {
+    Eigen::Vector2d middle;
+    Eigen::Vector2d direction;
+};
+
+/// Beyond its ends a lane goes on straight.
+LaneFoot point_on(const world::LaneT& lane, double s) {
+    const world::LanePoint at = world::point_at(lane, s);
+    const Eigen::Vector2d direction(std::cos(at.yaw), std::sin(at.yaw));
+    const double beyond = s - std::clamp(s, 0.0, lane.length);
+    return {at.position.head<2>() + beyond * direction, direction};
+}
+
+/// Both ends of a long one are on its lane; in a bend its middle cuts the corner.
+LaneFoot foot_on(const world::LaneT& lane, double s, double half_length) {
+    if (half_length < long_half)
+        return point_on(lane, s);
+    const Eigen::Vector2d front = point_on(lane, s + half_length).middle;
+    const Eigen::Vector2d rear = point_on(lane, s - half_length).middle;
+    return {(front + rear) / 2, (front - rear).normalized()};
+}
 
 }  // namespace
 
@@ -42,6 +80,7 @@ void Hazards::make_corridor(const Ego& ego, const Path& path) {
     coarse_.clear();
     coarse_index_.clear();
     box_ = {};
+    model_ = ego.model;
     const std::size_t last = path.index(sight_start_ + sight);
     for (std::size_t i = path.index(sight_start_);; i = std::min(i + coarse_step, last)) {
         const Eigen::Vector2d point = path.points()[i].position.head<2>();
@@ -51,18 +90,27 @@ void Hazards::make_corridor(const Ego& ego, const Path& path) {
         if (i >= last)
             break;
     }
-    if (!swept_.empty())
-        for (std::size_t i = coarse_index_.front(); i <= last; ++i) {
-            const SweptWidth width = corridor_at(i);
-            half_width_ = std::max({half_width_, width.left, width.right});
-        }
+    double widest = half_width_;
+    for (std::size_t i = coarse_index_.front(); i <= last; ++i) {
+        const SweptWidth width = corridor_at(path, i);
+        widest = std::max({widest, width.left, width.right});
+    }
+    half_width_ = widest;
 }
 
-/// With the margin beside it.
-SweptWidth Hazards::corridor_at(std::size_t sample) const {
-    if (swept_.empty())
-        return {half_width_, half_width_};
-    return {swept_[sample].left + side_margin, swept_[sample].right + side_margin};
+/// With the margin beside it. In a bend the front's outer corner leaves the path of the axles.
+SweptWidth Hazards::corridor_at(const Path& path, std::size_t sample) const {
+    constexpr double gentle = 0.03;  // [1/m] what the corner does then, the margin holds
+    const double half = model_->width / 2 + side_margin;
+    SweptWidth width{half, half};
+    if (!swept_.empty())
+        width = {swept_[sample].left + side_margin, swept_[sample].right + side_margin};
+    const double curvature = path.points()[sample].curvature;
+    if (!swept_.empty() || std::abs(curvature) < gentle)
+        return width;
+    double& outer = curvature > 0 ? width.right : width.left;
+    outer = std::max(outer, corner_reach(*model_, curvature) + corner_margin);
+    return width;
 }
 
 void Hazards::look(const world::TickView& last,
@@ -178,21 +226,16 @@ bool Hazards::place_after(const Body& body, double time, Body& moved) const {
     if (body.lane < town_->lanes.size()) {
         const world::LaneT& lane = town_->lanes[body.lane];
         const double now = body.lane_s - body.half_length;
-        const world::LanePoint here = world::point_at(lane, now);
-        const Eigen::Vector2d lane_direction(std::cos(here.yaw), std::sin(here.yaw));
-        if (lane_direction.dot(body.direction) > 0.95) {
+        const LaneFoot here = foot_on(lane, now, body.half_length);
+        if (here.direction.dot(body.direction) > 0.95) {
             const double s = now + body.speed * time;
             if (s > lane.length && lane.kind == world::LaneKind::driving)
                 return false;
-            const world::LanePoint then = world::point_at(lane, s);
-            moved.direction = {std::cos(then.yaw), std::sin(then.yaw)};
-            // Beyond its ends a lane goes on straight.
-            const double beyond = s - std::clamp(s, 0.0, lane.length);
-            const Eigen::Vector2d offset = body.centre - here.position.head<2>();
-            const double before = now - std::clamp(now, 0.0, lane.length);
-            const double aside = world::cross(lane_direction, offset - before * lane_direction);
-            moved.centre = then.position.head<2>() + beyond * moved.direction +
-                           aside * Eigen::Vector2d(-moved.direction.y(), moved.direction.x());
+            const LaneFoot then = foot_on(lane, s, body.half_length);
+            moved.direction = then.direction;
+            const double aside = world::cross(here.direction, body.centre - here.middle);
+            moved.centre =
+                then.middle + aside * Eigen::Vector2d(-then.direction.y(), then.direction.x());
             return true;
         }
     }
@@ -212,7 +255,7 @@ double Hazards::first_contact(const Body& body, const Path& path) const {
     const double reach = body.radius() + half_width_ + 2.1;
     const auto touches =
         [&](std::size_t sample, const Eigen::Vector3d& p, const Eigen::Vector2d& direction) {
-            const SweptWidth width = corridor_at(sample);
+            const SweptWidth width = corridor_at(path, sample);
             const Eigen::Vector2d left(-direction.y(), direction.x());
             const Eigen::Vector2d middle = p.head<2>() + (width.left - width.right) / 2 * left;
             const Eigen::Vector2d half = (width.left + width.right) / 2 * left;

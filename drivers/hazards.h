@@ -53,7 +53,7 @@ class Hazards {
     struct Scene;
 
     void make_corridor(const Ego& ego, const Path& path);
-    SweptWidth corridor_at(std::size_t sample) const;
+    SweptWidth corridor_at(const Path& path, std::size_t sample) const;
     bool swings_out(const Body& body) const;
     void consider(const Body& body, const Scene& scene);
     void foresee(const Body& body, const Scene& scene, double distance);
@@ -67,8 +67,9 @@ class Hazards {
     world::Box box_;  ///< around them
     std::vector<Body> bodies_;
     double sight_start_ = 0;
-    double half_width_ = 0;              ///< of the corridor, where it is widest
-    std::span<const SweptWidth> swept_;  ///< while looking
+    double half_width_ = 0;                       ///< of the corridor, where it is widest
+    const world::VehicleModel* model_ = nullptr;  ///< of ours, while looking
+    std::span<const SweptWidth> swept_;           ///< while looking
     std::vector<Overlap> overlaps_;
     double acceleration_ = std::numeric_limits<double>::infinity();
 };

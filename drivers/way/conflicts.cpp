@@ -127,4 +127,21 @@ std::vector<ConflictPoint> find_conflicts(const LaneGraph& graph,
     return conflicts;
 }
 
+bool is_crossed(const LaneGraph& graph, std::uint32_t lane, const world::Link& link) {
+    const LaneT& from = graph.town().lanes[lane];
+    const Line ours = line_of(graph, graph.inside(link));
+    if (ours.points.empty() || graph.has_walkers_crossing(from.junction))
+        return true;
+    for (const std::uint32_t other : graph.incoming(from.junction)) {
+        const LaneT& other_lane = graph.town().lanes[other];
+        if (other_lane.edge == from.edge)
+            continue;
+        for (const Link& other_link : other_lane.links)
+            if (other_link.to() != link.to() &&
+                crossing(ours, line_of(graph, graph.inside(other_link))))
+                return true;
+    }
+    return false;
+}
+
 }  // namespace reprise::drivers

@@ -28,4 +28,8 @@ std::vector<ConflictPoint> find_conflicts(const LaneGraph& graph,
                                           const world::Link& link,
                                           double gate_s);
 
+/// Does anybody else cross the way of `link`, in a car or on foot? Where two roads merely join, or
+/// become one, whoever waits stands in nobody's way but that of those who would wait behind him.
+bool is_crossed(const LaneGraph& graph, std::uint32_t lane, const world::Link& link);
+
 }  // namespace reprise::drivers

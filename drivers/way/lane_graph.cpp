@@ -23,9 +23,12 @@ LaneGraph::LaneGraph(const world::TownT& town)
     : town_(&town),
       exit_(town.lanes.size(), world::none),
       incoming_(town.junctions.size()),
-      has_stop_sign_(world::lanes_with_stop_sign(town)) {
+      has_stop_sign_(world::lanes_with_stop_sign(town)),
+      has_crossing_(town.junctions.size(), false) {
     for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
         const LaneT& lane = town.lanes[i];
+        if (lane.kind == LaneKind::crossing && lane.junction < has_crossing_.size())
+            has_crossing_[lane.junction] = true;
         if (lane.kind != LaneKind::driving)
             continue;
         if (lane.junction < incoming_.size())

@@ -62,6 +62,11 @@ class LaneGraph {
     /// Does a stop sign stand at the end of this lane's road?
     bool has_stop_sign(std::uint32_t lane) const { return has_stop_sign_[lane]; }
 
+    /// Do people cross a street at this junction?
+    bool has_walkers_crossing(std::uint32_t junction) const {
+        return junction < has_crossing_.size() && has_crossing_[junction];
+    }
+
     /// Driving lanes that end at a junction, ascending.
     std::span<const std::uint32_t> incoming(std::uint32_t junction) const;
 
@@ -90,6 +95,7 @@ class LaneGraph {
     std::vector<std::uint32_t> exit_;
     std::vector<std::vector<std::uint32_t>> incoming_;
     std::vector<bool> has_stop_sign_;
+    std::vector<bool> has_crossing_;  ///< [junction]
 };
 
 }  // namespace reprise::drivers

@@ -268,6 +268,7 @@ void Way::append_junction(std::uint32_t lane, std::uint32_t link_index) {
     for (const std::uint32_t internal : graph_->inside(link))
         append_straight(internal, 0);
     gate.exit_s = path_.end();
+    gate.crossed = link.signal() != world::none || is_crossed(*graph_, lane, link);
     if (link.yields() || link.signal() != world::none)
         gate.conflicts = find_conflicts(*graph_, lane, link, gate.s);
     gates_.push_back(std::move(gate));

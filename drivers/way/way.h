@@ -31,6 +31,7 @@ struct Gate {
     std::uint32_t to = 0;
     world::Turn turn = world::Turn::straight;
     bool yields = false;
+    bool crossed = true;         ///< by others' ways, or by people on foot
     bool has_stop_sign = false;  ///< and gives way: a main road's crossing may be signed as well
     std::vector<ConflictPoint> conflicts;
 };

@@ -87,6 +87,29 @@ world::TownT signed_road(bool yields) {
     return town;
 }
 
+/// junction_road, and `between` metres behind its junction another one of 10 m, crossed as well.
+world::TownT two_junctions(double between) {
+    using world::LaneKind;
+    world::TownT town = test::junction_road(false);
+    const double from = 210 + between;
+    town.lanes[2] = test::make_lane("between", test::Turtle(210, 0, 0).ahead(between));
+    town.lanes.push_back(
+        test::make_lane(":2", test::Turtle(from, 0, 0).ahead(10), 13.89, LaneKind::internal));
+    town.lanes.push_back(test::make_lane("east", test::Turtle(from + 10, 0, 0).ahead(200)));
+    town.lanes.push_back(
+        test::make_lane("south_2", test::Turtle(from + 5, -205, north).ahead(200)));
+    town.lanes.push_back(test::make_lane(
+        ":3", test::Turtle(from + 5, -5, north).ahead(10), 13.89, LaneKind::internal));
+    town.lanes.push_back(test::make_lane("north_2", test::Turtle(from + 5, 5, north).ahead(200)));
+    town.junctions.resize(2);
+    town.lanes[2].junction = town.lanes[8].junction = 1;
+    town.lanes[2].links = {test::make_link(7, 6, world::Turn::straight)};
+    town.lanes[6].links = {test::make_link(7, world::none, world::Turn::straight)};
+    town.lanes[8].links = {test::make_link(10, 9, world::Turn::straight, true)};
+    town.lanes[9].links = {test::make_link(10, world::none, world::Turn::straight)};
+    return town;
+}
+
 }  // namespace
 
 TEST(Gatekeeper, LetsPassWhereTheOthersGiveWay) {
@@ -131,6 +154,46 @@ TEST(Gatekeeper, KeepsTheJunctionFreeWhenThereIsNoRoomBehindIt) {
     EXPECT_LT(approach.allowed(20, 10, tick_of({})), 0);
     approach.overlaps = {{212, 10, 5}};  // drives on
     EXPECT_EQ(approach.allowed(20, 10, tick_of({})), world::infinity);
+}
+
+TEST(Gatekeeper, StandsWhereTwoRoadsJoinAndNobodyCrosses) {
+    world::TownT joint = test::junction_road(false);
+    joint.lanes[3].links.clear();  // nobody comes across
+    Approach approach(joint);
+    approach.overlaps = {{212, 0, 5}};
+    EXPECT_EQ(approach.allowed(20, 10, tick_of({})), world::infinity);
+
+    // Unless it is people who cross.
+    world::LaneT crossing = joint.lanes[4];
+    crossing.kind = world::LaneKind::crossing;
+    crossing.junction = 0;
+    joint.lanes.push_back(crossing);
+    Approach walked(joint);
+    walked.overlaps = {{212, 0, 5}};
+    EXPECT_LT(walked.allowed(20, 10, tick_of({})), 0);
+}
+
+TEST(Gatekeeper, KeepsARowOfJunctionsFreeThatHasNoRoomInBetween) {
+    for (const double between : {2.0, 12.0}) {
+        Approach approach(two_junctions(between));
+        approach.overlaps = {{218 + between, 0, 5}};  // stands in the second one
+        const double allowed = approach.allowed(1.5, 0, tick_of({}));
+        EXPECT_EQ(allowed < 1, between < 5) << between << " m";
+    }
+    Approach approach(two_junctions(2));
+    approach.overlaps = {{220 + 8 + 5, 0, 5}};  // a car's length behind the second
+    EXPECT_EQ(approach.allowed(1.5, 0, tick_of({})), world::infinity);
+}
+
+TEST(Gatekeeper, EntersARowOfJunctionsAfterTwentySecondsThatOnlyItsEndIsNotFree) {
+    Approach approach(two_junctions(2));
+    approach.overlaps = {{220, 0, 5}};
+    for (int tick = 0; tick * step < 19.9; ++tick)
+        ASSERT_LT(approach.allowed(1.5, 0, tick_of({})), 1) << tick * step << " s";
+    double allowed = 0;
+    for (int tick = 0; tick < 5; ++tick)
+        allowed = approach.allowed(1.5, 0, tick_of({}));
+    EXPECT_GT(allowed, 1) << "up to the second one";
 }
 
 TEST(Gatekeeper, StopsAtAStopSignThoughNobodyIsThereAndGoesOnOnceItStood) {

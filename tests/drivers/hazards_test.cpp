@@ -16,12 +16,12 @@ constexpr double northward = std::numbers::pi / 2;
 /// A sedan at x = 0 that drives east on a path along y = 0.
 class Road {
   public:
-    explicit Road(double speed)
+    explicit Road(double speed, const test::Turtle& way = test::Turtle(0, 0, 0).ahead(300))
         : town_(town_with_a_turn()),
           hazards(town_),
           ego_(ego_of(test::vehicle_at(1, 0, 0, 0, speed))) {
         std::vector<Eigen::Vector3d> line;
-        for (const world::Vec3& point : test::Turtle(0, 0, 0).ahead(300).line())
+        for (const world::Vec3& point : way.line())
             line.push_back(world::to_eigen(point));
         path_.append(line, 30);
         path_.finish({});
@@ -126,6 +126,21 @@ TEST(Hazards, TheTailOfALongVehicleThatTurnsInAJunctionNeedsRoom) {
     EXPECT_LT(beside_us("bus", 0), 1);
     EXPECT_EQ(beside_us("bus", world::none), world::infinity);
     EXPECT_EQ(beside_us("sedan", 0), world::infinity);
+}
+
+TEST(Hazards, TheOuterCornerOfTheFrontNeedsRoomInABend) {
+    // A quarter of a circle to the left, of 7 m; the corner reaches 1.7 m beyond it.
+    const auto on_bend = [](double beside) {
+        const double yaw = std::numbers::pi / 4;
+        const Eigen::Vector2d place =
+            Eigen::Vector2d(20, 7) + (7 + beside) * Eigen::Vector2d(std::sin(yaw), -std::cos(yaw));
+        Road road(4, test::Turtle(0, 0, 0).ahead(20).turn(northward, 7).ahead(60));
+        return road.look({}, {walker(place.x(), place.y(), 0, 0)});
+    };
+    EXPECT_LT(on_bend(1.7), world::infinity);
+    EXPECT_LT(on_bend(-1.2), world::infinity);
+    EXPECT_EQ(on_bend(2.5), world::infinity);
+    EXPECT_EQ(on_bend(-1.7), world::infinity) << "on the inner side the car is as wide as ever";
 }
 
 TEST(Hazards, AWalkerWhoWillStepOntoThePathIsSeenBeforeHeIsThere) {

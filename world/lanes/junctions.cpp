@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -62,26 +63,52 @@ std::vector<Side> sides(const TownT& town,
     return found;
 }
 
-std::vector<Prop> stop_signs(const TownT& town) {
-    std::vector<Prop> signs;
+/// Where drivers on the edge meet a sign: the end of the rightmost lane.
+LanePoint sign_place(const TownT& town, const std::vector<std::uint32_t>& lanes) {
+    return end_of(town.lanes[lanes.front()]);
+}
+
+/// [m] from the end of the road; infinity: it is not for who drives there.
+double distance_to(const Prop& sign, const LanePoint& end) {
+    const double distance = (to_eigen(sign.position()) - end.position).norm();
+    const bool faces = std::abs(wrap_angle(sign.yaw() - end.yaw)) < one_street;
+    return faces && distance < sign_reach ? distance : std::numeric_limits<double>::infinity();
+}
+
+/// Of all in reach only the last before the sign, or after it, where one leads on to the other: a
+/// sign at the end of a short road is none of the road before it.
+void note_sign(const TownT& town,
+               const Edges& edges,
+               const Prop& sign,
+               std::set<std::string_view>& found) {
+    std::map<std::string_view, double> reached;
+    for (const auto& [edge, lanes] : edges) {
+        const double distance = distance_to(sign, sign_place(town, lanes));
+        if (distance < sign_reach)
+            reached.emplace(edge, distance);
+    }
+    std::set<std::string_view> farther;
+    for (const auto& [edge, distance] : reached)
+        for (const std::uint32_t lane : edges.at(edge))
+            for (const Link& link : town.lanes[lane].links) {
+                if (link.to() == none)
+                    continue;
+                const auto next = reached.find(town.lanes[link.to()].edge);
+                if (next != reached.end() && next->first != edge)
+                    farther.insert(next->second < distance ? edge : next->first);
+            }
+    for (const auto& [edge, distance] : reached)
+        if (farther.count(edge) == 0)
+            found.insert(edge);
+}
+
+/// Those at the end of which a stop sign stands. O(roads * signs).
+std::set<std::string_view> edges_with_stop_sign(const TownT& town, const Edges& edges) {
+    std::set<std::string_view> found;
     for (const Prop& prop : town.props)
         if (prop.kind() == PropKind::stop_sign)
-            signs.push_back(prop);
-    return signs;
-}
-
-bool stands_at(const Prop& sign, const LanePoint& end) {
-    return (to_eigen(sign.position()) - end.position).norm() < sign_reach &&
-           std::abs(wrap_angle(sign.yaw() - end.yaw)) < one_street;
-}
-
-/// Is one of them for who drives on these lanes, the rightmost of which comes first?
-bool any_stands_at(const std::vector<Prop>& signs,
-                   const TownT& town,
-                   const std::vector<std::uint32_t>& lanes) {
-    const LanePoint end = end_of(town.lanes[lanes.front()]);
-    return std::any_of(
-        signs.begin(), signs.end(), [&](const Prop& sign) { return stands_at(sign, end); });
+            note_sign(town, edges, prop, found);
+    return found;
 }
 
 /// Straight on; where no way leads straight on, whichever way.
@@ -99,12 +126,14 @@ bool must_give_way(const TownT& town, const std::vector<std::uint32_t>& incoming
     return leads_on ? straight : any;
 }
 
-JunctionArm arm_of(const TownT& town, const std::vector<Prop>& signs, const Side& incoming) {
+JunctionArm arm_of(const TownT& town,
+                   const std::set<std::string_view>& signed_edges,
+                   const Side& incoming) {
     JunctionArm arm;
     arm.yaw = incoming.yaw;
     arm.incoming = incoming.lanes;
     arm.yields = must_give_way(town, arm.incoming);
-    arm.stop_sign = any_stands_at(signs, town, arm.incoming);
+    arm.stop_sign = signed_edges.count(town.lanes[arm.incoming.front()].edge) != 0;
     return arm;
 }
 
@@ -129,12 +158,12 @@ std::optional<double> reach(const LanePoint& from,
 
 /// Both directions of a street make one arm.
 std::vector<JunctionArm> join(const TownT& town,
-                              const std::vector<Prop>& signs,
+                              const std::set<std::string_view>& signed_edges,
                               const std::vector<Side>& arriving,
                               std::vector<Side> leaving) {
     std::vector<JunctionArm> arms;
     for (const Side& side : arriving) {
-        JunctionArm& arm = arms.emplace_back(arm_of(town, signs, side));
+        JunctionArm& arm = arms.emplace_back(arm_of(town, signed_edges, side));
         auto nearest = leaving.end();
         for (auto other = leaving.begin(); other != leaving.end(); ++other) {
             const double distance = (other->place - side.place).norm();
@@ -171,7 +200,7 @@ struct OnWay {
 
 std::vector<std::vector<JunctionArm>> arms_of_junctions(const TownT& town) {
     const Edges edges = lanes_by_edge(town);
-    const std::vector<Prop> signs = stop_signs(town);
+    const std::set<std::string_view> signed_edges = edges_with_stop_sign(town, edges);
     std::vector<std::set<std::string_view>> into(town.junctions.size());
     std::vector<std::set<std::string_view>> out_of(town.junctions.size());
     for (const LaneT& lane : town.lanes) {
@@ -184,21 +213,19 @@ std::vector<std::vector<JunctionArm>> arms_of_junctions(const TownT& town) {
     }
     std::vector<std::vector<JunctionArm>> arms;
     for (std::size_t i = 0; i < town.junctions.size(); ++i)
-        arms.push_back(join(
-            town, signs, sides(town, edges, into[i], true), sides(town, edges, out_of[i], false)));
+        arms.push_back(join(town,
+                            signed_edges,
+                            sides(town, edges, into[i], true),
+                            sides(town, edges, out_of[i], false)));
     return arms;
 }
 
 std::vector<bool> lanes_with_stop_sign(const TownT& town) {
     std::vector<bool> found(town.lanes.size(), false);
-    const std::vector<Prop> signs = stop_signs(town);
-    if (signs.empty())
-        return found;
-    for (const auto& [edge, lanes] : lanes_by_edge(town)) {
-        const bool has_sign = any_stands_at(signs, town, lanes);
-        for (const std::uint32_t lane : lanes)
-            found[lane] = has_sign;
-    }
+    const Edges edges = lanes_by_edge(town);
+    for (const std::string_view edge : edges_with_stop_sign(town, edges))
+        for (const std::uint32_t lane : edges.at(edge))
+            found[lane] = true;
     return found;
 }
 
