@@ -100,8 +100,8 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
     for (Walker& walker : walkers_) {
         make_way(walker);
         avoid(walker);
-        flee(walker);
     }
+    flee();
     for (Walker& walker : walkers_) {
         step(walker, tick);
         watch(walker, tick);
@@ -145,26 +145,27 @@ void Crowd::add_to(world::Hasher& hasher) const {
     lights_.add_to(hasher);
     for (const Walker& walker : walkers_) {
         const Eigen::Vector3d& p = walker.place.position;
-        hasher.add(WalkerDigest{walker.id,
-                                walker.place.polygon,
-                                {p.x(),
-                                 p.y(),
-                                 p.z(),
-                                 walker.velocity.x(),
-                                 walker.velocity.y(),
-                                 walker.yaw,
-                                 walker.phase,
-                                 walker.was_at.x(),
-                                 walker.was_at.y()},
-                                {walker.way.size(),
-                                 walker.corner,
-                                 2 * walker.gate + (walker.entered ? 1 : 0),
-                                 walker.waited,
-                                 walker.stuck,
-                                 walker.pause_until,
-                                 walker.was_at_tick,
-                                 walker.down_until,
-                                 walker.draws}});
+        hasher.add(
+            WalkerDigest{walker.id,
+                         walker.place.polygon,
+                         {p.x(),
+                          p.y(),
+                          p.z(),
+                          walker.velocity.x(),
+                          walker.velocity.y(),
+                          walker.yaw,
+                          walker.phase,
+                          walker.was_at.x(),
+                          walker.was_at.y()},
+                         {walker.way.size(),
+                          walker.corner,
+                          4 * walker.gate + (walker.entered ? 2U : 0U) + (walker.gave_up ? 1U : 0U),
+                          walker.waited,
+                          walker.stuck,
+                          walker.pause_until,
+                          walker.was_at_tick,
+                          walker.down_until,
+                          walker.draws}});
         if (!walker.way.empty())
             hasher.add(world::to_vec3(walker.way.back().position));
     }

@@ -53,6 +53,10 @@ class Crowd {
   private:
     static constexpr double beside = 0.8;  ///< [m] between two who walk together
 
+    /// [ticks] that one waits for a gap; where there is a crossing, and where there is none.
+    static constexpr std::uint32_t patience = 1800;
+    static constexpr std::uint32_t patience_elsewhere = 400;
+
     struct Walker {
         std::uint32_t id = 0;
         Person person;
@@ -67,6 +71,7 @@ class Crowd {
         bool may_enter = false;        ///< the next gate, in this tick
         bool on_road = false;          ///< before the step
         bool entered = false;          ///< the next gate: he is past the kerb
+        bool gave_up = false;          ///< to cross anywhere, on this way
         std::uint32_t waited = 0;      ///< [ticks] at the next gate
         std::uint32_t stuck = 0;       ///< [ticks] in somebody's way
         Eigen::Vector2d was_at{0, 0};  ///< where he was last seen to get on, or to wait
@@ -76,6 +81,7 @@ class Crowd {
         std::uint64_t draws = 0;        ///< of goals so far
         std::uint32_t friend_of = 0;    ///< whom he walks beside; 0: nobody
         Eigen::Vector2d wanted{0, 0};   ///< [m/s] in this tick
+        bool flees = false;             ///< in this tick
         std::size_t body = 0;           ///< his of neighbours_
     };
 
@@ -94,13 +100,16 @@ class Crowd {
     void plan(Walker& walker, std::uint64_t tick);
     bool take_way(Walker& walker, const WalkMap::Place& goal);
     static void keep_to_side(const WalkMap& map,
-                             const Walker& walker,
+                             const WalkMap::Place& start,
+                             double side,
                              std::vector<WalkMap::Step>& way);
+    static bool is_out_of_patience(const Walker& walker);
     void want(Walker& walker, std::uint64_t tick);
     double speed_at_gate(Walker& walker, double speed);
     void make_way(Walker& walker);
     void avoid(Walker& walker);
-    void flee(Walker& walker) const;
+    void flee();
+    bool give_room_to(const Walker& fleeing);
     void step(Walker& walker, std::uint64_t tick);
     bool is_allowed(const Walker& walker, const WalkMap::Place& place);
     void write(const Walker& walker, world::TickDraft& next) const;

@@ -141,6 +141,7 @@ bool Crowd::add_friend(world::TickDraft& next) {
     walker.id = next_id_;
     walker.person = draw_person(episode_->walker_seed, walker.id, episode_->jaywalkers);
     walker.person.jaywalks = leader.person.jaywalks;
+    walker.person.road_cost = leader.person.road_cost;
     walker.person.brings_friend = false;
     const Eigen::Vector2d left = beside * world::left_of(leader.yaw);
     walker.place =

@@ -38,18 +38,22 @@ Eigen::Vector2d turned(const Eigen::Vector2d& v, double angle) {
 
 }  // namespace
 
+bool Crowd::is_out_of_patience(const Walker& walker) {
+    const bool marked = walker.gate >= walker.gates.size() || walker.gates[walker.gate].marked;
+    return walker.waited > (marked ? patience : patience_elsewhere);
+}
+
 /// Where he would go if he were alone: along his way, as far as the next gate lets him.
 void Crowd::want(Walker& walker, std::uint64_t tick) {
-    constexpr std::uint32_t patience = 1800;  // ticks at a gate
-    constexpr std::uint32_t hopeless = 160;   // ticks in somebody's way
+    constexpr std::uint32_t hopeless = 160;  // ticks in somebody's way
     walker.wanted.setZero();
     walker.may_enter = false;
     if (walker.down_until != 0 || tick < walker.pause_until)
         return;
     const Eigen::Vector2d p = walker.place.position.head<2>();
     const std::uint64_t idle = tick - walker.was_at_tick;
-    if (walker.corner >= walker.way.size() || walker.waited > patience || walker.stuck > hopeless ||
-        (idle > 0 && idle % hopeless == 0))
+    if (walker.corner >= walker.way.size() || is_out_of_patience(walker) ||
+        walker.stuck > hopeless || (idle > 0 && idle % hopeless == 0))
         plan(walker, tick);
     while (walker.corner < walker.way.size()) {
         const Eigen::Vector2d gap = walker.way[walker.corner].position.head<2>() - p;
@@ -184,13 +188,47 @@ void Crowd::avoid(Walker& walker) {
         walker.wanted = steering_.choose(self, walker.wanted, around_);
 }
 
-/// Nobody stands still, or goes on, where a car is about to be.
-void Crowd::flee(Walker& walker) const {
+/// Nobody stands still, or goes on, where a car is about to be; and those behind him let him.
+void Crowd::flee() {
     constexpr double hurry = 2.5;  // [m/s]
-    if (walker.down_until != 0)
-        return;
-    if (const auto way = threats_.way_out(walker.place.position.head<2>(), walker.person.radius))
-        walker.wanted = hurry * *way;
+    constexpr int ranks = 3;       // who stands behind those who stand behind
+    bool any = false;
+    for (Walker& walker : walkers_) {
+        walker.flees = false;
+        if (walker.down_until != 0)
+            continue;
+        if (const auto way =
+                threats_.way_out(walker.place.position.head<2>(), walker.person.radius)) {
+            walker.wanted = hurry * *way;
+            walker.flees = any = true;
+        }
+    }
+    for (int rank = 0; rank < ranks && any; ++rank) {
+        any = false;
+        for (const Walker& walker : walkers_)
+            if (walker.flees && give_room_to(walker))
+                any = true;
+    }
+}
+
+/// Whoever is in his way, and not in that of a car himself, goes the same way.
+bool Crowd::give_room_to(const Walker& fleeing) {
+    constexpr double arm = 0.3;  // [m] between the two
+    const Body self{
+        fleeing.place.position.head<2>(), fleeing.velocity, fleeing.person.radius, fleeing.id};
+    neighbours_.around(self, 2 * self.radius + arm, false, around_);
+    bool any = false;
+    for (const Body& body : around_) {
+        const Walker* found = find(body.id);
+        const Eigen::Vector2d gap = body.place - self.place;
+        if (found == nullptr || found->flees || found->down_until != 0 ||
+            gap.dot(fleeing.wanted) < 0.5 * gap.norm() * fleeing.wanted.norm())
+            continue;
+        Walker& other = walkers_[static_cast<std::size_t>(found - walkers_.data())];
+        other.wanted = fleeing.wanted;
+        other.flees = any = true;
+    }
+    return any;
 }
 
 /// Nobody steps onto a road whose gate does not let him.

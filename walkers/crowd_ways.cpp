@@ -1,5 +1,6 @@
 // Where they go: goals that the seed draws, ways to them, each on his own side.
 #include "walkers/crowd.h"
+#include "walkers/way_across.h"
 #include "world/geometry2d.h"
 #include "world/random.h"
 
@@ -16,19 +17,22 @@ constexpr unsigned plans_a_tick = 4;  // ways found in one tick, behind the firs
 /// To his own side of the straightest way, which everybody else takes as well; where the way is as
 /// clear there.
 void Crowd::keep_to_side(const WalkMap& map,
-                         const Walker& walker,
+                         const WalkMap::Place& start,
+                         double side,
                          std::vector<WalkMap::Step>& way) {
-    WalkMap::Place before = walker.place;
+    constexpr double on_pavement = 0.1;  // [m]
+    WalkMap::Place before = start;
     for (std::size_t i = 1; i + 1 < way.size(); ++i) {
         const Eigen::Vector2d in = (way[i].position - way[i - 1].position).head<2>().normalized();
         const Eigen::Vector2d out = (way[i + 1].position - way[i].position).head<2>().normalized();
         const Eigen::Vector2d right = -world::turned_left(in + out).normalized();
         const auto corner = map.nearest(way[i].position);
-        if (!corner)
+        // On the road there are no sides to keep to.
+        if (!corner || (corner->position - way[i].position).head<2>().norm() > on_pavement)
             continue;
         WalkMap::Place at = *corner;
         if (right.allFinite()) {
-            const Eigen::Vector2d aside = walker.person.side * right;
+            const Eigen::Vector2d aside = side * right;
             const WalkMap::Place there =
                 map.slide(at, at.position + Eigen::Vector3d(aside.x(), aside.y(), 0));
             // Over the end of a crossing that he does not take he would not get.
@@ -42,11 +46,16 @@ void Crowd::keep_to_side(const WalkMap& map,
 }
 
 bool Crowd::take_way(Walker& walker, const WalkMap::Place& goal) {
+    const WalkMap& pavement = ground_->pavement();
     const WalkMap& map = map_of(walker.person);
-    auto way = map.path(walker.place, goal);
+    const double road_cost = walker.gave_up ? WalkMap::Costs{}.road : walker.person.road_cost;
+    auto way = walker.person.jaywalks
+                   ? way_across({pavement, map, *town_, *lanes_}, walker.place, goal, road_cost)
+                   : map.path(walker.place, goal);
     if (!way || way->size() < 2)
         return false;
-    keep_to_side(map, walker, *way);
+    if (const auto start = pavement.nearest(walker.place.position))
+        keep_to_side(pavement, *start, walker.person.side, *way);
     walker.way = std::move(*way);
     walker.corner = 1;
     walker.gates = gates_of(walker.way, *town_, *lanes_, lights_, traffic_);
@@ -62,6 +71,7 @@ void Crowd::plan(Walker& walker, std::uint64_t tick) {
     constexpr int most_tries = 12;
     if (tick > 1 && ++plans_ > plans_a_tick)
         return;
+    walker.gave_up = walker.person.jaywalks && walker.waited > patience_elsewhere;
     walker.way.clear();
     walker.gates.clear();
     const Walker* leader = walker.friend_of != 0 ? find(walker.friend_of) : nullptr;

@@ -91,8 +91,8 @@ std::vector<Gate> gates_of(const std::vector<WalkMap::Step>& way,
         gate.to = way[i].position;
         if (way[i].surface != Surface::sidewalk && i + 1 < way.size())
             --i;  // the next one begins here
-        if (gate.marked)
-            add_signals(town, lanes, lights, gate);
+        // Who cuts a crossing's corner over the road waits for its light as well.
+        add_signals(town, lanes, lights, gate);
         gate.conflicts = traffic.conflicts(gate.from, gate.to);
         gates.push_back(std::move(gate));
     }
@@ -112,7 +112,8 @@ bool may_enter(const Gate& gate,
 }
 
 bool must_hold(const Gate& gate, const Pace& pace, const RoadTraffic& traffic) {
-    constexpr double about_to = 0.5;  // [m]
+    constexpr double braking = 4;  // [m/s^2] of somebody on foot
+    const double about_to = std::max(0.5, pace.speed * pace.speed / (2 * braking) + 0.3);  // [m]
     return std::any_of(gate.conflicts.begin(), gate.conflicts.end(), [&](const Conflict& each) {
         const double left = each.at - each.half_width - pace.progress;
         return left > 0 && left < about_to && !is_free_at(each, pace, traffic);

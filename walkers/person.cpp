@@ -14,7 +14,20 @@ constexpr double phone_pace =
 constexpr double runners = 0.04;  ///< share of those who could
 constexpr double pairs = 0.15;    ///< share who bring somebody
 
-enum Question : std::uint64_t { which_model, pace, run, which_side, jaywalk, with_friend };
+/// Who crosses anywhere does it where it saves a few metres; a metre on the road is not quite as
+/// good as one beside it.
+constexpr double least_road_cost = 1.2;
+constexpr double more_road_cost = 0.8;
+
+enum Question : std::uint64_t {
+    which_model,
+    pace,
+    run,
+    which_side,
+    jaywalk,
+    with_friend,
+    road_cost
+};
 
 }  // namespace
 
@@ -38,6 +51,7 @@ Person draw_person(std::uint64_t seed, std::uint32_t id, double jaywalkers) {
     person.radius = model.shoulder_width / 2;
     person.side = 0.7 * drawn(which_side);
     person.jaywalks = drawn(jaywalk) < jaywalkers;
+    person.road_cost = least_road_cost + more_road_cost * drawn(road_cost);
     person.brings_friend = drawn(with_friend) < pairs;
     return person;
 }

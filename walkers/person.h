@@ -12,6 +12,7 @@ struct Person {
     double side = 0;          ///< [m] how far to the right of the straightest way
     std::uint32_t look = 0;   ///< outfit, and what is carried
     bool jaywalks = false;    ///< crosses the road anywhere
+    double road_cost = 0;     ///< of who does: [m] of sidewalk that a metre of road is worth
     bool brings_friend = false;  ///< the next one walks beside
 };
 

@@ -8,16 +8,18 @@
 #include "world/frames.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
+#include "world/units.h"
 
 namespace reprise::walkers {
 
 namespace {
 
-constexpr double foresight = 1;  // [s]
-constexpr double margin = 0.3;   // [m] that nobody likes a car to come nearer
-constexpr double rolls = 0.3;    // [m/s]
-constexpr double turns = 0.1;    // [rad/s]
-constexpr double widest = 1;     // [m] radius of anybody on foot
+constexpr double foresight = 1;     // [s]
+constexpr double margin = 0.3;      // [m] that nobody likes a car to come nearer
+constexpr double rolls = 0.3;       // [m/s]
+constexpr double turns = 0.1;       // [rad/s]
+constexpr double widest = 1;        // [m] radius of anybody on foot
+constexpr double step_aside = 0.7;  // [m] that one thinks of
 
 }  // namespace
 
@@ -31,11 +33,13 @@ void Threats::add(const Rolling& car) {
     const auto way = [&](double t) {
         return std::copysign(std::abs(car.speed) * t - braking * t * t / 2, car.speed);
     };
-    add_box(car, std::min(0.0, way(time)), std::max(0.0, way(time)));
-    if (std::abs(car.yaw_rate) < turns)
+    if (std::abs(car.yaw_rate) < turns) {
+        add_box(car, std::min(0.0, way(time)), std::max(0.0, way(time)));
         return;
-    // Of who turns the tail swings out: a bus's by more than a metre, over the kerb.
-    for (const double t : {time / 3, 2 * time / 3, time}) {
+    }
+    // Who turns does not go where he points to, and the tail swings out: a bus's by more than a
+    // metre, over the kerb.
+    for (const double t : {0.0, time / 4, time / 2, 3 * time / 4, time}) {
         Rolling then = car;
         then.yaw += car.yaw_rate * t;
         then.rear_axle += way(t) * world::ahead_of(car.course + car.yaw_rate * t / 2);
@@ -107,33 +111,70 @@ void Threats::sort() {
     std::sort(keys_.begin(), keys_.end());
 }
 
+template <typename See>
+void Threats::near(const Eigen::Vector2d& p, double reach, See&& see) const {
+    constexpr double rounding = 1e-6;  // [m]
+    auto key =
+        std::lower_bound(keys_.begin(), keys_.end(), Key{p.x() - widest_ - reach - rounding, 0});
+    for (; key != keys_.end() && key->west <= p.x() + reach; ++key) {
+        const Threat& threat = threats_[key->index];
+        if (p.x() >= threat.around.low.x() - reach && p.x() <= threat.around.high.x() + reach &&
+            p.y() >= threat.around.low.y() - reach && p.y() <= threat.around.high.y() + reach)
+            see(threat, key->index);
+    }
+}
+
+/// [m] from the nearest side of what they pass over; negative: inside.
+double Threats::clearance(const Eigen::Vector2d& p) const {
+    double least = world::infinity;
+    near(p, step_aside, [&](const Threat& threat, std::uint32_t) {
+        const Eigen::Vector2d from = p - threat.middle;
+        const double along = from.dot(threat.ahead);
+        const double beyond = std::max(along - threat.front, threat.rear - along);
+        const double beside = std::abs(world::cross(threat.ahead, from)) - threat.half_width;
+        const double outside = std::hypot(std::max(beyond, 0.0), std::max(beside, 0.0));
+        least = std::min(least, outside > 0 ? outside : std::max(beyond, beside));
+    });
+    return least;
+}
+
 std::optional<Eigen::Vector2d> Threats::way_out(const Eigen::Vector2d& p, double radius) const {
     REPRISE_CHECK(radius <= widest, std::to_string(radius));
     const double room = radius + margin;
-    std::optional<Eigen::Vector2d> way;
+    std::optional<Eigen::Vector2d> across_it;
     double nearest = 0;
-    std::uint32_t first = 0;           // of those that are as near the first one counts
-    constexpr double rounding = 1e-6;  // [m]
-    auto key = std::lower_bound(keys_.begin(), keys_.end(), Key{p.x() - widest_ - rounding, 0});
-    for (; key != keys_.end() && key->west <= p.x(); ++key) {
-        const Threat& threat = threats_[key->index];
-        if (p.x() < threat.around.low.x() || p.x() > threat.around.high.x() ||
-            p.y() < threat.around.low.y() || p.y() > threat.around.high.y())
-            continue;
+    std::uint32_t first = 0;  // of those that are as near the first one counts
+    near(p, 0, [&](const Threat& threat, std::uint32_t index) {
         const Eigen::Vector2d from = p - threat.middle;
         const double along = from.dot(threat.ahead);
         if (along < threat.rear - room || along > threat.front + room)
-            continue;
+            return;
         const Eigen::Vector2d left = world::turned_left(threat.ahead);
         const double across = from.dot(left);
         const double gap = std::abs(across) - threat.half_width - room;
-        if (gap < nearest || (way && gap == nearest && key->index < first)) {
+        if (gap < nearest || (across_it && gap == nearest && index < first)) {
             nearest = gap;
-            first = key->index;
-            way = across < 0 ? Eigen::Vector2d(-left) : left;
+            first = index;
+            across_it = across < 0 ? Eigen::Vector2d(-left) : left;
         }
-    }
-    return way;
+    });
+    if (!across_it)
+        return std::nullopt;
+    // Across the nearest one; another way only where that would lead into the next.
+    constexpr double better = 0.1;  // [m]
+    Eigen::Vector2d best = *across_it;
+    double clear = clearance(p + step_aside * best);
+    const Eigen::Vector2d left = world::turned_left(*across_it);
+    for (const double aside : {1.0, -1.0})
+        for (const double on : {1.0, 0.0}) {
+            const Eigen::Vector2d way = (on * *across_it + aside * left).normalized();
+            const double there = clearance(p + step_aside * way);
+            if (there <= clear + better)
+                continue;
+            clear = there;
+            best = way;
+        }
+    return best;
 }
 
 }  // namespace reprise::walkers

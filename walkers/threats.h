@@ -44,6 +44,9 @@ class Threats {
         std::uint16_t model = 0;
     };
 
+    template <typename See>
+    void near(const Eigen::Vector2d& p, double reach, See&& see) const;
+    double clearance(const Eigen::Vector2d& p) const;
     void add(const Rolling& car);
     void add_box(const Rolling& car, double rear, double front);
 

@@ -171,10 +171,17 @@ bool FootTraffic::is_on_road(const Eigen::Vector3d& p,
     if (on_pavement)
         return false;
     const auto roads = lanes_->at(p);
-    const bool on_road =
-        std::any_of(roads.begin(), roads.end(), [&](const world::LaneMap::Found& found) {
-            return std::abs(found.at.t) < town_->lanes[found.lane].width / 2 - within;
-        });
+    bool on_road = std::any_of(roads.begin(), roads.end(), [&](const world::LaneMap::Found& found) {
+        return std::abs(found.at.t) < town_->lanes[found.lane].width / 2 - within;
+    });
+    // Where two lanes meet there is no kerb.
+    std::vector<Eigen::Vector2d> middles;
+    for (const world::LaneMap::Found& found : lanes_->at(p, within))
+        middles.emplace_back(
+            (world::point_at(town_->lanes[found.lane], found.at.s).position - p).head<2>());
+    for (const Eigen::Vector2d& one : middles)
+        for (const Eigen::Vector2d& other : middles)
+            on_road = on_road || one.dot(other) < -0.5 * one.norm() * other.norm();
     // Between the kerb and where a crossing is said to begin.
     if (on_road)
         for (std::uint32_t i = 0; i < town_->lanes.size(); ++i)

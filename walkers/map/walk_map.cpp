@@ -25,8 +25,6 @@ namespace {
 constexpr int most_polygons = 4096;         ///< of a way
 constexpr int most_polygons_a_tile = 4096;  ///< 12 of a reference's 22 bits
 constexpr int most_nodes = 65535;           ///< looked at for one way: Detour's limit
-constexpr float crossing_cost = 1.5F;
-constexpr float road_cost = 10;
 
 using Point = std::array<float, 3>;
 
@@ -94,9 +92,6 @@ void WalkMap::Mesh::start(const WalkTiles& source) {
     params.maxPolys = most_polygons_a_tile;
     REPRISE_CHECK(dtStatusSucceed(tiles->init(&params)), "walk map: too many tiles");
     REPRISE_CHECK(dtStatusSucceed(query->init(tiles.get(), most_nodes)), "walk map: query");
-    filter.setAreaCost(walk_road, road_cost);
-    filter.setAreaCost(walk_crossing, crossing_cost);
-    filter.setAreaCost(walk_sidewalk, 1);
 }
 
 void WalkMap::Mesh::add(const WalkTile& tile) {
@@ -179,6 +174,16 @@ std::optional<std::vector<WalkMap::Step>> WalkMap::path(const Eigen::Vector3d& f
 }
 
 std::optional<std::vector<WalkMap::Step>> WalkMap::path(const Place& from, const Place& to) const {
+    return path(from, to, Costs{});
+}
+
+std::optional<std::vector<WalkMap::Step>> WalkMap::path(const Place& from,
+                                                        const Place& to,
+                                                        const Costs& costs) const {
+    dtQueryFilter filter;
+    filter.setAreaCost(walk_road, static_cast<float>(costs.road));
+    filter.setAreaCost(walk_crossing, static_cast<float>(costs.crossing));
+    filter.setAreaCost(walk_sidewalk, 1);
     const Point start = to_recast(from.position, mesh_->origin);
     const Point end = to_recast(to.position, mesh_->origin);
     std::vector<dtPolyRef> way(most_polygons);
@@ -187,7 +192,7 @@ std::optional<std::vector<WalkMap::Step>> WalkMap::path(const Place& from, const
                            to.polygon,
                            start.data(),
                            end.data(),
-                           &mesh_->filter,
+                           &filter,
                            way.data(),
                            &count,
                            most_polygons);

@@ -38,9 +38,14 @@ class WalkMap {
         ground::Surface surface = ground::Surface::sidewalk;
     };
 
-    /// The cheapest way, corner by corner, with one at every change of surface: a metre of crossing
-    /// costs 1.5, a metre of road 10 metres of sidewalk. None: `from` or `to` is more than 2 m from
-    /// anything walkable, or nothing leads there.
+    /// What a metre of them is worth, in metres of sidewalk; 1 at least.
+    struct Costs {
+        double crossing = 1.5;
+        double road = 10;
+    };
+
+    /// The cheapest way, corner by corner, with one at every change of surface. None: `from` or
+    /// `to` is more than 2 m from anything walkable, or nothing leads there.
     std::optional<std::vector<Step>> path(const Eigen::Vector3d& from_world,
                                           const Eigen::Vector3d& to_world) const;
 
@@ -66,6 +71,9 @@ class WalkMap {
     ground::Surface surface(const Place& place) const;
 
     /// As above, between places on the mesh.
+    std::optional<std::vector<Step>> path(const Place& from,
+                                          const Place& to,
+                                          const Costs& costs) const;
     std::optional<std::vector<Step>> path(const Place& from, const Place& to) const;
 
     std::size_t polygons() const;
