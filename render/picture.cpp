@@ -24,10 +24,7 @@ std::size_t pixel_count(const world::SensorFrame& frame) {
 }
 
 std::size_t pixel_bytes(const world::SensorFrame& frame) {
-    const std::size_t size = frame.type == world::PixelType::u8    ? 1
-                             : frame.type == world::PixelType::u16 ? 2
-                                                                   : 4;
-    return size * static_cast<std::size_t>(frame.channels);
+    return world::bytes_of(frame.type) * static_cast<std::size_t>(frame.channels);
 }
 
 float depth_at(const world::SensorFrame& frame, std::size_t index) {

@@ -123,9 +123,8 @@ world::SensorFrame empty_frame(const world::TickView& tick, const world::SensorS
     frame.tick = tick.index();
     frame.width = spec.width;
     frame.height = spec.height;
-    frame.channels = spec.kind == world::SensorKind::rgb ? 3 : 1;
-    frame.type =
-        spec.kind == world::SensorKind::depth ? world::PixelType::f32 : world::PixelType::u8;
+    frame.channels = world::channels(spec.kind);
+    frame.type = world::pixel_type(spec.kind);
     return frame;
 }
 
@@ -240,6 +239,8 @@ std::vector<world::SensorFrame> Observer::observe(const world::TickView& tick,
                     frames[i].data = tone_map(frame_, tick.index());
                     break;
                 }
+                default:
+                    throw world::Error("sensor '" + rig[i].name + "': no pictures of its kind yet");
             }
         }
     }

@@ -52,6 +52,10 @@ Color color_of(world::SemanticClass what) {
         case motorcycle:
         case bicycle:
             return {150, 50, 160};
+        case bridge:
+            return {150, 136, 128};
+        case guard_rail:
+            return {164, 160, 166};
         case water:
             return {52, 96, 140};
         case road_line:
@@ -68,6 +72,50 @@ std::uint8_t gray_of(float depth) {
     return static_cast<std::uint8_t>(255 * std::clamp(share, 0.0F, 1.0F));
 }
 
+template <typename Value>
+Value value_at(const remote::Client::Picture& picture, std::size_t index) {
+    Value value{};
+    std::memcpy(&value, &picture.pixels[index * sizeof(Value)], sizeof(Value));
+    return value;
+}
+
+/// Around grey: -1 is black, 1 is white; what is not known is grey as well.
+std::uint8_t signed_gray(float share) {
+    return static_cast<std::uint8_t>(128 +
+                                     127 * std::clamp(share == share ? share : 0, -1.0F, 1.0F));
+}
+
+Color color_of(const remote::Client::Picture& picture, std::size_t i) {
+    constexpr float full_flow = 32;  // [px]
+    switch (picture.sensor->kind) {
+        case world::SensorKind::semantic:
+            return color_of(world::SemanticClass{picture.pixels[i]});
+        case world::SensorKind::instance: {
+            // Neighbouring numbers are to look different.
+            const std::uint32_t mixed = value_at<std::uint16_t>(picture, i) * 2654435761U;
+            return {static_cast<std::uint8_t>(mixed >> 24U),
+                    static_cast<std::uint8_t>(mixed >> 16U),
+                    static_cast<std::uint8_t>(mixed >> 8U)};
+        }
+        case world::SensorKind::flow:
+            return {signed_gray(value_at<float>(picture, 2 * i) / full_flow),
+                    signed_gray(value_at<float>(picture, 2 * i + 1) / full_flow),
+                    128};
+        case world::SensorKind::normals:
+            return {signed_gray(value_at<float>(picture, 3 * i)),
+                    signed_gray(value_at<float>(picture, 3 * i + 1)),
+                    signed_gray(value_at<float>(picture, 3 * i + 2))};
+        case world::SensorKind::dvs:
+            return {static_cast<std::uint8_t>(picture.pixels[2 * i] > 0 ? 255 : 0),
+                    0,
+                    static_cast<std::uint8_t>(picture.pixels[2 * i + 1] > 0 ? 255 : 0)};
+        default: {
+            const std::uint8_t gray = gray_of(value_at<float>(picture, i));
+            return {gray, gray, gray};
+        }
+    }
+}
+
 }  // namespace
 
 Image image_of(const remote::Client::Picture& picture) {
@@ -81,14 +129,7 @@ Image image_of(const remote::Client::Picture& picture) {
     }
     image.rgb.reserve(3 * pixels);
     for (std::size_t i = 0; i < pixels; ++i) {
-        Color color{};
-        if (sensor.kind == world::SensorKind::semantic) {
-            color = color_of(world::SemanticClass{picture.pixels[i]});
-        } else {
-            float depth = 0;
-            std::memcpy(&depth, &picture.pixels[i * sizeof(float)], sizeof(float));
-            color.fill(gray_of(depth));
-        }
+        const Color color = color_of(picture, i);
         image.rgb.insert(image.rgb.end(), color.begin(), color.end());
     }
     return image;

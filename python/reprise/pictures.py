@@ -10,6 +10,16 @@ import numpy as np
 from .nouns import Noun, enum
 
 _KINDS = {number: name for name, number in enum("SensorKind").items()}
+# Channels and their type, as world/external/sensor.h says them.
+_PIXELS = {
+    "rgb": (3, np.dtype("u1")),
+    "depth": (1, np.dtype("<f4")),
+    "semantic": (1, np.dtype("u1")),
+    "instance": (1, np.dtype("<u2")),
+    "flow": (2, np.dtype("<f4")),
+    "normals": (3, np.dtype("<f4")),
+    "dvs": (2, np.dtype("u1")),
+}
 
 
 class Sensors:
@@ -45,8 +55,8 @@ class Sensors:
         """The pixels of a picture: a view, nothing is copied."""
         sensor = self.rig[picture.sensor]
         kind = _KINDS[sensor.kind]
-        shape = (sensor.height, sensor.width) + ((3,) if kind == "rgb" else ())
-        dtype = np.dtype("<f4" if kind == "depth" else "u1")
+        channels, dtype = _PIXELS[kind]
+        shape = (sensor.height, sensor.width) + ((channels,) if channels > 1 else ())
         pixels = picture.data
         if not len(pixels):
             if self._memory is None:

@@ -1,6 +1,6 @@
 """Made by make_schema.py from world/*.fbs, remote/wire.fbs and world/models/vehicle_models.cpp: change those."""
 
-DIGEST = "6a2d707eea30b6aa"
+DIGEST = "dc2621544efc30a8"
 
 # name: (type, values)
 ENUMS = {'remote.Kind': ('uint',
@@ -64,7 +64,8 @@ ENUMS = {'remote.Kind': ('uint',
  'world.Shape': ('ubyte', {'sinusoidal': 0, 'linear': 1, 'cubic': 2, 'step': 3}),
  'world.Driver': ('ubyte',
                   {'autopilot': 0, 'manual': 1, 'traffic': 2, 'parked': 3, 'walker': 4, 'external': 5, 'prop': 6}),
- 'world.SensorKind': ('ubyte', {'rgb': 0, 'depth': 1, 'semantic': 2}),
+ 'world.SensorKind': ('ubyte',
+                      {'rgb': 0, 'depth': 1, 'semantic': 2, 'instance': 3, 'flow': 4, 'normals': 5, 'dvs': 6}),
  'world.LaneKind': ('ubyte',
                     {'driving': 0, 'internal': 1, 'sidewalk': 2, 'crossing': 3, 'walking_area': 4, 'other': 5}),
  'world.Turn': ('ubyte',
@@ -311,6 +312,7 @@ TABLES = {'remote.Hello': {'version': (0, 'uint'),
                   'drivers': (9, '[string]')},
  'remote.Channel': {'name': (0, 'string')},
  'remote.Fault': {'text': (0, 'string'), 'line': (1, 'uint')},
+ 'world.SensorAttribute': {'name': (0, 'string'), 'value': (1, 'double')},
  'world.Sensor': {'name': (0, 'string'),
                   'kind': (1, 'SensorKind'),
                   'width': (2, 'ushort'),
@@ -319,7 +321,9 @@ TABLES = {'remote.Hello': {'version': (0, 'uint'),
                   'position': (5, 'Vec3'),
                   'yaw': (6, 'double'),
                   'pitch': (7, 'double'),
-                  'every': (8, 'uint')},
+                  'every': (8, 'uint'),
+                  'attributes': (9, '[SensorAttribute]'),
+                  'roll': (10, 'double')},
  'world.Command': {'kind': (0, 'CommandKind'),
                    'actor': (1, 'uint'),
                    'driver': (2, 'Driver'),

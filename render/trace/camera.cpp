@@ -12,7 +12,8 @@ Camera::Camera(const world::SensorSpec& spec, const Eigen::Isometry3d& pose_scen
     pose_mount_body.translation() = spec.position;
     // Nose up is a negative turn about y (left).
     pose_mount_body.linear() = (Eigen::AngleAxisd(spec.yaw, Eigen::Vector3d::UnitZ()) *
-                                Eigen::AngleAxisd(-spec.pitch, Eigen::Vector3d::UnitY()))
+                                Eigen::AngleAxisd(-spec.pitch, Eigen::Vector3d::UnitY()) *
+                                Eigen::AngleAxisd(spec.roll, Eigen::Vector3d::UnitX()))
                                    .toRotationMatrix();
     Eigen::Matrix3d rotation_body_camera;  // columns: where the optical x, y and z axes point
     rotation_body_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;

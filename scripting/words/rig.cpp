@@ -12,6 +12,7 @@
 #include "scripting/run/language.h"
 #include "world/check.h"
 #include "world/external/rig.h"
+#include "world/external/sensor_attributes.h"
 
 // What a vehicle carries, and what its driver is shown.
 namespace reprise::scripting {
@@ -20,7 +21,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr std::size_t most_picture_bytes = std::size_t{2} << 30U;  // in memory at once, of a driver
-const std::vector<std::string> sensor_kinds{"rgb", "depth", "semantic"};
 const std::vector<std::string> sights{"everything", "sensors"};
 
 double within(const Fields& fields, const char* key, double usual, double low, double high) {
@@ -46,7 +46,9 @@ std::int64_t whole_within(const Fields& fields,
 
 constexpr Key sensor_key_rows[] = {
     {"name", "string", "letters, digits, _ and -; unique on the vehicle", true},
-    {"kind", "'rgb'|'depth'|'semantic'", "default 'rgb'"},
+    {"kind",
+     "'rgb'|'depth'|'semantic'|'instance'|'flow'|'normals'|'dvs'",
+     "default 'rgb'; docs/rendering.md says what each is"},
     {"width", "integer", "[px] 1 to 4096, default 800"},
     {"height", "integer", "[px] 1 to 4096, default 600"},
     {"fov_deg", "number", "[deg] 1 to 170 across, default 90"},
@@ -55,8 +57,27 @@ constexpr Key sensor_key_rows[] = {
     {"z", "number", "[m] above the ground, default 1.4"},
     {"yaw_deg", "number", "[deg] to the left, default 0: ahead"},
     {"pitch_deg", "number", "[deg] up, default 0"},
+    {"roll_deg", "number", "[deg] right side down, default 0"},
     {"every", "integer", "[ticks] between frames, default 1"},
+    {"attributes", "table", "of its kind, such as { own_car = 1 }; see docs/rendering.md"},
 };
+
+/// The table on top of the stack as attributes of the sensor, in the order of their names.
+std::vector<std::unique_ptr<world::SensorAttributeT>> read_attributes(
+    lua_State* L, const std::string& who, const world::SensorT& sensor) {
+    const std::vector<std::string> names = world::attribute_names(sensor.kind);
+    const Fields fields(L, -1, who + ": 'attributes'", names);
+    std::vector<std::unique_ptr<world::SensorAttributeT>> attributes;
+    for (const std::string& name : names) {
+        if (!fields.mentions(name))
+            continue;
+        const world::AttributeRow& row = *world::find_attribute(sensor.kind, name);
+        auto& one = attributes.emplace_back(std::make_unique<world::SensorAttributeT>());
+        one->name = name;
+        one->value = within(fields, name.c_str(), row.usual, row.low, row.high);
+    }
+    return attributes;
+}
 
 /// The table on top of the stack as the sensor with this number.
 std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number) {
@@ -73,15 +94,16 @@ std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number) {
                            world::longest_sensor_name,
                            printable(*name)));
     sensor->name = *name;
-    const std::string kind = fields.text("kind").value_or(sensor_kinds.front());
-    const auto known = std::find(sensor_kinds.begin(), sensor_kinds.end(), kind);
-    if (known == sensor_kinds.end())
-        refuse(fields.who(),
-               fmt::format("no kind '{}'{}; there are rgb, depth and semantic",
-                           kind,
-                           world::did_you_mean(kind, sensor_kinds)));
-    sensor->kind = static_cast<world::SensorKind>(known - sensor_kinds.begin());
     const world::SensorSpec usual;
+    const std::string kind = fields.text("kind").value_or(world::EnumNameSensorKind(usual.kind));
+    const auto known = world::find_camera_kind(kind);
+    if (!known)
+        refuse(fields.who(),
+               fmt::format("no kind '{}'{}; there are {}",
+                           kind,
+                           world::did_you_mean(kind, world::camera_kinds()),
+                           fmt::join(world::camera_kinds(), ", ")));
+    sensor->kind = *known;
     const auto side = [&](const char* key, int pixels) {
         return static_cast<std::uint16_t>(
             whole_within(fields, key, pixels, 1, world::largest_picture_side));
@@ -98,8 +120,15 @@ std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number) {
                         place("z", usual.position.z())};
     sensor->yaw = within(fields, "yaw_deg", 0, -360, 360) * degree;
     sensor->pitch = within(fields, "pitch_deg", 0, -90, 90) * degree;
+    if (fields.mentions("roll_deg"))
+        sensor->roll = within(fields, "roll_deg", 0, -360, 360) * degree;
     sensor->every = static_cast<std::uint32_t>(
         whole_within(fields, "every", 1, 1, world::longest_sensor_period));
+    if (fields.mentions("attributes")) {
+        fields.push("attributes");
+        sensor->attributes = read_attributes(L, fields.who(), *sensor);
+        lua_pop(L, 1);
+    }
     return sensor;
 }
 

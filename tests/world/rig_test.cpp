@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "world/check.h"
+#include "world/external/sensor_attributes.h"
 
 namespace reprise::world {
 namespace {
@@ -15,6 +16,13 @@ SensorT possible() {
     sensor.fov = 1.5;
     sensor.every = 3;
     return sensor;
+}
+
+std::unique_ptr<SensorAttributeT> said(const std::string& name, double value) {
+    auto attribute = std::make_unique<SensorAttributeT>();
+    attribute->name = name;
+    attribute->value = value;
+    return attribute;
 }
 
 Rig read(const std::vector<SensorT>& sensors, std::uint64_t tick = 5) {
@@ -47,13 +55,27 @@ TEST(Rig, CountsTheFramesThatItMade) {
     }
 }
 
+TEST(Rig, KnowsWhatItsSensorsWereToldOfTheirOwn) {
+    SensorT sensor = possible();
+    EXPECT_EQ(attribute(read({sensor}).sensors.front(), "own_car"), 0);
+    sensor.attributes.push_back(said("own_car", 1));
+    sensor.roll = 0.5;
+    const Rig rig = read({sensor});
+    EXPECT_EQ(attribute(rig.sensors.front(), "own_car"), 1);
+    EXPECT_EQ(rig.sensors.front().roll, 0.5);
+}
+
 TEST(Rig, KnowsTheSizeOfItsPictures) {
     SensorSpec sensor;
     sensor.width = 5;
     sensor.height = 7;
     for (const auto& [kind, bytes] : {std::pair{SensorKind::rgb, 105U},
                                       std::pair{SensorKind::depth, 140U},
-                                      std::pair{SensorKind::semantic, 35U}}) {
+                                      std::pair{SensorKind::semantic, 35U},
+                                      std::pair{SensorKind::instance, 70U},
+                                      std::pair{SensorKind::flow, 280U},
+                                      std::pair{SensorKind::normals, 420U},
+                                      std::pair{SensorKind::dvs, 70U}}) {
         sensor.kind = kind;
         EXPECT_EQ(picture_bytes(sensor), bytes);
     }
@@ -74,6 +96,16 @@ TEST(Rig, OfAForgedTraceIsRefusedBeforeAnythingIsRendered) {
             one.position = {0, std::numeric_limits<double>::infinity(), 0};
         },
         [](SensorT& one) { one.pitch = 1e300; },
+        [](SensorT& one) { one.roll = 1e300; },
+        [](SensorT& one) { one.attributes.push_back(said("own_cat", 1)); },
+        [](SensorT& one) { one.attributes.push_back(said("own_car", 2)); },
+        [](SensorT& one) {
+            one.attributes.push_back(said("own_car", std::numeric_limits<double>::quiet_NaN()));
+        },
+        [](SensorT& one) {
+            one.attributes.push_back(said("own_car", 1));
+            one.attributes.push_back(said("own_car", 1));
+        },
     };
     EXPECT_NO_THROW(read({possible()}));
     for (std::size_t i = 0; i < forgeries.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "world/check.h"
+#include "world/external/sensor_attributes.h"
 #include "world/frames.h"
 
 namespace reprise::world {
@@ -19,15 +20,16 @@ bool is_possible(const SensorSpec& sensor, std::uint32_t every) {
     };
     constexpr double turn = 2 * std::numbers::pi + 1e-9;
     const double degree = std::numbers::pi / 180;
-    return is_sensor_name(sensor.name) && sensor.kind <= SensorKind::semantic &&
+    return is_sensor_name(sensor.name) && is_camera(sensor.kind) &&
            within(sensor.width, 1, largest_picture_side) &&
            within(sensor.height, 1, largest_picture_side) &&
            within(
                sensor.fov, narrowest_view_deg * degree - 1e-9, widest_view_deg * degree + 1e-9) &&
            sensor.position.allFinite() &&
            sensor.position.lpNorm<Eigen::Infinity>() <= farthest_mount &&
-           within(sensor.yaw, -turn, turn) && within(sensor.pitch, -turn, turn) && every >= 1 &&
-           every <= longest_sensor_period;
+           within(sensor.yaw, -turn, turn) && within(sensor.pitch, -turn, turn) &&
+           within(sensor.roll, -turn, turn) && are_possible(sensor.kind, sensor.attributes) &&
+           every >= 1 && every <= longest_sensor_period;
 }
 
 }  // namespace
@@ -59,6 +61,9 @@ Rig rig_of(const CommandT& spawn, std::uint64_t tick) {
         sensor.position = to_eigen(said->position);
         sensor.yaw = said->yaw;
         sensor.pitch = said->pitch;
+        sensor.roll = said->roll;
+        for (const auto& one : said->attributes)
+            sensor.attributes.push_back({one->name, one->value});
         const bool taken =
             std::any_of(rig.sensors.begin(), rig.sensors.end(), [&](const SensorSpec& other) {
                 return other.name == sensor.name;
@@ -87,14 +92,9 @@ bool is_sensor_name(std::string_view name) {
            });
 }
 
-int channels(SensorKind kind) {
-    return kind == SensorKind::rgb ? 3 : 1;
-}
-
 std::size_t picture_bytes(const SensorSpec& sensor) {
-    const std::size_t pixel = sensor.kind == SensorKind::depth
-                                  ? sizeof(float)
-                                  : static_cast<std::size_t>(channels(sensor.kind));
+    const std::size_t pixel =
+        bytes_of(pixel_type(sensor.kind)) * static_cast<std::size_t>(channels(sensor.kind));
     return static_cast<std::size_t>(sensor.width) * static_cast<std::size_t>(sensor.height) * pixel;
 }
 

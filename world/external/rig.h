@@ -48,9 +48,6 @@ Rig rig_of(const Command& spawn, std::uint64_t tick);
 /// Fit to name a folder: letters, digits, '_' and '-'.
 bool is_sensor_name(std::string_view name);
 
-/// Of the interleaved channels of a frame: 3 or 1.
-int channels(SensorKind kind);
-
 /// [bytes] of the pixels of one frame.
 std::size_t picture_bytes(const SensorSpec& sensor);
 

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -10,6 +12,14 @@
 #include "world/tick_generated.h"
 
 namespace reprise::world {
+
+/// One of world/external/sensor_attributes.h.
+struct AttributeValue {
+    std::string name;
+    double value = 0;
+
+    bool operator==(const AttributeValue& other) const = default;
+};
 
 /// What to see, from where. Camera frame: optical, x right, y down, z ahead.
 struct SensorSpec {
@@ -22,6 +32,8 @@ struct SensorSpec {
     Eigen::Vector3d position{1.0, 0.0, 1.4};  ///< [m] in the actor's frame
     double yaw = 0;                           ///< [rad] left positive
     double pitch = 0;                         ///< [rad] up positive
+    double roll = 0;                          ///< [rad] right side down positive
+    std::vector<AttributeValue> attributes;   ///< what is not said is as usual
 };
 
 using SensorRig = std::vector<SensorSpec>;
@@ -32,6 +44,14 @@ enum class PixelType : std::uint8_t { u8, u16, f32 };
 ///   rgb       u8, 3 channels: R, G, B (sRGB)
 ///   depth     f32, 1 channel: [m] along the optical axis; infinity where there is only sky
 ///   semantic  u8, 1 channel: SemanticClass
+///   instance  u16, 1 channel: what thing it is, see world/external/instance_id.h
+///   flow      f32, 2 channels: [px] to the right and down, by which what is seen in the pixel has
+///             moved in the picture since the last tick, or will until the next one (attribute
+///             forward); quiet NaN where it is not known
+///   normals   f32, 3 channels: unit vector out of the surface, in the camera's frame; zero where
+///             there is only sky
+///   dvs       u8, 2 channels: how many events of rising and of falling brightness since the last
+///             tick, 255 at most
 struct SensorFrame {
     std::string name;
     SensorKind kind = SensorKind::rgb;
@@ -42,6 +62,22 @@ struct SensorFrame {
     PixelType type = PixelType::u8;
     std::vector<std::uint8_t> data;
 };
+
+/// What pictures are made of, in world/tick.fbs's first numbers: the rest of kinds are no cameras.
+inline constexpr bool is_camera(SensorKind kind) {
+    return kind <= SensorKind::dvs;
+}
+
+/// Kinds by the names that users say.
+std::vector<std::string> camera_kinds();
+std::optional<SensorKind> find_camera_kind(std::string_view name);
+
+/// Of the interleaved channels of a camera's frame, and what each of them is.
+int channels(SensorKind kind);
+PixelType pixel_type(SensorKind kind);
+
+/// [bytes] of one channel.
+std::size_t bytes_of(PixelType type);
 
 /// CARLA 0.9.14's tags (CityScapes order); colours in render/palette.h.
 enum class SemanticClass : std::uint8_t {
@@ -68,7 +104,9 @@ enum class SemanticClass : std::uint8_t {
     dynamic_object = 21,  ///< what could be carried away, such as bins, and props
     water = 23,
     road_line = 24,
-    ground = 25  ///< squares, paths, car parks
+    ground = 25,  ///< squares, paths, car parks
+    bridge = 26,
+    guard_rail = 28
 };
 
 }  // namespace reprise::world

@@ -26,7 +26,7 @@ TEST(RigWords, AreRecordedAsTheyWereSaid) {
     Stage stage(running(std::string(external) + R"(latency = 3, sees = 'sensors', rig = {
         { name = 'front' },
         { name = 'left-2', kind = 'depth', width = 200, height = 88, fov_deg = 60, x = -1.5, y = 0.5, z = 2,
-          yaw_deg = 90, pitch_deg = -10, every = 4 } } })"));
+          yaw_deg = 90, pitch_deg = -10, roll_deg = 5, every = 4, attributes = { own_car = 1 } } } })"));
     const world::CommandT& command = spawned(stage);
     EXPECT_TRUE(command.sees_sensors);
     ASSERT_EQ(command.rig.size(), 2U);
@@ -48,10 +48,17 @@ TEST(RigWords, AreRecordedAsTheyWereSaid) {
     said.yaw = std::numbers::pi / 2;
     said.pitch = -std::numbers::pi / 18;
     said.every = 4;
+    said.roll = std::numbers::pi / 36;
+    auto own_car = std::make_unique<world::SensorAttributeT>();
+    own_car->name = "own_car";
+    own_car->value = 1;
+    said.attributes.push_back(std::move(own_car));
     EXPECT_NEAR(command.rig[1]->fov, said.fov, 1e-15);
     EXPECT_NEAR(command.rig[1]->pitch, said.pitch, 1e-15);
     said.fov = command.rig[1]->fov;
     said.pitch = command.rig[1]->pitch;
+    EXPECT_NEAR(command.rig[1]->roll, said.roll, 1e-15);
+    said.roll = command.rig[1]->roll;
     EXPECT_TRUE(*command.rig[1] == said);
 }
 
@@ -80,7 +87,9 @@ TEST(RigWords, MistakesAreOneLineThatNamesTheSensor) {
     EXPECT_EQ(of_rig("{ { name = 'a' }, { name = 'b' }, { name = 'a' } }"),
               "test.lua:1: spawn: sensors 1 and 3 of 'rig' are both named 'a'");
     EXPECT_EQ(of_sensor("kind = 'detph'"),
-              first + "no kind 'detph' (did you mean 'depth'?); there are rgb, depth and semantic");
+              first +
+                  "no kind 'detph' (did you mean 'depth'?); there are rgb, depth, semantic, "
+                  "instance, flow, normals, dvs");
     EXPECT_EQ(of_sensor("wdth = 3"), first + "unknown key 'wdth' (did you mean 'width'?)");
     EXPECT_EQ(of_sensor("width = 0"), first + "'width' must be in [1, 4096], got 0");
     EXPECT_EQ(of_sensor("height = 4097"), first + "'height' must be in [1, 4096], got 4097");
@@ -89,6 +98,10 @@ TEST(RigWords, MistakesAreOneLineThatNamesTheSensor) {
     EXPECT_EQ(of_sensor("x = 0/0"), first + "'x' must be a finite number, got nan");
     EXPECT_EQ(of_sensor("z = 51"), first + "'z' must be in [-50, 50], got 51.0");
     EXPECT_EQ(of_sensor("pitch_deg = 91"), first + "'pitch_deg' must be in [-90, 90], got 91.0");
+    EXPECT_EQ(of_sensor("attributes = { own_cat = 1 }"),
+              first + "'attributes': unknown key 'own_cat' (did you mean 'own_car'?)");
+    EXPECT_EQ(of_sensor("attributes = { own_car = 2 }"),
+              first + "'attributes': 'own_car' must be in [0, 1], got 2");
     EXPECT_EQ(of_sensor("every = 0"), first + "'every' must be in [1, 100000], got 0");
     EXPECT_EQ(mistake("local r = {} for i = 1, 17 do r[i] = { name = 's' .. i } end spawn{ model = "
                       "'sedan', rig = r }"),
