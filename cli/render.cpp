@@ -1,6 +1,7 @@
 #include "cli/render.h"
 
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@
 #include "render/sensors.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
-#include "world/weather.h"
+#include "world/weather/weather_text.h"
 
 namespace reprise::cli {
 
@@ -86,12 +87,12 @@ class LookAtTick : public render::Observation {
     void point(const Cameras& cameras,
                const std::vector<std::size_t>& looking,
                std::uint32_t actor,
-               const world::WeatherPreset* weather,
+               const std::optional<world::WeatherPreset>& weather,
                bool last) {
         looking_ = looking;
         actor_ = actor;
         last_ = last;
-        weather_ = weather != nullptr ? weather->weather : *tick().tick->weather();
+        weather_ = weather ? weather->weather : *tick().tick->weather();
         for (const std::size_t i : looking)
             rig_.push_back(cameras.placed(i, actor, tick()));
         words_ = annotation_.words({tick(), rig_.front(), actor, last});
@@ -142,6 +143,12 @@ class LookAtTick : public render::Observation {
     std::vector<world::SensorFrame> shown_;
 };
 
+std::optional<world::WeatherPreset> weather_of(const RenderOptions& options) {
+    if (options.weather.empty())
+        return std::nullopt;
+    return world::read_weather(options.weather);
+}
+
 /// Goes through the ticks, and says who looks at each.
 class Renderer {
   public:
@@ -153,7 +160,7 @@ class Renderer {
           cameras_(cameras),
           output_(output),
           annotation_(options, trace),
-          weather_(world::find_weather(options.weather)) {}
+          weather_(weather_of(options)) {}
 
     /// Nobody looks at some ticks. `last`: nothing comes after it, and the run ends so.
     std::unique_ptr<LookAtTick> look(std::uint64_t index, bool last) {
@@ -173,7 +180,7 @@ class Renderer {
     std::size_t pictures() const { return pictures_; }
 
     std::string weather_name() const {
-        return weather_ != nullptr ? weather_->name : trace_.episode().weather_name;
+        return weather_ ? weather_->name : trace_.episode().weather_name;
     }
 
   private:
@@ -181,7 +188,7 @@ class Renderer {
     const Cameras& cameras_;
     PictureOutput& output_;
     Annotation annotation_;
-    const world::WeatherPreset* weather_;  ///< none: as recorded
+    std::optional<world::WeatherPreset> weather_;  ///< none: as recorded
     std::size_t pictures_ = 0;
 };
 

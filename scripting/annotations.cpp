@@ -9,7 +9,7 @@
 #include "scripting/words/vocabulary.h"
 #include "world/models/catalogue.h"
 #include "world/models/prop_models.h"
-#include "world/weather.h"
+#include "world/weather/weather.h"
 
 namespace reprise::scripting {
 

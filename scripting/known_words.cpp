@@ -12,7 +12,7 @@
 #include "scripting/words/vocabulary.h"
 #include "world/check.h"
 #include "world/models/catalogue.h"
-#include "world/weather.h"
+#include "world/weather/weather_text.h"
 
 namespace reprise::scripting {
 
@@ -33,6 +33,7 @@ struct Choices {
     std::vector<std::string> values;
     const char* what = "choice";  ///< one of them
     bool many = false;            ///< too many for a message
+    bool weather = false;         ///< or numbers of one
     bool lane = false;            ///< a lane is one as well
     bool edge = false;            ///< an edge, too
     bool any = false;             ///< any text is
@@ -49,8 +50,7 @@ Choices choices_of(const Language& language, const std::string& type) {
             choices.what = "model";
             choices.many = true;
         } else if (part == "WeatherName") {
-            choices.values = world::weather_names();
-            choices.what = "weather";
+            choices.weather = true;
         } else if (part == "DriverName") {
             choices.values = driver_names();
             choices.what = "driver";
@@ -124,6 +124,14 @@ std::optional<std::string> Language::mistake_in(const std::string& text,
                 stop_named(*town, text);
             else
                 lane_named(*town, text);
+        } catch (const world::Error& error) {
+            return error.what();
+        }
+        return std::nullopt;
+    }
+    if (choices.weather) {
+        try {
+            world::read_weather(text);
         } catch (const world::Error& error) {
             return error.what();
         }

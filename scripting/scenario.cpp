@@ -11,7 +11,7 @@
 #include "scripting/words/header.h"
 #include "world/check.h"
 #include "world/digest.h"
-#include "world/weather.h"
+#include "world/weather/weather_text.h"
 
 namespace reprise::scripting {
 
@@ -69,10 +69,10 @@ struct Scenario::Machine {
     void plan_weather(const Header& header) {
         const world::EpisodeT& episode = run.episode;
         const bool as_written = episode.weather == header.weather.weather;
-        const world::WeatherPreset* other = world::find_weather(episode.weather_name);
-        const double expected = header.friction                  ? *header.friction
-                                : as_written || other == nullptr ? header.weather.friction
-                                                                 : other->road_friction;
+        const auto other = world::weather_of_text(episode.weather_name);
+        const double expected = header.friction        ? *header.friction
+                                : as_written || !other ? header.weather.friction
+                                                       : other->road_friction;
         const bool own_friction = episode.road_friction != expected && !vm.in_branch;
         run.weathers.plan(as_written ? header.timeline : std::vector<WeatherEntry>(),
                           own_friction ? episode.road_friction : header.friction);

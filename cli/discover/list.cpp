@@ -16,7 +16,8 @@
 #include "world/check.h"
 #include "world/models/catalogue.h"
 #include "world/models/prop_models.h"
-#include "world/weather.h"
+#include "world/weather/air.h"
+#include "world/weather/weather.h"
 
 namespace reprise::cli {
 
@@ -91,24 +92,38 @@ double degrees(double radians) {
 
 Sheet weather_sheet() {
     Sheet sheet({{"weather", "name"},
-                 {"road friction", "road_friction"},
-                 {"sun above horizon [deg]", "sun_altitude_deg", 0},
+                 {"of", "source"},
+                 {"grip", "road_friction"},
+                 {"sun [deg]", "sun_altitude_deg", 0},
                  {"clouds", "cloud_cover"},
-                 {"rain [mm/h]", "rain_mm_per_h", 0},
+                 {"rain [mm/h]", "rain_mm_per_h", 1},
+                 {"fog [m]", "visibility", 0},
                  {"fog [1/m]", "fog_extinction", 4},
                  {"wet", "wetness"},
                  {"puddles", "puddles"},
-                 {"wind [m/s]", "wind_speed", 1}});
-    for (const world::WeatherPreset& preset : world::weather_presets())
+                 {"wind [m/s]", "wind_speed", 1},
+                 {"snow [mm/h]", "snow_mm_per_h", 1},
+                 {"snow on ground", "snow_cover"},
+                 {"dust [1/m]", "dust", 4}});
+    for (const world::WeatherPreset& preset : world::weather_presets()) {
+        const world::Weather& weather = preset.weather;
+        const double visibility =
+            world::range_by_extinction / static_cast<double>(weather.fog_extinction());
         sheet.add({preset.name,
+                   std::string(preset.source),
                    preset.road_friction,
-                   real(degrees(preset.weather.sun_altitude())),
-                   real(preset.weather.cloud_cover()),
-                   real(preset.weather.rain()),
-                   real(preset.weather.fog_extinction()),
-                   real(preset.weather.wetness()),
-                   real(preset.weather.puddles()),
-                   real(preset.weather.wind_speed())});
+                   real(degrees(weather.sun_altitude())),
+                   real(weather.cloud_cover()),
+                   real(weather.rain()),
+                   std::round(visibility),
+                   real(weather.fog_extinction()),
+                   real(weather.wetness()),
+                   real(weather.puddles()),
+                   real(weather.wind_speed()),
+                   real(weather.snow()),
+                   real(weather.snow_cover()),
+                   real(weather.dust())});
+    }
     return sheet;
 }
 

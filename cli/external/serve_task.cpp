@@ -10,7 +10,7 @@
 
 #include "world/check.h"
 #include "world/town.h"
-#include "world/weather.h"
+#include "world/weather/weather_text.h"
 
 namespace reprise::cli {
 
@@ -137,10 +137,11 @@ TaskScenario scenario_of(const remote::Task& task, const world::TownT& town) {
     const std::string weather = task.weather() == nullptr || task.weather()->size() == 0
                                     ? "clear_noon"
                                     : task.weather()->str();
-    if (world::find_weather(weather) == nullptr)
-        throw world::Error(fmt::format("the task's weather: no weather '{}'{}",
-                                       weather,
-                                       world::did_you_mean(weather, world::weather_names())));
+    try {
+        world::read_weather(weather);
+    } catch (const world::Error& error) {
+        throw world::Error(fmt::format("the task's weather: {}", error.what()));
+    }
     if (task.cars() > most_cars)
         throw world::Error(fmt::format("the task's cars: at most {}", most_cars));
     if (task.walkers() > most_walkers)

@@ -7,7 +7,6 @@
 #include "cli/options/option_checks.h"
 #include "world/external/rig.h"
 #include "world/models/catalogue.h"
-#include "world/weather.h"
 
 namespace reprise::cli {
 
@@ -78,8 +77,8 @@ void add_drive(CLI::App& app, DriveOptions& drive, std::string& size) {
         ->transform(one_of(model_names(), "vehicle model"))
         ->capture_default_str();
     command.add_option("--weather", drive.weather, "Its pictures and its road friction")
-        ->type_name("PRESET")
-        ->transform(one_of(world::weather_names(), "weather"))
+        ->type_name("PRESET,KEY=VALUE,...")
+        ->check(a_weather())
         ->capture_default_str();
     command
         .add_option(

@@ -8,6 +8,7 @@
 
 #include "world/check.h"
 #include "world/lanes/density.h"
+#include "world/weather/weather_text.h"
 
 namespace reprise::cli {
 
@@ -25,6 +26,19 @@ CLI::Validator one_of(std::vector<std::string> words, const std::string& what) {
                 return "";
             return "no " + what + " '" + word + "'" + world::did_you_mean(word, words) +
                    "; there are " + joined(words);
+        },
+        "");
+}
+
+CLI::Validator a_weather() {
+    return CLI::Validator(
+        [](std::string& text) -> std::string {
+            try {
+                world::read_weather(text);
+                return "";
+            } catch (const world::Error& error) {
+                return error.what();
+            }
         },
         "");
 }

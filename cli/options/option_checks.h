@@ -16,6 +16,9 @@ std::string joined(const std::vector<std::string>& words);
 /// Accepts only words of the list, and suggests the nearest.
 CLI::Validator one_of(std::vector<std::string> words, const std::string& what);
 
+/// A weather as world::read_weather takes it: a preset, numbers, or both.
+CLI::Validator a_weather();
+
 /// Adds --ticks A..B and --actor NAME: one spelling wherever ticks and an actor are chosen.
 void add_ticks(CLI::App& command, std::string& ticks);
 void add_actor(CLI::App& command, std::string& actor);

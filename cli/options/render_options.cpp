@@ -10,7 +10,6 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/options/option_checks.h"
-#include "world/weather.h"
 
 namespace reprise::cli {
 
@@ -153,9 +152,10 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
     command
         .add_option("--weather",
                     render.weather,
-                    "Another weather than recorded: " + joined(world::weather_names()))
-        ->type_name("NAME")
-        ->check(one_of(world::weather_names(), "weather"));
+                    "Another weather than recorded, such as wet_sunset, rain=30,fog=200, or "
+                    "cloudy_noon,snow=1: see reprise list weathers")
+        ->type_name("PRESET,KEY=VALUE,...")
+        ->check(a_weather());
     command
         .add_option("--camera",
                     render.cameras,

@@ -6,7 +6,6 @@
 
 #include "cli/options/option_checks.h"
 #include "cli/options/trace_options.h"
-#include "world/weather.h"
 
 namespace reprise::cli {
 
@@ -133,8 +132,8 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
         .add_option("--weather",
                     run.weather,
                     "Another weather than the scenario's at the start: pictures and road friction")
-        ->type_name("PRESET")
-        ->transform(one_of(world::weather_names(), "weather"));
+        ->type_name("PRESET,KEY=VALUE,...")
+        ->check(a_weather());
     command
         .add_option("--friction",
                     run.friction,

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <string_view>
 
-#include "world/weather.h"
+#include "world/weather/weather_text.h"
 
 namespace reprise::cli {
 
@@ -58,11 +58,10 @@ std::string length(const world::EpisodeT& episode, std::uint64_t ticks) {
 
 /// Where it may be another one than the scenario's own; one that has no name, the script says.
 std::string weather(const world::EpisodeT& episode) {
-    const auto& presets = world::weather_presets();
-    const world::WeatherPreset* preset = world::find_weather(episode.weather_name);
-    const bool is_plain =
-        preset == &presets.front() && preset->road_friction == episode.road_friction;
-    if (preset == nullptr || (is_plain && episode.scenario.find("weather") == std::string::npos))
+    const auto preset = world::weather_of_text(episode.weather_name);
+    const bool is_plain = preset && preset->name == world::weather_presets().front().name &&
+                          preset->road_friction == episode.road_friction;
+    if (!preset || (is_plain && episode.scenario.find("weather") == std::string::npos))
         return "";
     std::string text = " --weather " + preset->name;
     if (preset->road_friction != episode.road_friction)

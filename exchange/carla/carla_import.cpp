@@ -14,7 +14,7 @@
 #include "world/check.h"
 #include "world/digest.h"
 #include "world/models/catalogue.h"
-#include "world/weather.h"
+#include "world/weather/weather.h"
 
 namespace reprise::exchange {
 

@@ -17,7 +17,7 @@
 #include "world/frames.h"
 #include "world/models/catalogue.h"
 #include "world/town.h"
-#include "world/weather.h"
+#include "world/weather/weather.h"
 
 namespace reprise::exchange {
 

@@ -1,6 +1,6 @@
 """Made by make_schema.py from world/*.fbs, remote/wire.fbs and world/models/vehicle_models.cpp: change those."""
 
-DIGEST = "dc2621544efc30a8"
+DIGEST = "c06f82a2e26ac85a"
 
 # name: (type, values)
 ENUMS = {'remote.Kind': ('uint',
@@ -127,7 +127,12 @@ STRUCTS = {'world.Vec3': [('x', 'double'), ('y', 'double'), ('z', 'double')],
                    ('puddles', 'float'),
                    ('wind_speed', 'float'),
                    ('wind_azimuth', 'float'),
-                   ('turbidity', 'float')],
+                   ('turbidity', 'float'),
+                   ('fog_base', 'float'),
+                   ('fog_falloff', 'float'),
+                   ('snow', 'float'),
+                   ('snow_cover', 'float'),
+                   ('dust', 'float')],
  'world.Control': [('throttle', 'double'),
                    ('brake', 'double'),
                    ('steer', 'double'),

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <lua.hpp>
 
 #include "scripting/lua/arguments.h"
@@ -13,50 +12,47 @@
 #include "scripting/lua/vm.h"
 #include "scripting/run/tasks.h"
 #include "world/check.h"
-#include "world/weather.h"
+#include "world/weather/weather_field.h"
+#include "world/weather/weather_text.h"
 
 namespace reprise::scripting {
 
 namespace {
 
 using world::Weather;
+using world::WeatherField;
 
-constexpr double to_radians = std::numbers::pi / 180;
-/// Of meteorological range: what is left of contrast there is 5 %, and ln 20 is nearly 3.
-constexpr double range_by_extinction = 3;
-
-float in_range(const Fields& fields, const char* key, double low, double high, float before) {
-    const auto value = fields.number(key);
-    if (value && (*value < low || *value > high))
+/// A row of the weather's numbers: those that scripts of old could not say leave no trace in Lua when
+/// they are not said.
+std::optional<double> said_number(const Fields& fields, const WeatherField& field) {
+    if (!fields.mentions(field.key))
+        return std::nullopt;
+    const auto value = fields.number(field.key);
+    if (value && (*value < field.low || *value > field.high))
         refuse(fields.who(),
                fmt::format("'{}' must be in [{}, {}], got {}",
-                           key,
-                           number_text(low),
-                           number_text(high),
+                           field.key,
+                           number_text(field.low),
+                           number_text(field.high),
                            number_text(*value)));
-    return value ? static_cast<float>(*value) : before;
-}
-
-float angle_in_range(const Fields& fields, const char* key, double low, double high, float before) {
-    if (!fields.has(key))
-        return before;
-    return static_cast<float>(static_cast<double>(in_range(fields, key, low, high, 0)) *
-                              to_radians);
+    return value;
 }
 
 Weather numbers(const Fields& fields, const Weather& before) {
-    const float visibility = in_range(fields, "visibility", 10, 100'000, 0);
-    return {angle_in_range(fields, "sun_azimuth_deg", -360, 360, before.sun_azimuth()),
-            angle_in_range(fields, "sun_altitude_deg", 0, 90, before.sun_altitude()),
-            in_range(fields, "cloud_cover", 0, 1, before.cloud_cover()),
-            in_range(fields, "rain_mm_h", 0, 200, before.rain()),
-            visibility > 0 ? static_cast<float>(range_by_extinction) / visibility
-                           : before.fog_extinction(),
-            in_range(fields, "wetness", 0, 1, before.wetness()),
-            in_range(fields, "puddles", 0, 1, before.puddles()),
-            in_range(fields, "wind_speed", 0, 60, before.wind_speed()),
-            angle_in_range(fields, "wind_to_deg", -360, 360, before.wind_azimuth()),
-            in_range(fields, "turbidity", 1.7, 10, before.turbidity())};
+    Weather weather = before;
+    std::vector<const WeatherField*> seen;
+    for (const WeatherField& field : world::weather_fields()) {
+        const auto value = said_number(fields, field);
+        if (!value)
+            continue;
+        for (const WeatherField* earlier : seen)
+            if (earlier->get == field.get)
+                refuse(fields.who(),
+                       fmt::format("'{}' and '{}' say the same", earlier->key, field.key));
+        seen.push_back(&field);
+        (weather.*field.set)(field.kept(*value));
+    }
+    return weather;
 }
 
 SaidWeather said_by(const Fields& fields, const SaidWeather& before) {
@@ -78,18 +74,10 @@ SaidWeather said_by(const Fields& fields, const SaidWeather& before) {
 }
 
 std::vector<std::string> keys(bool timed) {
-    std::vector<std::string> all{"preset",
-                                 "sun_azimuth_deg",
-                                 "sun_altitude_deg",
-                                 "cloud_cover",
-                                 "rain_mm_h",
-                                 "visibility",
-                                 "wetness",
-                                 "puddles",
-                                 "wind_speed",
-                                 "wind_to_deg",
-                                 "turbidity",
-                                 "friction"};
+    std::vector<std::string> all{"preset"};
+    for (const WeatherField& field : world::weather_fields())
+        all.emplace_back(field.key);
+    all.emplace_back("friction");
     if (timed)
         all.insert(all.end(), {"at", "over"});
     return all;
@@ -119,7 +107,12 @@ Weather mixed(const Weather& from, const Weather& to, double share) {
             mixed(from.puddles(), to.puddles(), share),
             mixed(from.wind_speed(), to.wind_speed(), share),
             mixed_angle(from.wind_azimuth(), to.wind_azimuth(), share),
-            mixed(from.turbidity(), to.turbidity(), share)};
+            mixed(from.turbidity(), to.turbidity(), share),
+            mixed(from.fog_base(), to.fog_base(), share),
+            mixed(from.fog_falloff(), to.fog_falloff(), share),
+            mixed(from.snow(), to.snow(), share),
+            mixed(from.snow_cover(), to.snow_cover(), share),
+            mixed(from.dust(), to.dust(), share)};
 }
 
 }  // namespace
@@ -133,15 +126,13 @@ double check_friction(const std::string& who, double friction) {
     return friction;
 }
 
-SaidWeather preset_weather(const std::string& who, const std::string& name) {
-    const world::WeatherPreset* preset = world::find_weather(name);
-    if (preset == nullptr)
-        refuse(who,
-               fmt::format("no weather '{}'{}; there are {}",
-                           name,
-                           world::did_you_mean(name, world::weather_names()),
-                           fmt::join(world::weather_names(), ", ")));
-    return {preset->weather, preset->road_friction, false, preset->name};
+SaidWeather preset_weather(const std::string& who, const std::string& text) {
+    try {
+        const world::WeatherPreset preset = world::read_weather(text);
+        return {preset.weather, preset.road_friction, false, preset.name};
+    } catch (const world::Error& error) {
+        refuse(who, error.what());
+    }
 }
 
 SaidWeather weather_at_top(lua_State* L, const std::string& who, const SaidWeather& before) {

@@ -30,7 +30,7 @@ struct WeatherEntry {
     std::uint32_t line = 0;
 };
 
-/// The value at the top of the stack: a preset's name, or a table { preset =, rain_mm_h =, ... }.
+/// The value at the top of the stack: a preset's name (or a text as of `--weather`), or a table { preset =, rain_mm_h =, ... }.
 /// What it does not name is as in `before`. Throws world::Error.
 SaidWeather weather_at_top(lua_State* L, const std::string& who, const SaidWeather& before);
 
@@ -40,8 +40,8 @@ WeatherEntry weather_entry_at_top(lua_State* L, const std::string& who, const Sa
 /// A factor on the tyres' grip: in (0, 2], or throws.
 double check_friction(const std::string& who, double friction);
 
-/// The preset of this name, or throws with the names there are.
-SaidWeather preset_weather(const std::string& who, const std::string& name);
+/// A preset by its name, or what else world::read_weather takes, or throws.
+SaidWeather preset_weather(const std::string& who, const std::string& text);
 
 /// The weather's course in a run: what the header's timeline and set_weather asked for. Says a
 /// command set_weather in every tick in which it changes.

@@ -20,7 +20,7 @@
 #include "tests/bench/timer.h"
 #include "tests/bench/traced_rays.h"
 #include "world/check.h"
-#include "world/weather.h"
+#include "world/weather/weather.h"
 
 namespace {
 

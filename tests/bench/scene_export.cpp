@@ -20,7 +20,7 @@
 #include "tests/bench/timer.h"
 #include "world/frames.h"
 #include "world/models/viewpoint.h"
-#include "world/weather.h"
+#include "world/weather/weather.h"
 
 namespace {
 

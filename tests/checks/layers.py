@@ -33,7 +33,7 @@ ROOMS = {
 }
 # Inner rooms from the lowest to the highest: each may include those before it. "." is the room's own folder.
 INNER = {
-    "world": ". models lanes story external",
+    "world": ". weather models lanes story external",
     "ground": "mesh paint .",
     "walkers": "map .",
     "towns": "check network maps furnish buildings . bridges import make",

@@ -5,7 +5,7 @@
 
 #include "render/sensors.h"
 #include "tests/support/worlds.h"
-#include "world/weather.h"
+#include "world/weather/weather.h"
 
 /// Short ways to small pictures.
 namespace reprise::test {

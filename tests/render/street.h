@@ -56,7 +56,8 @@ struct NamedWeather {
 
 inline std::vector<NamedWeather> weathers() {
     // The sun 3 degrees below the horizon: lamps, lit windows and beams on a wet road.
-    const world::Weather nightfall(-1.9F, -0.05F, 0.5F, 6, 1e-3F, 0.8F, 0.4F, 4, 0.35F, 3);
+    const world::Weather nightfall(
+        -1.9F, -0.05F, 0.5F, 6, 1e-3F, 0.8F, 0.4F, 4, 0.35F, 3, 0, 0, 0, 0, 0);
     return {{"clear_noon", noon()}, {"hard_rain_sunset", rain()}, {"rainy_nightfall", nightfall}};
 }
 

@@ -9,7 +9,7 @@
 #include "tests/support/worlds.h"
 #include "world/check.h"
 #include "world/lanes/density.h"
-#include "world/weather.h"
+#include "world/weather/weather.h"
 
 namespace reprise::scripting {
 
@@ -203,8 +203,8 @@ TEST_F(EpisodeFile, MistakesInTheHeaderNameTheirLine) {
         {header("jaywalkers = 'few'"),
          "story.lua:2: scenario: 'jaywalkers' must be a number, got 'few'"},
         {header("weather = 'claer_noon'"),
-         "story.lua:2: scenario: no weather 'claer_noon' (did you mean 'clear_noon'?); there are "
-         "clear_noon, hard_rain_sunset"},
+         "story.lua:2: scenario: no weather 'claer_noon' (did you mean 'clear_noon'?); reprise "
+         "list weathers shows them all"},
         {header("params = 3"),
          "story.lua:2: scenario: 'params' must be a table: params = { gap = 12 }"},
         {header("params = { 3 }"),

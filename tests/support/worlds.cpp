@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "world/weather.h"
+#include "world/weather/weather.h"
 
 namespace reprise::test {
 

@@ -122,7 +122,7 @@ TEST(Schema, KeepsTheRecordedSizes) {
     EXPECT_EQ(sizeof(world::Vec3), 24u);
     EXPECT_EQ(sizeof(world::Quat), 32u);
     EXPECT_EQ(sizeof(world::Digest128), 16u);
-    EXPECT_EQ(sizeof(world::Weather), 40u);
+    EXPECT_EQ(sizeof(world::Weather), 60u);
     EXPECT_EQ(sizeof(world::Control), 32u);
     EXPECT_EQ(sizeof(world::VehicleState), 160u);
     EXPECT_EQ(sizeof(world::WheelState), 48u);

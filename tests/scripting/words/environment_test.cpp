@@ -6,7 +6,7 @@
 #include "scripting/scenario.h"
 #include "tests/scripting/stage.h"
 #include "world/models/catalogue.h"
-#include "world/weather.h"
+#include "world/weather/weather_text.h"
 
 // The weather and the signals: what a scenario says to nobody's car.
 namespace reprise::scripting {
@@ -42,6 +42,14 @@ TEST(Weather, IsSaidByNumbersOnTopOfAPreset) {
     EXPECT_EQ(episode.weather.wind_speed(), preset.wind_speed());
     EXPECT_EQ(episode.road_friction, 0.5);
     EXPECT_EQ(episode.weather_name, "hard_rain_sunset, changed");
+}
+
+TEST(Weather, IsSaidAsOnTheCommandLine) {
+    const world::EpisodeT episode = with_header("weather = 'cloudy_noon,rain=8,fog=300'");
+    const world::WeatherPreset said = world::read_weather("cloudy_noon,rain=8,fog=300");
+    EXPECT_EQ(episode.weather, said.weather);
+    EXPECT_EQ(episode.road_friction, said.road_friction);
+    EXPECT_EQ(episode.weather_name, said.name);
 }
 
 TEST(Weather, OfThePresetAloneIsThePreset) {
@@ -135,7 +143,12 @@ TEST(Weather, MistakesNameTheKeyAndTheRange) {
     EXPECT_EQ(mistake("weather = { rain = 5 }"),
               "test.lua:1: scenario: weather: unknown key 'rain' (known: preset, sun_azimuth_deg, "
               "sun_altitude_deg, cloud_cover, rain_mm_h, visibility, wetness, puddles, wind_speed, "
-              "wind_to_deg, turbidity, friction)");
+              "wind_to_deg, turbidity, okta, film_mm, puddle_mm, fog_base, fog_falloff, snow_mm_h, "
+              "snow_cover, dust_visibility, friction)");
+    EXPECT_EQ(mistake("weather = { cloud_cover = 1, okta = 3 }"),
+              "test.lua:1: scenario: weather: 'cloud_cover' and 'okta' say the same");
+    EXPECT_EQ(mistake("weather = 'clear_noon,rain=nan'"),
+              "test.lua:1: scenario: 'rain': expected a number such as 8 or 0.5, got 'nan'");
     EXPECT_EQ(mistake("weather = { rain_mm_h = -1 }"),
               "test.lua:1: scenario: weather: 'rain_mm_h' must be in [0.0, 200.0], got -1.0");
     EXPECT_EQ(mistake("friction = 0"),
@@ -143,7 +156,7 @@ TEST(Weather, MistakesNameTheKeyAndTheRange) {
               "grip, got 0.0");
     EXPECT_EQ(mistake("weather = { preset = 'clear_non' }"),
               "test.lua:1: scenario: weather: no weather 'clear_non' (did you mean 'clear_noon'?); "
-              "there are clear_noon, hard_rain_sunset");
+              "reprise list weathers shows them all");
     EXPECT_EQ(mistake("weather = { { at = 3 } }"),
               "test.lua:1: scenario: weather, entry 1: the first one is the weather at the start: "
               "at = 0, without 'over'");
