@@ -21,7 +21,7 @@ namespace reprise::replay::format {
 
 /// Counted up with every change of this layout or of a schema in world/*.fbs: until 1.0 a trace of
 /// another version is refused.
-inline constexpr std::uint64_t version = 9;
+inline constexpr std::uint64_t version = 10;
 inline constexpr std::uint64_t ticks_per_chunk = 64;
 inline constexpr std::uint16_t tick_channel = 1;
 inline constexpr std::uint16_t traffic_channel = 2;
