@@ -15,6 +15,7 @@
 
 #include <libsumo/libsumo.h>
 
+#include "traffic/blue_lamps.h"
 #include "traffic/car_reader.h"
 #include "traffic/cars/bends.h"
 #include "traffic/cars/cars.h"
@@ -27,6 +28,7 @@
 #include "traffic/mirrors.h"
 #include "traffic/orders.h"
 #include "traffic/placements.h"
+#include "traffic/rescue_lane.h"
 #include "traffic/roads/road_graph.h"
 #include "traffic/route_planner.h"
 #include "traffic/scripted_spawns.h"
@@ -79,6 +81,8 @@ struct Background::Parts {
           bends(town),
           lane_change_pace(town),
           mirrors(town, lanes, graph, world::seconds(1, episode.step_ns)),
+          rescue_lane(town, lanes, graph, world::seconds(1, episode.step_ns)),
+          blue_lamps(town, lanes, graph, orders, world::seconds(1, episode.step_ns)),
           reader(town, graph, world::seconds(1, episode.step_ns), episode.seed),
           signal_orders(town),
           signals(town),
@@ -105,6 +109,8 @@ struct Background::Parts {
     Bends bends;
     LaneChangePace lane_change_pace;
     Mirrors mirrors;
+    RescueLane rescue_lane;
+    BlueLamps blue_lamps;
     CarReader reader;
     SignalOrders signal_orders;
     SignalPrograms signals;
@@ -217,6 +223,8 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     parts.orders.follow(parts.cars, next.tick.index);
     parts.bends.follow(parts.cars);
     parts.lane_change_pace.follow(parts.cars, next.tick.index);
+    parts.rescue_lane.advance(last, parts.cars, parts.mirrors, next.tick.index);
+    parts.blue_lamps.advance(last, parts.cars, next.tick.index);
     parts.lookout.advance(last, parts.cars, next.tick.index);
     parts.standoffs.advance(last, parts.cars, next.tick.index);
     parts.signal_orders.follow(next.tick.index);
@@ -239,6 +247,7 @@ std::uint64_t Background::digest() const {
     parts_->signal_orders.add_to(hasher);
     parts_->mirrors.add_to(hasher);
     parts_->lookout.add_to(hasher);
+    parts_->rescue_lane.add_to(hasher);
     return hasher.digest64();
 }
 

@@ -200,7 +200,7 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
         if (car.pass)
             allowed = std::min(allowed, Passing::speed);
         else
-            allowed = std::min(allowed, meetings_.allowed_speed(i));
+            allowed = std::min({allowed, meetings_.allowed_speed(i), car.way_speed});
         if (car.pass || allowed < car.speed + starting * step_) {
             hold_back(car, allowed, tick);
         } else if (car.held_back) {

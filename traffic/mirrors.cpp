@@ -54,6 +54,16 @@ void Mirrors::forget(const std::string& sumo) {
     std::erase_if(mirrors_, [&sumo](const Mirror& mirror) { return mirror.sumo == sumo; });
 }
 
+std::span<const std::uint32_t> Mirrors::way_of(std::uint32_t id) const {
+    const auto at = std::lower_bound(
+        mirrors_.begin(), mirrors_.end(), id, [](const Mirror& m, std::uint32_t wanted) {
+            return m.id < wanted;
+        });
+    if (at == mirrors_.end() || at->id != id)
+        return {};
+    return at->route;
+}
+
 Mirrors::Target Mirrors::target_of(const world::VehicleState& vehicle) const {
     // The step ends one tick after the last one: there the vehicle will be, up to a centimetre.
     const double yaw = yaw_of(vehicle) + vehicle.angular_velocity().z() * step_;

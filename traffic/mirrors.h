@@ -37,6 +37,10 @@ class Mirrors {
                  std::span<const world::VehicleState> beside_sumo = {},
                  std::span<const std::uint32_t> wrecks = {});
 
+    /// Edges that a vehicle with mass will likely drive along, the one that it is on first; empty
+    /// off the road. As of the last advance.
+    std::span<const std::uint32_t> way_of(std::uint32_t id) const;
+
     /// SUMO took this vehicle out of the simulation; it is put back at the next advance.
     void forget(const std::string& sumo);
 

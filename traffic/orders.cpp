@@ -46,7 +46,7 @@ int speed_mode(const Car& car) {
     if (car.speed_order && !car.speed_order->reacts)
         return reacts_to_nothing;
     int mode = car.speed_order ? obeys_but_hits_nobody : sumo_default_speed_mode;
-    if (car.ignores_lights && comes_to_a_red_light(car))
+    if (car.goes_first || (car.ignores_lights && comes_to_a_red_light(car)))
         mode &= ~(stops_at_red + gives_way);
     return mode;
 }

@@ -102,7 +102,11 @@ Look car_part_look(const ShadingInput& input, const Surface& at) {
             lamp(Color(1, .42F, .03F), flashing(world::lamp_right) ? 4.5F : 0.0F);
             break;
         case CarPart::blue_lamp:
-            lamp(Color(.02F, .09F, .75F), 0);
+            // Left and right in turn, two and a half times a second.
+            lamp(Color(.02F, .09F, .75F),
+                 (lamps & world::lamp_beacon) != 0 && (input.tick % 8 < 4) == (at.local.y() > 0)
+                     ? 12.0F
+                     : 0.0F);
             break;
         case CarPart::roof_sign: {
             look.albedo = Color(.62F, .56F, .30F);

@@ -28,6 +28,7 @@ constexpr Key lamp_key_rows[] = {
     {"low_beam", "boolean", "headlights"},
     {"brake", "boolean", "brake lamps"},
     {"reverse", "boolean", "reversing lamps"},
+    {"beacon", "boolean", "the blue lamps of 'police' and 'ambulance': traffic makes way"},
 };
 
 struct LampWord {
@@ -35,12 +36,13 @@ struct LampWord {
     std::uint16_t bits;
 };
 
-constexpr std::array<LampWord, 6> lamp_words{{{"left", world::lamp_left},
+constexpr std::array<LampWord, 7> lamp_words{{{"left", world::lamp_left},
                                               {"right", world::lamp_right},
                                               {"hazard", world::lamp_left | world::lamp_right},
                                               {"low_beam", world::lamp_low_beam},
                                               {"brake", world::lamp_brake},
-                                              {"reverse", world::lamp_reverse}}};
+                                              {"reverse", world::lamp_reverse},
+                                              {"beacon", world::lamp_beacon}}};
 
 constexpr std::array<const char*, world::door_count> door_words{
     "front_left", "front_right", "rear_left", "rear_right"};
@@ -99,6 +101,11 @@ int set_lamps(Run& run, lua_State* L) {
                 continue;
             if ((mask & word.bits) != 0)
                 refuse("set_lamps", "'hazard' is both indicators: give it, or 'left' and 'right'");
+            const world::VehicleModel& model = world::vehicle_models()[actor.model];
+            if (word.bits == world::lamp_beacon && !world::has_beacon(model))
+                refuse(
+                    "set_lamps",
+                    fmt::format("a {} has no beacon: 'police' and 'ambulance' have", model.name));
             mask |= word.bits;
             if (*on)
                 lamps |= word.bits;

@@ -1,6 +1,9 @@
 #include "tests/traffic/stage.h"
 
+#include <algorithm>
+
 #include "tests/support/worlds.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::test {
 
@@ -22,6 +25,9 @@ const world::TickDraft& Stage::step(const std::vector<world::CommandT>& commands
     draft_.tick.index = index;
     draft_.tick.commands = commands;
     background_->advance(last_.view(), draft_);
+    for (world::CarState& car : draft_.traffic.cars)
+        if (std::find(beacons.begin(), beacons.end(), car.id()) != beacons.end())
+            car.mutate_lamps(static_cast<std::uint16_t>(car.lamps() | world::lamp_beacon));
     draft_.tick.vehicles = vehicles;
     draft_.tick.props = props;
     draft_.tick.doors = doors;

@@ -31,6 +31,9 @@ class Stage {
     std::vector<world::PropState> props;
     std::vector<world::Door> doors;
 
+    /// Who has his blue lamps on from now on, as the kernel lights them behind traffic.
+    std::vector<std::uint32_t> beacons;
+
     /// The car in the last tick, or null.
     const world::CarState* car(std::uint32_t id) const;
 

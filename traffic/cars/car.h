@@ -12,6 +12,7 @@
 #include "world/tick.h"
 #include "world/trajectory.h"
 #include "world/transition.h"
+#include "world/units.h"
 
 namespace reprise::traffic {
 
@@ -104,6 +105,12 @@ struct Car {
     std::vector<std::uint32_t> waits_for;  ///< ids of those whom it lets go first
     std::uint64_t pushes_until = 0;        ///< tick; until then it stops for no body beside its way
     bool ignores_standing = false;         ///< SUMO was told so
+
+    // For vehicles with their blue lamps on; see rescue_lane.h and blue_lamps.h.
+    bool on_call = false;                ///< its own are on, as of the last tick
+    bool goes_first = false;             ///< SUMO was told so
+    bool makes_way = false;              ///< for another one: it drives aside
+    double way_speed = world::infinity;  ///< [m/s] at most in this tick
 
     void turn_to(double new_yaw) {
         yaw = new_yaw;

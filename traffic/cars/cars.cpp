@@ -147,6 +147,11 @@ void Cars::add_to(world::Hasher& hasher) const {
             hasher.add(car.pass->lane);
             hasher.add(car.pass->end);
         }
+        if (car.on_call || car.goes_first || car.makes_way) {
+            hasher.add(car.on_call);
+            hasher.add(car.goes_first);
+            hasher.add(car.makes_way);
+        }
         if (!car.waits_for.empty() || car.pushes_until != 0 || car.ignores_standing) {
             hasher.add(std::span<const std::uint32_t>(car.waits_for));
             hasher.add(car.pushes_until);

@@ -69,6 +69,7 @@ bool LaneChangePace::has_way(const Car& car, const std::vector<Waiting>& waiting
 
 void LaneChangePace::follow(Cars& cars, std::uint64_t tick) const {
     constexpr int as_it_likes = 1621;  // SUMO's default
+    constexpr int as_asked = 512;      // as RescueLane asks, where nobody is hindered
     constexpr int never = 0;
     const std::vector<Waiting> queues = waiting(cars);
     for (Car& car : cars.all()) {
@@ -77,7 +78,8 @@ void LaneChangePace::follow(Cars& cars, std::uint64_t tick) const {
         const world::LaneT& lane = town_->lanes[car.lane];
         // A quarter of the cars is asked in each tick.
         if (has_neighbour_[car.lane] && car.origin == Origin::demand && (tick + car.id) % 4 == 0) {
-            const int mode = car.speed > crawl && has_way(car, queues) ? as_it_likes : never;
+            const bool may = car.speed > crawl && has_way(car, queues);
+            const int mode = !may ? never : car.makes_way ? as_asked : as_it_likes;
             if (mode != car.lane_change_mode)
                 libsumo::Vehicle::setLaneChangeMode(car.sumo, mode);
             car.lane_change_mode = mode;

@@ -15,7 +15,8 @@ enum Lamp : std::uint16_t {
     lamp_left = 2,
     lamp_right = 4,
     lamp_low_beam = 8,
-    lamp_reverse = 16
+    lamp_reverse = 16,
+    lamp_beacon = 32  ///< the blue lamps of an emergency service
 };
 
 enum class BodyStyle : std::uint8_t {
@@ -61,6 +62,11 @@ struct VehicleModel {
     double drag_area;           ///< cd * A [m^2]
     const char* sumo_class;     ///< SUMO's vehicle class
 };
+
+/// Has it blue lamps?
+inline bool has_beacon(const VehicleModel& model) {
+    return model.livery == Livery::police || model.livery == Livery::ambulance;
+}
 
 /// The vehicle catalogue. An index into it is what ticks record: append only.
 std::span<const VehicleModel> vehicle_models();

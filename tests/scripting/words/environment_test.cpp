@@ -210,6 +210,8 @@ TEST(Lamps, MistakesNameTheActor) {
               "test.lua:1: set_lamps: unknown key 'hazrad' (did you mean 'hazard'?)");
     EXPECT_EQ(test::mistake(ego + "ego:set_lamps{ hazard = true, left = false }"),
               "test.lua:1: set_lamps: 'hazard' is both indicators: give it, or 'left' and 'right'");
+    EXPECT_EQ(test::mistake(ego + "ego:set_lamps{ beacon = true }"),
+              "test.lua:1: set_lamps: a sedan has no beacon: 'police' and 'ambulance' have");
     EXPECT_EQ(test::mistake("spawn{ model = 'child', lane = 'east_0', s = 20 }:set_lamps()"),
               "test.lua:1: set_lamps: 'child' is a walker");
 }
