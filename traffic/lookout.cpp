@@ -7,6 +7,7 @@
 
 #include "traffic/cars/fleet.h"
 #include "traffic/sight/braking.h"
+#include "traffic/sight/way_ahead.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/units.h"
@@ -170,6 +171,48 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     return corridor.allowed;
 }
 
+/// [m/s] of a long vehicle, whose tail swings out and whose middle cuts in where it turns: to stop
+/// before its body would sweep over somebody who stands or lies beside its lane. Not for ever:
+/// who stands there for long may never go away, and then brushing past is the driver's business.
+double Lookout::before_swept(Car& car, std::uint64_t tick) const {
+    constexpr double looked_at = 14;            // [m] of way
+    constexpr double spacing = 0.5;             // [m]
+    constexpr double hair = 0.1;                // [m] left beside it
+    constexpr double slow = 1.5;                // [m/s] of who stays about where he is
+    constexpr double waits = 40;                // [s]
+    constexpr std::uint64_t goes_on_for = 200;  // [ticks]
+    const world::VehicleModel& model = world::vehicle_models()[car.model];
+    if (model.length <= longest_short_car || car.pushes_until > tick || car.pass)
+        return world::infinity;
+    const double around = looked_at + 2 * model.length;
+    std::vector<BodyBox> others;
+    for (const Footprint& one : obstructions_.footprints())
+        if (one.id != car.id && one.velocity.norm() < slow &&
+            (one.centre - car.rear.head<2>()).squaredNorm() < around * around &&
+            std::abs(one.z - car.rear.z()) < world::level_clearance)
+            others.push_back({one.centre, one.direction, one.half_length, one.half_width});
+    if (others.empty())
+        return world::infinity;
+    const WayAhead way(car, *town_, *graph_, looked_at);
+    const auto touches = [&](double driven) {
+        const BodyBox body = way.at(driven).widened(hair);
+        return std::any_of(others.begin(), others.end(), [&](const BodyBox& other) {
+            return overlap(body, other);
+        });
+    };
+    if (touches(0))  // it cannot help it by standing
+        return world::infinity;
+    const Braking braking{
+        car.speed, comfortable_braking(car.model), emergency_braking(car.model), step_};
+    for (double driven = spacing; driven <= std::min(looked_at, way.length()); driven += spacing)
+        if (touches(driven)) {
+            if (car.standing_ticks * step_ > waits && driven <= 2 * spacing)
+                car.pushes_until = tick + goes_on_for;
+            return braking.speed_before(driven - spacing, 0, 0);
+        }
+    return world::infinity;
+}
+
 void Lookout::hold_back(Car& car, double speed, std::uint64_t tick) const {
     using libsumo::Vehicle;
     if (car.speed_order)
@@ -200,7 +243,8 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
         if (car.pass)
             allowed = std::min(allowed, Passing::speed);
         else
-            allowed = std::min({allowed, meetings_.allowed_speed(i), car.way_speed});
+            allowed = std::min(
+                {allowed, meetings_.allowed_speed(i), car.way_speed, before_swept(car, tick)});
         if (car.pass || allowed < car.speed + starting * step_) {
             hold_back(car, allowed, tick);
         } else if (car.held_back) {

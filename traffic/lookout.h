@@ -63,6 +63,7 @@ class Lookout {
     void visit_way(
         std::uint32_t lane, double start, double reach, const Car& car, const Visit& visit) const;
     bool is_clear(const Car& car, double reach) const;
+    double before_swept(Car& car, std::uint64_t tick) const;
     void look_on(std::uint32_t lane, double start, double aside, Corridor& corridor) const;
     void hold_back(Car& car, double speed, std::uint64_t tick) const;
 

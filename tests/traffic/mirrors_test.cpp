@@ -5,6 +5,7 @@
 #include <fstream>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -213,6 +214,50 @@ TEST(Mirrors, ACarMayGoToAndFroAtADeadEnd) {
         }
         ASSERT_NO_THROW(stage.step({}, {test::vehicle_at(ego, x, y, yaw, speed)})) << "tick " << i;
         ASSERT_EQ(stage.car(ego), nullptr);
+    }
+}
+
+/// The lanes that lead along these edges, those in the junctions between them, too.
+std::vector<std::uint32_t> lanes_along(const world::TownT& town,
+                                       const std::vector<std::string>& edges) {
+    std::vector<std::uint32_t> lanes{lane(town, edges.front() + "_0")};
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+        const std::uint32_t next = lane(town, edges[i] + "_0");
+        for (const world::Link& link : town.lanes[lanes.back()].links)
+            if (link.to() == next) {
+                for (std::uint32_t via = link.via(); via != world::none && via != next;) {
+                    lanes.push_back(via);
+                    const world::Link& on = town.lanes[via].links.front();
+                    via = on.via() == world::none ? on.to() : on.via();
+                }
+                break;
+            }
+        lanes.push_back(next);
+    }
+    return lanes;
+}
+
+/// Inside the junction behind an edge that its route had twice SUMO took the first of the two,
+/// which went on to another road, and aborted.
+TEST(Mirrors, AVehicleMayComeRoundARingAndLeaveItElsewhere) {
+    const test::Loaded loaded = converted(
+        "ring",
+        R"(<nodes> <node id="a" x="0" y="0"/> <node id="b" x="60" y="0"/> <node id="c" x="60" y="60"/>
+        <node id="d" x="0" y="60"/> <node id="x" x="140" y="0"/> <node id="y" x="-80" y="60"/> </nodes>)",
+        R"(<edges> <edge id="ab" from="a" to="b"/> <edge id="bc" from="b" to="c"/> <edge id="cd" from="c" to="d"/>
+        <edge id="da" from="d" to="a"/> <edge id="bx" from="b" to="x"/> <edge id="xb" from="x" to="b"/>
+        <edge id="dy" from="d" to="y"/> <edge id="yd" from="y" to="d"/> </edges>)");
+    const std::vector<std::uint32_t> lanes =
+        lanes_along(loaded.town, {"ab", "bc", "cd", "da", "ab", "bx", "xb", "bc", "cd", "dy",
+                                  "yd", "da", "ab", "bc", "cd", "da", "ab", "bc", "cd", "dy"});
+    for (const std::uint16_t lamps : std::vector<std::uint16_t>{0, 2, 4}) {
+        Stage stage(loaded, 3);
+        for (const std::uint32_t on : lanes)
+            for (double s = 0; s < loaded.town.lanes[on].length; s += 0.4) {
+                world::VehicleState vehicle = vehicle_on(loaded.town.lanes[on], ego, s, 8);
+                vehicle.mutate_lamps(lamps);
+                ASSERT_NO_THROW(stage.step({}, {vehicle})) << loaded.town.lanes[on].name;
+            }
     }
 }
 

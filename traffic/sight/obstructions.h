@@ -45,6 +45,9 @@ class Obstructions {
     /// As the last tick has them, and `cars`, which SUMO does not drive.
     void look(const world::TickView& last, std::span<const Car> cars);
 
+    /// What was looked at: everything that SUMO does not know, on lanes or beside them.
+    std::span<const Footprint> footprints() const { return footprints_; }
+
     bool empty() const { return all_.empty(); }
 
     /// Does any of them begin within `reach` of there? Costs nothing beside a look at their lanes.

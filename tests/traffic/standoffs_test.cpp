@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "process/program.h"
+#include "tests/support/worlds.h"
+#include "tests/traffic/stage.h"
+
+namespace reprise::traffic {
+namespace {
+
+using test::lane;
+using test::Stage;
+
+/// Two roads that cross, the one along x with the right of way.
+test::Loaded crossing_roads() {
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "standoff";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "nodes.xml")
+        << R"(<nodes> <node id="j" x="0" y="0" type="priority"/> <node id="w" x="-200" y="0"/>
+        <node id="e" x="200" y="0"/> <node id="s" x="0" y="-200"/> <node id="n" x="0" y="200"/> </nodes>)";
+    std::ofstream(folder / "edges.xml")
+        << R"(<edges> <edge id="wj" from="w" to="j" priority="9"/> <edge id="je" from="j" to="e" priority="9"/>
+        <edge id="sj" from="s" to="j" priority="1"/> <edge id="jn" from="j" to="n" priority="1"/> </edges>)";
+    const process::ProgramResult made = process::run_program(
+        {.name = "netconvert",
+         .words = {"-X", "never", "-n", "nodes.xml", "-e", "edges.xml", "-o", "standoff.net.xml"},
+         .folder = folder});
+    EXPECT_EQ(made.code, 0) << made.said;
+    return test::load(folder / "standoff.net.xml");
+}
+
+/// Somebody with mass stands at his line on the main road, and waits for those who wait for him.
+TEST(Standoffs, OneOfTwoWhoWaitForEachOtherGoes) {
+    const test::Loaded loaded = crossing_roads();
+    const std::uint32_t main_road = lane(loaded.town, "wj_0");
+    const std::uint32_t minor = lane(loaded.town, "sj_0");
+    const world::LaneT& on = loaded.town.lanes[main_road];
+    const world::VehicleState ego = test::vehicle_on(on, 1, on.length - 4.5);
+    Stage stage(loaded, 6, 3);
+    std::map<std::uint32_t, int> stood;  // ticks, at the end of the minor road
+    int longest = 0;
+    std::size_t gone = 0;  // over the junction, from the minor road
+    for (int i = 0; i < 2400; ++i) {
+        stage.step({}, {ego});
+        for (const world::CarState& car : stage.draft().traffic.cars) {
+            const bool at_line =
+                car.lane() == minor &&
+                car.lane_s() > static_cast<float>(loaded.town.lanes[minor].length - 3);
+            const bool waits = at_line && car.speed() < 0.1F;
+            gone += !at_line && stood.contains(car.id());
+            if (!at_line)
+                stood.erase(car.id());
+            else if (waits)
+                longest = std::max(longest, ++stood[car.id()]);
+        }
+    }
+    EXPECT_GT(longest, 100) << "nobody waited: nothing is shown";
+    EXPECT_LT(longest, 800) << "[ticks]";
+    EXPECT_GE(gone, 1U);
+}
+
+}  // namespace
+}  // namespace reprise::traffic

@@ -1,0 +1,118 @@
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/towns.h"
+#include "tests/support/worlds.h"
+#include "tests/traffic/stage.h"
+#include "traffic/sight/way_ahead.h"
+#include "world/geometry2d.h"
+#include "world/models/catalogue.h"
+
+namespace reprise::traffic {
+namespace {
+
+using test::lane;
+using test::own_town;
+using test::spawn;
+using test::Stage;
+
+constexpr std::uint32_t the_bus = 10;
+constexpr std::uint32_t beside = 90;
+
+BodyBox bus_body(const world::CarState& car) {
+    const world::VehicleModel& model = world::vehicle_models()[car.model()];
+    const Eigen::Vector2d ahead = world::ahead_of(static_cast<double>(car.yaw()));
+    return {Eigen::Vector2d(car.position().x(), car.position().y()) +
+                (model.length / 2 - model.rear_overhang) * ahead,
+            ahead,
+            model.length / 2,
+            model.width / 2};
+}
+
+struct BusDrive {
+    int touched = 0;  ///< ticks
+    bool came_through = false;
+    double farthest = 0;           ///< [m] of a rear corner beyond its lane's edge
+    Eigen::Vector2d corner{0, 0};  ///< where that was
+};
+
+/// A bus from this lane over the next junction, past somebody who stands at `place` for a minute.
+BusDrive drive_bus(const char* name, std::optional<Eigen::Vector2d> place) {
+    const auto& loaded = own_town("town1");
+    const world::TownT& town = loaded.town;
+    Stage stage(loaded, 0);
+    const std::uint32_t from = lane(town, name);
+    world::CommandT bus = spawn(the_bus, from, town.lanes[from].length - 20, 5);
+    bus.model = world::find_vehicle_model("bus").value();
+    BusDrive drive;
+    std::vector<world::VehicleState> vehicles;
+    if (place) {
+        vehicles.push_back(test::vehicle_at(beside, place->x(), place->y(), 0, 0));
+        vehicles[0].mutate_model(world::find_vehicle_model("bicycle").value());
+    }
+    const world::VehicleModel& bicycle =
+        world::vehicle_models()[world::find_vehicle_model("bicycle").value()];
+    for (int tick = 0; tick < 2400 && !drive.came_through; ++tick) {
+        if (tick == 900)  // it goes away
+            vehicles.clear();
+        stage.step(tick == 0 ? std::vector<world::CommandT>{bus} : std::vector<world::CommandT>(),
+                   vehicles);
+        const world::CarState* car = stage.car(the_bus);
+        if (car == nullptr || car->lane() == world::none)
+            continue;
+        const BodyBox body = bus_body(*car);
+        if (!vehicles.empty()) {
+            const Eigen::Vector2d middle(place->x() + bicycle.length / 2 - bicycle.rear_overhang,
+                                         place->y());
+            drive.touched += overlap(
+                body, {middle, Eigen::Vector2d::UnitX(), bicycle.length / 2, bicycle.width / 2});
+        }
+        for (const double side : {-1.0, 1.0}) {
+            const Eigen::Vector2d corner = body.middle - body.half_length * body.ahead +
+                                           side * body.half_width * world::turned_left(body.ahead);
+            const Eigen::Vector3d p(corner.x(), corner.y(), car->position().z());
+            const double out =
+                std::abs(world::project(town.lanes[from], p).t) - town.lanes[from].width / 2;
+            const double s = world::project(town.lanes[from], p).s;
+            if (s > 0 && s < town.lanes[from].length - 0.5 && out > drive.farthest) {
+                drive.farthest = out;
+                drive.corner = corner - 0.15 * side * world::turned_left(body.ahead);
+            }
+        }
+        drive.came_through = town.lanes[car->lane()].kind == world::LaneKind::driving &&
+                             car->lane() != from && car->lane_s() > 12;
+    }
+    return drive;
+}
+
+TEST(SweptArea, ABusWaitsForWhoStandsWhereItsTailSwingsOut) {
+    int shown = 0;
+    for (const char* name : {"a1_b1_1",
+                             "b1_a1_1",
+                             "a2_l1_1",
+                             "a3_m2w_1",
+                             "b2_m1_1",
+                             "c1_m1_1",
+                             "c2_r1_1",
+                             "a1_m1_1",
+                             "b3_c1_1",
+                             "c3_m2e_1",
+                             "a2_a3_1",
+                             "c1_c2_1"}) {
+        const BusDrive alone = drive_bus(name, std::nullopt);
+        ASSERT_TRUE(alone.came_through) << name;
+        if (alone.farthest < 0.25)
+            continue;
+        ++shown;
+        const BusDrive past = drive_bus(name, alone.corner);
+        EXPECT_EQ(past.touched, 0) << name << ": its tail swings out by " << alone.farthest;
+        EXPECT_TRUE(past.came_through) << name;
+    }
+    EXPECT_GT(shown, 2) << "no tail swings out: nothing is shown";
+}
+
+}  // namespace
+}  // namespace reprise::traffic
