@@ -237,8 +237,8 @@ std::vector<std::uint32_t> lanes_along(const world::TownT& town,
     return lanes;
 }
 
-/// Inside the junction behind an edge that its route had twice SUMO took the first of the two,
-/// which went on to another road, and aborted.
+/// The way that Mirrors::set_route is careful about. It does not show the abort of SUMO's that was
+/// seen on a large map: that needs more than these roads.
 TEST(Mirrors, AVehicleMayComeRoundARingAndLeaveItElsewhere) {
     const test::Loaded loaded = converted(
         "ring",
