@@ -9,6 +9,7 @@
 #include "cli/options/tick_range.h"
 #include "cli/pictures/annotation.h"
 #include "cli/pictures/cameras.h"
+#include "cli/pictures/measurements.h"
 #include "cli/pictures/picture_output.h"
 #include "cli/process/guard.h"
 #include "cli/process/progress.h"
@@ -192,18 +193,15 @@ class Renderer {
     std::size_t pictures_ = 0;
 };
 
-}  // namespace
-
-int render(const RenderOptions& options) {
-    replay::TraceReader trace(options.trace);
-    Ticks ticks = ticks_to_render(options, trace);
-    const Cameras cameras(options, trace, ticks);
+void render_pictures(const RenderOptions& options,
+                     replay::TraceReader& trace,
+                     Ticks ticks,
+                     const Cameras& cameras,
+                     render::Sensors& sensors) {
     const auto output = open_output(options, cameras, ticks, trace.episode().step_ns);
     if (as_recorded(options, cameras))
         ticks.every = 1;
     Renderer renderer(options, trace, cameras, *output);
-    render::Sensors sensors(trace.recording().town,
-                            {.threads = options.threads, .portable = options.portable});
     Progress progress("rendering", "ticks", (ticks.to - ticks.from) / ticks.every + 1);
     std::uint64_t done = 0;
     std::uint64_t index = ticks.from;
@@ -227,6 +225,29 @@ int render(const RenderOptions& options) {
         renderer.pictures(),
         renderer.weather_name(),
         progress.seconds());
+}
+
+}  // namespace
+
+int render(const RenderOptions& options) {
+    replay::TraceReader trace(options.trace);
+    const Ticks ticks = ticks_to_render(options, trace);
+    Measurements measurements(options, trace, ticks);
+    const Cameras cameras(options, trace, ticks);
+    // The town takes seconds to build, and sensors without rays do not look at it.
+    std::optional<render::Sensors> made;
+    const auto sensors = [&]() -> render::Sensors& {
+        const render::Sensors::Options how{.threads = options.threads,
+                                           .portable = options.portable};
+        return made ? *made : made.emplace(trace.recording().town, how);
+    };
+    if (!measurements.empty() && film_ending(options.output).empty())
+        say("{}: {} frames and readings of {}\n",
+            options.output,
+            measurements.write(sensors),
+            measurements.names());
+    if (!cameras.sensors().empty())
+        render_pictures(options, trace, ticks, cameras, sensors());
     return exit_good;
 }
 

@@ -12,6 +12,9 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
+#include "render/ranging/lidar.h"
+#include "render/ranging/obstacle.h"
+#include "render/ranging/radar.h"
 #include "render/scene/scene.h"
 #include "render/shade/frame.h"
 #include "render/trace/default_float_mode.h"
@@ -32,7 +35,22 @@ class Observer {
                                             const world::SensorRig& rig,
                                             const world::Weather& weather);
 
+    std::vector<ProbeEcho> probe(const world::TickView& tick,
+                                 std::span<const Probe> probes,
+                                 double range,
+                                 std::uint32_t carrier);
+
   private:
+    /// Of cameras.
+    std::vector<world::SensorFrame> look(const world::TickView& tick,
+                                         const world::SensorRig& rig,
+                                         const world::Weather& weather);
+
+    /// Of what measures by rays. Places the scene as it needs it.
+    world::SensorFrame measure(const world::TickView& tick,
+                               const world::SensorSpec& spec,
+                               const world::Weather& weather);
+
     const Sky& sky_of(const world::Weather& weather) {
         if (!sky_ || !(sky_->weather() == weather))
             sky_.emplace(weather);
@@ -163,6 +181,18 @@ std::vector<world::SensorFrame> Sensors::observe(const world::TickView& tick,
     return frames;
 }
 
+std::vector<ProbeEcho> Sensors::probe(const world::TickView& tick,
+                                      std::span<const Probe> probes,
+                                      double range,
+                                      std::uint32_t carrier) {
+    std::vector<ProbeEcho> answers;
+    studio_->arena.execute([&] {
+        studio_->with_observer(
+            [&](Observer& observer) { answers = observer.probe(tick, probes, range, carrier); });
+    });
+    return answers;
+}
+
 void Sensors::observe_each(const std::function<std::unique_ptr<Observation>()>& next) {
     using tbb::filter_mode;
     // A few more than there are threads, so that nobody waits for who is late. Not more: what is
@@ -199,6 +229,46 @@ std::vector<world::SensorFrame> Observer::observe(const world::TickView& tick,
                                                   const world::SensorRig& rig,
                                                   const world::Weather& weather) {
     const DefaultFloatMode plain;
+    world::SensorRig cameras;
+    for (const world::SensorSpec& spec : rig)
+        if (!world::is_ranging(spec.kind))
+            cameras.push_back(spec);
+    std::vector<world::SensorFrame> seen;
+    if (!cameras.empty())
+        seen = look(tick, cameras, weather);
+    std::vector<world::SensorFrame> frames;
+    auto picture = seen.begin();
+    for (const world::SensorSpec& spec : rig)
+        frames.push_back(world::is_ranging(spec.kind) ? measure(tick, spec, weather)
+                                                      : std::move(*picture++));
+    return frames;
+}
+
+world::SensorFrame Observer::measure(const world::TickView& tick,
+                                     const world::SensorSpec& spec,
+                                     const world::Weather& weather) {
+    switch (spec.kind) {
+        case world::SensorKind::radar:
+            return radar_frame(scene_, tick, spec, weather);
+        case world::SensorKind::obstacle:
+            return obstacle_frame(scene_, tick, spec);
+        default:
+            return lidar_frame(scene_, tick, spec, weather);
+    }
+}
+
+std::vector<ProbeEcho> Observer::probe(const world::TickView& tick,
+                                       std::span<const Probe> probes,
+                                       double range,
+                                       std::uint32_t carrier) {
+    const DefaultFloatMode plain;
+    scene_.place(tick, std::span(&carrier, carrier != 0 ? 1U : 0U));
+    return probe_scene(scene_, tick, probes, range, scene_.mask_hiding(carrier));
+}
+
+std::vector<world::SensorFrame> Observer::look(const world::TickView& tick,
+                                               const world::SensorRig& rig,
+                                               const world::Weather& weather) {
     Scene& placed = scene_;
     // From where cameras look, and who carries them out of their sight.
     std::vector<std::uint32_t> mounts;

@@ -2,8 +2,10 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "render/ranging/probe.h"
 #include "world/external/sensor.h"
 #include "world/tick.h"
 #include "world/town.h"
@@ -52,11 +54,20 @@ class Sensors {
     Sensors(const Sensors&) = delete;
     Sensors& operator=(const Sensors&) = delete;
 
-    /// One frame for each sensor of the rig, in its order. Cameras of one place share their primary
-    /// rays. Throws world::Error when a sensor sits on an actor that is not in the tick.
+    /// One frame for each sensor of the rig, in its order: cameras, and what measures by rays (see
+    /// world::is_ranging). Cameras of one place share their primary rays. Throws world::Error when
+    /// a sensor sits on an actor that is not in the tick.
     std::vector<world::SensorFrame> observe(const world::TickView& tick,
                                             const world::SensorRig& rig,
                                             const world::Weather& weather);
+
+    /// What is there along straight lines at a tick, for sensors of one's own: one answer a probe,
+    /// of what is nearer than `range` [m]. `carrier` is not seen; 0: nobody is hidden. 100,000
+    /// probes: 20 ms of a core, where neighbours run alike. See examples/own_sensor.cpp.
+    std::vector<ProbeEcho> probe(const world::TickView& tick,
+                                 std::span<const Probe> probes,
+                                 double range,
+                                 std::uint32_t carrier = 0);
 
     /// Many looks, several at a time, so that cores share no picture and do not wait for each
     /// other: frames are those that observe() makes. `next` is called by one thread at a time, and

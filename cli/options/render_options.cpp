@@ -10,6 +10,8 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/options/option_checks.h"
+#include "world/external/sensor_attributes.h"
+#include "world/words.h"
 
 namespace reprise::cli {
 
@@ -55,6 +57,43 @@ void read_mount(const std::string& text, RenderOptions& render) {
     const int found = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &at[0], &at[1], &at[2], &used);
     if (found != 3 || used != static_cast<int>(text.size()))
         throw CLI::ValidationError("--mount", "expected X,Y,Z such as 1,0,1.4, got '" + text + "'");
+}
+
+/// Of kinds, what is not said otherwise.
+std::string joined_but_first(const std::vector<std::string>& kinds) {
+    return joined({kinds.begin() + 1, kinds.end()});
+}
+
+void read_attributes(const std::vector<std::string>& words, RenderOptions& render) {
+    for (const std::string& word : words) {
+        const std::size_t split = word.find('=');
+        world::AttributeValue one{word.substr(0, split), 0};
+        const char* end = word.data() + word.size();
+        const char* from = split == std::string::npos ? end : word.data() + split + 1;
+        const auto [stop, error] = std::from_chars(from, end, one.value);
+        if (from == end || error != std::errc() || stop != end)
+            throw CLI::ValidationError(
+                "--attribute", "expected NAME=NUMBER such as channels=64, got '" + word + "'");
+        std::vector<std::string> known;
+        for (const std::string& kind : render.measured)
+            for (std::string& name : world::attribute_names(*world::find_sensor_kind(kind)))
+                known.push_back(std::move(name));
+        if (std::find(known.begin(), known.end(), one.name) == known.end())
+            throw CLI::ValidationError("--attribute",
+                                       "none of these sensors has an attribute '" + one.name + "'" +
+                                           world::did_you_mean(one.name, known));
+        render.attributes.push_back(std::move(one));
+    }
+}
+
+/// What is no camera goes its own way.
+void part_kinds(RenderOptions& render) {
+    std::vector<std::string> cameras;
+    for (const std::string& kind : render.cameras) {
+        const bool camera = world::is_camera(*world::find_sensor_kind(kind));
+        (camera ? cameras : render.measured).push_back(kind);
+    }
+    render.cameras = std::move(cameras);
 }
 
 /// Whom to look at, from where, and what is written on it.
@@ -157,13 +196,33 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
         ->type_name("PRESET,KEY=VALUE,...")
         ->check(a_weather());
     command
-        .add_option("--camera",
+        .add_option("--camera,--sensor",
                     render.cameras,
-                    "rgb (default), depth, semantic; several by commas, each into its own folder")
+                    "rgb (default), " + joined_but_first(world::sensor_kinds()) +
+                        "; several by commas, each into its own folder")
         ->type_name("KIND")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->delimiter(',')
-        ->check(one_of({"rgb", "depth", "semantic"}, "camera"));
+        ->check(one_of(world::sensor_kinds(), "sensor"));
+    command
+        .add_option("--attribute",
+                    words.attributes,
+                    "Of sensors that are no cameras, as channels=64; several by commas")
+        ->type_name("NAME=VALUE")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->delimiter(',');
+    command
+        .add_option("--points",
+                    render.points,
+                    "How lidar, semantic_lidar and radar are written (default ply)")
+        ->type_name("ply|pcd|bin|npy")
+        ->check(one_of({"ply", "pcd", "bin", "npy"}, "format"));
+    command
+        .add_option("--readings",
+                    render.readings,
+                    "And gnss, imu, collision, lane_invasion, obstacle (default csv)")
+        ->type_name("csv|npy")
+        ->check(one_of({"csv", "npy"}, "format"));
     add_views(command, render, words);
     command.add_option("--size", words.size, "Of the pictures (default 800x600)")->type_name("WxH");
     command
@@ -229,7 +288,13 @@ void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions&
          {"--camera", "--size", "--fov", "--mount", "--pitch", "--yaw", "--preset"})
         if (command.count(option) > 0)
             render.recorded_rig = false;
-    if (render.cameras.empty())
+    part_kinds(render);
+    if (!render.measured.empty() && !film_ending(render.output).empty())
+        throw CLI::ValidationError(
+            "--sensor",
+            "a film shows a camera, no " + render.measured.front() + ": give -o a folder");
+    read_attributes(words.attributes, render);
+    if (render.cameras.empty() && render.measured.empty())
         render.cameras = {"rgb"};
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "world/external/sensor.h"
+
 namespace CLI {
 class App;
 }
@@ -13,10 +15,14 @@ namespace reprise::cli {
 
 struct RenderOptions {
     std::string trace;
-    std::string output;                ///< a folder, or a film by its ending
-    std::string weather;               ///< empty: as recorded
-    std::vector<std::string> cameras;  ///< rgb, depth, semantic
-    bool recorded_rig = true;          ///< where there is one: no option says other cameras
+    std::string output;                             ///< a folder, or a film by its ending
+    std::string weather;                            ///< empty: as recorded
+    std::vector<std::string> cameras;               ///< rgb, depth, semantic
+    std::vector<std::string> measured;              ///< kinds that are no cameras
+    std::vector<world::AttributeValue> attributes;  ///< of these
+    std::string points = "ply";                     ///< how points are written
+    std::string readings = "csv";                   ///< and tables
+    bool recorded_rig = true;  ///< where there is one: no option says other cameras
     int width = 800;
     int height = 600;
     std::optional<double> fov_deg;
@@ -42,6 +48,7 @@ struct RenderWords {
     std::string size = "800x600";
     std::string mount;
     std::string threads;
+    std::vector<std::string> attributes;
     std::string up = "north";
 };
 

@@ -44,6 +44,19 @@ world::SensorRig make_rig(const RenderOptions& options) {
     return rig;
 }
 
+/// The others are measured, see measurements.h.
+world::Rig only_cameras(const world::Rig& rig) {
+    world::Rig cameras;
+    cameras.since = rig.since;
+    for (std::size_t i = 0; i < rig.sensors.size(); ++i) {
+        if (!world::is_camera(rig.sensors[i].kind))
+            continue;
+        cameras.sensors.push_back(rig.sensors[i]);
+        cameras.every.push_back(rig.every[i]);
+    }
+    return cameras;
+}
+
 /// Of an imported trace, which has cars only: the one that it was recorded for.
 std::optional<std::uint32_t> hero_of(const world::EpisodeT& episode) {
     for (const world::ParameterT& parameter : episode.parameters) {
@@ -90,6 +103,8 @@ Cameras::Cameras(const RenderOptions& options, replay::TraceReader& trace, const
         named_ = replay::find_actor(trace, options.actor);
     if (options.recorded_rig)
         recorded_ = recorded_rig(trace, named_.value_or(0), ticks.to);
+    if (recorded_)
+        recorded_ = only_cameras(*recorded_);
     sensors_ = recorded_ ? recorded_->sensors : make_rig(options);
     if (!options.preset.empty())
         follow(trace, ticks);

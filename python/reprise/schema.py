@@ -1,6 +1,6 @@
 """Made by make_schema.py from world/*.fbs, remote/wire.fbs and world/models/vehicle_models.cpp: change those."""
 
-DIGEST = "c06f82a2e26ac85a"
+DIGEST = "6d58ec3a0f0c5235"
 
 # name: (type, values)
 ENUMS = {'remote.Kind': ('uint',
@@ -65,7 +65,21 @@ ENUMS = {'remote.Kind': ('uint',
  'world.Driver': ('ubyte',
                   {'autopilot': 0, 'manual': 1, 'traffic': 2, 'parked': 3, 'walker': 4, 'external': 5, 'prop': 6}),
  'world.SensorKind': ('ubyte',
-                      {'rgb': 0, 'depth': 1, 'semantic': 2, 'instance': 3, 'flow': 4, 'normals': 5, 'dvs': 6}),
+                      {'rgb': 0,
+                       'depth': 1,
+                       'semantic': 2,
+                       'instance': 3,
+                       'flow': 4,
+                       'normals': 5,
+                       'dvs': 6,
+                       'lidar': 10,
+                       'semantic_lidar': 11,
+                       'radar': 12,
+                       'gnss': 13,
+                       'imu': 14,
+                       'collision': 15,
+                       'lane_invasion': 16,
+                       'obstacle': 17}),
  'world.LaneKind': ('ubyte',
                     {'driving': 0, 'internal': 1, 'sidewalk': 2, 'crossing': 3, 'walking_area': 4, 'other': 5}),
  'world.Turn': ('ubyte',

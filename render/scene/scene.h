@@ -24,7 +24,9 @@ class Scene {
     /// Nothing is kept from the last tick: the same tick gives the same tree. 0.5 ms for 100 cars.
     /// Umbrellas are open when it rains in the tick: what there is to see does not depend on the
     /// weather that pictures are made under.
-    void place(const world::TickView& tick, std::span<const std::uint32_t> mounts);
+    /// `ago`: where they were so many seconds before, as far as the tick tells, see Twist::back;
+    /// limbs, wheels and lamps are as at the tick.
+    void place(const world::TickView& tick, std::span<const std::uint32_t> mounts, double ago = 0);
 
     /// For rays of a camera that sits inside this actor.
     std::uint32_t mask_hiding(std::uint32_t actor) const;
@@ -89,6 +91,7 @@ class Scene {
     }
 
     void hide_mounts();
+    void move_back(const world::TickView& tick, double ago);
     void commit();
 
     const TownScene& town_;

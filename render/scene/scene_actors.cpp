@@ -3,6 +3,7 @@
 #include <string>
 
 #include "render/scene/scene.h"
+#include "render/scene/twist.h"
 #include "render/shapes/cars/two_wheeler.h"
 #include "render/shapes/noise.h"
 #include "render/shapes/paint.h"
@@ -110,7 +111,25 @@ void Scene::place_doors(const world::TickView& tick) {
     }
 }
 
-void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mounts) {
+void Scene::move_back(const world::TickView& tick, double ago) {
+    const Eigen::Translation3d to_world(town_.origin());
+    std::uint32_t last = 0;
+    Eigen::Affine3d moved;
+    for (Instance& instance : moving_) {
+        if (instance.actor == 0)
+            continue;
+        if (instance.actor != last) {
+            last = instance.actor;
+            const auto twist = find_twist(tick, last);
+            moved = twist ? to_world.inverse() * Eigen::Affine3d(twist->back(ago)) * to_world
+                          : Eigen::Affine3d::Identity();
+        }
+        instance.pose = moved * instance.pose;
+        instance.normal_to_scene = moved.linear().cast<float>() * instance.normal_to_scene;
+    }
+}
+
+void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mounts, double ago) {
     mounts_.assign(mounts.begin(), mounts.end());
     signals_.assign(tick.signals().begin(), tick.signals().end());
     moving_.clear();
@@ -123,6 +142,8 @@ void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mo
     const bool rains = weather != nullptr && weather->rain() > 0;
     for (const world::WalkerState& walker : tick.walkers())
         place_walker(walker, rains);
+    if (ago > 0)
+        move_back(tick, ago);
     hide_mounts();
     commit();
 }

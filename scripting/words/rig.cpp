@@ -47,8 +47,9 @@ std::int64_t whole_within(const Fields& fields,
 constexpr Key sensor_key_rows[] = {
     {"name", "string", "letters, digits, _ and -; unique on the vehicle", true},
     {"kind",
-     "'rgb'|'depth'|'semantic'|'instance'|'flow'|'normals'|'dvs'",
-     "default 'rgb'; docs/rendering.md says what each is"},
+     "'rgb'|'depth'|'semantic'|'instance'|'flow'|'normals'|'dvs'|'lidar'|'semantic_lidar'|'radar'|"
+     "'gnss'|'imu'|'collision'|'lane_invasion'|'obstacle'",
+     "default 'rgb'; docs/rendering.md and docs/sensors.md say what each is"},
     {"width", "integer", "[px] 1 to 4096, default 800"},
     {"height", "integer", "[px] 1 to 4096, default 600"},
     {"fov_deg", "number", "[deg] 1 to 170 across, default 90"},
@@ -96,13 +97,13 @@ std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number) {
     sensor->name = *name;
     const world::SensorSpec usual;
     const std::string kind = fields.text("kind").value_or(world::EnumNameSensorKind(usual.kind));
-    const auto known = world::find_camera_kind(kind);
+    const auto known = world::find_sensor_kind(kind);
     if (!known)
         refuse(fields.who(),
                fmt::format("no kind '{}'{}; there are {}",
                            kind,
-                           world::did_you_mean(kind, world::camera_kinds()),
-                           fmt::join(world::camera_kinds(), ", ")));
+                           world::did_you_mean(kind, world::sensor_kinds()),
+                           fmt::join(world::sensor_kinds(), ", ")));
     sensor->kind = *known;
     const auto side = [&](const char* key, int pixels) {
         return static_cast<std::uint16_t>(
@@ -152,6 +153,8 @@ std::size_t count_sensors(lua_State* L) {
 }
 
 std::size_t bytes_of(const world::SensorT& sensor) {
+    if (!world::is_camera(sensor.kind))
+        return 0;
     world::SensorSpec spec;
     spec.kind = sensor.kind;
     spec.width = sensor.width;
@@ -184,6 +187,14 @@ std::vector<std::unique_ptr<world::SensorT>> read_rig(lua_State* L,
         rig.push_back(read_sensor(L, i));
         lua_pop(L, 1);
         bytes += bytes_of(*rig.back());
+        // What drivers are shown is pictures: the rest is made from the trace, see docs/sensors.md.
+        if (actor.driver == world::Driver::external && !world::is_camera(rig.back()->kind))
+            refuse("spawn",
+                   fmt::format("sensor '{}' of 'rig': a driver in another program is shown cameras "
+                               "only; make its {} from the trace with 'reprise render --sensor {}'",
+                               rig.back()->name,
+                               world::EnumNameSensorKind(rig.back()->kind),
+                               world::EnumNameSensorKind(rig.back()->kind)));
         for (std::size_t other = 0; other + 1 < i; ++other)
             if (rig[other]->name == rig.back()->name)
                 refuse("spawn",

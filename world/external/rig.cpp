@@ -20,7 +20,8 @@ bool is_possible(const SensorSpec& sensor, std::uint32_t every) {
     };
     constexpr double turn = 2 * std::numbers::pi + 1e-9;
     const double degree = std::numbers::pi / 180;
-    return is_sensor_name(sensor.name) && is_camera(sensor.kind) &&
+    return is_sensor_name(sensor.name) &&
+           (is_camera(sensor.kind) || is_ranging(sensor.kind) || is_reading(sensor.kind)) &&
            within(sensor.width, 1, largest_picture_side) &&
            within(sensor.height, 1, largest_picture_side) &&
            within(
@@ -72,6 +73,7 @@ Rig rig_of(const CommandT& spawn, std::uint64_t tick) {
             throw Error(fmt::format("actor {} carries a sensor {} that is not possible",
                                     spawn.actor,
                                     rig.sensors.size() + 1));
+        sensor.every = said->every;
         rig.sensors.push_back(sensor);
         rig.every.push_back(said->every);
     }

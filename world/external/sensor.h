@@ -34,6 +34,8 @@ struct SensorSpec {
     double pitch = 0;                         ///< [rad] up positive
     double roll = 0;                          ///< [rad] right side down positive
     std::vector<AttributeValue> attributes;   ///< what is not said is as usual
+    double step = 0.05;                       ///< [s] of a tick
+    std::uint32_t every = 1;                  ///< [ticks] from frame to frame, which LiDARs sweep
 };
 
 using SensorRig = std::vector<SensorSpec>;
@@ -67,6 +69,21 @@ struct SensorFrame {
 inline constexpr bool is_camera(SensorKind kind) {
     return kind <= SensorKind::dvs;
 }
+
+/// What measures by rays: frames are rows of numbers, see world/external/point_fields.h.
+inline constexpr bool is_ranging(SensorKind kind) {
+    return kind == SensorKind::lidar || kind == SensorKind::semantic_lidar ||
+           kind == SensorKind::radar || kind == SensorKind::obstacle;
+}
+
+/// What follows from a tick and the one before it without any ray: see render/readings.
+inline constexpr bool is_reading(SensorKind kind) {
+    return kind >= SensorKind::gnss && kind <= SensorKind::lane_invasion;
+}
+
+/// All kinds by the names that users say, then those of cameras alone.
+std::vector<std::string> sensor_kinds();
+std::optional<SensorKind> find_sensor_kind(std::string_view name);
 
 /// Kinds by the names that users say.
 std::vector<std::string> camera_kinds();

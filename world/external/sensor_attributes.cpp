@@ -8,8 +8,97 @@ namespace reprise::world {
 
 namespace {
 
+constexpr bool is_lidar(SensorKind kind) {
+    return kind == SensorKind::lidar;
+}
+
+constexpr bool is_sweeping(SensorKind kind) {
+    return kind == SensorKind::lidar || kind == SensorKind::semantic_lidar;
+}
+
+constexpr bool is_radar(SensorKind kind) {
+    return kind == SensorKind::radar;
+}
+
+constexpr bool is_gnss(SensorKind kind) {
+    return kind == SensorKind::gnss;
+}
+
+constexpr bool is_imu(SensorKind kind) {
+    return kind == SensorKind::imu;
+}
+
+constexpr bool is_obstacle(SensorKind kind) {
+    return kind == SensorKind::obstacle;
+}
+
+constexpr bool sees_weather(SensorKind kind) {
+    return is_lidar(kind) || is_radar(kind);
+}
+
+constexpr bool is_noisy(SensorKind kind) {
+    return is_sweeping(kind) || is_radar(kind) || is_gnss(kind) || is_imu(kind);
+}
+
+constexpr double most = 1e9;
+
+// Names, defaults and units of CARLA 0.9.15 where it has them; docs/sensors.md tells which.
 constexpr AttributeRow rows[] = {
+    {"altitude", is_gnss, 0, -1e4, 1e4, "[m] of z = 0 above the ellipsoid"},
+    {"angle_cell", is_radar, 1, 0.05, 30, "[deg] nearer than this is one detection"},
+    {"atmosphere_attenuation_rate", is_lidar, 0.004, 0, 1, "[1/m] intensity falls by e^(-a d)"},
+    {"beam_divergence", is_lidar, 0.003, 0, 0.05, "[rad] of the whole beam"},
+    {"channels", is_sweeping, 32, 1, 512, "lasers, one above the other"},
+    {"distance", is_obstacle, 5, 0.1, 1000, "[m] how far it reaches ahead"},
+    {"dropoff_general_rate", is_lidar, 0.45, 0, 1, "share of points that get lost anyhow"},
+    {"dropoff_intensity_limit", is_lidar, 0.8, 0, 1, "brighter points do not get lost"},
+    {"dropoff_zero_intensity", is_lidar, 0.4, 0, 1, "share of the darkest points that get lost"},
+    {"hit_radius", is_obstacle, 0.5, 0, 10, "[m] of the tube that it looks along"},
+    {"horizontal_fov", is_radar, 30, 1, 180, "[deg]"},
+    {"horizontal_fov", is_sweeping, 360, 1, 360, "[deg] swept in a turn"},
+    {"latitude", is_gnss, 42, -85, 85, "[deg] of the origin of a town that lies nowhere"},
+    {"longitude", is_gnss, 2, -180, 180, "[deg] likewise"},
+    {"lower_fov", is_sweeping, -30, -90, 90, "[deg] of the lowest laser"},
+    {"noise_accel_stddev_x", is_imu, 0, 0, 100, "[m/s^2]"},
+    {"noise_accel_stddev_y", is_imu, 0, 0, 100, "[m/s^2]"},
+    {"noise_accel_stddev_z", is_imu, 0, 0, 100, "[m/s^2]"},
+    {"noise_alt_bias", is_gnss, 0, -1e4, 1e4, "[m]"},
+    {"noise_alt_stddev", is_gnss, 0, 0, 1e4, "[m]"},
+    {"noise_gyro_bias_x", is_imu, 0, -10, 10, "[rad/s]"},
+    {"noise_gyro_bias_y", is_imu, 0, -10, 10, "[rad/s]"},
+    {"noise_gyro_bias_z", is_imu, 0, -10, 10, "[rad/s]"},
+    {"noise_gyro_stddev_x", is_imu, 0, 0, 10, "[rad/s]"},
+    {"noise_gyro_stddev_y", is_imu, 0, 0, 10, "[rad/s]"},
+    {"noise_gyro_stddev_z", is_imu, 0, 0, 10, "[rad/s]"},
+    {"noise_lat_bias", is_gnss, 0, -10, 10, "[deg]"},
+    {"noise_lat_stddev", is_gnss, 0, 0, 10, "[deg]"},
+    {"noise_lon_bias", is_gnss, 0, -10, 10, "[deg]"},
+    {"noise_lon_stddev", is_gnss, 0, 0, 10, "[deg]"},
+    {"noise_seed", is_noisy, 0, 0, most, "another one is another noise"},
+    {"noise_stddev", is_lidar, 0, 0, 10, "[m] along the ray, beside range_accuracy"},
+    {"only_dynamics", is_obstacle, 0, 0, 1, "1: actors only"},
     {"own_car", is_camera, 0, 0, 1, "1: who carries the camera is in its pictures"},
+    {"points_per_second", is_radar, 1500, 1, 1e7, "at most so many detections"},
+    {"points_per_second", is_sweeping, 56000, 1, 1e8, "shots of all channels together"},
+    {"range", is_radar, 100, 1, 1000, "[m]"},
+    {"range", is_sweeping, 10, 0.1, 1000, "[m]"},
+    {"range_accuracy", is_lidar, 0.09, 0, 10, "[m] at the limit of what is noticed; 0: exact"},
+    {"range_cell", is_radar, 0.3, 0.01, 10, "[m] nearer than this is one detection"},
+    {"ray_spacing", is_radar, 0.25, 0.02, 5, "[deg] between the rays that it is made of"},
+    {"reflectivity", is_lidar, 1, 0, 1, "0: all surfaces are white, as CARLA's"},
+    {"returns",
+     is_lidar,
+     1,
+     1,
+     3,
+     "of a shot at most, the strongest first; 2, 3: five rays a beam"},
+    {"rolling", is_sweeping, 1, 0, 1, "0: all points are of the tick's own instant"},
+    {"rotation_frequency", is_sweeping, 10, 0.1, 1000, "[Hz]"},
+    {"sensitivity_range", is_lidar, 200, 1, 10000, "[m] to see 90 % reflectivity; see docs"},
+    {"speed_cell", is_radar, 0.1, 0.01, 10, "[m/s] likewise"},
+    {"upper_fov", is_sweeping, 10, -90, 90, "[deg] of the uppermost laser"},
+    {"vertical_fov", is_radar, 30, 1, 180, "[deg]"},
+    {"weather", sees_weather, 1, 0, 1, "0: as in clear air on dry ground"},
 };
 
 }  // namespace

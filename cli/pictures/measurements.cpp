@@ -1,0 +1,381 @@
+// What it must do: write what a vehicle's sensors measured that are no cameras.
+// How it goes: sensors without rays read tick after tick; the others look at several ticks at once,
+//   as cameras do, and write a file for each.
+#include "cli/pictures/measurements.h"
+
+#include <algorithm>
+#include <cstring>
+#include <list>
+#include <mutex>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "cli/pictures/reading_file.h"
+#include "cli/pictures/recorded_rig.h"
+#include "cli/process/new_folder.h"
+#include "exchange/geo_origin.h"
+#include "render/point_file.h"
+#include "render/readings/readings.h"
+#include "replay/table/actor_search.h"
+#include "world/check.h"
+#include "world/external/sensor_attributes.h"
+#include "world/models/actors.h"
+#include "world/weather/weather.h"
+
+namespace reprise::cli {
+
+namespace {
+
+using world::SensorKind;
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// As options say: each kind once, all in one place.
+world::SensorRig named_rig(const RenderOptions& options) {
+    world::SensorRig rig;
+    for (const std::string& kind : options.measured) {
+        world::SensorSpec sensor;
+        sensor.name = kind;
+        sensor.kind = *world::find_sensor_kind(kind);
+        sensor.position = {options.mount[0], options.mount[1], options.mount[2]};
+        sensor.pitch = options.pitch_deg * degree;
+        sensor.yaw = options.yaw_deg * degree;
+        for (const world::AttributeValue& one : options.attributes)
+            if (world::find_attribute(sensor.kind, one.name) != nullptr)
+                sensor.attributes.push_back(one);
+        if (!world::are_possible(sensor.kind, sensor.attributes))
+            for (const world::AttributeValue& one : sensor.attributes) {
+                const world::AttributeRow& row = *world::find_attribute(sensor.kind, one.name);
+                throw world::Error(fmt::format(
+                    "--attribute: {} of a {} must be in [{:g}, {:g}] and said once, got {:g}",
+                    one.name,
+                    kind,
+                    row.low,
+                    row.high,
+                    one.value));
+            }
+        rig.push_back(std::move(sensor));
+    }
+    return rig;
+}
+
+render::PointFormat format_of(const std::string& name) {
+    return name == "pcd"   ? render::PointFormat::pcd
+           : name == "bin" ? render::PointFormat::bin
+           : name == "npy" ? render::PointFormat::npy
+                           : render::PointFormat::ply;
+}
+
+/// The row of an obstacle's frame, as a reading.
+world::Reading reading_of(const world::SensorFrame& frame) {
+    std::uint32_t other = 0;
+    float distance = 0;
+    std::memcpy(&other, frame.data.data(), sizeof(other));
+    std::memcpy(&distance, frame.data.data() + sizeof(other), sizeof(distance));
+    return {static_cast<double>(other), static_cast<double>(distance)};
+}
+
+/// Where all of it goes.
+class Files {
+  public:
+    Files(const RenderOptions& options, const world::SensorRig& rig, double step)
+        : options_(options),
+          root_(options.output) {
+        for (const world::SensorSpec& sensor : rig) {
+            tables_.emplace_back(sensor.kind, step);
+            const bool alone = rig.size() == 1 && options.measured.size() == 1;
+            folders_.push_back(alone || has_table(sensor.kind) ? root_ : root_ / sensor.name);
+            names_.push_back(sensor.name);
+            kinds_.push_back(sensor.kind);
+            made_.emplace_front(folders_.back());
+        }
+    }
+
+    /// One table for all ticks; others have a file for each.
+    static bool has_table(SensorKind kind) {
+        return world::is_reading(kind) || kind == SensorKind::obstacle;
+    }
+
+    /// From any thread.
+    void take(std::size_t sensor, const world::SensorFrame& frame) {
+        if (!has_table(frame.kind)) {
+            render::write_points(
+                frame,
+                folders_[sensor] / fmt::format("{:06}.{}", frame.tick, options_.points),
+                format_of(options_.points));
+        } else if (frame.height > 0) {
+            read(sensor, frame.tick, reading_of(frame));
+        }
+        const std::lock_guard hold(lock_);
+        ++frames_;
+    }
+
+    void read(std::size_t sensor, std::uint64_t tick, world::Reading reading) {
+        const std::lock_guard hold(lock_);
+        tables_[sensor].add(tick, std::move(reading));
+    }
+
+    /// How many there are.
+    std::size_t finish() {
+        for (std::size_t i = 0; i < tables_.size(); ++i)
+            if (has_table(kinds_[i])) {
+                tables_[i].write(root_ / (names_[i] + "." + options_.readings));
+                if (world::is_reading(kinds_[i]))
+                    frames_ += tables_[i].count();
+            }
+        return frames_;
+    }
+
+  private:
+    const RenderOptions& options_;
+    std::filesystem::path root_;
+    std::vector<ReadingFile> tables_;
+    std::vector<std::filesystem::path> folders_;
+    std::vector<std::string> names_;
+    std::vector<SensorKind> kinds_;
+    std::list<NewFolder> made_;
+    std::mutex lock_;
+    std::size_t frames_ = 0;
+};
+
+/// Keeps its tick: the trace is read on meanwhile.
+class Look : public render::Observation {
+  public:
+    Look(const replay::RecordedTick& tick, Files& files)
+        : tick_bytes_(tick.tick_bytes.begin(), tick.tick_bytes.end()),
+          traffic_bytes_(tick.traffic_bytes.begin(), tick.traffic_bytes.end()),
+          files_(files) {}
+
+    world::TickView tick() const override {
+        return {world::GetTick(tick_bytes_.data()), world::GetTraffic(traffic_bytes_.data())};
+    }
+
+    const world::SensorRig& rig() const override { return rig_; }
+
+    const world::Weather& weather() const override { return weather_; }
+
+    void add(std::size_t number, const world::SensorSpec& sensor) {
+        numbers_.push_back(number);
+        rig_.push_back(sensor);
+    }
+
+    void set(const world::Weather& weather) { weather_ = weather; }
+
+    void seen(std::vector<world::SensorFrame> frames) override {
+        for (std::size_t i = 0; i < frames.size(); ++i)
+            files_.take(numbers_[i], frames[i]);
+    }
+
+  private:
+    std::vector<std::uint8_t> tick_bytes_;
+    std::vector<std::uint8_t> traffic_bytes_;
+    Files& files_;
+    std::vector<std::size_t> numbers_;
+    world::SensorRig rig_;
+    world::Weather weather_;
+};
+
+/// Of sensors without rays: they look at each tick, as what happens does not wait for them.
+class Reader {
+  public:
+    Reader(replay::TraceReader& trace, Files& files)
+        : trace_(trace),
+          files_(files),
+          lanes_(trace.recording().town),
+          origin_(exchange::GeoOrigin::of(trace.recording().network)) {}
+
+    void read(std::size_t number, const world::SensorSpec& spec, std::uint64_t index, bool due) {
+        advance(index);
+        const world::TickView now = tick_.view();
+        const world::TickView before = last_.view();
+        const bool has_last = !last_.tick.empty();
+        switch (spec.kind) {
+            case SensorKind::gnss:
+                if (due)
+                    files_.read(number, index, gnss(now, spec));
+                break;
+            case SensorKind::imu:
+                if (due)
+                    files_.read(number,
+                                index,
+                                render::imu_reading(has_last ? &before : nullptr, now, spec));
+                break;
+            case SensorKind::collision:
+                for (world::Reading& reading : render::collision_readings(now, spec))
+                    files_.read(number, index, std::move(reading));
+                break;
+            default:
+                if (has_last)
+                    for (world::Reading& reading : render::lane_invasion_readings(
+                             before, now, spec, trace_.recording().town, lanes_))
+                        files_.read(number, index, std::move(reading));
+        }
+    }
+
+  private:
+    struct Kept {
+        std::vector<std::uint8_t> tick;
+        std::vector<std::uint8_t> traffic;
+
+        std::uint64_t index() const { return tick.empty() ? 0 : view().index(); }
+
+        world::TickView view() const {
+            if (tick.empty())
+                return {};
+            return {world::GetTick(tick.data()), world::GetTraffic(traffic.data())};
+        }
+    };
+
+    void advance(std::uint64_t index) {
+        if (tick_.index() == index)
+            return;
+        if (!tick_.tick.empty() && tick_.index() + 1 == index)
+            std::swap(last_, tick_);
+        else if (index > trace_.first())
+            fill(last_, index - 1);
+        fill(tick_, index);
+    }
+
+    void fill(Kept& kept, std::uint64_t index) {
+        const replay::RecordedTick read = trace_.tick(index);
+        kept.tick.assign(read.tick_bytes.begin(), read.tick_bytes.end());
+        kept.traffic.assign(read.traffic_bytes.begin(), read.traffic_bytes.end());
+    }
+
+    world::Reading gnss(const world::TickView& tick, const world::SensorSpec& spec) const {
+        const Eigen::Vector3d place = render::antenna_place(tick, spec);
+        render::GlobePlace on_globe;
+        if (origin_) {
+            const exchange::Geodetic there =
+                origin_->at(world::Vec3(place.x(), place.y(), place.z()));
+            on_globe = {there.latitude_deg, there.longitude_deg};
+        } else {
+            on_globe = render::place_on_globe(
+                {world::attribute(spec, "latitude"), world::attribute(spec, "longitude")},
+                place.x(),
+                place.y());
+        }
+        return render::gnss_reading(tick.index(), spec, on_globe, place.z());
+    }
+
+    replay::TraceReader& trace_;
+    Files& files_;
+    world::LaneMap lanes_;
+    std::optional<exchange::GeoOrigin> origin_;
+    Kept tick_;
+    Kept last_;
+};
+
+/// Without cameras, which are rendered.
+world::Rig without_cameras(const world::Rig& rig) {
+    world::Rig rest;
+    rest.since = rig.since;
+    for (std::size_t i = 0; i < rig.sensors.size(); ++i) {
+        if (world::is_camera(rig.sensors[i].kind))
+            continue;
+        rest.sensors.push_back(rig.sensors[i]);
+        rest.every.push_back(rig.every[i]);
+    }
+    return rest;
+}
+
+}  // namespace
+
+Measurements::Measurements(const RenderOptions& options,
+                           replay::TraceReader& trace,
+                           const Ticks& ticks)
+    : options_(options),
+      trace_(trace),
+      ticks_(ticks) {
+    if (!options.actor.empty())
+        named_ = replay::find_actor(trace, options.actor);
+    if (options.recorded_rig) {
+        if (const auto recorded = recorded_rig(trace, named_.value_or(0), ticks.to))
+            rig_ = without_cameras(*recorded);
+    } else {
+        rig_.sensors = named_rig(options);
+        rig_.since = ticks.from;
+    }
+    const auto every = static_cast<std::uint32_t>(ticks.every);
+    if (!options.recorded_rig || !options.every.empty()) {
+        rig_.every.clear();
+        for (const world::SensorSpec& sensor : rig_.sensors)
+            // Pictures a second apart are usual, but tables have a row for each tick.
+            rig_.every.push_back(options.every.empty() && Files::has_table(sensor.kind) ? 1
+                                                                                        : every);
+        rig_.since = ticks.from;
+    }
+    for (std::size_t i = 0; i < rig_.sensors.size(); ++i) {
+        rig_.sensors[i].step = static_cast<double>(trace.episode().step_ns) * 1e-9;
+        rig_.sensors[i].every = rig_.every[i];
+    }
+}
+
+std::string Measurements::names() const {
+    std::vector<std::string> names;
+    for (const world::SensorSpec& sensor : rig_.sensors)
+        names.push_back(sensor.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Of a recorded rig who carried it, else who was named, or the first vehicle with mass.
+std::optional<std::uint32_t> Measurements::carrier(const world::TickView& tick) const {
+    std::uint32_t actor = named_.value_or(0);
+    if (options_.recorded_rig)
+        actor = rig_.sensors.front().actor;
+    else if (!named_ && !tick.vehicles().empty())
+        actor = tick.vehicles().front().id();
+    return actor != 0 && world::find_pose(tick, actor) ? std::optional(actor) : std::nullopt;
+}
+
+std::size_t Measurements::write(const std::function<render::Sensors&()>& sensors) {
+    Files files(options_, rig_.sensors, static_cast<double>(trace_.episode().step_ns) * 1e-9);
+    const bool has_rays =
+        std::any_of(rig_.sensors.begin(), rig_.sensors.end(), [](const world::SensorSpec& sensor) {
+            return world::is_ranging(sensor.kind);
+        });
+    Reader reader(trace_, files);
+    bool carried = false;
+    // Who carries them may be another one in the next tick.
+    const auto placed = [&](std::size_t i, std::uint32_t actor) {
+        world::SensorSpec sensor = rig_.sensors[i];
+        sensor.actor = actor;
+        return sensor;
+    };
+    for (std::uint64_t index = ticks_.from; index <= ticks_.to; ++index) {
+        const auto actor = carrier(trace_.tick(index).view);
+        if (!actor)
+            continue;
+        carried = true;
+        for (std::size_t i = 0; i < rig_.sensors.size(); ++i)
+            if (world::is_reading(rig_.sensors[i].kind))
+                reader.read(i, placed(i, *actor), index, rig_.is_due(i, index));
+    }
+    if (!carried)
+        throw world::Error("no vehicle to mount the sensors on in these ticks of " +
+                           options_.trace);
+    const world::WeatherPreset* weather = world::find_weather(options_.weather);
+    std::uint64_t index = ticks_.from;
+    if (has_rays)
+        sensors().observe_each([&]() -> std::unique_ptr<render::Observation> {
+            for (; index <= ticks_.to; ++index) {
+                auto look = std::make_unique<Look>(trace_.tick(index), files);
+                const auto actor = carrier(look->tick());
+                if (!actor)
+                    continue;
+                for (std::size_t i = 0; i < rig_.sensors.size(); ++i)
+                    if (world::is_ranging(rig_.sensors[i].kind) && rig_.is_due(i, index))
+                        look->add(i, placed(i, *actor));
+                if (look->rig().empty())
+                    continue;
+                look->set(weather != nullptr ? weather->weather : *look->tick().tick->weather());
+                ++index;
+                return look;
+            }
+            return nullptr;
+        });
+    return files.finish();
+}
+
+}  // namespace reprise::cli
