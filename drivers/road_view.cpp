@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace reprise::drivers {
 
@@ -114,29 +116,40 @@ double distance_along_lanes(const LaneGraph& graph,
                             std::uint32_t goal,
                             double goal_s,
                             double most) {
-    if (lane >= graph.town().lanes.size() || most < 0)
+    const std::vector<world::LaneT>& lanes = graph.town().lanes;
+    if (lane >= lanes.size() || most < 0)
         return world::infinity;
     if (lane == goal)
         return s <= goal_s ? goal_s - s : world::infinity;
-    const world::LaneT& here = graph.town().lanes[lane];
-    const double rest = std::max(here.length - s, 0.0);
-    if (rest > most)
-        return world::infinity;
-    if (here.kind == world::LaneKind::internal) {
-        // The rest of its way over the junction counts as this lane alone.
-        const std::uint32_t exit = graph.exit(lane);
-        return rest + distance_along_lanes(graph, exit, 0, goal, goal_s, most - rest);
+    // Nearest first, each lane once: where lanes are short there are more ways than one can try.
+    std::set<std::pair<double, std::uint32_t>> open{{0.0, lane}};
+    std::set<std::uint32_t> reached;
+    const auto reach = [&](std::uint32_t to, double distance) {
+        if (to < lanes.size() && distance <= most)
+            open.emplace(distance, to);
+    };
+    while (!open.empty()) {
+        const auto [distance, at] = *open.begin();
+        open.erase(open.begin());
+        if (at == goal)
+            return distance + goal_s;
+        if (!reached.insert(at).second)
+            continue;
+        const world::LaneT& here = lanes[at];
+        const double end = distance + std::max(here.length - (at == lane ? s : 0.0), 0.0);
+        if (here.kind == world::LaneKind::internal) {
+            // The rest of its way over the junction counts as this lane alone.
+            reach(graph.exit(at), end);
+            continue;
+        }
+        for (const world::Link& link : here.links) {
+            double behind = end;
+            for (const std::uint32_t internal : graph.inside(link))
+                behind += lanes[internal].length;
+            reach(link.to(), behind);
+        }
     }
-    double least = world::infinity;
-    for (const world::Link& link : here.links) {
-        double inside = rest;
-        for (const std::uint32_t internal : graph.inside(link))
-            inside += graph.town().lanes[internal].length;
-        least = std::min(
-            least,
-            inside + distance_along_lanes(graph, link.to(), 0, goal, goal_s, most - inside - 0.1));
-    }
-    return least;
+    return world::infinity;
 }
 
 }  // namespace reprise::drivers
