@@ -70,11 +70,12 @@ std::vector<Entry> entries_of(const TownT& town) {
 TEST(WayAhead, BodiesComeWhereTheirTrailWillLead) {
     const TownT& town = own_town("town1").town;
     const RoadGraph graph = graph_for(town);
+    const LaneLines lines(town);
     int turned = 0;
     for (const auto& [lane, via] : entries_of(town)) {
         const Car car = car_before(town, graph, 7, "bus", lane, via, 5, 4);
         Trail trail = car.trail;
-        const WayAhead way(car, town, graph, 16);
+        const WayAhead way(car, lines, graph, 16);
         const world::LaneT& on = town.lanes[lane];
         const world::LaneT& behind = town.lanes[via];
         for (double driven = 0.05; driven < 5 + behind.length && driven < 15; driven += 0.05) {
@@ -91,10 +92,55 @@ TEST(WayAhead, BodiesComeWhereTheirTrailWillLead) {
     EXPECT_GT(turned, 100) << "no bend: nothing is shown";
 }
 
+/// Most pairs of cars are told apart by these two alone.
+TEST(WayAhead, NoBodyLeavesItsAreaOrItsCorridor) {
+    constexpr double reach = 20;
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const LaneLines lines(town);
+    double narrowest = 1e9;
+    for (const auto& [lane, via] : entries_of(town))
+        for (const char* model : {"bus", "sedan", "bicycle"})
+            for (const double beside : {0.0, 0.4}) {
+                Car car = car_before(town, graph, 7, model, lane, via, 8, 4);
+                car.trail.advance(car.trail.front() +
+                                  beside * Eigen::Vector3d(-car.ahead.y(), car.ahead.x(), 0));
+                car.rear = car.trail.rear() + Eigen::Vector3d(0, beside / 2, 0);
+                const world::Box area = area_ahead(car, lines, graph, reach);
+                const WayAhead way(car, lines, graph, reach + 1);
+                const BodyBox corridor = way.corridor(reach);
+                narrowest = std::min(narrowest, corridor.half_width);
+                for (double driven = 0; driven < reach; driven += 0.25) {
+                    const BodyBox body = way.at(driven);
+                    for (const double along : {-1, 1})
+                        for (const double across : {-1, 1}) {
+                            const Eigen::Vector2d corner =
+                                body.middle + along * body.half_length * body.ahead +
+                                across * body.half_width * world::turned_left(body.ahead);
+                            world::Box with = area;
+                            with.take(corner);
+                            ASSERT_TRUE(with.low == area.low && with.high == area.high)
+                                << model << " on " << town.lanes[lane].name << " to "
+                                << town.lanes[via].name << " after " << driven << " m";
+                            const Eigen::Vector2d offset = corner - corridor.middle;
+                            ASSERT_LE(std::abs(offset.dot(corridor.ahead)), corridor.half_length)
+                                << model << " on " << town.lanes[lane].name << " to "
+                                << town.lanes[via].name << " after " << driven << " m";
+                            ASSERT_LE(std::abs(world::cross(corridor.ahead, offset)),
+                                      corridor.half_width)
+                                << model << " on " << town.lanes[lane].name << " to "
+                                << town.lanes[via].name << " after " << driven << " m";
+                        }
+                }
+            }
+    EXPECT_LT(narrowest, 0.5) << "of a bicycle that drives straight on";
+}
+
 /// Of two whose bodies would come into each other one waits, and only one.
 TEST(Meetings, OneOfTwoWhoseWaysCrossWaits) {
     const TownT& town = own_town("town1").town;
     const RoadGraph graph = graph_for(town);
+    const LaneLines lines(town);
     const std::vector<Entry> entries = entries_of(town);
     int crossed = 0;
     for (const Entry& one : entries)
@@ -111,8 +157,8 @@ TEST(Meetings, OneOfTwoWhoseWaysCrossWaits) {
                          draft);
             // As they would drive on.
             bool would_touch = false;
-            const WayAhead way(cars[0], town, graph, 20);
-            const WayAhead its_way(cars[1], town, graph, 20);
+            const WayAhead way(cars[0], lines, graph, 20);
+            const WayAhead its_way(cars[1], lines, graph, 20);
             for (double driven = 0; driven < 14; driven += 0.25)
                 would_touch |= overlap(way.at(driven), its_way.at(driven));
             Meetings meetings(town, graph, meeting_step);

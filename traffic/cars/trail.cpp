@@ -60,10 +60,12 @@ Eigen::Vector3d Trail::rear() const {
 
 Eigen::Vector3d Trail::behind(double distance) const {
     const double wanted = travelled_ - std::min(distance, distance_);
-    std::size_t at = points_.size() - 1;
-    while (at > at_ && points_[at].travelled > wanted)
-        --at;
-    return between(at, wanted);
+    const auto behind_axle = points_.begin() + static_cast<std::ptrdiff_t>(at_);
+    const auto after = std::upper_bound(
+        behind_axle + 1, points_.end(), wanted, [](double travelled, const Point& point) {
+            return travelled < point.travelled;
+        });
+    return between(static_cast<std::size_t>(after - points_.begin()) - 1, wanted);
 }
 
 /// Where it was, by then `travelled` [m] from the start, between points_[at] and the one after it.

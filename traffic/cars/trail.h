@@ -27,7 +27,7 @@ class Trail {
     Eigen::Vector3d rear() const;
 
     /// Where the bumper was when it had `distance` [m] less behind it; no further back than the
-    /// rear axle is. O(points).
+    /// rear axle is. O(log points).
     Eigen::Vector3d behind(double distance) const;
 
     const Eigen::Vector3d& front() const { return front_; }

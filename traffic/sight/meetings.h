@@ -1,15 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "traffic/cars/cars.h"
+#include "traffic/roads/lane_lines.h"
 #include "traffic/roads/road_graph.h"
-#include "traffic/sight/way_ahead.h"
+#include "traffic/sight/foresight.h"
 #include "world/geometry2d.h"
 #include "world/town.h"
 
@@ -38,43 +36,24 @@ class Meetings {
     double allowed_speed(std::size_t index) const { return allowed_[index]; }
 
   private:
-    static constexpr std::size_t samples = 21;  ///< of the time that is looked at, from now on
-
-    using Bodies = std::array<BodyBox, samples>;
-
-    /// Bodies, and the box around all of them: most pairs are told apart by that.
-    struct Swath {
-        std::vector<BodyBox> bodies;
-        world::Box around;
-
-        void clear();
-        void add(const BodyBox& body);
-    };
-
-    /// What a driver will cover in the next seconds. Made where somebody is near, each part once.
-    struct Foresight {
-        std::optional<WayAhead> way;
-        world::Box area;  ///< that it does not leave
-        BodyBox now;
-        bool has_bodies = false;
-        Bodies bodies;      ///< as it drives on now, by time
-        world::Box around;  ///< of these
-        Swath soon;         ///< at about the speeds that it will have: by speed, then by time
-        Swath sweep;        ///< all that it will drive over, by way
-        Swath steps;        ///< likewise, closer to each other, with room beside
-    };
-
     /// One of the cars.
     struct Driver {
         Car* car = nullptr;
-        std::size_t index = 0;
-        Eigen::Vector2d middle;
+        double reach = 0;  ///< [m] of way that is looked at
         double half_length = 0;
-        double reach = 0;           ///< [m] of way that is looked at
-        Foresight* seen = nullptr;  ///< once it is asked for
-        bool yields = false;
-        bool is_turning = false;               ///< or will be in a moment
+        Eigen::Vector2d middle;
+        Foresight* seen = nullptr;             ///< once it is asked for
         std::vector<std::uint32_t> waits_for;  ///< ids, of this tick
+    };
+
+    /// What decides about most pairs, side by side in memory; by `x`, then by the cars' ids.
+    struct Place {
+        double x = 0;      ///< [m] of its middle
+        double reach = 0;  ///< [m]
+        world::Box area;   ///< that its body does not leave
+        std::uint32_t lane = 0;
+        std::uint32_t driver = 0;  ///< index
+        bool is_turning = false;   ///< or will be in a moment
     };
 
     /// Where one can stop before another's way.
@@ -92,27 +71,28 @@ class Meetings {
     void wait(Driver& driver, Driver& other, const Stop& stop);
     void prepare(Driver& driver);
     bool has_stood(const Driver& driver) const;
+    bool yields(const Driver& driver) const;
     bool first_waits(const Driver& one,
                      const Driver& other,
                      const Stop& stop_one,
                      const Stop& stop_other) const;
     static bool follows(const Driver& driver, const Driver& leader);
     static bool is_all_on_its_lane(const Driver& driver);
-    static const Foresight& with_bodies(const Driver& driver);
-    static const Swath& soon(const Driver& driver);
-    static const Swath& sweep(const Driver& driver);
-    static const Swath& steps(const Driver& driver);
-    static bool would_meet(const Driver& driver, const Foresight& other);
-    static bool would_meet(const Driver& driver, const BodyBox& standing);
-    Stop stop_before(const Driver& driver, const Driver& other, std::span<const BodyBox> way) const;
+    static Stop stop_at(const Driver& driver,
+                        const Foresight::Entry& entry,
+                        const Driver& other,
+                        const BodyBox& first);
+    static Stop stop_before_way(const Driver& driver, const Driver& other);
+    static Stop stop_before_body(const Driver& driver, const Driver& other);
     void hold(const Driver& driver, const Stop& stop);
 
-    const world::TownT* town_;
+    const LaneLines lines_;
     const RoadGraph* graph_;
     double step_;               ///< [s]
     std::vector<bool> yields_;  ///< by lane of a junction: has to let others go first
     std::vector<double> allowed_;
-    std::vector<Driver> drivers_;
+    std::vector<Driver> drivers_;  ///< [i] of cars[i]; without a car who takes no part
+    std::vector<Place> places_;
     std::vector<std::unique_ptr<Foresight>> foresights_;  ///< of drivers, kept for their memory
     std::size_t foreseen_ = 0;                            ///< that are in use in this tick
     std::uint64_t tick_ = 0;

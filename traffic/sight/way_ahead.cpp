@@ -13,7 +13,15 @@ namespace {
 
 using world::none;
 
-constexpr double comes_back = 6;  // [m] of driving until it is back in the middle of its lane
+constexpr double comes_back = 6;        // [m] of driving until it is back in the middle of its lane
+constexpr double least_chord = 0.6;     // of the way from axle to bumper, on the tightest bend
+constexpr std::size_t most_lanes = 16;  // nobody drives over more of them in seconds
+
+/// [m] that the bumper may have been beside the straight line from where it is to the rear axle: no
+/// further than the metres between them allow.
+double bulge_of(double to_axle, const Eigen::Vector2d& front_to_rear) {
+    return std::sqrt(std::max(0.0, to_axle * to_axle - front_to_rear.squaredNorm())) / 2;
+}
 
 }  // namespace
 
@@ -52,34 +60,80 @@ std::uint32_t lane_after(std::uint32_t lane,
     return none;
 }
 
-WayAhead::WayAhead(const Car& car, const world::TownT& town, const RoadGraph& graph, double reach)
-    : car_(&car),
-      to_axle_(origin_to_front(car.model)),
-      half_length_(world::vehicle_models()[car.model].length / 2),
-      half_width_(world::vehicle_models()[car.model].width / 2),
-      rear_overhang_(world::vehicle_models()[car.model].rear_overhang),
-      rolled_((car.rear - car.trail.rear()).head<2>()) {
-    constexpr std::size_t most_lanes = 16;  // nobody drives over more of them in seconds
+world::Box area_ahead(const Car& car,
+                      const LaneLines& lines,
+                      const RoadGraph& graph,
+                      double reach) {
+    constexpr double rounding = 0.01;  // [m]
+    const world::VehicleModel& model = world::vehicle_models()[car.model];
+    const double to_axle = origin_to_front(car.model);
+    const Eigen::Vector2d front = car.trail.front().head<2>();
+    const Eigen::Vector2d rear = car.trail.rear().head<2>();
+    world::Box box;
+    box.take(front);
+    box.take(rear);
+    const double bulge = bulge_of(to_axle, front - rear);
+    std::uint32_t lane = car.lane;
+    const world::LaneT& here = lines.town().lanes[lane];
+    double start = std::clamp(car.lane_position / here.sumo_length, 0.0, 1.0) * here.length;
+    const double aside = (front - lines.position_at(lane, start)).norm();
+    double left = reach + 2 * aside + rounding;
+    for (std::size_t i = 0; i < most_lanes && lane != none && left > 0; ++i) {
+        const auto points = lines.points(lane);
+        const auto metres = lines.metres(lane);
+        auto next = static_cast<std::size_t>(std::upper_bound(metres.begin(), metres.end(), start) -
+                                             metres.begin());
+        for (; next < points.size() && metres[next] - start < left; ++next)
+            box.take(points[next]);
+        if (next < points.size()) {
+            const double piece = metres[next] - metres[next - 1];
+            const double share = (start + left - metres[next - 1]) / piece;
+            box.take(points[next - 1] + share * (points[next] - points[next - 1]));
+            break;
+        }
+        left -= std::max(metres.back() - start, 0.0);
+        start = 0;
+        lane = lane_after(lane, car, lines.town(), graph);
+    }
+    // From axle to bumper a body is as wide as it is; behind the axle its tail swings out.
+    const double rolled = (car.rear.head<2>() - rear).norm();
+    const double beside = std::hypot(model.rear_overhang, model.width / 2) + rolled +
+                          std::max(bulge, aside) + rounding;
+    box.low -= Eigen::Vector2d::Constant(beside);
+    box.high += Eigen::Vector2d::Constant(beside);
+    return box;
+}
+
+void WayAhead::look(const Car& car, const LaneLines& lines, const RoadGraph& graph, double reach) {
+    const world::VehicleModel& model = world::vehicle_models()[car.model];
+    car_ = &car;
+    to_axle_ = origin_to_front(car.model);
+    half_length_ = model.length / 2;
+    half_width_ = model.width / 2;
+    rear_overhang_ = model.rear_overhang;
+    rolled_ = (car.rear - car.trail.rear()).head<2>();
+    lanes_.clear();
+    points_.clear();
+    ends_.clear();
     const Eigen::Vector2d front = car.trail.front().head<2>();
     add(front);
     double start = 0;  // [m] on the lane
     Eigen::Vector2d aside(0, 0);
     for (std::uint32_t lane = car.lane; lane != none && lanes_.size() < most_lanes;
-         lane = lane_after(lane, car, town, graph)) {
-        const world::LaneT& on = town.lanes[lane];
+         lane = lane_after(lane, car, lines.town(), graph)) {
         if (lanes_.empty()) {
+            const world::LaneT& on = lines.town().lanes[lane];
             start = std::min(car.lane_position / on.sumo_length, 1.0) * on.length;
-            aside = front - world::point_at(on, start).position.head<2>();
+            aside = front - lines.position_at(lane, start);
         }
         lanes_.push_back(lane);
-        double s = 0;
-        for (std::size_t i = 0; i < on.centre.size(); ++i) {
-            const Eigen::Vector2d p = world::in_plan(on.centre[i]);
-            if (i > 0)
-                s += (p - world::in_plan(on.centre[i - 1])).norm();
-            if (s > start)
-                add(p + aside * std::max(0.0, 1 - length() / comes_back));
-        }
+        const auto points = lines.points(lane);
+        const auto metres = lines.metres(lane);
+        for (auto i = static_cast<std::size_t>(
+                 std::upper_bound(metres.begin(), metres.end(), start) - metres.begin());
+             i < points.size();
+             ++i)
+            add(points[i] + aside * std::max(0.0, 1 - length() / comes_back));
         start = 0;
         if (length() > reach)
             break;
@@ -117,22 +171,38 @@ BodyBox WayAhead::at(double driven) const {
     return box;
 }
 
-world::Box WayAhead::around(double driven) const {
-    constexpr double spacing = 1;  // [m]
-    constexpr double bulge = 0.1;  // [m] of the trail between two places
-    world::Box box;
-    for (double behind = 0; behind < to_axle_ + spacing; behind += spacing)
-        box.take(car_->trail.behind(std::min(behind, to_axle_)).head<2>());
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-        box.take(points_[i]);
-        if (ends_[i] > driven)
-            break;
-    }
-    // From axle to bumper a body is as wide as it is; behind the axle its tail swings out.
-    const double aside = std::hypot(rear_overhang_, half_width_) + rolled_.norm() + bulge;
-    box.low -= Eigen::Vector2d::Constant(aside);
-    box.high += Eigen::Vector2d::Constant(aside);
-    return box;
+BodyBox WayAhead::corridor(double driven) const {
+    constexpr double rounding = 0.01;  // [m]
+    const Eigen::Vector2d& front = points_.front();
+    const Eigen::Vector2d rear = car_->trail.rear().head<2>();
+    const Eigen::Vector2d ahead = at(0).ahead;
+    world::Box box;  // in the frame of today's body, from its bumper
+    const auto take = [&](const Eigen::Vector2d& p) {
+        const Eigen::Vector2d offset = p - front;
+        box.take({offset.dot(ahead), world::cross(ahead, offset)});
+    };
+    take(rear);
+    for (std::size_t i = 0; i < points_.size() && ends_[i] < driven; ++i)
+        take(points_[i]);
+    take(bumper_at(std::min(driven, length())));
+    const double off = bulge_of(to_axle_, front - rear) + rolled_.norm() + rounding;
+    // A body that stands askew in the corridor has its tail further out.
+    const Eigen::Vector2d extent = box.high - box.low;
+    const double askew = std::min(1.0, (extent.y() + 2 * off) / (least_chord * to_axle_));
+    const Eigen::Vector2d middle = (box.low + box.high) / 2;
+    BodyBox around;
+    around.ahead = ahead;
+    around.middle = front + middle.x() * ahead + middle.y() * world::turned_left(ahead);
+    around.half_length = extent.x() / 2 + off + std::hypot(rear_overhang_, half_width_);
+    around.half_width = extent.y() / 2 + off + half_width_ + askew * rear_overhang_;
+    return around;
+}
+
+/// Where both axle and bumper move by a metre the middle between them moves by no more, but that a
+/// turning axle's end carries the overhang along.
+double WayAhead::most_moved() const {
+    constexpr double turning = 1.3;
+    return turning + rolled_.norm() / comes_back;
 }
 
 }  // namespace reprise::traffic

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "traffic/cars/car.h"
+#include "traffic/roads/lane_lines.h"
 #include "traffic/roads/road_graph.h"
 #include "world/geometry2d.h"
 #include "world/town.h"
@@ -34,18 +35,33 @@ std::uint32_t lane_after(std::uint32_t lane,
                          const world::TownT& town,
                          const RoadGraph& graph);
 
+/// A box that the car's body does not leave until its bumper is `reach` [m] ahead; somewhat too
+/// large, and quicker than its WayAhead. All are read here only.
+world::Box area_ahead(const Car& car, const LaneLines& lines, const RoadGraph& graph, double reach);
+
 /// Where a car's body will be when it has driven on so far: its bumper along the lanes of its
 /// route, its rear axle where the bumper has been.
 class WayAhead {
   public:
-    /// `reach` [m] from the bumper that are looked at. All are read here only.
-    WayAhead(const Car& car, const world::TownT& town, const RoadGraph& graph, double reach);
+    WayAhead() = default;
+
+    WayAhead(const Car& car, const LaneLines& lines, const RoadGraph& graph, double reach) {
+        look(car, lines, graph, reach);
+    }
+
+    /// Forgets what it knew, but not its memory. `reach` [m] from the bumper that are looked at.
+    /// The car must outlive what is asked of this; the others are read here only.
+    void look(const Car& car, const LaneLines& lines, const RoadGraph& graph, double reach);
 
     /// When the bumper is `driven` [m] ahead of where it is now; beyond the end of the way, there.
     BodyBox at(double driven) const;
 
-    /// A box that no body leaves until the bumper is `driven` [m] ahead; somewhat too large.
-    world::Box around(double driven) const;
+    /// A box along the body of today that no body leaves until the bumper is `driven` [m] ahead;
+    /// somewhat too large, and tight beside who drives straight on.
+    BodyBox corridor(double driven) const;
+
+    /// [m] that the middle of the body moves at most for each metre driven.
+    double most_moved() const;
 
     /// That the bumper is on, now and until the end of the way; in their order.
     std::span<const std::uint32_t> lanes() const { return lanes_; }
@@ -56,9 +72,9 @@ class WayAhead {
     void add(const Eigen::Vector2d& p);
     Eigen::Vector2d bumper_at(double driven) const;
 
-    const Car* car_;
-    double to_axle_;  ///< [m] from the bumper
-    double half_length_, half_width_, rear_overhang_;
+    const Car* car_ = nullptr;
+    double to_axle_ = 0;  ///< [m] from the bumper
+    double half_length_ = 0, half_width_ = 0, rear_overhang_ = 0;
     std::vector<std::uint32_t> lanes_;
     std::vector<Eigen::Vector2d> points_;  ///< of the bumper, from where it is
     std::vector<double> ends_;             ///< [i] metres to points_[i]

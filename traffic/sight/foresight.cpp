@@ -1,0 +1,137 @@
+// What it must do: tell whether, and where, a body comes into another one in the next seconds.
+// What it assumes: as WayAhead: each follows the lanes of its route.
+// How it goes: bodies that are metres apart need time, or way, to come together: so many of the
+//   next samples are passed over without a look. Those that are near are compared as boxes.
+// What it keeps: the bodies that were asked for, until the next look.
+#include "traffic/sight/foresight.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reprise::traffic {
+
+namespace {
+
+constexpr double rounding = 1e-6;  // [m]
+
+/// Between the circles around two bodies; negative where these touch. [m]
+double gap_between(const BodyBox& one, const BodyBox& other, double radii) {
+    return (one.middle - other.middle).norm() - radii - rounding;
+}
+
+/// How many of the next samples cannot touch, when two that are `gap` [m] apart come closer by at
+/// most `closing` [m] from one to the next.
+std::size_t sure_samples(double gap, double closing) {
+    return gap <= 0 ? 0 : static_cast<std::size_t>(gap / closing);
+}
+
+/// [m] to the corner of a box that is wider and longer by a margin on each side.
+double corner(const BodyBox& box, double margin) {
+    return std::sqrt((box.half_length + margin) * (box.half_length + margin) +
+                     (box.half_width + margin) * (box.half_width + margin));
+}
+
+}  // namespace
+
+void Foresight::look(const Car& car, const LaneLines& lines, const RoadGraph& graph, double reach) {
+    way_.look(car, lines, graph, reach + 1);
+    now_ = way_.at(0);
+    corridor_ = way_.corridor(reach).widened(room);
+    speed_ = car.speed;
+    reach_ = reach;
+    radius_ = corner(now_, 0);
+    most_moved_ = way_.most_moved();
+    drives_.known = soon_[0].known = soon_[1].known = sweep_.known = 0;
+}
+
+const BodyBox& Foresight::drives(std::size_t i) {
+    if (i == 0 || speed_ == 0)
+        return now_;
+    if ((drives_.known >> i & 1U) == 0) {
+        drives_.known |= 1U << i;
+        drives_.bodies[i] = way_.at(speed_ * sample * static_cast<double>(i));
+    }
+    return drives_.bodies[i];
+}
+
+const BodyBox& Foresight::soon(std::size_t which, std::size_t i) {
+    Row& row = soon_[which];
+    if ((row.known >> i & 1U) == 0) {
+        row.known |= 1U << i;
+        const double tried = which == 0 ? std::max(speed_, least_speed) : speed_ + speeding_up;
+        row.bodies[i] = way_.at(tried * sample * static_cast<double>(i)).widened(room);
+    }
+    return row.bodies[i];
+}
+
+const BodyBox& Foresight::sweep(std::size_t i) {
+    if ((sweep_.known >> i & 1U) == 0) {
+        sweep_.known |= 1U << i;
+        sweep_.bodies[i] = way_.at(reach_ / (samples - 1) * static_cast<double>(i));
+    }
+    return sweep_.bodies[i];
+}
+
+bool Foresight::would_meet(Foresight& other) {
+    const double radii = corner(now_, room) + other.radius_;
+    for (const std::size_t which : {0U, 1U}) {
+        const double speed = which == 0 ? std::max(speed_, least_speed) : speed_ + speeding_up;
+        const double closing = (speed * most_moved_ + other.speed_ * other.most_moved_) * sample;
+        for (std::size_t i = 1; i < samples; ++i) {
+            const BodyBox& own = soon(which, i);
+            const BodyBox& its = other.drives(i);
+            const double gap = gap_between(own, its, radii);
+            if (gap <= 0 && overlap(own, its))
+                return true;
+            i += sure_samples(gap, closing);
+        }
+    }
+    return false;
+}
+
+bool Foresight::would_meet(const BodyBox& standing) {
+    const double radii = corner(now_, room) + corner(standing, 0);
+    for (const std::size_t which : {0U, 1U}) {
+        const double speed = which == 0 ? std::max(speed_, least_speed) : speed_ + speeding_up;
+        for (std::size_t i = 1; i < samples; ++i) {
+            const BodyBox& own = soon(which, i);
+            const double gap = gap_between(own, standing, radii);
+            if (gap <= 0 && overlap(own, standing))
+                return true;
+            i += sure_samples(gap, speed * most_moved_ * sample);
+        }
+    }
+    return false;
+}
+
+/// `others(i)` are `count` bodies with corners at `radius` [m].
+template <typename Others>
+Foresight::Entry Foresight::first_on(const Others& others, std::size_t count, double radius) {
+    const double radii = corner(now_, room) + radius;
+    for (double s = 0; s <= reach_; s += spacing) {
+        const BodyBox body = way_.at(s).widened(room);
+        double gap = 1e9;  // [m] to the nearest
+        for (std::size_t i = 0; i < count; ++i) {
+            const double to_this = gap_between(body, others(i), radii);
+            if (to_this <= 0 && overlap(body, others(i)))
+                return {s, body, i == 0, true};
+            gap = std::min(gap, to_this);
+        }
+        // Added up one by one: the same places, whatever is passed over.
+        for (auto sure = sure_samples(gap, spacing * most_moved_); sure > 0 && s <= reach_; --sure)
+            s += spacing;
+    }
+    return {};
+}
+
+Foresight::Entry Foresight::first_on(const BodyBox& standing) {
+    return first_on(
+        [&](std::size_t) -> const BodyBox& { return standing; }, 1, corner(standing, 0));
+}
+
+Foresight::Entry Foresight::first_on_way_of(Foresight& other) {
+    return first_on(
+        [&](std::size_t i) -> const BodyBox& { return other.sweep(i); }, samples, other.radius_);
+}
+
+}  // namespace reprise::traffic
