@@ -197,8 +197,14 @@ void Crowd::flee() {
         walker.flees = false;
         if (walker.down_until != 0)
             continue;
+        const auto reach = [&](const Eigen::Vector2d& there) -> Eigen::Vector2d {
+            const WalkMap::Place to =
+                map_of(walker.person)
+                    .slide(walker.place, {there.x(), there.y(), walker.place.position.z()});
+            return (is_allowed(walker, to) ? to : walker.place).position.head<2>();
+        };
         if (const auto way =
-                threats_.way_out(walker.place.position.head<2>(), walker.person.radius)) {
+                threats_.way_out(walker.place.position.head<2>(), walker.person.radius, reach)) {
             walker.wanted = hurry * *way;
             walker.flees = any = true;
         }

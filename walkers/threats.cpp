@@ -139,6 +139,12 @@ double Threats::clearance(const Eigen::Vector2d& p) const {
 }
 
 std::optional<Eigen::Vector2d> Threats::way_out(const Eigen::Vector2d& p, double radius) const {
+    return way_out(p, radius, [](const Eigen::Vector2d& there) { return there; });
+}
+
+std::optional<Eigen::Vector2d> Threats::way_out(const Eigen::Vector2d& p,
+                                                double radius,
+                                                const Reach& reach) const {
     REPRISE_CHECK(radius <= widest, std::to_string(radius));
     const double room = radius + margin;
     std::optional<Eigen::Vector2d> across_it;
@@ -163,12 +169,12 @@ std::optional<Eigen::Vector2d> Threats::way_out(const Eigen::Vector2d& p, double
     // Across the nearest one; another way only where that would lead into the next.
     constexpr double better = 0.1;  // [m]
     Eigen::Vector2d best = *across_it;
-    double clear = clearance(p + step_aside * best);
+    double clear = clearance(reach(p + step_aside * best));
     const Eigen::Vector2d left = world::turned_left(*across_it);
     for (const double aside : {1.0, -1.0})
         for (const double on : {1.0, 0.0}) {
             const Eigen::Vector2d way = (on * *across_it + aside * left).normalized();
-            const double there = clearance(p + step_aside * way);
+            const double there = clearance(reach(p + step_aside * way));
             if (there <= clear + better)
                 continue;
             clear = there;

@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -20,8 +21,16 @@ class Threats {
     /// [s] between the two.
     void look(const world::TickView& last, const world::TickDraft& next, double step);
 
+    /// Where somebody comes who would go to a place close to him: walls and kerbs may be in his
+    /// way.
+    using Reach = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
+
     /// Which way somebody of that radius [m] at `p` gets out of the way of what comes within a
-    /// second: across it, to his own side. None: nothing comes that close.
+    /// second: across it, to his own side, unless he does not get there. None: nothing comes that
+    /// close.
+    std::optional<Eigen::Vector2d> way_out(const Eigen::Vector2d& p,
+                                           double radius,
+                                           const Reach& reach) const;
     std::optional<Eigen::Vector2d> way_out(const Eigen::Vector2d& p, double radius) const;
 
   private:
