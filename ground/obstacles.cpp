@@ -18,6 +18,10 @@ using Shape = Obstacle::Shape;
 constexpr double tall_enough = 3;  ///< [m] what is higher is out of reach
 constexpr double head_pole_radius = 0.1;
 constexpr double sign_pole_radius = 0.04;
+/// [N s] A sign on a thin steel tube (76 mm) breaks off its foot: less than 1 m/s of a small car's
+/// speed, as EN 12767 asks of posts that are safe to hit. Masts with cables in them, trunks and
+/// walls stand.
+constexpr double sign_breaks_at = 600;
 constexpr double bush_wood = 0.6;  ///< of its radius; outside of that there are twigs and leaves
 
 Obstacle box(const world::Vec3& foot, double yaw, double length, double width, double height) {
@@ -42,13 +46,15 @@ bool is_bush(world::PlantKind kind) {
            kind == world::PlantKind::flowering_bush;
 }
 
+bool is_sign(PropKind kind) {
+    return kind == PropKind::speed_limit_sign || kind == PropKind::stop_sign ||
+           kind == PropKind::yield_sign || kind == PropKind::crossing_sign;
+}
+
 Obstacle of_prop(const world::Prop& prop) {
+    if (is_sign(prop.kind()))
+        return cylinder(prop.position(), sign_pole_radius, prop.height());
     switch (prop.kind()) {
-        case PropKind::speed_limit_sign:
-        case PropKind::stop_sign:
-        case PropKind::yield_sign:
-        case PropKind::crossing_sign:
-            return cylinder(prop.position(), sign_pole_radius, prop.height());
         case PropKind::street_light:
             return cylinder(prop.position(), prop.width() / 2, prop.height());
         case PropKind::pole:
@@ -107,8 +113,14 @@ std::vector<Obstacle> obstacles_of(const world::TownT& town) {
                                          ? bush_wood * tree.crown_radius()
                                          : std::clamp(0.025 * tree.height(), 0.1, 0.35),
                                      tree.height()));
-    for (const world::Prop& prop : town.props)
-        obstacles.push_back(of_prop(prop));
+    for (std::uint32_t i = 0; i < town.props.size(); ++i) {
+        obstacles.push_back(of_prop(town.props[i]));
+        if (!is_sign(town.props[i].kind()))
+            continue;
+        obstacles.back().yaw = town.props[i].yaw();
+        obstacles.back().breaks_at = sign_breaks_at;
+        obstacles.back().town_prop = i;
+    }
     for (std::size_t i = 0; i < town.heads.size(); ++i) {
         // Heads of neighbouring lanes share a pole.
         const world::Vec3& foot = town.heads[i].foot;

@@ -17,7 +17,9 @@ struct Obstacle {
     double radius = 0;     ///< of the bounding circle
     Shape shape = Shape::box;
     std::vector<Eigen::Vector3d> corners = {};  ///< a prism's foot, seen from its middle: convex
-    double depth = 0;  ///< of its lower end below the ground: a building's foundation
+    double depth = 0;      ///< of its lower end below the ground: a building's foundation
+    double breaks_at = 0;  ///< [N s] of a hit that breaks it off; 0: it stands whatever hits it
+    std::uint32_t town_prop = 0;  ///< of what may break off: its index in Town.props
 };
 
 }  // namespace reprise::world

@@ -84,7 +84,8 @@ void NearObstacles::choose(std::span<const btVector3> centres) {
             [](const world::Obstacle& obstacle, double x) { return obstacle.position.x() < x; });
         for (; at != obstacles_.end() && at->position.x() <= centre.x() + reach; ++at) {
             const auto index = static_cast<std::size_t>(at - obstacles_.begin());
-            if (!within(index, {&centre, 1}, enter_distance))
+            if (!within(index, {&centre, 1}, enter_distance) ||
+                std::binary_search(gone_.begin(), gone_.end(), index))
                 continue;
             const auto place = std::lower_bound(near_.begin(), near_.end(), index, index_before);
             if (place != near_.end() && place->index == index)
@@ -95,7 +96,16 @@ void NearObstacles::choose(std::span<const btVector3> centres) {
     }
 }
 
+void NearObstacles::take_out(std::size_t i) {
+    const auto at = near_.begin() + static_cast<std::ptrdiff_t>(i);
+    world_->removeRigidBody(at->body.get());
+    gone_.insert(std::lower_bound(gone_.begin(), gone_.end(), at->index), at->index);
+    near_.erase(at);
+}
+
 void NearObstacles::add_to(world::Hasher& hasher) const {
+    for (const std::size_t index : gone_)
+        hasher.add(static_cast<std::uint64_t>(index));
     hasher.add(static_cast<std::uint64_t>(near_.size()));
     for (const Body& near : near_)
         hasher.add(static_cast<std::uint64_t>(near.index));

@@ -31,6 +31,12 @@ class NearObstacles {
 
     std::size_t size() const { return near_.size(); }
 
+    /// One of those that stand near a vehicle.
+    const world::Obstacle& near(std::size_t i) const { return obstacles_[near_[i].index]; }
+
+    /// near(i) stands no longer; those behind it move up.
+    void take_out(std::size_t i);
+
     void add_to(world::Hasher& hasher) const;
 
   private:
@@ -46,7 +52,8 @@ class NearObstacles {
     btDynamicsWorld* world_;
     std::vector<world::Obstacle> obstacles_;  ///< sorted by x
     double largest_radius_ = 0;
-    std::vector<Body> near_;  ///< sorted by index
+    std::vector<Body> near_;         ///< sorted by index
+    std::vector<std::size_t> gone_;  ///< indices of those that were taken out, sorted
 };
 
 }  // namespace reprise::kernel

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/physics/break_off.h"
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/collisions.h"
 #include "kernel/physics/convex_pair.h"
@@ -159,8 +160,9 @@ struct Physics::World {
     Vehicles vehicles;
     Wrecks wrecks;
     DoorBoxes doors;
-    CarCrashes crashes;              ///< of the tick
-    std::vector<btVector3> centres;  ///< of the vehicles, at the start of the tick
+    CarCrashes crashes;                 ///< of the tick
+    std::vector<std::uint32_t> broken;  ///< likewise, ids of the signs that broke off
+    std::vector<btVector3> centres;     ///< of the vehicles, at the start of the tick
 };
 
 Physics::Physics(const world::EpisodeT& episode,
@@ -246,6 +248,7 @@ world::Vec3 Physics::remove_prop(std::uint32_t id) {
 void Physics::advance(const world::TickView& last, world::TickDraft& next) {
     World& w = *world_;
     w.collisions.clear();
+    w.broken.clear();
     w.choose_neighbours(last, next);
     for (const auto& vehicle : w.vehicles)
         if (const world::Control* control = world::find(next.tick.controls, vehicle->id()))
@@ -319,6 +322,7 @@ void Physics::World::make_substep(int index, double road_friction) {
         hit->set_control(wreck_control(hit->id(), hit->body().getLinearVelocity().length()));
         hit->drive(road_friction, substep);
     }
+    break_off(obstacles, vehicles, substep, props, collisions, broken);
     walkers.test(share, vehicles, collisions);
     cars.move(share);
     doors.move(vehicles);
@@ -349,8 +353,18 @@ void Physics::World::write(world::TickT& tick) {
     collisions.write(tick.index, is_last, tick.events);
 }
 
-/// Wrecks are traffic no longer.
+/// Signs that broke off are props from now on, wrecks are traffic no longer.
 void Physics::World::hand_over(world::TickDraft& next) const {
+    for (const std::uint32_t id : broken) {
+        world::EventT event;
+        event.kind = world::EventKind::spawned;
+        event.actor = id;
+        for (const world::PropState& prop : next.tick.props)
+            if (prop.id() == id)
+                event.position = prop.position();
+        event.text = "sign_post";
+        next.tick.events.push_back(std::move(event));
+    }
     for (const Wreck& wreck : wrecks.made()) {
         const world::CarState car = *world::find(next.traffic.cars, wreck.id);
         std::erase_if(next.traffic.cars, [&](const auto& one) { return one.id() == wreck.id; });

@@ -37,6 +37,9 @@ std::vector<Part> parts_of(const world::PropModel& model) {
                     {{l, w / 2.5, h / 2}, {0, 0, 1.5 * h}, 0.35}};
         case world::PropForm::triangle:  // its feet reach across, its sheet is thin
             return {{{l / 2, w, 0.015}, {0, 0, 0.015}, 0.7}, {{l, 0.02, h}, {0, 0, h}, 0.3}};
+        case world::PropForm::sign:  // a tube, and the plate on its upper end
+            return {{{l / 2, l / 2, h}, {0, 0, h}, 0.75},
+                    {{0.015, w, w}, {l / 2, 0, 2 * h - w}, 0.25}};
         default:
             return {{{l, w, h}, {0, 0, h}, 1}};
     }

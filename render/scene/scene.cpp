@@ -19,8 +19,29 @@ constexpr std::size_t mount_bits = 30;
 }  // namespace
 
 Scene::~Scene() {
-    if (tree_ != nullptr)
-        rtcReleaseScene(tree_);
+    for (RTCScene tree : {tree_, standing_})
+        if (tree != nullptr)
+            rtcReleaseScene(tree);
+}
+
+/// The town without these instances, which keep their numbers. Made anew when they change.
+void Scene::take_down(std::vector<std::size_t> broken) {
+    if (broken == broken_)
+        return;
+    broken_ = std::move(broken);
+    if (standing_ != nullptr)
+        rtcReleaseScene(standing_);
+    standing_ = nullptr;
+    portable_standing_.reset();
+    if (broken_.empty())
+        return;
+    std::vector<Instance> standing(town_.instances().begin(), town_.instances().end());
+    for (const std::size_t index : broken_)
+        standing[index].mask = 0;
+    if (town_.portable_tracer() != nullptr)
+        portable_standing_.emplace(standing);
+    else
+        standing_ = town_.tree_of(standing);
 }
 
 std::uint32_t Scene::mask_hiding(std::uint32_t actor) const {
@@ -39,7 +60,8 @@ void Scene::hide_mounts() {
 
 void Scene::commit() {
     if (town_.portable_tracer() != nullptr) {
-        portable_tracer_.emplace(moving_, town_.portable_tracer());
+        portable_tracer_.emplace(
+            moving_, portable_standing_ ? &*portable_standing_ : town_.portable_tracer());
         return;
     }
     if (tree_ != nullptr)

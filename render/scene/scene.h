@@ -33,6 +33,9 @@ class Scene {
 
     const TownScene& town() const { return town_; }
 
+    /// Embree's tree of the town, without what broke off; none when pictures must be portable.
+    RTCSceneTy* town_tree() const { return standing_ != nullptr ? standing_ : town_.tree(); }
+
     /// Embree's tree of who was placed; none when nobody was, or when pictures must be portable.
     RTCSceneTy* tree() const { return tree_; }
 
@@ -90,6 +93,8 @@ class Scene {
         town_.add_instance(moving_, instance, pose_world);
     }
 
+    bool place_broken(const world::PropState& prop);
+    void take_down(std::vector<std::size_t> broken);
     void hide_mounts();
     void move_back(const world::TickView& tick, double ago);
     void commit();
@@ -97,6 +102,9 @@ class Scene {
     const TownScene& town_;
     std::vector<Instance> moving_;
     RTCSceneTy* tree_ = nullptr;
+    std::vector<std::size_t> broken_;  // of the town's instances, sorted: what stands no longer
+    RTCSceneTy* standing_ = nullptr;   // the town without them; none: nothing is broken
+    std::optional<PortableTracer> portable_standing_;
     std::optional<PortableTracer> portable_tracer_;
     std::vector<Outfit> outfits_;
     std::vector<world::SignalColor> signals_;

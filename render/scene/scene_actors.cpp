@@ -12,6 +12,7 @@
 #include "world/frames.h"
 #include "world/models/actors.h"
 #include "world/models/doors.h"
+#include "world/models/prop_models.h"
 
 namespace reprise::render {
 
@@ -78,8 +79,27 @@ void Scene::place_cars(const world::TickView& tick) {
     }
 }
 
+/// A sign that broke off looks as it did when it stood. False: it is none.
+bool Scene::place_broken(const world::PropState& prop) {
+    if (prop.id() < world::first_broken_id || prop.id() > world::last_broken_id ||
+        prop.id() - world::first_broken_id >= town_.props().size())
+        return false;
+    const TownScene::PlacedProp& placed = town_.props()[prop.id() - world::first_broken_id];
+    Instance instance = town_.instances()[placed.instance];
+    instance.actor = prop.id();
+    Eigen::Affine3d pose(world::pose(prop.position(), prop.orientation()));
+    pose.scale(placed.stretch);
+    add_instance(instance, pose);
+    return true;
+}
+
 void Scene::place_things(const world::TickView& tick) {
+    std::vector<std::size_t> broken;
     for (const world::PropState& prop : tick.props()) {
+        if (place_broken(prop)) {
+            broken.push_back(town_.props()[prop.id() - world::first_broken_id].instance);
+            continue;
+        }
         REPRISE_CHECK(prop.model() < town_.prototypes().things.size(),
                       "prop " + std::to_string(prop.id()));
         Instance instance;
@@ -88,6 +108,7 @@ void Scene::place_things(const world::TickView& tick) {
         instance.actor = prop.id();
         add_instance(instance, Eigen::Affine3d(world::pose(prop.position(), prop.orientation())));
     }
+    take_down(std::move(broken));
 }
 
 /// Beside the shut ones, which are painted onto the body.

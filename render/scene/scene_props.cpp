@@ -45,6 +45,7 @@ struct SizeClass {
 void TownScene::place_props(const world::TownT& town) {
     std::map<std::pair<world::PropKind, SizeClass>, const Prototype*> prototypes;
     for (const world::Prop& prop : town.props) {
+        props_.push_back({instances_.size(), Vector3d(1, 1, 1)});
         if (prop.kind() == world::PropKind::parked_vehicle) {
             park(prop);
             continue;
@@ -61,9 +62,10 @@ void TownScene::place_props(const world::TownT& town) {
         instance.style = prop.style();
         Eigen::Affine3d pose(world::pose(prop.position(), prop.yaw(), 0));
         const PropSize made = size_class.size();
-        pose.scale(Vector3d(static_cast<double>(size.length / made.length),
-                            static_cast<double>(size.width / made.width),
-                            static_cast<double>(size.height / made.height)));
+        props_.back().stretch = {static_cast<double>(size.length / made.length),
+                                 static_cast<double>(size.width / made.width),
+                                 static_cast<double>(size.height / made.height)};
+        pose.scale(props_.back().stretch);
         add_instance(instances_, instance, pose);
     }
 }

@@ -72,6 +72,15 @@ class TownScene {
 
     std::span<const Instance> instances() const { return instances_; }
 
+    /// Where one of Town.props is among instances(), and how its mesh is stretched there.
+    struct PlacedProp {
+        std::size_t instance = 0;
+        Eigen::Vector3d stretch{1, 1, 1};
+    };
+
+    /// [i] belongs to Town.props[i].
+    std::span<const PlacedProp> props() const { return props_; }
+
     const Prototypes& prototypes() const { return prototypes_; }
 
     std::span<const BuildingFrame> buildings() const { return buildings_; }
@@ -117,6 +126,7 @@ class TownScene {
     Facades facades_;
     std::vector<PlotFrame> plots_;
     std::vector<Instance> instances_;
+    std::vector<PlacedProp> props_;
     RTCSceneTy* tree_ = nullptr;
     std::optional<PortableTracer> portable_tracer_;
 };

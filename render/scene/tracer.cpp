@@ -104,7 +104,7 @@ void trace_nearest(const Scene& scene,
                         Hit{});
             continue;
         }
-        rtcIntersect8(valid.data(), scene.town().tree(), &context, &packet);
+        rtcIntersect8(valid.data(), scene.town_tree(), &context, &packet);
         const std::array<std::uint32_t, lanes> numbers =
             nearer_of_tick(scene, valid, context, packet);
         for (std::size_t lane = 0; lane < lanes && first + lane < rays.size(); ++lane) {
@@ -133,7 +133,7 @@ void trace_visibility(const Scene& scene,
         alignas(32) std::array<int, lanes> valid{};
         // Embree sets tfar to minus infinity where the way is blocked.
         if (fill_packet(packet, valid, rays, first))
-            rtcOccluded8(valid.data(), scene.town().tree(), &context, &packet);
+            rtcOccluded8(valid.data(), scene.town_tree(), &context, &packet);
         bool open = false;
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             if (packet.tfar[lane] < 0)

@@ -199,6 +199,17 @@ Mesh thing_mesh(const world::PropModel& model) {
                       painted(model.paint));
             break;
         }
+        case world::PropForm::sign: {
+            const Half half(model);
+            constexpr float thick = 0.015F;
+            build.box({-half.length, -half.length, 0},
+                      {half.length, half.length, half.height},
+                      painted(model.paint));
+            build.box({half.length, -half.width, half.height - 2 * half.width},
+                      {half.length + thick, half.width, half.height},
+                      painted(white));
+            break;
+        }
         case world::PropForm::box:
             add_box_form(build, model);
             break;

@@ -1,9 +1,14 @@
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "kernel/kernel.h"
 #include "tests/kernel/whole_run.h"
+#include "tests/support/towns.h"
 #include "world/frames.h"
 #include "world/models/prop_models.h"
 
@@ -85,6 +90,54 @@ TEST(Props, FlyWhenACarHitsThemAndComeToRest) {
     EXPECT_GT(measured[0].speed(), 10);
     EXPECT_GT(measured[0].impulse_static(), 20);
     EXPECT_EQ(measured[0].impulse_vehicles(), 0);
+}
+
+/// A car that drives straight into a sign of Town 1, and how fast it is before and behind it.
+/// `from`: [m] from its rear axle to the sign at the start.
+struct SignHit {
+    double before = 0;
+    double after = 0;
+    std::optional<world::PropState> sign;  ///< at the end
+};
+
+SignHit drive_into_a_sign(double speed, double from) {
+    const world::TownT& town = test::own_town("town1").town;
+    const auto sign = std::find_if(town.props.begin(), town.props.end(), [](const auto& prop) {
+        return prop.kind() == world::PropKind::speed_limit_sign;
+    });
+    const double yaw = sign->yaw();
+    const auto start = fmt::format(
+        "local car = spawn{{ name = 'car', model = 'sedan', driver = 'manual', x = {:.3f}, y = "
+        "{:.3f}, heading_deg = {:.3f}, speed = {} }} car:control{{}} wait(4)",
+        sign->position().x() - from * std::cos(yaw),
+        sign->position().y() - from * std::sin(yaw),
+        yaw * 180 / std::numbers::pi,
+        speed);
+    SignHit hit;
+    for (const KeptTick& tick : test::run(test::in_town1(start, 0, 4))) {
+        const world::TickView view = tick.recorded().view;
+        const double now = world::to_eigen(view.vehicles()[0].velocity()).norm();
+        if (view.props().empty())
+            hit.before = now;
+        else if (!hit.sign)
+            hit.after = now;
+        hit.sign = view.props().empty() ? std::nullopt : std::optional(view.props()[0]);
+    }
+    if (hit.sign) {
+        EXPECT_EQ(hit.sign->id(),
+                  world::first_broken_id + static_cast<std::uint32_t>(sign - town.props.begin()));
+    }
+    return hit;
+}
+
+TEST(Props, ASignBreaksOffWhereACarHitsItHardAndStandsWhereItIsTouched) {
+    const SignHit hard = drive_into_a_sign(14, 8);
+    ASSERT_TRUE(hard.sign.has_value());
+    EXPECT_LT(hard.after, hard.before - 0.3) << "600 N s of 1.4 ton";
+    EXPECT_GT(hard.after, hard.before - 2);
+    const Eigen::Vector3d up = world::to_eigen(hard.sign->orientation()) * Eigen::Vector3d::UnitZ();
+    EXPECT_LT(up.z(), 0.5) << "it lies";
+    EXPECT_FALSE(drive_into_a_sign(0.35, 4).sign.has_value()) << "less than 500 N s";
 }
 
 TEST(Props, AConcreteBarrierStopsACar) {
