@@ -11,6 +11,10 @@
 
 namespace reprise::kernel {
 
+class Collisions;
+class Props;
+class Vehicle;
+
 /// What stands beside the road. Only that near a vehicle with mass is in Bullet, which walks over
 /// all its bodies several times in each substep.
 class NearObstacles {
@@ -55,5 +59,15 @@ class NearObstacles {
     std::vector<Body> near_;         ///< sorted by index
     std::vector<std::size_t> gone_;  ///< indices of those that were taken out, sorted
 };
+
+/// Before a substep of that many seconds: thin poles that a vehicle is about to hit harder than
+/// they bear break off. The foot takes `breaks_at` of the vehicle's momentum, the pole is a prop
+/// from then on (world::first_broken_id), and Bullet says what becomes of it. Appends their ids.
+void break_off(NearObstacles& obstacles,
+               const std::vector<std::unique_ptr<Vehicle>>& vehicles,
+               double substep,
+               Props& props,
+               Collisions& collisions,
+               std::vector<std::uint32_t>& broken);
 
 }  // namespace reprise::kernel

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "kernel/physics/break_off.h"
 #include "kernel/physics/bullet.h"
 #include "kernel/physics/collisions.h"
 #include "kernel/physics/convex_pair.h"

@@ -23,7 +23,7 @@ namespace reprise::kernel {
 /// (kernel/physics/wrecks.h); walkers are upright
 /// cylinders that vehicles run into (kernel/physics/walker_hits.h); props are boxes that may be
 /// pushed around (kernel/physics/props.h), and so are signs once they broke off
-/// (kernel/physics/break_off.h). What becomes an event:
+/// (kernel/physics/near_obstacles.h). What becomes an event:
 /// kernel/physics/collisions.h. The car model is documented in kernel/physics/vehicle.h. Costs for
 /// a tick of 10 substeps and one vehicle: 20 us; 28 us beside 10 near cars, 50 us beside 50.
 class Physics {
