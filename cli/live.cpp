@@ -13,7 +13,11 @@ int live() {
         pictures.ready();
         for (;;) {
             const remote::LivePictures::Wish wish = pictures.next();
-            pictures.show(sensors.observe(wish.tick, wish.sensors, *wish.tick.tick->weather()));
+            render::Neighbours neighbours;
+            if (wish.last)
+                neighbours.last = render::Neighbour{*wish.last, {}};
+            pictures.show(
+                sensors.observe(wish.tick, wish.sensors, *wish.tick.tick->weather(), neighbours));
         }
     } catch (const remote::ChannelFault&) {
         // The run ended, and says why; nobody looks any more.

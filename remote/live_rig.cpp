@@ -43,7 +43,8 @@ std::array<int, 2> socket_pair() {
 
 struct LiveRig::Parts {
     Parts(const world::Rig& rig, unsigned latency, int descriptor)
-        : ring(rig, latency),
+        : sees_motion(world::see_motion(rig.sensors)),
+          ring(rig, latency),
           memory(ring.bytes()),
           channel(std::in_place, descriptor, largest_note) {}
 
@@ -74,6 +75,7 @@ struct LiveRig::Parts {
         done = pictures->Get(0)->tick();
     }
 
+    bool sees_motion;
     PictureRing ring;
     SharedMemory memory;
     std::optional<process::Companion> program;  // waited for once the channel is closed
@@ -106,7 +108,8 @@ const SharedMemory& LiveRig::memory() const {
 
 std::vector<PlacedPicture> LiveRig::ask(const world::SealedTick& tick) {
     std::vector<PlacedPicture> pictures = parts_->ring.of(tick.view().index());
-    if (pictures.empty())
+    // Who says how things move looks at the tick before as well, whether anything is due in it.
+    if (pictures.empty() && !parts_->sees_motion)
         return pictures;
     const Packed wish =
         pack_observation(tick.tick_bytes(), tick.traffic_bytes(), pictures, nullptr);
@@ -140,7 +143,8 @@ struct LivePictures::Parts {
     explicit Parts(int descriptor) : channel(descriptor, largest_from_run) {}
 
     FrameChannel channel;
-    Frame last;  ///< the wish looks into it
+    Frame last;    ///< the wish looks into it
+    Frame before;  ///< and into what was told before it
     world::TownT town;
     world::Rig rig;
     std::optional<SharedMemory> memory;
@@ -186,12 +190,27 @@ void LivePictures::ready() {
     parts_->channel.send(Kind::ready, bytes_of(builder));
 }
 
+namespace {
+
+world::TickView tick_of(const Frame& told) {
+    const Observation& seen = told.as<Observation>();
+    return {world::GetTick(seen.tick()->data()), world::GetTraffic(seen.traffic()->data())};
+}
+
+}  // namespace
+
 LivePictures::Wish LivePictures::next() {
     Parts& parts = *parts_;
-    parts.last = parts.channel.receive();
-    REPRISE_CHECK(parts.last.kind == Kind::observation, "no tick to look at");
+    do {
+        parts.before = std::move(parts.last);
+        parts.last = parts.channel.receive();
+        REPRISE_CHECK(parts.last.kind == Kind::observation, "no tick to look at");
+    } while (parts.last.as<Observation>().pictures() == nullptr);
     const Observation& seen = parts.last.as<Observation>();
-    Wish wish{{world::GetTick(seen.tick()->data()), world::GetTraffic(seen.traffic()->data())}, {}};
+    Wish wish{tick_of(parts.last), {}, {}};
+    if (parts.before.kind == Kind::observation &&
+        tick_of(parts.before).index() + 1 == wish.tick.index())
+        wish.last = tick_of(parts.before);
     for (const Picture* picture : *seen.pictures())
         wish.sensors.push_back(parts.rig.sensors.at(picture->sensor()));
     return wish;

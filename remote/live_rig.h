@@ -75,7 +75,8 @@ class LivePictures {
 
     struct Wish {
         world::TickView tick;
-        world::SensorRig sensors;  ///< due in this tick
+        world::SensorRig sensors;             ///< due in this tick
+        std::optional<world::TickView> last;  ///< the tick before it, where a sensor needs that
     };
 
     /// The next tick to be looked at, until the next call.

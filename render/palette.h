@@ -40,4 +40,37 @@ inline constexpr std::array<Rgb, 29> cityscapes{{
     {180, 165, 180},  // guard rail
 }};
 
+/// What each of these is among the twelve classes of CARLA's paper, see in_paper_classes().
+inline constexpr std::array<std::uint8_t, 29> paper_classes{
+    0,   // unlabeled
+    7,   // road
+    8,   // sidewalk
+    1,   // building
+    11,  // wall
+    2,   // fence
+    5,   // pole
+    12,  // traffic light
+    12,  // traffic sign
+    9,   // vegetation
+    9,   // terrain
+    0,   // sky
+    4,   // pedestrian
+    4,   // rider
+    10,  // car
+    10,  // truck
+    10,  // bus
+    10,  // train
+    10,  // motorcycle
+    10,  // bicycle
+    3,   // static
+    3,   // dynamic
+    3,   // other
+    3,   // water
+    6,   // road line
+    3,   // ground
+    3,   // bridge
+    3,   // rail track
+    2,   // guard rail
+};
+
 }  // namespace reprise::render

@@ -13,15 +13,36 @@ enum class Texture : std::uint8_t {
     flat     ///< drawn: areas of one colour
 };
 
-/// Writes a frame as PNG. rgb: 8-bit colour. depth: 16-bit grey, millimetres, 65535 from 65.535 m
-/// on and for the sky. semantic: 8-bit grey, class ids. `texture` is of colours. Throws
-/// world::Error when it cannot be written. An rgb frame of 800x600: 20 ms.
+/// How a depth stands in a PNG. The sky, and what is farther than a coding reaches, is the largest
+/// value; but of kitti 0, which there means that nothing was measured.
+enum class DepthCoding : std::uint8_t {
+    centimetres,  ///< 16-bit grey, up to 655.34 m
+    millimetres,  ///< 16-bit grey, up to 65.534 m
+    kitti,        ///< 16-bit grey, 1/256 m, up to 255.99 m
+    carla         ///< 8-bit colour: (R + 256 G + 65536 B) / (2^24 - 1) of a kilometre
+};
+
+/// Writes a frame as PNG. rgb: 8-bit colour. depth: as `coding` says. semantic: 8-bit grey, class
+/// ids. instance: 16-bit grey. flow: as KITTI, 16-bit colour: R = 64 x + 32768, G = 64 y + 32768,
+/// B = 1, all 0 where it is unknown or beyond 511 px. normals: 16-bit colour, x, y and z as
+/// (n + 1) * 32767.5, all 0 where there is none. `texture` is of colours. Throws world::Error when
+/// it cannot be written. An rgb frame of 800x600: 20 ms.
 void write_png(const world::SensorFrame& frame,
                const std::filesystem::path& path,
-               Texture texture = Texture::grainy);
+               Texture texture = Texture::grainy,
+               DepthCoding coding = DepthCoding::centimetres);
+
+/// Writes the frame's numbers as they are as an array of numpy, (height, width) or (height, width,
+/// channels).
+void write_npy(const world::SensorFrame& frame, const std::filesystem::path& path);
+
+/// The classes of a semantic frame as the twelve of CARLA's paper (CoRL 2017) and of its releases
+/// before 0.9.14: 0 unlabeled, 1 building, 2 fence, 3 other, 4 pedestrian, 5 pole, 6 road line, 7
+/// road, 8 sidewalk, 9 vegetation, 10 car, 11 wall, 12 traffic sign.
+world::SensorFrame in_paper_classes(const world::SensorFrame& frame);
 
 /// A version for people: depth near-bright on a logarithmic scale, semantic in CityScapes colours;
-/// rgb as it is.
+/// instances in colours of their own; flow and normals as colours around grey; rgb as it is.
 world::SensorFrame viewable(const world::SensorFrame& frame);
 
 }  // namespace reprise::render

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -12,6 +10,8 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
+#include "render/labels/channels.h"
+#include "render/labels/flow.h"
 #include "render/ranging/lidar.h"
 #include "render/ranging/obstacle.h"
 #include "render/ranging/radar.h"
@@ -19,6 +19,7 @@
 #include "render/shade/frame.h"
 #include "render/trace/default_float_mode.h"
 #include "world/check.h"
+#include "world/external/sensor_attributes.h"
 #include "world/models/viewpoint.h"
 
 namespace reprise::render {
@@ -29,11 +30,12 @@ namespace {
 /// memory for pictures.
 class Observer {
   public:
-    explicit Observer(const TownScene& town) : scene_(town) {}
+    explicit Observer(const TownScene& town) : scene_(town), last_(town), next_(town) {}
 
     std::vector<world::SensorFrame> observe(const world::TickView& tick,
                                             const world::SensorRig& rig,
-                                            const world::Weather& weather);
+                                            const world::Weather& weather,
+                                            const Neighbours& neighbours);
 
     std::vector<ProbeEcho> probe(const world::TickView& tick,
                                  std::span<const Probe> probes,
@@ -44,12 +46,19 @@ class Observer {
     /// Of cameras.
     std::vector<world::SensorFrame> look(const world::TickView& tick,
                                          const world::SensorRig& rig,
-                                         const world::Weather& weather);
+                                         const world::Weather& weather,
+                                         const Neighbours& neighbours);
 
     /// Of what measures by rays. Places the scene as it needs it.
     world::SensorFrame measure(const world::TickView& tick,
                                const world::SensorSpec& spec,
                                const world::Weather& weather);
+    void arrange_neighbours(const world::SensorRig& rig, const Neighbours& neighbours);
+    std::vector<std::uint8_t> flow(const world::SensorSpec& spec,
+                                   std::size_t number,
+                                   const Camera& camera,
+                                   const std::vector<Hit>& hits,
+                                   const Neighbours& neighbours) const;
 
     const Sky& sky_of(const world::Weather& weather) {
         if (!sky_ || !(sky_->weather() == weather))
@@ -58,6 +67,8 @@ class Observer {
     }
 
     Scene scene_;
+    Scene last_;  ///< where everybody was and will be, for who asks how things move
+    Scene next_;
     std::optional<Sky> sky_;
     Frame frame_;
 };
@@ -108,28 +119,38 @@ struct Sensors::Studio {
 
 namespace {
 
+/// Nothing where its carrier is not in the tick.
+std::optional<Camera> find_camera(const world::TickView& tick,
+                                  const world::SensorSpec& spec,
+                                  const Eigen::Vector3d& origin) {
+    std::optional<Eigen::Isometry3d> pose = Eigen::Isometry3d::Identity();
+    if (spec.actor != 0)
+        pose = world::find_pose(tick, spec.actor);
+    if (!pose)
+        return std::nullopt;
+    pose->translation() -= origin;
+    return Camera(spec, *pose);
+}
+
 Camera camera_of(const world::TickView& tick,
                  const world::SensorSpec& spec,
                  const Eigen::Vector3d& origin) {
     if (spec.width <= 0 || spec.height <= 0 || !(spec.fov > 0.001 && spec.fov < 3.1) ||
-        !spec.position.allFinite() || !std::isfinite(spec.yaw) || !std::isfinite(spec.pitch))
+        !spec.position.allFinite() || !std::isfinite(spec.yaw) || !std::isfinite(spec.pitch) ||
+        !std::isfinite(spec.roll))
         throw world::Error("sensor '" + spec.name +
                            "': size, field of view or place is not possible");
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    if (spec.actor != 0) {
-        const std::optional<Eigen::Isometry3d> found = world::find_pose(tick, spec.actor);
-        if (!found)
-            throw world::Error("sensor '" + spec.name + "': there is no actor " +
-                               std::to_string(spec.actor) + " at tick " +
-                               std::to_string(tick.index()));
-        pose = *found;
-    }
-    pose.translation() -= origin;
-    return {spec, pose};
+    const std::optional<Camera> camera = find_camera(tick, spec, origin);
+    if (!camera)
+        throw world::Error("sensor '" + spec.name + "': there is no actor " +
+                           std::to_string(spec.actor) + " at tick " + std::to_string(tick.index()));
+    return *camera;
 }
 
 /// Who is out of sight for a camera: the actor that it is fixed to. 0: nobody.
 std::uint32_t hidden_from(const world::TickView& tick, const world::SensorSpec& spec) {
+    if (world::attribute(spec, "own_car") > 0)
+        return 0;
     const std::optional<world::Extent> extent = world::find_extent(tick, spec.actor);
     return extent && world::is_carried_at(*extent, spec.position) ? spec.actor : 0;
 }
@@ -146,21 +167,8 @@ world::SensorFrame empty_frame(const world::TickView& tick, const world::SensorS
     return frame;
 }
 
-std::vector<std::uint8_t> depth_bytes(const std::vector<Hit>& hits) {
-    std::vector<std::uint8_t> bytes(hits.size() * sizeof(float));
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        const float depth = hits[i].instance == no_instance ? std::numeric_limits<float>::infinity()
-                                                            : hits[i].distance;
-        std::memcpy(bytes.data() + i * sizeof(float), &depth, sizeof(float));
-    }
-    return bytes;
-}
-
-std::vector<std::uint8_t> class_bytes(const Scene& scene, const std::vector<Hit>& hits) {
-    std::vector<std::uint8_t> bytes(hits.size());
-    for (std::size_t i = 0; i < hits.size(); ++i)
-        bytes[i] = static_cast<std::uint8_t>(semantic_class(scene, hits[i]));
-    return bytes;
+bool looks_forward(const world::SensorSpec& spec) {
+    return world::attribute(spec, "forward") > 0;
 }
 
 }  // namespace
@@ -172,11 +180,12 @@ Sensors::~Sensors() = default;
 
 std::vector<world::SensorFrame> Sensors::observe(const world::TickView& tick,
                                                  const world::SensorRig& rig,
-                                                 const world::Weather& weather) {
+                                                 const world::Weather& weather,
+                                                 const Neighbours& neighbours) {
     std::vector<world::SensorFrame> frames;
     studio_->arena.execute([&] {
         studio_->with_observer(
-            [&](Observer& observer) { frames = observer.observe(tick, rig, weather); });
+            [&](Observer& observer) { frames = observer.observe(tick, rig, weather, neighbours); });
     });
     return frames;
 }
@@ -210,7 +219,8 @@ void Sensors::observe_each(const std::function<std::unique_ptr<Observation>()>& 
         // Who waits for others in the middle of a picture helps them, and begins no other picture.
         tbb::this_task_arena::isolate([&] {
             studio_->with_observer([&](Observer& observer) {
-                look->seen(observer.observe(look->tick(), look->rig(), look->weather()));
+                look->seen(observer.observe(
+                    look->tick(), look->rig(), look->weather(), look->neighbours()));
             });
         });
         return look;
@@ -227,7 +237,8 @@ void Sensors::observe_each(const std::function<std::unique_ptr<Observation>()>& 
 
 std::vector<world::SensorFrame> Observer::observe(const world::TickView& tick,
                                                   const world::SensorRig& rig,
-                                                  const world::Weather& weather) {
+                                                  const world::Weather& weather,
+                                                  const Neighbours& neighbours) {
     const DefaultFloatMode plain;
     world::SensorRig cameras;
     for (const world::SensorSpec& spec : rig)
@@ -235,7 +246,7 @@ std::vector<world::SensorFrame> Observer::observe(const world::TickView& tick,
             cameras.push_back(spec);
     std::vector<world::SensorFrame> seen;
     if (!cameras.empty())
-        seen = look(tick, cameras, weather);
+        seen = look(tick, cameras, weather, neighbours);
     std::vector<world::SensorFrame> frames;
     auto picture = seen.begin();
     for (const world::SensorSpec& spec : rig)
@@ -268,7 +279,8 @@ std::vector<ProbeEcho> Observer::probe(const world::TickView& tick,
 
 std::vector<world::SensorFrame> Observer::look(const world::TickView& tick,
                                                const world::SensorRig& rig,
-                                               const world::Weather& weather) {
+                                               const world::Weather& weather,
+                                               const Neighbours& neighbours) {
     Scene& placed = scene_;
     // From where cameras look, and who carries them out of their sight.
     std::vector<std::uint32_t> mounts;
@@ -280,6 +292,7 @@ std::vector<world::SensorFrame> Observer::look(const world::TickView& tick,
             mounts.push_back(hidden);
     }
     placed.place(tick, mounts);
+    arrange_neighbours(rig, neighbours);
 
     // Sensors of one place look once, together.
     std::vector<world::SensorFrame> frames(rig.size());
@@ -288,10 +301,12 @@ std::vector<world::SensorFrame> Observer::look(const world::TickView& tick,
     for (std::size_t first = 0; first < rig.size(); ++first) {
         if (done[first])
             continue;
-        const std::uint32_t mask = placed.mask_hiding(hidden_from(tick, rig[first]));
+        const std::uint32_t hidden = hidden_from(tick, rig[first]);
+        const std::uint32_t mask = placed.mask_hiding(hidden);
         trace_primary(placed, cameras[first], mask, hits);
         for (std::size_t i = first; i < rig.size(); ++i) {
-            if (done[i] || rig[i].actor != rig[first].actor || !(cameras[i] == cameras[first]))
+            if (done[i] || rig[i].actor != rig[first].actor || !(cameras[i] == cameras[first]) ||
+                hidden_from(tick, rig[i]) != hidden)
                 continue;
             done[i] = true;
             frames[i] = empty_frame(tick, rig[i]);
@@ -302,6 +317,15 @@ std::vector<world::SensorFrame> Observer::look(const world::TickView& tick,
                 case world::SensorKind::semantic:
                     frames[i].data = class_bytes(placed, hits);
                     break;
+                case world::SensorKind::instance:
+                    frames[i].data = instance_bytes(placed, hits);
+                    break;
+                case world::SensorKind::normals:
+                    frames[i].data = normal_bytes(placed, cameras[i], hits);
+                    break;
+                case world::SensorKind::flow:
+                    frames[i].data = flow(rig[i], i, cameras[i], hits, neighbours);
+                    break;
                 case world::SensorKind::rgb: {
                     const ShadingInput input{placed, sky_of(weather), tick.index()};
                     shade(input, cameras[i], mask, hits, frame_);
@@ -310,11 +334,40 @@ std::vector<world::SensorFrame> Observer::look(const world::TickView& tick,
                     break;
                 }
                 default:
-                    throw world::Error("sensor '" + rig[i].name + "': no pictures of its kind yet");
+                    throw world::Error("sensor '" + rig[i].name + "': no pictures of its kind");
             }
         }
     }
     return frames;
+}
+
+void Observer::arrange_neighbours(const world::SensorRig& rig, const Neighbours& neighbours) {
+    bool last = false;
+    bool next = false;
+    for (const world::SensorSpec& spec : rig)
+        if (spec.kind == world::SensorKind::flow)
+            (looks_forward(spec) ? next : last) = true;
+    if (last && neighbours.last)
+        last_.arrange(neighbours.last->tick);
+    if (next && neighbours.next)
+        next_.arrange(neighbours.next->tick);
+}
+
+/// `number`: of the sensor in the rig.
+std::vector<std::uint8_t> Observer::flow(const world::SensorSpec& spec,
+                                         std::size_t number,
+                                         const Camera& camera,
+                                         const std::vector<Hit>& hits,
+                                         const Neighbours& neighbours) const {
+    const bool forward = looks_forward(spec);
+    const std::optional<Neighbour>& neighbour = forward ? neighbours.next : neighbours.last;
+    std::optional<OtherTick> other;
+    if (neighbour) {
+        const world::SensorSpec& there = neighbour->rig.empty() ? spec : neighbour->rig.at(number);
+        if (const auto from = find_camera(neighbour->tick, there, scene_.origin()))
+            other.emplace(OtherTick{forward ? next_ : last_, *from});
+    }
+    return flow_bytes(scene_, camera, hits, other ? &*other : nullptr, forward);
 }
 
 }  // namespace reprise::render

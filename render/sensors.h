@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,18 @@
 #include "world/town.h"
 
 namespace reprise::render {
+
+/// The tick before or behind that which is looked at.
+struct Neighbour {
+    world::TickView tick;
+    world::SensorRig rig;  ///< the sensors in their places there; empty: in those of the tick
+};
+
+/// For sensors that say how things move; who has none says that it is not known.
+struct Neighbours {
+    std::optional<Neighbour> last;
+    std::optional<Neighbour> next;
+};
 
 /// One of many, see Sensors::observe_each.
 class Observation {
@@ -24,6 +37,8 @@ class Observation {
     virtual const world::SensorRig& rig() const = 0;
     virtual const world::Weather& weather() const = 0;
 
+    virtual Neighbours neighbours() const { return {}; }
+
     /// What was seen, from any thread, while others look.
     virtual void seen(std::vector<world::SensorFrame> frames) = 0;
 
@@ -33,7 +48,7 @@ class Observation {
 
 /// What the cameras see at a tick, under any weather. Reads a tick and a Town, nothing else: live
 /// and replayed frames come out of the same code. Embree traces the rays, or PortableTracer. Frames
-/// do not depend on the number of threads, depth and semantic ones not on the weather either.
+/// do not depend on the number of threads, those of other kinds than rgb not on the weather either.
 /// 800x600 RGB: about 0.2 s on two cores.
 class Sensors {
   public:
@@ -59,7 +74,8 @@ class Sensors {
     /// a sensor sits on an actor that is not in the tick.
     std::vector<world::SensorFrame> observe(const world::TickView& tick,
                                             const world::SensorRig& rig,
-                                            const world::Weather& weather);
+                                            const world::Weather& weather,
+                                            const Neighbours& neighbours = {});
 
     /// What is there along straight lines at a tick, for sensors of one's own: one answer a probe,
     /// of what is nearer than `range` [m]. `carrier` is not seen; 0: nobody is hidden. 100,000

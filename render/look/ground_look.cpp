@@ -160,7 +160,7 @@ void soak(Look& look, const ShadingInput& input, const Surface& at, float lane_d
     // Lekner and Dorf, 1988: wet asphalt of albedo 0.1 sends back 0.52 of what dry asphalt does.
     look.albedo *= mix(1.0F, at.material == Material::marking ? 0.72F : 0.50F, wetness);
     float puddle = 0;
-    if (at.material != Material::kerb && weather.puddles() > 0) {
+    if (at.material != Material::kerb && at.material != Material::deck && weather.puddles() > 0) {
         const float gutter = 0.10F * smooth_step(1.1F, 1.8F, lane_distance);
         const float rut = 0.06F * smooth_step(0.45F, 0.1F, std::abs(lane_distance - 0.78F));
         const float low = fractal_noise(x * 0.28F, y * 0.28F, 3, 110) + gutter + rut -
@@ -206,6 +206,7 @@ Look ground_look(const ShadingInput& input, const Surface& at) {
             look = pavement(at);
             break;
         case Material::kerb:
+        case Material::deck:
             look = kerb(at);
             break;
         default:

@@ -164,6 +164,7 @@ Look shade_surface(const ShadingInput& input, const Surface& at) {
         case Material::asphalt:
         case Material::pavement:
         case Material::kerb:
+        case Material::deck:
         case Material::marking:
             return ground_look(input, at);
         case Material::facade:
@@ -257,6 +258,8 @@ world::SemanticClass semantic_class(const Scene& scene, const Hit& hit) {
         case Material::pavement:
         case Material::kerb:
             return SemanticClass::sidewalk;
+        case Material::deck:
+            return SemanticClass::bridge;
         case Material::marking:
             return SemanticClass::road_line;
         case Material::facade:

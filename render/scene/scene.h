@@ -28,6 +28,9 @@ class Scene {
     /// limbs, wheels and lamps are as at the tick.
     void place(const world::TickView& tick, std::span<const std::uint32_t> mounts, double ago = 0);
 
+    /// As place(), only to know where everybody is: rays find nobody.
+    void arrange(const world::TickView& tick);
+
     /// For rays of a camera that sits inside this actor.
     std::uint32_t mask_hiding(std::uint32_t actor) const;
 

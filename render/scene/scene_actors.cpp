@@ -152,6 +152,14 @@ void Scene::move_back(const world::TickView& tick, double ago) {
 
 void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mounts, double ago) {
     mounts_.assign(mounts.begin(), mounts.end());
+    arrange(tick);
+    if (ago > 0)
+        move_back(tick, ago);
+    hide_mounts();
+    commit();
+}
+
+void Scene::arrange(const world::TickView& tick) {
     signals_.assign(tick.signals().begin(), tick.signals().end());
     moving_.clear();
     outfits_.clear();
@@ -163,10 +171,6 @@ void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mo
     const bool rains = weather != nullptr && weather->rain() > 0;
     for (const world::WalkerState& walker : tick.walkers())
         place_walker(walker, rains);
-    if (ago > 0)
-        move_back(tick, ago);
-    hide_mounts();
-    commit();
 }
 
 }  // namespace reprise::render

@@ -8,6 +8,7 @@
 #include "render/shapes/paint.h"
 #include "render/shapes/street/prop_mesh.h"
 #include "world/check.h"
+#include "world/external/instance_id.h"
 #include "world/frames.h"
 
 namespace reprise::render {
@@ -44,10 +45,12 @@ struct SizeClass {
 
 void TownScene::place_props(const world::TownT& town) {
     std::map<std::pair<world::PropKind, SizeClass>, const Prototype*> prototypes;
-    for (const world::Prop& prop : town.props) {
+    const auto first = static_cast<std::uint32_t>(world::TownThings(town).props);
+    for (std::uint32_t i = 0; i < town.props.size(); ++i) {
+        const world::Prop& prop = town.props[i];
         props_.push_back({instances_.size(), Vector3d(1, 1, 1)});
         if (prop.kind() == world::PropKind::parked_vehicle) {
-            park(prop);
+            park(prop, first + i + 1);
             continue;
         }
         const PropSize size = size_of(prop);
@@ -57,6 +60,7 @@ void TownScene::place_props(const world::TownT& town) {
             prototype = add_prototype(prop_mesh(prop.kind(), size_class.size()));
         Instance instance;
         instance.kind = Kind::prop;
+        instance.thing = first + i + 1;
         instance.prototype = prototype;
         instance.model = prop.value();
         instance.style = prop.style();
@@ -70,12 +74,13 @@ void TownScene::place_props(const world::TownT& town) {
     }
 }
 
-void TownScene::park(const world::Prop& prop) {
+void TownScene::park(const world::Prop& prop, std::uint32_t thing) {
     REPRISE_CHECK(prop.value() < prototypes_.car_bodies.size(),
                   "parked vehicle of model " + std::to_string(prop.value()));
     const world::VehicleModel& model = *prototypes_.car_shapes[prop.value()].model;
     Instance body;
     body.model = prop.value();
+    body.thing = thing;
     body.look = hash(prop.style());
     body.color = paint_of(model, body.look).body;
     // A prop stands on its middle, a car's frame on its rear axle.

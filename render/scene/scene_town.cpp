@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -7,6 +8,7 @@
 #include "render/scene/town_scene.h"
 #include "render/shapes/street/plant_mesh.h"
 #include "render/shapes/street/signal_parts.h"
+#include "world/external/instance_id.h"
 #include "world/frames.h"
 
 namespace reprise::render {
@@ -24,8 +26,9 @@ Material ground_material(ground::Surface surface) {
         case ground::Surface::sidewalk:
             return Material::pavement;
         case ground::Surface::kerb:
-        case ground::Surface::deck:
             return Material::kerb;
+        case ground::Surface::deck:
+            return Material::deck;
         case ground::Surface::marking:
             return Material::marking;
         default:
@@ -91,37 +94,66 @@ void TownScene::build_town(const world::TownT& town) {
     if (!plots.triangles.empty())
         add(std::move(plots), Kind::ground, solid_bit);
 
-    Mesh houses;
-    for (std::uint32_t i = 0; i < town.buildings.size(); ++i) {
-        // Frames are found by the building's index, whether it has a model or not.
-        buildings_.push_back(frame_of(town.buildings[i], origin_));
-        if (town.buildings[i].model() == 0)
-            add_building(houses, town.buildings[i], i, origin_);
-        else
-            add_model_building(houses, facades_, town.buildings[i], origin_);
-    }
-    for (const world::DrawnBuildingT& building : town.drawn_buildings)
-        add_drawn_building(houses, facades_, building, origin_);
-    if (town.heads.empty())
-        add_signals(houses, town, origin_);
-    else
-        add_signal_heads(houses, town, origin_);
-    drop_degenerate(houses);
+    Mesh houses = build_things(town);
     if (!houses.triangles.empty())
         add(std::move(houses), Kind::town, solid_bit);
     place_trees(town);
     place_props(town);
 }
 
+/// Buildings and signals, and which triangles are of which.
+Mesh TownScene::build_things(const world::TownT& town) {
+    Mesh things;
+    Mesh part;
+    const auto finish = [&] {
+        drop_degenerate(part);
+        append(things, part);
+        part = Mesh();
+        thing_ends_.push_back(static_cast<std::uint32_t>(things.triangles.size()));
+    };
+    for (std::uint32_t i = 0; i < town.buildings.size(); ++i) {
+        // Frames are found by the building's index, whether it has a model or not.
+        buildings_.push_back(frame_of(town.buildings[i], origin_));
+        if (town.buildings[i].model() == 0)
+            add_building(part, town.buildings[i], i, origin_);
+        else
+            add_model_building(part, facades_, town.buildings[i], origin_);
+        finish();
+    }
+    for (const world::DrawnBuildingT& building : town.drawn_buildings) {
+        add_drawn_building(part, facades_, building, origin_);
+        finish();
+    }
+    for (const world::SignalHeadT& head : town.heads) {
+        add_signal_head(part, town, head, origin_);
+        finish();
+    }
+    for (std::uint32_t i = 0; town.heads.empty() && i < town.signals.size(); ++i) {
+        add_signal(part, town, i, origin_);
+        finish();
+    }
+    return things;
+}
+
+std::uint32_t TownScene::thing_of(const Instance& instance, std::uint32_t triangle) const {
+    if (instance.kind != Kind::town)
+        return instance.thing;
+    const auto end = std::upper_bound(thing_ends_.begin(), thing_ends_.end(), triangle);
+    return static_cast<std::uint32_t>(end - thing_ends_.begin()) + 1;
+}
+
 void TownScene::place_trees(const world::TownT& town) {
     // Prototypes are made when the first of their kind is met.
     std::array<const Prototype*, tree_kinds> trees{};
     std::map<world::PlantKind, const Prototype*> plants;
-    for (const world::Tree& tree : town.trees) {
+    const auto first = static_cast<std::uint32_t>(world::TownThings(town).trees);
+    for (std::uint32_t i = 0; i < town.trees.size(); ++i) {
+        const world::Tree& tree = town.trees[i];
         // Flat ones have no inside that rays could be taken into: Embree would end the process.
         if (!(tree.height() > 0.01) || !(tree.crown_radius() > 0.01))
             continue;
         Instance instance;
+        instance.thing = first + i + 1;
         if (tree.kind() == world::PlantKind::any) {
             const Prototype*& prototype = trees[tree.style() % tree_kinds];
             if (prototype == nullptr)

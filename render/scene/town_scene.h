@@ -91,6 +91,9 @@ class TownScene {
 
     const LaneRaster& lanes() const { return lanes_; }
 
+    /// 1 + the number in world::TownThings of what an instance's triangle is of; 0: of none.
+    std::uint32_t thing_of(const Instance& instance, std::uint32_t triangle) const;
+
     const Eigen::Vector3d& origin() const { return origin_; }
 
     /// Adds an instance in its place, in the scene's frame.
@@ -115,7 +118,8 @@ class TownScene {
     void build_town(const world::TownT& town);
     void place_trees(const world::TownT& town);
     void place_props(const world::TownT& town);
-    void park(const world::Prop& prop);
+    void park(const world::Prop& prop, std::uint32_t thing);
+    Mesh build_things(const world::TownT& town);
 
     std::unique_ptr<Device> device_;  // none when portable
     Eigen::Vector3d origin_;
@@ -127,6 +131,8 @@ class TownScene {
     std::vector<PlotFrame> plots_;
     std::vector<Instance> instances_;
     std::vector<PlacedProp> props_;
+    std::vector<std::uint32_t>
+        thing_ends_;  ///< of the town's own mesh: behind each one's triangles
     RTCSceneTy* tree_ = nullptr;
     std::optional<PortableTracer> portable_tracer_;
 };

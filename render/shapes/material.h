@@ -13,6 +13,7 @@ enum class Material : std::uint8_t {
     asphalt,
     pavement,
     kerb,
+    deck,  ///< sides and undersides of bridges
     marking,
     facade,    ///< tag: index in Town.buildings
     roof,      ///< tag: index in Town.buildings

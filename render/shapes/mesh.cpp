@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "world/check.h"
+
 namespace reprise::render {
 
 namespace {
@@ -136,6 +138,16 @@ void smooth(Mesh& mesh, double crease) {
             mesh.normals[i][corner] = sum.normalized();
         }
     }
+}
+
+void append(Mesh& mesh, const Mesh& part) {
+    REPRISE_CHECK(mesh.normals.empty() && part.normals.empty(), "flat meshes only");
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (const auto& [a, b, c] : part.triangles)
+        mesh.triangles.push_back({first + a, first + b, first + c});
+    mesh.materials.insert(mesh.materials.end(), part.materials.begin(), part.materials.end());
+    mesh.tags.insert(mesh.tags.end(), part.tags.begin(), part.tags.end());
 }
 
 void drop_degenerate(Mesh& mesh) {

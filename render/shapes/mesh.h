@@ -61,6 +61,9 @@ void add_ellipsoid(Mesh& mesh,
 /// Corner normals, averaged over the triangles at a vertex that lean less than `crease` away. [rad]
 void smooth(Mesh& mesh, double crease);
 
+/// `mesh` of flat triangles, with those of `part` behind its own.
+void append(Mesh& mesh, const Mesh& part);
+
 /// Embree builds poor trees over triangles without area, and their normals are not numbers.
 void drop_degenerate(Mesh& mesh);
 

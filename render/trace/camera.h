@@ -29,6 +29,12 @@ class Camera {
     /// sense.
     Eigen::Vector3d project(const Eigen::Vector3d& p_scene) const;
 
+    /// Its columns are where the optical axes point.
+    const Eigen::Matrix3d& rotation_scene_camera() const { return rotation_scene_camera_; }
+
+    /// [px] from the middle of the picture to what lies 45 degrees aside.
+    double focal() const { return focal_; }
+
     /// Size of a pixel one metre ahead. [m]
     double pixel() const { return 1 / focal_; }
 

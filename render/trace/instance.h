@@ -48,6 +48,7 @@ struct Instance {
     Color color{0.5F, 0.5F, 0.5F};       ///< of a car's paint
     std::uint32_t style = 0;             ///< of plants and props: seeds what is left open
     std::uint32_t actor = 0;             ///< 0: part of the town
+    std::uint32_t thing = 0;             ///< of the town: 1 + its number in world::TownThings, or 0
     std::uint32_t mask = 1;              ///< rays with a common bit see it
     Eigen::Affine3d pose = Eigen::Affine3d::Identity();  ///< to the scene's frame
     Eigen::Matrix3f normal_to_scene = Eigen::Matrix3f::Identity();

@@ -25,7 +25,7 @@ for each in "$pictures" "$program"; do
 done
 
 expected=$("$pictures")
-(($(wc -l <<<"$expected") == 18)) || { echo "eighteen pictures expected:"; echo "$expected"; exit 1; }
+(($(wc -l <<<"$expected") == 36)) || { echo "thirty-six pictures expected:"; echo "$expected"; exit 1; }
 compare() {
     local name=$1
     shift

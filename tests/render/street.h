@@ -36,11 +36,15 @@ inline world::SealedTick street_tick() {
     return world::seal(draft, {});
 }
 
-/// rgb, depth and semantic from the driver's place.
+/// All kinds that there are, rgb, depth and semantic first, from the driver's place.
 inline world::SensorRig street_rig(int width = 160, int height = 120) {
     world::SensorRig rig;
-    for (const world::SensorKind kind :
-         {world::SensorKind::rgb, world::SensorKind::depth, world::SensorKind::semantic}) {
+    for (const world::SensorKind kind : {world::SensorKind::rgb,
+                                         world::SensorKind::depth,
+                                         world::SensorKind::semantic,
+                                         world::SensorKind::instance,
+                                         world::SensorKind::normals,
+                                         world::SensorKind::flow}) {
         world::SensorSpec& spec = rig.emplace_back(camera(kind, {1, 0, 1.4}));
         spec.actor = 1;
         spec.width = width;

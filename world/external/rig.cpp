@@ -86,6 +86,12 @@ Rig rig_of(const Command& spawn, std::uint64_t tick) {
     return rig_of(command, tick);
 }
 
+bool see_motion(const SensorRig& sensors) {
+    return std::any_of(sensors.begin(), sensors.end(), [](const SensorSpec& sensor) {
+        return sensor.kind == SensorKind::flow;
+    });
+}
+
 bool is_sensor_name(std::string_view name) {
     return !name.empty() && name.size() <= longest_sensor_name &&
            std::all_of(name.begin(), name.end(), [](char c) {

@@ -45,6 +45,9 @@ struct Rig {
 Rig rig_of(const CommandT& spawn, std::uint64_t tick);
 Rig rig_of(const Command& spawn, std::uint64_t tick);
 
+/// Whether one of them says how things move, and so needs the ticks beside its own.
+bool see_motion(const SensorRig& sensors);
+
 /// Fit to name a folder: letters, digits, '_' and '-'.
 bool is_sensor_name(std::string_view name);
 

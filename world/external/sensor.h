@@ -65,9 +65,9 @@ struct SensorFrame {
     std::vector<std::uint8_t> data;
 };
 
-/// What pictures are made of, in world/tick.fbs's first numbers: the rest of kinds are no cameras.
+/// Those that make pictures; dvs has a number and no pictures yet.
 inline constexpr bool is_camera(SensorKind kind) {
-    return kind <= SensorKind::dvs;
+    return kind < SensorKind::dvs;
 }
 
 /// What measures by rays: frames are rows of numbers, see world/external/point_fields.h.

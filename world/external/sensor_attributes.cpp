@@ -8,6 +8,10 @@ namespace reprise::world {
 
 namespace {
 
+constexpr bool is_flow(SensorKind kind) {
+    return kind == SensorKind::flow;
+}
+
 constexpr bool is_lidar(SensorKind kind) {
     return kind == SensorKind::lidar;
 }
@@ -53,6 +57,7 @@ constexpr AttributeRow rows[] = {
     {"dropoff_general_rate", is_lidar, 0.45, 0, 1, "share of points that get lost anyhow"},
     {"dropoff_intensity_limit", is_lidar, 0.8, 0, 1, "brighter points do not get lost"},
     {"dropoff_zero_intensity", is_lidar, 0.4, 0, 1, "share of the darkest points that get lost"},
+    {"forward", is_flow, 0, 0, 1, "1: until the next tick, from a trace only; 0: since the last"},
     {"hit_radius", is_obstacle, 0.5, 0, 10, "[m] of the tube that it looks along"},
     {"horizontal_fov", is_radar, 30, 1, 180, "[deg]"},
     {"horizontal_fov", is_sweeping, 360, 1, 360, "[deg] swept in a turn"},

@@ -96,10 +96,12 @@ void add_head(Mesh& mesh,
 
 }  // namespace
 
-void add_signal_heads(Mesh& mesh, const world::TownT& town, const Eigen::Vector3d& origin) {
-    for (const world::SignalHeadT& head : town.heads)
-        if (!head.signals.empty())
-            add_head(mesh, town, head, origin);
+void add_signal_head(Mesh& mesh,
+                     const world::TownT& town,
+                     const world::SignalHeadT& head,
+                     const Eigen::Vector3d& origin) {
+    if (!head.signals.empty())
+        add_head(mesh, town, head, origin);
 }
 
 }  // namespace reprise::render

@@ -131,22 +131,22 @@ void add_signal_case(Mesh& mesh,
     }
 }
 
-void add_signals(Mesh& mesh, const world::TownT& town, const Eigen::Vector3d& origin) {
-    for (std::uint32_t i = 0; i < town.signals.size(); ++i) {
-        const world::SignalT& signal = town.signals[i];
-        if (signal.for_walkers) {
-            const Eigen::Isometry3f frame = signal_frame(signal, origin);
-            add_signal_pole(mesh, frame, 0.9F, 2.65F);
-            add_signal_case(mesh, frame, 0.9F, 2.6F, i, true);
-            continue;
-        }
-        bool repeated = false;
-        for (std::uint32_t other = 0; other < i; ++other)
-            repeated |= signal.lane != world::none && !town.signals[other].for_walkers &&
-                        town.signals[other].lane == signal.lane;
-        if (!repeated)
-            add_car_signal(mesh, town, i, origin);
+void add_signal(Mesh& mesh,
+                const world::TownT& town,
+                std::uint32_t number,
+                const Eigen::Vector3d& origin) {
+    const world::SignalT& signal = town.signals[number];
+    if (signal.for_walkers) {
+        const Eigen::Isometry3f frame = signal_frame(signal, origin);
+        add_signal_pole(mesh, frame, 0.9F, 2.65F);
+        add_signal_case(mesh, frame, 0.9F, 2.6F, number, true);
+        return;
     }
+    for (std::uint32_t other = 0; other < number; ++other)
+        if (signal.lane != world::none && !town.signals[other].for_walkers &&
+            town.signals[other].lane == signal.lane)
+            return;
+    add_car_signal(mesh, town, number, origin);
 }
 
 }  // namespace reprise::render

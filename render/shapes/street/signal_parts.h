@@ -29,13 +29,19 @@ void add_signal_case(Mesh& mesh,
                      std::uint32_t signal,
                      bool for_walkers);
 
-/// Appends the town's lamp housings with their poles and arms, in world coordinates less `origin`.
+/// Appends a lamp housing with its pole and arm, in world coordinates less `origin`.
 /// The lamps show the signal of the way straight on, or the first; a lamp of its own beside them
 /// shows when a turn is free, for each turn that has a signal of its own.
-void add_signal_heads(Mesh& mesh, const world::TownT& town, const Eigen::Vector3d& origin);
+void add_signal_head(Mesh& mesh,
+                     const world::TownT& town,
+                     const world::SignalHeadT& head,
+                     const Eigen::Vector3d& origin);
 
-/// Appends poles and heads of every signal of a town that has no heads, in world coordinates less
-/// `origin`.
-void add_signals(Mesh& mesh, const world::TownT& town, const Eigen::Vector3d& origin);
+/// Appends pole and head of a signal of a town that has no heads, in world coordinates less
+/// `origin`. Nothing where an earlier one of its lane has them.
+void add_signal(Mesh& mesh,
+                const world::TownT& town,
+                std::uint32_t signal,
+                const Eigen::Vector3d& origin);
 
 }  // namespace reprise::render

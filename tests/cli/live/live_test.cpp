@@ -26,6 +26,8 @@ constexpr const char* rig = R"(rig = {
     { name = 'rgb', width = 84, height = 84 },
     { name = 'depth', kind = 'depth', width = 84, height = 84 },
     { name = 'semantic', kind = 'semantic', width = 84, height = 84 },
+    { name = 'instance', kind = 'instance', width = 60, height = 40, every = 3 },
+    { name = 'flow', kind = 'flow', width = 60, height = 40, every = 3, attributes = { own_car = 1 } },
     { name = 'side', width = 60, height = 40, fov_deg = 70, yaw_deg = 80, pitch_deg = -5, y = 0.8, every = 3 },
 }, )";
 
@@ -94,13 +96,20 @@ class Live : public testing::Test {
         world::Rig carried;
         std::size_t pictures = 0;
         std::size_t shown = 0;
+        std::vector<std::uint8_t> last_tick;
+        std::vector<std::uint8_t> last_traffic;
         for (std::uint64_t index = 1; index < trace.last(); ++index) {
-            const world::TickView tick = trace.tick(index).view;
+            render::Neighbours neighbours;
+            if (!last_tick.empty())
+                neighbours.last = render::Neighbour{
+                    {world::GetTick(last_tick.data()), world::GetTraffic(last_traffic.data())}, {}};
+            const replay::RecordedTick recorded = trace.tick(index);
+            const world::TickView tick = recorded.view;
             for (const world::Command* command : *tick.tick->commands())
                 carried = world::rig_of(*command, index);
             for (const std::size_t due : carried.due(index)) {
-                const auto again =
-                    sensors.observe(tick, {carried.sensors[due]}, *tick.tick->weather());
+                const auto again = sensors.observe(
+                    tick, {carried.sensors[due]}, *tick.tick->weather(), neighbours);
                 const world::SensorFrame& frame = again.front();
                 const std::string pixels(frame.data.begin(), frame.data.end());
                 const std::string seen = kept_frame(frames, frame);
@@ -117,6 +126,8 @@ class Live : public testing::Test {
                     << frame.name << " at " << index;
                 ++pictures;
             }
+            last_tick.assign(recorded.tick_bytes.begin(), recorded.tick_bytes.end());
+            last_traffic.assign(recorded.traffic_bytes.begin(), recorded.traffic_bytes.end());
         }
         EXPECT_EQ(kept(frames).size(), shown);
         const std::size_t unseen = carried.due(trace.last()).size();  // nobody is asked behind it

@@ -5,7 +5,8 @@ import sys
 import numpy as np
 import reprise
 
-SHAPES = {"rgb": ((84, 84, 3), np.uint8), "depth": ((84, 84), np.float32), "semantic": ((84, 84), np.uint8)}
+SHAPES = {"rgb": ((84, 84, 3), np.uint8), "depth": ((84, 84), np.float32), "semantic": ((84, 84), np.uint8),
+          "instance": ((40, 60), np.uint16), "flow": ((40, 60, 2), np.float32)}
 folder, sensors_only = sys.argv[1], sys.argv[2:] == ["sensors"]
 
 
@@ -14,7 +15,7 @@ def decide(seen):
         shape, dtype = SHAPES[name] if name in SHAPES else ((40, 60, 3), np.uint8)
         assert image.shape == shape and image.dtype == dtype, (name, image.shape, image.dtype)
         assert not image.flags.owndata and not image.flags.writeable
-        assert np.array_equal(image, seen.image(name))
+        assert np.array_equal(image, seen.image(name), equal_nan=dtype == np.float32)
         with open(f"{folder}/{name}_{seen.index}.raw", "wb") as file:
             file.write(image.tobytes())
     assert ("side" in seen.images) == (seen.image("side") is not None)

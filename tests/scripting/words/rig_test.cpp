@@ -89,7 +89,7 @@ TEST(RigWords, MistakesAreOneLineThatNamesTheSensor) {
     EXPECT_EQ(of_sensor("kind = 'detph'"),
               first +
                   "no kind 'detph' (did you mean 'depth'?); there are rgb, depth, semantic, "
-                  "instance, flow, normals, dvs");
+                  "instance, flow, normals");
     EXPECT_EQ(of_sensor("wdth = 3"), first + "unknown key 'wdth' (did you mean 'width'?)");
     EXPECT_EQ(of_sensor("width = 0"), first + "'width' must be in [1, 4096], got 0");
     EXPECT_EQ(of_sensor("height = 4097"), first + "'height' must be in [1, 4096], got 4097");

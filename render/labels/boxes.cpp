@@ -1,0 +1,127 @@
+// What it must do: say of every actor that is seen where it is, in the picture and in space.
+// What it assumes: both frames are of this tick and camera.
+// How it goes: pixels are counted by their instance; each actor looks up its own count. A
+//   box that reaches behind the camera has no outline: the whole picture is said.
+// What it keeps: nothing.
+#include "render/labels/boxes.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <map>
+
+#include "world/external/instance_id.h"
+#include "world/models/actors.h"
+
+namespace reprise::render {
+
+namespace {
+
+struct Count {
+    std::size_t pixels = 0;
+    PixelBox around{1e9, 1e9, 0, 0};
+    std::map<std::uint8_t, std::size_t> classes;
+
+    /// A rider and his bicycle are one actor: what most of the pixels say.
+    world::SemanticClass most() const {
+        const auto found = std::max_element(
+            classes.begin(), classes.end(), [](const auto& left, const auto& right) {
+                return left.second < right.second;
+            });
+        return static_cast<world::SemanticClass>(found->first);
+    }
+};
+
+std::map<std::uint16_t, Count> count_pixels(const world::SensorFrame& instances,
+                                            const world::SensorFrame& classes) {
+    std::map<std::uint16_t, Count> counts;
+    for (int y = 0; y < instances.height; ++y)
+        for (int x = 0; x < instances.width; ++x) {
+            const auto index = static_cast<std::size_t>(y * instances.width + x);
+            std::uint16_t instance = 0;
+            std::memcpy(&instance, instances.data.data() + 2 * index, sizeof(instance));
+            if (instance == 0 || instance >= world::first_static_instance)
+                continue;
+            Count& count = counts[instance];
+            ++count.pixels;
+            ++count.classes[classes.data[index]];
+            count.around.left = std::min(count.around.left, static_cast<double>(x));
+            count.around.top = std::min(count.around.top, static_cast<double>(y));
+            count.around.right = std::max(count.around.right, x + 1.0);
+            count.around.bottom = std::max(count.around.bottom, y + 1.0);
+        }
+    return counts;
+}
+
+PixelBox around_corners(const Camera& camera,
+                        const Eigen::Isometry3d& pose_world_middle,
+                        const Eigen::Vector3d& size) {
+    constexpr double nearest = 0.05;  // [m] before the camera
+    constexpr double far = std::numeric_limits<double>::max();
+    PixelBox box{far, far, -far, -far};
+    for (int corner = 0; corner < 8; ++corner) {
+        const Eigen::Vector3d way((corner & 1) != 0 ? 0.5 : -0.5,
+                                  (corner & 2) != 0 ? 0.5 : -0.5,
+                                  (corner & 4) != 0 ? 0.5 : -0.5);
+        const Eigen::Vector3d at =
+            camera.project(pose_world_middle * Eigen::Vector3d(way.cwiseProduct(size)));
+        if (at.z() < nearest)
+            return {
+                0, 0, static_cast<double>(camera.width()), static_cast<double>(camera.height())};
+        box.left = std::min(box.left, at.x());
+        box.top = std::min(box.top, at.y());
+        box.right = std::max(box.right, at.x());
+        box.bottom = std::max(box.bottom, at.y());
+    }
+    const auto cut = [](double value, int most) {
+        return std::clamp(value, 0.0, static_cast<double>(most));
+    };
+    return {cut(box.left, camera.width()),
+            cut(box.top, camera.height()),
+            cut(box.right, camera.width()),
+            cut(box.bottom, camera.height())};
+}
+
+}  // namespace
+
+std::vector<LabelBox> boxes_of(const world::TickView& tick,
+                               const Camera& camera,
+                               const world::SensorFrame& instances,
+                               const world::SensorFrame& classes) {
+    const std::map<std::uint16_t, Count> counts = count_pixels(instances, classes);
+    std::vector<std::uint32_t> actors;
+    const auto note = [&](const auto& those) {
+        for (const auto& one : those)
+            actors.push_back(one.id());
+    };
+    note(tick.vehicles());
+    note(tick.cars());
+    note(tick.walkers());
+    note(tick.props());
+    std::sort(actors.begin(), actors.end());
+    Eigen::Isometry3d pose_world_camera = Eigen::Isometry3d::Identity();
+    pose_world_camera.linear() = camera.rotation_scene_camera();
+    pose_world_camera.translation() = camera.position();
+    std::vector<LabelBox> boxes;
+    for (const std::uint32_t actor : actors) {
+        const auto count = counts.find(world::instance_of_actor(actor));
+        const auto extent = world::find_extent(tick, actor);
+        const auto pose = world::find_pose(tick, actor);
+        if (count == counts.end() || !extent || !pose)
+            continue;
+        LabelBox& box = boxes.emplace_back();
+        box.actor = actor;
+        box.instance = count->first;
+        box.what = count->second.most();
+        box.pixels = count->second.pixels;
+        box.seen = count->second.around;
+        box.size = {extent->front - extent->rear, 2 * extent->half_width, extent->height};
+        const Eigen::Isometry3d middle =
+            *pose * Eigen::Translation3d(extent->middle(), 0, extent->height / 2);
+        box.whole = around_corners(camera, middle, box.size);
+        box.pose_camera = pose_world_camera.inverse() * middle;
+    }
+    return boxes;
+}
+
+}  // namespace reprise::render
