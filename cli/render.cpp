@@ -8,7 +8,9 @@
 #include "cli/options/tick_option.h"
 #include "cli/options/tick_range.h"
 #include "cli/pictures/annotation.h"
+#include "cli/pictures/box_text.h"
 #include "cli/pictures/cameras.h"
+#include "cli/pictures/kept_ticks.h"
 #include "cli/pictures/measurements.h"
 #include "cli/pictures/picture_output.h"
 #include "cli/process/guard.h"
@@ -18,6 +20,7 @@
 #include "render/sensors.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
+#include "world/external/sensor_attributes.h"
 #include "world/weather/weather_text.h"
 
 namespace reprise::cli {
@@ -57,7 +60,7 @@ std::unique_ptr<PictureOutput> open_output(const RenderOptions& options,
                                            std::uint64_t step_ns) {
     const std::string ending = film_ending(options.output);
     if (ending.empty())
-        return std::make_unique<PictureFolders>(options.output, cameras, !options.no_view);
+        return std::make_unique<PictureFolders>(options, cameras);
     const std::uint64_t every =
         as_recorded(options, cameras) ? cameras.recorded()->every.front() : ticks.every;
     return std::make_unique<Film>(
@@ -68,17 +71,15 @@ std::unique_ptr<PictureOutput> open_output(const RenderOptions& options,
 /// it is looked at.
 class LookAtTick : public render::Observation {
   public:
-    LookAtTick(const replay::RecordedTick& tick,
-               const Annotation& annotation,
-               PictureOutput& output)
-        : tick_bytes_(tick.tick_bytes.begin(), tick.tick_bytes.end()),
-          traffic_bytes_(tick.traffic_bytes.begin(), tick.traffic_bytes.end()),
+    LookAtTick(KeptTicks ticks, const Annotation& annotation, PictureOutput& output, bool boxes)
+        : ticks_(std::move(ticks)),
           annotation_(annotation),
-          output_(output) {}
+          output_(output),
+          boxes_(boxes) {}
 
-    world::TickView tick() const override {
-        return {world::GetTick(tick_bytes_.data()), world::GetTraffic(traffic_bytes_.data())};
-    }
+    world::TickView tick() const override { return ticks_.tick.view(); }
+
+    render::Neighbours neighbours() const override { return neighbours_; }
 
     const world::SensorRig& rig() const override { return rig_; }
 
@@ -99,10 +100,16 @@ class LookAtTick : public render::Observation {
         words_ = annotation_.words({tick(), rig_.front(), actor, last});
         // Cameras of one place look together: what is seen is found once.
         if (annotation_.needs_depth())
-            for (std::size_t i = 0; i < looking.size(); ++i) {
-                rig_.push_back(rig_[i]);
-                rig_.back().kind = world::SensorKind::depth;
-            }
+            look_also(world::SensorKind::depth);
+        first_of_boxes_ = rig_.size();
+        if (boxes_) {
+            look_also(world::SensorKind::instance);
+            look_also(world::SensorKind::semantic);
+        }
+        if (ticks_.last)
+            neighbours_.last = neighbour(cameras, ticks_.last->view());
+        if (ticks_.next)
+            neighbours_.next = neighbour(cameras, ticks_.next->view());
     }
 
     void seen(std::vector<world::SensorFrame> frames) override {
@@ -111,6 +118,14 @@ class LookAtTick : public render::Observation {
             shown_.push_back(output_.shows(looking_[i]) ? shown(i) : world::SensorFrame());
             if (!output_.in_order())
                 output_.take(looking_[i], frames_[i], shown_[i]);
+            if (boxes_)
+                output_.take_text(looking_[i],
+                                  "boxes",
+                                  tick().index(),
+                                  box_text(tick(),
+                                           rig_[i],
+                                           frames_[first_of_boxes_ + i],
+                                           frames_[first_of_boxes_ + looking_.size() + i]));
         }
     }
 
@@ -120,20 +135,50 @@ class LookAtTick : public render::Observation {
     }
 
   private:
+    /// Each camera sees this as well.
+    void look_also(world::SensorKind kind) {
+        for (std::size_t i = 0; i < looking_.size(); ++i) {
+            rig_.push_back(rig_[i]);
+            rig_.back().kind = kind;
+            // What is of another kind, it would not know.
+            std::erase_if(rig_.back().attributes, [&](const world::AttributeValue& one) {
+                return world::find_attribute(kind, one.name) == nullptr;
+            });
+        }
+    }
+
+    /// The same cameras there; nothing where they are not.
+    std::optional<render::Neighbour> neighbour(const Cameras& cameras,
+                                               const world::TickView& there) const {
+        if (!cameras.actor(there))
+            return std::nullopt;
+        render::Neighbour found{there, rig_};
+        for (std::size_t i = 0; i < looking_.size(); ++i) {
+            const world::SensorSpec placed = cameras.placed(looking_[i], actor_, there);
+            found.rig[i].actor = placed.actor;
+            found.rig[i].position = placed.position;
+            found.rig[i].yaw = placed.yaw;
+            found.rig[i].pitch = placed.pitch;
+        }
+        return found;
+    }
+
     world::SensorFrame shown(std::size_t i) const {
         world::SensorFrame shown = render::viewable(frames_[i]);
         const std::size_t depth = looking_.size() + i;
         annotation_.write(shown,
-                          depth < frames_.size() ? &frames_[depth] : nullptr,
+                          annotation_.needs_depth() ? &frames_[depth] : nullptr,
                           {tick(), rig_[i], actor_, last_},
                           words_);
         return shown;
     }
 
-    std::vector<std::uint8_t> tick_bytes_;
-    std::vector<std::uint8_t> traffic_bytes_;
+    KeptTicks ticks_;
     const Annotation& annotation_;
     PictureOutput& output_;
+    bool boxes_;
+    std::size_t first_of_boxes_ = 0;  ///< of rig_: the instances, behind them the classes
+    render::Neighbours neighbours_;
     std::vector<std::size_t> looking_;  ///< by their index in Cameras::sensors()
     std::uint32_t actor_ = 0;
     bool last_ = false;
@@ -161,17 +206,20 @@ class Renderer {
           cameras_(cameras),
           output_(output),
           annotation_(options, trace),
+          boxes_(options.boxes),
           weather_(weather_of(options)) {}
 
     /// Nobody looks at some ticks. `last`: nothing comes after it, and the run ends so.
     std::unique_ptr<LookAtTick> look(std::uint64_t index, bool last) {
-        const std::vector<std::size_t> looking = cameras_.due(index);
+        std::vector<std::size_t> looking = cameras_.due(index);
         if (looking.empty())
             return nullptr;
         annotation_.read_to(last ? trace_.last() : index);
-        auto look = std::make_unique<LookAtTick>(trace_.tick(index), annotation_, output_);
+        auto look = std::make_unique<LookAtTick>(
+            KeptTicks(trace_, index, cameras_.see_motion()), annotation_, output_, boxes_);
         const auto actor = cameras_.actor(look->tick());
-        if (!actor)
+        std::erase_if(looking, [&](std::size_t i) { return !cameras_.is_there(i, look->tick()); });
+        if (!actor || looking.empty())
             return nullptr;
         look->point(cameras_, looking, *actor, weather_, last);
         pictures_ += looking.size();
@@ -189,6 +237,7 @@ class Renderer {
     const Cameras& cameras_;
     PictureOutput& output_;
     Annotation annotation_;
+    bool boxes_;
     std::optional<world::WeatherPreset> weather_;  ///< none: as recorded
     std::size_t pictures_ = 0;
 };

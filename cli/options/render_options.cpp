@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/options/option_checks.h"
+#include "world/external/sensor.h"
 #include "world/external/sensor_attributes.h"
 #include "world/words.h"
 
@@ -96,6 +97,38 @@ void part_kinds(RenderOptions& render) {
     render.cameras = std::move(cameras);
 }
 
+/// What programs read: how it is coded, and what comes with it.
+void add_labels(CLI::App& command, RenderOptions& render) {
+    command.add_option("--rig", render.rig, "Sensors of a file, see docs/rendering.md")
+        ->type_name("RIG.json");
+    command
+        .add_option("--depth-coding",
+                    render.depth_coding,
+                    "Of depths along the optical axis in PNG: cm (default, 16 bits, to 655 m), mm "
+                    "(to 65 m), kitti (1/256 m, to 256 m) or carla (24 bits of a kilometre)")
+        ->type_name("CODING")
+        ->check(one_of({"cm", "mm", "kitti", "carla"}, "coding"));
+    command.add_flag(
+        "--npy",
+        render.npy,
+        "depth [m], flow [px] and normals as they are: float32 arrays, DIR/000120.npy");
+    command
+        .add_option("--classes",
+                    render.classes,
+                    "Of semantic: CARLA 0.9.14's 29 (carla, default) or its paper's 12 (paper)")
+        ->type_name("carla|paper")
+        ->check(one_of({"carla", "paper"}, "table of classes"));
+    command.add_flag("--own-car", render.own_car, "Who carries a camera is in its pictures");
+    command.add_flag(
+        "--boxes",
+        render.boxes,
+        "Of all that is seen boxes in the picture and in space, DIR/boxes/000120.json");
+    command.add_flag(
+        "--calibration",
+        render.calibration,
+        "DIR/camera.json and DIR/calib.txt (KITTI): what each camera is, and its place");
+}
+
 /// Whom to look at, from where, and what is written on it.
 void add_views(CLI::App& command, RenderOptions& render, RenderWords& words) {
     command
@@ -140,6 +173,21 @@ void check_preset(const CLI::App& command, const RenderOptions& render) {
     if (!render.preset.empty())
         for (const char* option : {"--mount", "--pitch", "--yaw"})
             refuse(option, "--preset " + render.preset + " says itself where the camera is");
+}
+
+/// A rig says itself what its sensors are; a film shows nothing but pictures.
+void check_labels(const CLI::App& command, const RenderOptions& render) {
+    if (!render.rig.empty())
+        for (const char* option :
+             {"--camera", "--size", "--fov", "--mount", "--pitch", "--yaw", "--preset"})
+            if (command.count(option) > 0)
+                throw CLI::ValidationError(option, "--rig says itself what its sensors are");
+    if (!film_ending(render.output).empty() && (render.boxes || render.calibration || render.npy))
+        throw CLI::ValidationError("--output",
+                                   "--boxes, --calibration and --npy are of pictures in a folder");
+    if (!render.preset.empty() && render.calibration)
+        throw CLI::ValidationError("--calibration",
+                                   "a preset's camera is not mounted; --boxes says where it is");
 }
 
 /// Of a name that somebody means as a file and that we would make a folder of.
@@ -223,6 +271,7 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
                     "And gnss, imu, collision, lane_invasion, obstacle (default csv)")
         ->type_name("csv|npy")
         ->check(one_of({"csv", "npy"}, "format"));
+    add_labels(command, render);
     add_views(command, render, words);
     command.add_option("--size", words.size, "Of the pictures (default 800x600)")->type_name("WxH");
     command
@@ -260,8 +309,9 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
         "Make pictures whose bytes are the same on every x86-64 CPU (depth and semantic take "
         "twice as long, rgb 10 to 20 % longer)");
     command.footer(
-        "Pictures are named by tick: DIR/000120.png. depth: 16-bit, millimetres; semantic: 8-bit\n"
-        "class ids (CARLA 0.9.14); DIR/view/ holds versions of these two for people to look at.\n"
+        "Pictures are named by tick: DIR/000120.png. depth: 16-bit, centimetres; semantic: 8-bit\n"
+        "class ids (CARLA 0.9.14); instance: 16-bit numbers; flow since the last tick: as KITTI;\n"
+        "normals: 16-bit colour; DIR/view/ holds versions of these for people to look at.\n"
         "A vehicle that carries a rig is rendered with it, DIR/SENSOR/000120.png, at the ticks at\n"
         "which it saw, unless --camera, --size, --fov, --mount, --pitch, --yaw or --preset say "
         "other\n"
@@ -280,12 +330,13 @@ void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions&
         read_threads(words.threads, render);
     check_cameras(render.cameras);
     check_preset(command, render);
+    check_labels(command, render);
     check_output(render.output);
     if (command.count("--ticks") > 0 && command.count("--from") + command.count("--to") > 0)
         throw CLI::ValidationError("--ticks", "says what --from and --to said: without these");
     render.heading_up = words.up == "heading";
     for (const char* option :
-         {"--camera", "--size", "--fov", "--mount", "--pitch", "--yaw", "--preset"})
+         {"--rig", "--camera", "--size", "--fov", "--mount", "--pitch", "--yaw", "--preset"})
         if (command.count(option) > 0)
             render.recorded_rig = false;
     part_kinds(render);

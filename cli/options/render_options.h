@@ -17,7 +17,7 @@ struct RenderOptions {
     std::string trace;
     std::string output;                             ///< a folder, or a film by its ending
     std::string weather;                            ///< empty: as recorded
-    std::vector<std::string> cameras;               ///< rgb, depth, semantic
+    std::vector<std::string> cameras;               ///< kinds: rgb, depth, ...
     std::vector<std::string> measured;              ///< kinds that are no cameras
     std::vector<world::AttributeValue> attributes;  ///< of these
     std::string points = "ply";                     ///< how points are written
@@ -39,7 +39,14 @@ struct RenderOptions {
     bool heading_up = false;         ///< of the preset top
     bool overlay = false;
     bool no_view = false;  ///< no versions for people beside depths and classes
-    int threads = 0;       ///< 0: one a core
+    std::string rig;       ///< a file of sensors; empty: as the other options say
+    std::string depth_coding = "cm";
+    std::string classes = "carla";
+    bool npy = false;          ///< floats as arrays of numpy
+    bool own_car = false;      ///< who carries a camera is in its pictures
+    bool boxes = false;        ///< of all that is seen, for each picture
+    bool calibration = false;  ///< of each camera, beside its pictures
+    int threads = 0;           ///< 0: one a core
     bool portable = false;
 };
 

@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include "cli/pictures/recorded_rig.h"
+#include "cli/pictures/rig_file.h"
 #include "replay/table/actor_search.h"
 #include "world/check.h"
+#include "world/external/sensor_attributes.h"
 #include "world/models/actors.h"
 #include "world/models/viewpoint.h"
 
@@ -20,19 +22,13 @@ namespace {
 constexpr double radians = std::numbers::pi / 180;
 constexpr double around = 4;  // [s] before and behind what is shown, that a preset looks at
 
-world::SensorKind kind_of(const std::string& camera) {
-    return camera == "depth"      ? world::SensorKind::depth
-           : camera == "semantic" ? world::SensorKind::semantic
-                                  : world::SensorKind::rgb;
-}
-
 world::SensorRig make_rig(const RenderOptions& options) {
     constexpr double usual_fov_deg = 90;
     world::SensorRig rig;
     for (const std::string& camera : options.cameras) {
         world::SensorSpec sensor;
         sensor.name = camera;
-        sensor.kind = kind_of(camera);
+        sensor.kind = *world::find_camera_kind(camera);
         sensor.width = options.width;
         sensor.height = options.height;
         sensor.fov = options.fov_deg.value_or(usual_fov_deg) * radians;
@@ -105,9 +101,44 @@ Cameras::Cameras(const RenderOptions& options, replay::TraceReader& trace, const
         recorded_ = recorded_rig(trace, named_.value_or(0), ticks.to);
     if (recorded_)
         recorded_ = only_cameras(*recorded_);
+    if (!options.rig.empty())
+        read_rig(trace);
     sensors_ = recorded_ ? recorded_->sensors : make_rig(options);
+    if (options.own_car)
+        for (world::SensorSpec& sensor : sensors_)
+            if (world::attribute(sensor, "own_car") == 0)
+                sensor.attributes.push_back({"own_car", 1});
     if (!options.preset.empty())
         follow(trace, ticks);
+}
+
+void Cameras::read_rig(replay::TraceReader& trace) {
+    RigFile file = read_rig_file(options_.rig, trace.episode().step_ns);
+    for (const std::string& carrier : file.carriers) {
+        std::optional<std::uint32_t>& id = carrier_ids_.emplace_back();
+        if (carrier == "world")
+            id = 0;
+        else if (!carrier.empty())
+            id = replay::find_actor(trace, carrier);
+    }
+    carriers_ = std::move(file.carriers);
+    recorded_ = std::move(file.rig);
+}
+
+std::string Cameras::carrier(std::size_t sensor) const {
+    if (!carriers_.empty() && !carriers_[sensor].empty())
+        return carriers_[sensor];
+    return options_.actor.empty() ? "the first vehicle" : options_.actor;
+}
+
+bool Cameras::see_motion() const {
+    return world::see_motion(sensors_);
+}
+
+bool Cameras::is_there(std::size_t sensor, const world::TickView& tick) const {
+    if (carrier_ids_.empty() || !carrier_ids_[sensor])
+        return true;
+    return *carrier_ids_[sensor] == 0 || world::find_pose(tick, *carrier_ids_[sensor]);
 }
 
 /// Whom a preset follows all the way: who was named, or the first vehicle that is there.
@@ -172,7 +203,7 @@ std::optional<std::uint32_t> Cameras::actor(const world::TickView& tick) const {
             tick.index() >= preset_first_ && (looks_on || tick.index() <= preset_last_);
         return there ? std::optional(preset_->track().actor) : std::nullopt;
     }
-    if (recorded_) {
+    if (recorded_ && carrier_ids_.empty()) {
         const std::uint32_t carrier = recorded_->sensors.front().actor;
         return world::find(tick.vehicles(), carrier) == nullptr ? std::nullopt
                                                                 : std::optional(carrier);
@@ -181,7 +212,14 @@ std::optional<std::uint32_t> Cameras::actor(const world::TickView& tick) const {
         return world::find_pose(tick, *named_) ? named_ : std::nullopt;
     if (imported_)
         return hero_ && world::find(tick.cars(), *hero_) != nullptr ? hero_ : std::nullopt;
-    return tick.vehicles().empty() ? std::nullopt : std::optional(tick.vehicles().front().id());
+    if (!tick.vehicles().empty())
+        return tick.vehicles().front().id();
+    // A rig's sensors may all have carriers of their own.
+    const bool all_named =
+        !carrier_ids_.empty() && std::all_of(carrier_ids_.begin(), carrier_ids_.end(), [](auto id) {
+            return id.has_value();
+        });
+    return all_named ? std::optional(0U) : std::nullopt;
 }
 
 world::SensorSpec Cameras::placed(std::size_t sensor,
@@ -190,7 +228,7 @@ world::SensorSpec Cameras::placed(std::size_t sensor,
     if (preset_)
         return preset_->at(tick.index(), sensors_[sensor]);
     world::SensorSpec mounted = sensors_[sensor];
-    mounted.actor = actor;
+    mounted.actor = carrier_ids_.empty() ? actor : carrier_ids_[sensor].value_or(actor);
     return mounted;
 }
 

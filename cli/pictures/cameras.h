@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cli/options/render_options.h"
@@ -25,6 +26,9 @@ class Cameras {
     /// Looks for actor and rig in the trace. Throws world::Error.
     Cameras(const RenderOptions& options, replay::TraceReader& trace, const Ticks& ticks);
 
+    /// Whether it is what somebody carried in the run, or a rig file's.
+    bool has_folders() const { return recorded_.has_value() || sensors_.size() > 1; }
+
     /// As they are in all ticks but for their places.
     const world::SensorRig& sensors() const { return sensors_; }
 
@@ -38,6 +42,15 @@ class Cameras {
     /// end nobody can carry anything.
     std::optional<std::uint32_t> actor(const world::TickView& tick) const;
 
+    /// Whether one of them says how things move, and so needs the ticks beside its own.
+    bool see_motion() const;
+
+    /// Whether who carries it is there, for those of a rig file, which have carriers of their own.
+    bool is_there(std::size_t sensor, const world::TickView& tick) const;
+
+    /// Whose frame its place is in, for people: "ego", "world".
+    std::string carrier(std::size_t sensor) const;
+
     /// One in its place.
     world::SensorSpec placed(std::size_t sensor,
                              std::uint32_t actor,
@@ -45,6 +58,7 @@ class Cameras {
 
   private:
     std::uint32_t followed(replay::TraceReader& trace, const Ticks& ticks) const;
+    void read_rig(replay::TraceReader& trace);
     void follow(replay::TraceReader& trace, const Ticks& ticks);
 
     const RenderOptions& options_;
@@ -53,6 +67,8 @@ class Cameras {
     bool imported_ = false;
     world::SensorRig sensors_;
     std::optional<world::Rig> recorded_;
+    std::vector<std::string> carriers_;  ///< of a rig file's sensors, by name; else empty
+    std::vector<std::optional<std::uint32_t>> carrier_ids_;  ///< none: as usual
     std::optional<render::PresetCamera> preset_;
     std::uint64_t preset_first_ = 0;  ///< the followed actor's first tick
     std::uint64_t preset_last_ = 0;

@@ -2,32 +2,80 @@
 
 #include <fmt/format.h>
 
-#include "render/picture.h"
+#include "cli/pictures/calibration.h"
+#include "files/output_file.h"
 #include "world/check.h"
 
 namespace reprise::cli {
 
-PictureFolders::PictureFolders(const std::filesystem::path& folder,
-                               const Cameras& cameras,
-                               bool view)
-    : view_(view) {
+namespace {
+
+render::DepthCoding coding_of(const std::string& word) {
+    using enum render::DepthCoding;
+    return word == "mm"      ? millimetres
+           : word == "kitti" ? kitti
+           : word == "carla" ? carla
+                             : centimetres;
+}
+
+bool is_of_floats(const world::SensorFrame& frame) {
+    return frame.type == world::PixelType::f32;
+}
+
+}  // namespace
+
+PictureFolders::PictureFolders(const RenderOptions& options, const Cameras& cameras)
+    : options_(options),
+      cameras_(cameras),
+      coding_(coding_of(options.depth_coding)),
+      view_(!options.no_view) {
+    const std::filesystem::path folder = options.output;
     const world::SensorRig& sensors = cameras.sensors();
     for (const world::SensorSpec& sensor : sensors)
-        of_sensors_.push_back(cameras.recorded() || sensors.size() > 1 ? folder / sensor.name
-                                                                       : folder);
+        of_sensors_.push_back(cameras.has_folders() ? folder / sensor.name : folder);
     for (std::size_t i = 0; i < sensors.size(); ++i) {
         for_people_.push_back(sensors[i].kind == world::SensorKind::rgb);
-        made_.emplace_front(for_people_[i] || !view ? of_sensors_[i] : of_sensors_[i] / "view");
+        made_.emplace_front(for_people_[i] || !view_ ? of_sensors_[i] : of_sensors_[i] / "view");
+        if (options.boxes)
+            made_.emplace_front(of_sensors_[i] / "boxes");
     }
+}
+
+void PictureFolders::write(const world::SensorFrame& frame,
+                           const std::filesystem::path& folder) const {
+    if (options_.npy && is_of_floats(frame))
+        return render::write_npy(frame, folder / fmt::format("{:06}.npy", frame.tick));
+    const bool mapped = frame.kind == world::SensorKind::semantic && options_.classes == "paper";
+    render::write_png(mapped ? render::in_paper_classes(frame) : frame,
+                      folder / fmt::format("{:06}.png", frame.tick),
+                      render::Texture::grainy,
+                      coding_);
 }
 
 void PictureFolders::take(std::size_t sensor,
                           const world::SensorFrame& frame,
                           const world::SensorFrame& shown) {
-    const std::string name = fmt::format("{:06}.png", frame.tick);
-    render::write_png(for_people_[sensor] ? shown : frame, of_sensors_[sensor] / name);
+    write(for_people_[sensor] ? shown : frame, of_sensors_[sensor]);
     if (!for_people_[sensor] && view_)
-        render::write_png(shown, of_sensors_[sensor] / "view" / name, render::Texture::flat);
+        render::write_png(shown,
+                          of_sensors_[sensor] / "view" / fmt::format("{:06}.png", frame.tick),
+                          render::Texture::flat);
+}
+
+void PictureFolders::take_text(std::size_t sensor,
+                               const std::string& folder,
+                               std::uint64_t tick,
+                               const std::string& text) {
+    files::write_file(
+        of_sensors_[sensor] / folder / fmt::format("{:06}.json", tick), "the " + folder, text);
+}
+
+void PictureFolders::finish() {
+    if (!options_.calibration && options_.rig.empty())
+        return;
+    for (std::size_t i = 0; i < of_sensors_.size(); ++i)
+        if (std::filesystem::is_directory(of_sensors_[i]))
+            write_calibration(of_sensors_[i], cameras_.sensors()[i], cameras_.carrier(i));
 }
 
 Film::Film(const std::filesystem::path& path,

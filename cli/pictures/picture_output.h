@@ -11,6 +11,7 @@
 #include "cli/pictures/cameras.h"
 #include "cli/pictures/film_pipe.h"
 #include "cli/process/new_folder.h"
+#include "render/picture.h"
 
 namespace reprise::cli {
 
@@ -34,6 +35,12 @@ class PictureOutput {
                       const world::SensorFrame& frame,
                       const world::SensorFrame& shown) = 0;
 
+    /// A text that belongs to what a sensor saw, in a folder of this name beside it.
+    virtual void take_text(std::size_t /*sensor*/,
+                           const std::string& /*folder*/,
+                           std::uint64_t /*tick*/,
+                           const std::string& /*text*/) {}
+
     /// All were taken.
     virtual void finish() {}
 };
@@ -42,8 +49,7 @@ class PictureOutput {
 /// is one camera, and it is not of a recorded rig. Folders that stay empty go again.
 class PictureFolders : public PictureOutput {
   public:
-    /// `view`: with versions for people of what is for programs.
-    PictureFolders(const std::filesystem::path& folder, const Cameras& cameras, bool view);
+    PictureFolders(const RenderOptions& options, const Cameras& cameras);
 
     bool in_order() const override { return false; }
 
@@ -53,7 +59,18 @@ class PictureFolders : public PictureOutput {
               const world::SensorFrame& frame,
               const world::SensorFrame& shown) override;
 
+    void take_text(std::size_t sensor,
+                   const std::string& folder,
+                   std::uint64_t tick,
+                   const std::string& text) override;
+    void finish() override;
+
   private:
+    void write(const world::SensorFrame& frame, const std::filesystem::path& folder) const;
+
+    const RenderOptions& options_;
+    const Cameras& cameras_;
+    render::DepthCoding coding_;
     bool view_;
     std::vector<bool> for_people_;  ///< by sensor: rgb
     std::vector<std::filesystem::path> of_sensors_;

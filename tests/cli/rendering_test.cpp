@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -163,6 +164,87 @@ TEST(RenderingMistakes, AreOneClearLineAndMakeNoFolder) {
         EXPECT_EQ(result.out, "reprise: " + message + " (reprise --help says more)\n");
         EXPECT_THAT(folder.files(), testing::IsEmpty());
     }
+}
+
+TEST_F(Rendering, LabelsAreEqualUnderEveryWeatherAndForEveryNumberOfThreads) {
+    for (const std::string sensor : {"instance", "flow", "normals"}) {
+        const std::string clear = render(sensor, "clear_noon");
+        const std::string rain = render(sensor, "hard_rain_sunset");
+        for (const std::string picture : {"/000040.png", "/000080.png"}) {
+            const std::string one = read_file(clear + picture);
+            ASSERT_FALSE(one.empty()) << clear << picture;
+            EXPECT_TRUE(one == read_file(rain + picture)) << sensor << picture;
+        }
+    }
+}
+
+TEST_F(Rendering, ARigFileSaysWhatLooksWhenAndWithWhatBesideIt) {
+    write_file(folder_ / "rig.json",
+               R"({ "sensors": [
+                 { "name": "front", "type": "depth", "size": [32, 24], "rate_hz": 1 },
+                 { "name": "mast", "actor": "world", "size": [32, 24], "every": 40 } ] })");
+    const Folder out;
+    const Result result = reprise({"render",
+                                   folder_ / "t.mcap",
+                                   "-o",
+                                   out.path().string(),
+                                   "--rig",
+                                   folder_ / "rig.json",
+                                   "--ticks",
+                                   "10..50",
+                                   "--npy",
+                                   "--no-view",
+                                   "--boxes"});
+    EXPECT_EQ(result.code, 0) << result.out;
+    EXPECT_THAT(out.files(),
+                testing::ElementsAre("front/000020.npy",
+                                     "front/000040.npy",
+                                     "front/boxes/000020.json",
+                                     "front/boxes/000040.json",
+                                     "front/calib.txt",
+                                     "front/camera.json",
+                                     "mast/000040.png",
+                                     "mast/boxes/000040.json",
+                                     "mast/calib.txt",
+                                     "mast/camera.json"));
+    EXPECT_EQ(read_file(out / "front/000020.npy").size(), 128U + 32 * 24 * 4);
+}
+
+TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
+    const std::string file = folder_ / "rig.json";
+    const auto mistake = [&](const std::string& text) {
+        write_file(file, text);
+        const Result result =
+            reprise({"render", folder_ / "t.mcap", "-o", folder_ / "none", "--rig", file});
+        EXPECT_EQ(result.code, 2) << text;
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "none")) << text;
+        EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+        return result.out;
+    };
+    const auto of_sensor = [&](const std::string& keys) {
+        return mistake("{ \"sensors\": [ { \"name\": \"a\", " + keys + " } ] }");
+    };
+    using testing::HasSubstr;
+    EXPECT_THAT(mistake("{ \"sensors\": [\n nan ] }"), HasSubstr("rig.json:2: this is no JSON"));
+    EXPECT_THAT(mistake("{ \"sensors\": [] }"), HasSubstr("rig.json: expected { \"sensors\": ["));
+    EXPECT_THAT(of_sensor("\"type\": \"deph\""),
+                HasSubstr("sensor 1 'a': no type 'deph' (did you mean 'depth'?); there are rgb"));
+    EXPECT_THAT(of_sensor("\"size\": [100000, 100000]"),
+                HasSubstr("'size' must be a number in [1, 4096], got 100000"));
+    EXPECT_THAT(of_sensor("\"size\": [0, 10]"), HasSubstr("'size' must be a number in [1, 4096]"));
+    EXPECT_THAT(of_sensor("\"fov_deg\": 0"), HasSubstr("'fov_deg' must be a number in [1, 170]"));
+    EXPECT_THAT(of_sensor("\"yaw_deg\": 1e999"), HasSubstr("too large"));
+    EXPECT_THAT(of_sensor("\"postion\": [1, 2, 3]"), HasSubstr("(did you mean 'position'?)"));
+    EXPECT_THAT(of_sensor("\"actor\": \"ega\""), HasSubstr("(did you mean 'ego'?)"));
+    EXPECT_THAT(of_sensor("\"rate_hz\": 3"), HasSubstr("20 over a whole number"));
+    EXPECT_THAT(of_sensor("\"attributes\": { \"own_cat\": 1 }"),
+                HasSubstr("(did you mean 'own_car'?)"));
+    EXPECT_THAT(
+        reprise({"render", folder_ / "t.mcap", "-o", folder_ / "none", "--rig", "no.json"}).out,
+        HasSubstr("no.json: cannot be read"));
+    EXPECT_THAT(
+        reprise({"render", folder_ / "t.mcap", "-o", folder_ / "none", "--sensor", "instnce"}).out,
+        HasSubstr("did you mean 'instance'"));
 }
 
 }  // namespace

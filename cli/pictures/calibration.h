@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "world/external/sensor.h"
+
+namespace reprise::cli {
+
+/// Writes what a camera is and how it is mounted beside its pictures: camera.json, and calib.txt as
+/// KITTI's devkit reads it (P2 and Tr_velo_to_cam, from the carrier's frame). `carrier`: whose
+/// frame the place is in, "world" for the world's.
+void write_calibration(const std::filesystem::path& folder,
+                       const world::SensorSpec& sensor,
+                       const std::string& carrier);
+
+}  // namespace reprise::cli

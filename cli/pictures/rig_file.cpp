@@ -1,0 +1,226 @@
+#include "cli/pictures/rig_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "world/check.h"
+#include "world/external/sensor_attributes.h"
+
+namespace reprise::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double farthest_place = 1e6;  // [m] in the world
+constexpr std::size_t most_rig_sensors = 1000;
+
+/// A JSON object whose keys are known, and where it is, for messages.
+class Table {
+  public:
+    Table(const Json& json, std::string where, const std::vector<std::string>& known)
+        : json_(json),
+          where_(std::move(where)) {
+        if (!json.is_object())
+            refuse("expected { ... }, got " + json.dump());
+        for (const auto& [key, value] : json.items())
+            if (std::find(known.begin(), known.end(), key) == known.end())
+                refuse(fmt::format("unknown key '{}'{}", key, world::did_you_mean(key, known)));
+    }
+
+    [[noreturn]] void refuse(const std::string& why) const {
+        throw world::Error(where_ + ": " + why);
+    }
+
+    const Json* find(const std::string& key) const {
+        const auto found = json_.find(key);
+        return found == json_.end() ? nullptr : &*found;
+    }
+
+    std::optional<std::string> text(const std::string& key) const {
+        const Json* value = find(key);
+        if (value == nullptr)
+            return std::nullopt;
+        if (!value->is_string())
+            refuse(fmt::format("'{}' must be a text, got {}", key, value->dump()));
+        return value->get<std::string>();
+    }
+
+    double number(const std::string& key, double usual, double low, double high) const {
+        const Json* value = find(key);
+        return value == nullptr ? usual : within(key, *value, low, high);
+    }
+
+    double within(const std::string& key, const Json& value, double low, double high) const {
+        const double number = value.is_number() ? value.get<double>() : std::nan("");
+        if (!(number >= low && number <= high))
+            refuse(fmt::format(
+                "'{}' must be a number in [{:g}, {:g}], got {}", key, low, high, value.dump()));
+        return number;
+    }
+
+    std::int64_t whole(const std::string& key, const Json& value, std::int64_t high) const {
+        const auto number = within(key, value, 1, static_cast<double>(high));
+        if (number != std::floor(number))
+            refuse(fmt::format("'{}' must be a whole number, got {}", key, value.dump()));
+        return static_cast<std::int64_t>(number);
+    }
+
+    /// So many numbers in a row.
+    const Json* list(const std::string& key, std::size_t length) const {
+        const Json* value = find(key);
+        if (value != nullptr && (!value->is_array() || value->size() != length))
+            refuse(
+                fmt::format("'{}' must be {} numbers [ ... ], got {}", key, length, value->dump()));
+        return value;
+    }
+
+  private:
+    const Json& json_;
+    std::string where_;
+};
+
+Json parse(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file.is_open() || file.bad() || std::filesystem::is_directory(path))
+        throw world::Error(path.string() + ": cannot be read");
+    try {
+        return Json::parse(text);
+    } catch (const Json::parse_error& error) {
+        const std::size_t at = std::min(error.byte, text.size());
+        const auto line =
+            1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+        throw world::Error(
+            fmt::format("{}:{}: this is no JSON, where {{ \"sensors\": [ ... ] }} was expected",
+                        path.string(),
+                        line));
+    } catch (const Json::exception&) {
+        throw world::Error(path.string() + ": a number in it is too large");
+    }
+}
+
+std::uint32_t period_of(const Table& table, std::uint64_t step_ns) {
+    const Json* every = table.find("every");
+    const Json* rate = table.find("rate_hz");
+    if (every != nullptr && rate != nullptr)
+        table.refuse("'every' and 'rate_hz' say the same: one of them");
+    if (every != nullptr)
+        return static_cast<std::uint32_t>(
+            table.whole("every", *every, world::longest_sensor_period));
+    if (rate == nullptr)
+        return 1;
+    const double ticks_a_second = 1e9 / static_cast<double>(step_ns);
+    const double ticks = ticks_a_second / table.within("rate_hz", *rate, 1e-3, ticks_a_second);
+    if (std::abs(ticks - std::round(ticks)) > 1e-6 || ticks > world::longest_sensor_period)
+        table.refuse(
+            fmt::format("'rate_hz' must be {:g} over a whole number, as a tick is {:g} s, got {}",
+                        ticks_a_second,
+                        1 / ticks_a_second,
+                        rate->dump()));
+    return static_cast<std::uint32_t>(std::lround(ticks));
+}
+
+void read_attributes(const Json& json, const std::string& where, world::SensorSpec& sensor) {
+    const std::vector<std::string> names = world::attribute_names(sensor.kind);
+    const Table table(json, where + ": 'attributes'", names);
+    for (const std::string& name : names) {
+        if (table.find(name) == nullptr)
+            continue;
+        const world::AttributeRow& row = *world::find_attribute(sensor.kind, name);
+        sensor.attributes.push_back({name, table.number(name, row.usual, row.low, row.high)});
+    }
+}
+
+void read_sensor(const Json& json, const std::string& where, std::uint64_t step_ns, RigFile& file) {
+    const Table table(json,
+                      where,
+                      {"name",
+                       "type",
+                       "actor",
+                       "position",
+                       "roll_deg",
+                       "pitch_deg",
+                       "yaw_deg",
+                       "fov_deg",
+                       "size",
+                       "every",
+                       "rate_hz",
+                       "attributes"});
+    world::SensorSpec sensor;
+    sensor.name = table.text("name").value_or("");
+    if (!world::is_sensor_name(sensor.name))
+        table.refuse(
+            fmt::format("'name' must be 1 to {} letters, digits, '_' or '-', as it names a "
+                        "folder",
+                        world::longest_sensor_name));
+    const std::string type = table.text("type").value_or("rgb");
+    const auto kind = world::find_camera_kind(type);
+    if (!kind)
+        table.refuse(fmt::format("no type '{}'{}; there are {}",
+                                 type,
+                                 world::did_you_mean(type, world::camera_kinds()),
+                                 fmt::join(world::camera_kinds(), ", ")));
+    sensor.kind = *kind;
+    const std::string& carrier = file.carriers.emplace_back(table.text("actor").value_or(""));
+    const double reach = carrier == "world" ? farthest_place : world::farthest_mount;
+    if (const Json* place = table.list("position", 3))
+        for (int axis = 0; axis < 3; ++axis)
+            sensor.position[axis] =
+                table.within("position", (*place)[static_cast<std::size_t>(axis)], -reach, reach);
+    sensor.roll = table.number("roll_deg", 0, -360, 360) * degree;
+    sensor.pitch = table.number("pitch_deg", 0, -90, 90) * degree;
+    sensor.yaw = table.number("yaw_deg", 0, -360, 360) * degree;
+    sensor.fov =
+        table.number("fov_deg", 90, world::narrowest_view_deg, world::widest_view_deg) * degree;
+    if (const Json* size = table.list("size", 2)) {
+        sensor.width =
+            static_cast<int>(table.whole("size", (*size)[0], world::largest_picture_side));
+        sensor.height =
+            static_cast<int>(table.whole("size", (*size)[1], world::largest_picture_side));
+    }
+    if (const Json* attributes = table.find("attributes"))
+        read_attributes(*attributes, where, sensor);
+    for (const world::SensorSpec& other : file.rig.sensors)
+        if (other.name == sensor.name)
+            table.refuse(fmt::format("an earlier sensor is named '{}' as well", sensor.name));
+    file.rig.sensors.push_back(sensor);
+    file.rig.every.push_back(period_of(table, step_ns));
+}
+
+}  // namespace
+
+RigFile read_rig_file(const std::filesystem::path& path, std::uint64_t step_ns) {
+    const Json json = parse(path);
+    const Table table(json, path.string(), {"sensors"});
+    const Json* sensors = table.find("sensors");
+    if (sensors == nullptr || !sensors->is_array() || sensors->empty())
+        table.refuse("expected { \"sensors\": [ { \"name\": \"front\" }, ... ] }");
+    if (sensors->size() > most_rig_sensors)
+        table.refuse(
+            fmt::format("{} sensors, where {} is the most", sensors->size(), most_rig_sensors));
+    RigFile file;
+    for (std::size_t i = 0; i < sensors->size(); ++i) {
+        const Json& one = (*sensors)[i];
+        const bool named = one.is_object() && one.contains("name") && one["name"].is_string() &&
+                           world::is_sensor_name(one["name"].get<std::string>());
+        read_sensor(one,
+                    fmt::format("{}: sensor {}{}",
+                                path.string(),
+                                i + 1,
+                                named ? " '" + one["name"].get<std::string>() + "'" : ""),
+                    step_ns,
+                    file);
+    }
+    return file;
+}
+
+}  // namespace reprise::cli
