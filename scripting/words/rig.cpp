@@ -47,7 +47,7 @@ std::int64_t whole_within(const Fields& fields,
 constexpr Key sensor_key_rows[] = {
     {"name", "string", "letters, digits, _ and -; unique on the vehicle", true},
     {"kind",
-     "'rgb'|'depth'|'semantic'|'instance'|'flow'|'normals'|'dvs'|'lidar'|'semantic_lidar'|'radar'|"
+     "'rgb'|'depth'|'semantic'|'instance'|'flow'|'normals'|'lidar'|'semantic_lidar'|'radar'|"
      "'gnss'|'imu'|'collision'|'lane_invasion'|'obstacle'",
      "default 'rgb'; docs/rendering.md and docs/sensors.md say what each is"},
     {"width", "integer", "[px] 1 to 4096, default 800"},

@@ -5,13 +5,14 @@ namespace reprise::world {
 std::vector<std::string> sensor_kinds() {
     std::vector<std::string> names;
     for (const SensorKind kind : EnumValuesSensorKind())
-        names.emplace_back(EnumNameSensorKind(kind));
+        if (kind != SensorKind::dvs)
+            names.emplace_back(EnumNameSensorKind(kind));
     return names;
 }
 
 std::optional<SensorKind> find_sensor_kind(std::string_view name) {
     for (const SensorKind kind : EnumValuesSensorKind())
-        if (name == EnumNameSensorKind(kind))
+        if (kind != SensorKind::dvs && name == EnumNameSensorKind(kind))
             return kind;
     return std::nullopt;
 }

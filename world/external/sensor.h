@@ -25,17 +25,17 @@ struct AttributeValue {
 struct SensorSpec {
     std::string name;
     SensorKind kind = SensorKind::rgb;
-    int width = 800;                          ///< [px]
-    int height = 600;                         ///< [px]
-    double fov = std::numbers::pi / 2;        ///< [rad] horizontal
-    std::uint32_t actor = 0;                  ///< mounted on; 0: the world
-    Eigen::Vector3d position{1.0, 0.0, 1.4};  ///< [m] in the actor's frame
-    double yaw = 0;                           ///< [rad] left positive
-    double pitch = 0;                         ///< [rad] up positive
-    double roll = 0;                          ///< [rad] right side down positive
-    std::vector<AttributeValue> attributes;   ///< what is not said is as usual
-    double step = 0.05;                       ///< [s] of a tick
-    std::uint32_t every = 1;                  ///< [ticks] from frame to frame, which LiDARs sweep
+    int width = 800;                           ///< [px]
+    int height = 600;                          ///< [px]
+    double fov = std::numbers::pi / 2;         ///< [rad] horizontal
+    std::uint32_t actor = 0;                   ///< mounted on; 0: the world
+    Eigen::Vector3d position{1.0, 0.0, 1.4};   ///< [m] in the actor's frame
+    double yaw = 0;                            ///< [rad] left positive
+    double pitch = 0;                          ///< [rad] up positive
+    double roll = 0;                           ///< [rad] right side down positive
+    std::vector<AttributeValue> attributes{};  ///< what is not said is as usual
+    double step = 0.05;                        ///< [s] of a tick
+    std::uint32_t every = 1;                   ///< [ticks] from frame to frame, which LiDARs sweep
 };
 
 using SensorRig = std::vector<SensorSpec>;
@@ -81,7 +81,7 @@ inline constexpr bool is_reading(SensorKind kind) {
     return kind >= SensorKind::gnss && kind <= SensorKind::lane_invasion;
 }
 
-/// All kinds by the names that users say, then those of cameras alone.
+/// All that can be asked for by the names that users say, then those of cameras alone.
 std::vector<std::string> sensor_kinds();
 std::optional<SensorKind> find_sensor_kind(std::string_view name);
 

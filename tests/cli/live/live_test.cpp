@@ -311,7 +311,7 @@ TEST_F(Live, EachOfSeveralSeesItsOwn) {
                                 "other=" + (compiled + make_folder("other"))},
                                folder_.path());
     ASSERT_EQ(ran.code, 0) << ran.out;
-    EXPECT_EQ(kept("ego").size(), 7U * 3 + 3);
+    EXPECT_EQ(kept("ego").size(), 7U * 3 + 3 * 3);
     EXPECT_EQ(kept("other").size(), 7U);
     replay::TraceReader trace(folder_ / "two.mcap");
     render::Sensors sensors(trace.recording().town);

@@ -23,7 +23,7 @@ def decide(seen):
         seen.image("back")
         raise SystemExit("there is no such sensor")
     except KeyError as error:
-        assert "the vehicle carries rgb, depth, semantic, side" in str(error), error
+        assert "the vehicle carries rgb, depth, semantic, instance, flow, side" in str(error), error
     if sensors_only:
         assert len(seen.cars) == len(seen.walkers) == len(seen.signals) == 0
         assert len(seen.vehicles) == 1 and len(seen.tick.measurements) == 1

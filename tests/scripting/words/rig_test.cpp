@@ -101,7 +101,7 @@ TEST(RigWords, MistakesAreOneLineThatNamesTheSensor) {
     EXPECT_EQ(of_sensor("attributes = { own_cat = 1 }"),
               first + "'attributes': unknown key 'own_cat' (did you mean 'own_car'?)");
     EXPECT_EQ(of_sensor("attributes = { own_car = 2 }"),
-              first + "'attributes': 'own_car' must be in [0, 1], got 2");
+              first + "'attributes': 'own_car' must be in [0, 1], got 2.0");
     EXPECT_EQ(of_sensor("every = 0"), first + "'every' must be in [1, 100000], got 0");
     EXPECT_EQ(mistake("local r = {} for i = 1, 17 do r[i] = { name = 's' .. i } end spawn{ model = "
                       "'sedan', rig = r }"),
