@@ -67,12 +67,10 @@ void add_surfaces(Candidates& candidates,
         begin + static_cast<std::ptrdiff_t>(candidates.count),
         [](const Candidate& left, const Candidate& right) { return left.range < right.range; });
     std::size_t kept = 0;
-    double first = candidates.all[0].range;
     for (std::size_t i = 1; i < candidates.count; ++i) {
         const Candidate& next = candidates.all[i];
         Candidate& last = candidates.all[kept];
-        if (next.range - first > pulse_length) {
-            first = next.range;
+        if (next.range - last.range > pulse_length) {
             candidates.all[++kept] = next;
             continue;
         }

@@ -89,7 +89,12 @@ TEST(RigWords, MistakesAreOneLineThatNamesTheSensor) {
     EXPECT_EQ(of_sensor("kind = 'detph'"),
               first +
                   "no kind 'detph' (did you mean 'depth'?); there are rgb, depth, semantic, "
-                  "instance, flow, normals");
+                  "instance, flow, normals, lidar, semantic_lidar, radar, gnss, imu, "
+                  "collision, lane_invasion, obstacle");
+    EXPECT_EQ(of_sensor("kind = 'lidar', attributes = { chanels = 3 }"),
+              first + "'attributes': unknown key 'chanels' (did you mean 'channels'?)");
+    EXPECT_EQ(of_sensor("kind = 'radar', attributes = { range = 0 }"),
+              first + "'attributes': 'range' must be in [1, 1000], got 0.0");
     EXPECT_EQ(of_sensor("wdth = 3"), first + "unknown key 'wdth' (did you mean 'width'?)");
     EXPECT_EQ(of_sensor("width = 0"), first + "'width' must be in [1, 4096], got 0");
     EXPECT_EQ(of_sensor("height = 4097"), first + "'height' must be in [1, 4096], got 4097");
