@@ -19,6 +19,7 @@ constexpr int beams = 20'000;
 
 struct Statistics {
     int noticed = 0;
+    int bright = 0;  ///< four times what is noticed
     double sum = 0;  ///< of ranges
     double squares = 0;
 
@@ -28,8 +29,9 @@ struct Statistics {
 
     double spread() const { return std::sqrt(squares / noticed - mean() * mean()); }
 
-    void add(double range) {
+    void add(double range, double power, const render::Pulse& pulse) {
         ++noticed;
+        bright += static_cast<int>(power > 4 * pulse.least_power);
         sum += range;
         squares += range * range;
     }
@@ -60,7 +62,7 @@ Statistics by_all_drops(const render::Hydrometeors& drops, const render::Pulse& 
             }
         }
         if (best >= pulse.least_power)
-            found.add(place);
+            found.add(place, best, pulse);
     }
     return found;
 }
@@ -72,7 +74,7 @@ Statistics by_noticed_drops(const render::Hydrometeors& drops, const render::Pul
     for (int beam = 0; beam < beams; ++beam)
         if (const auto drop =
                 precipitation.strongest(pulse.range, noise, static_cast<std::uint64_t>(beam), 16))
-            found.add(drop->range);
+            found.add(drop->range, drop->power, pulse);
     return found;
 }
 
@@ -91,6 +93,8 @@ TEST(LidarRain, NoticedDropsAreThoseOfAllDropsInTheBeam) {
         const double of_means = 4 * all.spread() * std::sqrt(2.0 / all.noticed);
         EXPECT_NEAR(noticed.mean(), all.mean(), of_means) << snows;
         EXPECT_NEAR(noticed.spread(), all.spread(), 0.1 * all.spread()) << snows;
+        ASSERT_GT(all.bright, 200);
+        EXPECT_NEAR(noticed.bright, all.bright, 6 * std::sqrt(all.bright)) << snows;
     }
 }
 
