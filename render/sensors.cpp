@@ -60,7 +60,7 @@ class Observer {
                                    const std::vector<Hit>& hits,
                                    const Neighbours& neighbours) const;
 
-    const Sky& sky_of(const world::Weather& weather) {
+    Sky& sky_of(const world::Weather& weather) {
         if (!sky_ || !(sky_->weather() == weather))
             sky_.emplace(weather);
         return *sky_;
@@ -327,9 +327,15 @@ std::vector<world::SensorFrame> Observer::look(const world::TickView& tick,
                     frames[i].data = flow(rig[i], i, cameras[i], hits, neighbours);
                     break;
                 case world::SensorKind::rgb: {
-                    const ShadingInput input{placed, sky_of(weather), tick.index()};
+                    Sky& sky = sky_of(weather);
+                    sky.look_from(
+                        cameras[i].position().cast<float>(), placed.town().ground(), tick.index());
+                    const ShadingInput input{placed, sky, tick.index()};
                     shade(input, cameras[i], mask, hits, frame_);
                     draw_rain(input, cameras[i], hits, frame_);
+                    draw_snow(input, cameras[i], hits, frame_);
+                    if (rig[i].actor != 0)
+                        wet_lens(input, frame_);
                     frames[i].data = tone_map(frame_, tick.index());
                     break;
                 }

@@ -307,7 +307,7 @@ Look building_look(const ShadingInput& input, const Surface& at) {
     const BuildingFrame& building = input.scene.buildings()[at.tag];
     const bool wall = at.material == Material::facade && std::abs(at.flat.z()) < 0.3F;
     Look look = wall ? facade_wall_look(input, at, building) : roof_look(at, building);
-    soak_masonry(look, input.sky.weather().wetness());
+    soak_masonry(look, at.wetness);
     return look;
 }
 

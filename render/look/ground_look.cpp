@@ -117,9 +117,11 @@ Look grass(const Surface& at) {
     return look;
 }
 
-/// Rings around the places where drops fell on water; tilts the normal.
-Vector3f ripples(const Surface& at, std::uint64_t tick) {
+/// Rings around the places where drops fell on water; tilts the normal. The more it rains, the more
+/// places are hit.
+Vector3f ripples(const Surface& at, std::uint64_t tick, float rain) {
     constexpr float cell = 0.16F;
+    const float share = rain / (rain + 6);
     const int column = floor_int(at.position.x() / cell);
     const int row = floor_int(at.position.y() / cell);
     Vector3f tilt = Vector3f::Zero();
@@ -131,6 +133,9 @@ Vector3f ripples(const Surface& at, std::uint64_t tick) {
         const auto start = static_cast<std::uint32_t>(cell_noise(cx, cy, 101) * life);
         const auto now = static_cast<std::uint32_t>(tick & 0xffffffffu) + start;
         const std::uint32_t turn = now / life;
+        const float strength = smooth_step(0, 0.1F, share - 0.9F * cell_noise(cx, cy, 400 + turn));
+        if (strength <= 0)
+            continue;
         const float age = static_cast<float>(now % life) / life;
         const float px = (static_cast<float>(cx) + cell_noise(cx, cy, 200 + turn)) * cell;
         const float py = (static_cast<float>(cy) + cell_noise(cx, cy, 300 + turn)) * cell;
@@ -141,40 +146,46 @@ Vector3f ripples(const Surface& at, std::uint64_t tick) {
         if (std::abs(ring) < 2) {
             const float height =
                 (ring < 0 ? ring + 1 : 1 - ring) * (1 - 0.25F * ring * ring) * (1 - age);
-            tilt += Vector3f(dx, dy, 0) * (0.22F * height / distance);
+            tilt += Vector3f(dx, dy, 0) * (0.22F * strength * height / distance);
         }
     }
     return tilt;
 }
 
+/// How much of a place is under water: where a noise that is fixed to the world is low, first in
+/// gutters and ruts. `filled` is Weather.puddles: 0 leaves none, 1 half of the road.
+float puddle_at(const Surface& at, float lane_distance, float filled) {
+    if (at.material == Material::kerb || at.material == Material::deck)
+        return 0;
+    const float x = at.position.x();
+    const float y = at.position.y();
+    const float gutter = 0.10F * smooth_step(1.1F, 1.8F, lane_distance);
+    const float rut = 0.06F * smooth_step(0.45F, 0.1F, std::abs(lane_distance - 0.78F));
+    const float low = fractal_noise(x * 0.28F, y * 0.28F, 3, 110) + gutter + rut -
+                      (at.material == Material::pavement ? 0.07F : 0.0F);
+    const float level = 0.46F + 0.74F * (1 - filled) * (1 - filled);
+    return smooth_step(level, level + 0.07F, low);
+}
+
 /// Water darkens, fills pores, and stands in puddles.
 void soak(Look& look, const ShadingInput& input, const Surface& at, float lane_distance) {
     const world::Weather& weather = input.sky.weather();
-    const float wetness = weather.wetness();
-    if (wetness <= 0 || at.flat.z() < 0.7F || at.material == Material::grass) {
-        look.albedo *= 1 - 0.42F * wetness;
+    const float wetness = at.wetness;
+    if (at.flat.z() < 0.7F || at.material == Material::grass) {
+        look.albedo = soaked(look.albedo, 0.8F * wetness);
         return;
     }
+    look.albedo = soaked(look.albedo, wetness);
     const float x = at.position.x();
     const float y = at.position.y();
-    // Lekner and Dorf, 1988: wet asphalt of albedo 0.1 sends back 0.52 of what dry asphalt does.
-    look.albedo *= mix(1.0F, at.material == Material::marking ? 0.72F : 0.50F, wetness);
-    float puddle = 0;
-    if (at.material != Material::kerb && at.material != Material::deck && weather.puddles() > 0) {
-        const float gutter = 0.10F * smooth_step(1.1F, 1.8F, lane_distance);
-        const float rut = 0.06F * smooth_step(0.45F, 0.1F, std::abs(lane_distance - 0.78F));
-        const float low = fractal_noise(x * 0.28F, y * 0.28F, 3, 110) + gutter + rut -
-                          (at.material == Material::pavement ? 0.07F : 0.0F);
-        const float level = 0.72F - 0.26F * weather.puddles();
-        puddle = smooth_step(level, level + 0.07F, low) * wetness;
-    }
-    const float water = std::max(puddle, 0.0F);
+    const float water =
+        weather.puddles() > 0 ? puddle_at(at, lane_distance, weather.puddles()) * wetness : 0.0F;
     look.f0 = mix(0.04F, 0.022F, wetness);
-    look.roughness = mix(0.30F, 0.03F, water);
+    look.roughness = mix(mix(look.roughness, 0.30F, wetness), 0.03F, water);
     look.gloss = wetness * mix(0.62F, 1.0F, water);
     look.albedo *= 1 - 0.35F * water;
     // The film follows the stones; standing water is level, but for rings.
-    const float rough = (1 - water) * detail(at, 0.4F);
+    const float rough = (1 - water) * detail(at, 0.4F) * wetness;
     Vector3f tilt((value_noise(x * 19, y * 19, 120) - 0.5F +
                    0.6F * (value_noise(x * 47, y * 47, 122) - 0.5F)) *
                       0.10F * rough,
@@ -182,9 +193,9 @@ void soak(Look& look, const ShadingInput& input, const Surface& at, float lane_d
                    0.6F * (value_noise(x * 47, y * 47, 123) - 0.5F)) *
                       0.10F * rough,
                   0);
-    const float near = detail(at, 0.12F);
+    const float near = detail(at, 0.12F) * wetness;
     if (weather.rain() > 0 && near > 0)
-        tilt += ripples(at, input.tick) * (near * (0.25F + 0.75F * water));
+        tilt += ripples(at, input.tick, weather.rain()) * (near * (0.25F + 0.75F * water));
     look.normal = (look.normal + tilt).normalized();
 }
 
@@ -213,7 +224,7 @@ Look ground_look(const ShadingInput& input, const Surface& at) {
             look = grass(at);
     }
     look.normal = at.normal;
-    if (input.sky.weather().wetness() > 0)
+    if (at.wetness > 0)
         soak(look, input, at, lane_distance);
     return look;
 }

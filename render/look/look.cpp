@@ -106,6 +106,8 @@ Look thing_look(const Surface& at) {
     return look;
 }
 
+Look bare_look(const ShadingInput& input, const Surface& at);
+
 Look metal_look(const Surface& at) {
     Look look;
     look.albedo =
@@ -157,7 +159,26 @@ Surface surface_at(const Scene& scene,
     return at;
 }
 
+void expose(const ShadingInput& input, Surface& at) {
+    const world::Weather& weather = input.sky.weather();
+    if (weather.wetness() <= 0 && weather.snow_cover() <= 0)
+        return;
+    // Walls are looked at from before them: eaves keep little dry, a passage does.
+    const float aside = 0.9F * (1 - std::abs(at.flat.z())) + 0.02F;
+    const float open = input.scene.town().shelter().openness(at.position + aside * at.flat);
+    at.wetness = weather.wetness() * open;
+    at.snow = weather.snow_cover() * open;
+}
+
 Look shade_surface(const ShadingInput& input, const Surface& at) {
+    Look look = bare_look(input, at);
+    lay_snow(look, input, at);
+    return look;
+}
+
+namespace {
+
+Look bare_look(const ShadingInput& input, const Surface& at) {
     Look look;
     switch (at.material) {
         case Material::grass:
@@ -206,10 +227,12 @@ Look shade_surface(const ShadingInput& input, const Surface& at) {
             look = walker_look(input, at);
     }
     look.normal = at.normal;
-    // Soaked cloth, bark and leaves are darker.
-    look.albedo *= 1 - 0.3F * input.sky.weather().wetness();
+    // Soaked cloth and bark are darker; leaves shed water.
+    look.albedo = soaked(look.albedo, (at.material == Material::leaf ? 0.3F : 0.7F) * at.wetness);
     return look;
 }
+
+}  // namespace
 
 world::SemanticClass semantic_class(const Scene& scene, const Hit& hit) {
     if (hit.instance == no_instance)

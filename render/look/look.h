@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/look/sky.h"
+#include "render/look/wet.h"
 #include "render/scene/scene.h"
 #include "render/scene/tracer.h"
 
@@ -19,6 +20,9 @@ struct Surface {
     Material material;
     std::uint32_t tag;
     const Instance* instance;
+    // How the weather is here: less below a roof or a bridge. See expose().
+    float wetness = 0;
+    float snow = 0;
 };
 
 /// What a surface does with light at one place.
@@ -46,6 +50,9 @@ Surface surface_at(const Scene& scene,
                    const Eigen::Vector3f& direction,
                    float pixel);
 
+/// Says how wet the place is, and how much snow lies there.
+void expose(const ShadingInput& input, Surface& surface);
+
 Look shade_surface(const ShadingInput& input, const Surface& surface);
 
 /// As given by the class of what was hit; `sky` for none. Depends on ids only.
@@ -64,15 +71,18 @@ Look car_part_look(const ShadingInput& input, const Surface& surface);
 Look wheel_look(const ShadingInput& input, const Surface& surface);
 Look walker_look(const ShadingInput& input, const Surface& surface);
 
+/// Covers what faces the sky, as far as the weather says.
+void lay_snow(Look& look, const ShadingInput& input, const Surface& surface);
+
 // Likewise: what class a prop's or plot's triangle has.
 world::SemanticClass prop_class(std::uint32_t tag);
 world::SemanticClass plot_class(world::PlotKind kind);
 
 /// Wet walls and roofs are darker and smoother, their panes are not. `wetness` in [0, 1].
 inline void soak_masonry(Look& look, float wetness) {
-    if (!(wetness > 0) || look.gloss > 0)
+    if (look.gloss > 0)
         return;
-    look.albedo *= 1 - 0.28F * wetness;
+    look.albedo = soaked(look.albedo, 0.6F * wetness);
     look.roughness = mix(look.roughness, 0.35F, wetness);
 }
 

@@ -159,12 +159,12 @@ Look plot_look(const ShadingInput& input, const Surface& at) {
             look = forest_floor(at);
             break;
     }
-    const float wetness = input.sky.weather().wetness();
-    look.albedo *= 1 - 0.4F * wetness;
-    if (plot.kind == PlotKind::square && wetness > 0) {
-        look.gloss = 0.5F * wetness;
-        look.f0 = 0.03F;
-        look.roughness = 0.3F;
+    if (plot.kind != PlotKind::water)
+        look.albedo = soaked(look.albedo, 0.8F * at.wetness);
+    if (plot.kind == PlotKind::square) {
+        look.gloss = std::max(look.gloss, 0.5F * at.wetness);
+        look.f0 = mix(look.f0, 0.03F, at.wetness);
+        look.roughness = mix(look.roughness, 0.3F, at.wetness);
     }
     return look;
 }

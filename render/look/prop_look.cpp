@@ -219,9 +219,8 @@ Look prop_look(const ShadingInput& input, const Surface& at) {
             look.translucency = tag.centre_mm == 0 ? 0 : 0.35F;
             break;
     }
-    const float wetness = input.sky.weather().wetness();
     if (look.gloss <= 0 && tag.finish != PropFinish::plate)
-        look.albedo *= 1 - 0.28F * wetness;
+        look.albedo = soaked(look.albedo, 0.6F * at.wetness);
     return look;
 }
 

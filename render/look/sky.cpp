@@ -60,7 +60,7 @@ Vector3f direction_at(float x, float y) {
 
 }  // namespace
 
-Sky::Sky(const world::Weather& weather) : weather_(weather) {
+Sky::Sky(const world::Weather& weather) : weather_(weather), veil_(weather), clouds_(weather) {
     const auto azimuth = static_cast<double>(weather.sun_azimuth());
     const auto altitude = static_cast<double>(weather.sun_altitude());
     to_sun_ = Eigen::Vector3d(std::cos(altitude) * std::cos(azimuth),
@@ -77,11 +77,9 @@ Sky::Sky(const world::Weather& weather) : weather_(weather) {
         sun_above_clouds_ *= std::max(0.0F, 1 + to_sun_.z() * 12);
     sun_ = sun_above_clouds_ * (1 - squared) * (to_sun_.z() > -0.02F ? 1.0F : 0.0F);
     sun_radius_ = mix(0.006F, 0.06F, squared);
-    // Rain: Weber et al., 2015, as extinction per kilometre; fog as given.
-    const auto rain = static_cast<double>(weather.rain());
-    extinction_ = weather.fog_extinction() + static_cast<float>(0.312e-3 * std::pow(rain, 0.67));
     lamps_on_ = weather.rain() > 0 || weather.sun_altitude() < 0.17F;
     fill_table();
+    add_fog();
     project_ambient();
     choose_exposure();
 }
@@ -134,23 +132,11 @@ Color Sky::cloud_radiance(const Vector3f& direction) const {
     return tint * (light * overcast_ * dome * 9 / (7 * pi) * 1.15F) + glow;
 }
 
-float Sky::cloudiness(const Vector3f& direction) const {
-    const float cover = weather_.cloud_cover();
-    const float away = 1 / (std::max(direction.z(), 0.0F) + 0.12F);
-    const float x = direction.x() * away * 1.3F;
-    const float y = direction.y() * away * 1.3F;
-    const float bend = fractal_noise(x * 0.7F + 9, y * 0.7F, 2, 40);
-    const float noise = fractal_noise(x + 1.1F * bend, y - 0.8F * bend, 5, 50);
-    // The quantiles of the noise, roughly: half the cover at 0.5.
-    const float level = mix(0.70F, 0.26F, cover);
-    return smooth_step(level, level + 0.22F, noise);
-}
-
 Color Sky::radiance(const Vector3f& direction, bool detailed) const {
     const Color plain = stored(direction);
     if (!detailed || direction.z() < 0)
         return plain;
-    const float cover = cloudiness(direction);
+    const float cover = clouds_.cover(direction);
     const Color clear = look_up(clear_table_, direction);
     const Color cloud = cloud_radiance(direction);
     const float light = sun_above_clouds_.mean() * (0.10F + 0.35F * (1 - weather_.cloud_cover()));
@@ -164,6 +150,7 @@ Color Sky::radiance(const Vector3f& direction, bool detailed) const {
     Color seen = mix(clear, body, cover * 0.94F);
     // Far clouds drown in the haze.
     seen = mix(seen, plain, smooth_step(0.16F, 0.01F, direction.z()));
+    seen = mix(plain, seen, veil_.passes_upwards(direction.z()));
     const float cosine = direction.dot(to_sun_);
     const float disc = smooth_step(0.999965F, 0.99998F, cosine);
     return seen + sun_ * disc * (1 - cover) * 400;
@@ -206,6 +193,42 @@ void Sky::fill_table() {
                 mix(clear_table_[index], cloud_radiance(direction), weather_.cloud_cover());
         }
     });
+}
+
+/// What hides the sky is lit from above as evenly as by a white card, and by the sun around itself.
+/// The sun loses what the sky gains.
+void Sky::add_fog() {
+    Color above = Color::Zero();
+    constexpr int rows = 12;
+    constexpr int columns = 24;
+    for (int i = 0; i < rows * columns; ++i) {
+        const float z = (static_cast<float>(i / columns) + 0.5F) / rows;
+        const double angle = 2 * std::numbers::pi * (i % columns) / columns;
+        const float wide = std::sqrt(1 - z * z);
+        above += stored({wide * static_cast<float>(std::cos(angle)),
+                         wide * static_cast<float>(std::sin(angle)),
+                         z}) *
+                 (z * 2 * pi / (rows * columns));
+    }
+    const float sine = std::max(to_sun_.z(), 0.0F);
+    const float sunny = veil_.passes_upwards(sine);
+    const Color even = (above + sun_ * (0.7F * sine)) * veil_.tint() / pi;
+    for (int row = 0; row < table_size; ++row) {
+        for (int column = 0; column < table_size; ++column) {
+            const Vector3f direction =
+                direction_at(static_cast<float>(column) * 2 / (table_size - 1) - 1,
+                             static_cast<float>(row) * 2 / (table_size - 1) - 1);
+            const float cosine = direction.dot(to_sun_);
+            // Droplets throw light forwards (Henyey and Greenstein): once, and wider when often.
+            const Color glow = sun_ * veil_.tint() *
+                               (0.35F * sunny * forward_phase(cosine, 0.88F) +
+                                0.20F * std::sqrt(sunny) * forward_phase(cosine, 0.6F));
+            const float passes = veil_.passes_upwards(direction.z());
+            Color& light = table_[static_cast<std::size_t>(row * table_size + column)];
+            light = mix(Color(even + glow), light, passes);
+        }
+    }
+    sun_ *= std::sqrt(sunny);
 }
 
 void Sky::project_ambient() {
@@ -254,7 +277,9 @@ void Sky::project_ambient() {
                        (z * 2 * pi / (rows * columns));
             }
             const Color arriving = sum + sun_ * std::max(to_sun_.z(), 0.0F);
-            down = arriving * (ground_albedo / pi) * Color(1.0F, 0.98F, 0.9F);
+            // Snow throws most of it back.
+            const float albedo = mix(ground_albedo, 0.75F, weather_.snow_cover());
+            down = arriving * (albedo / pi) * Color(1.0F, 0.98F, 0.9F);
         }
     }
     const std::array<float, 9> lobe{1, .666667F, .666667F, .666667F, .25F, .25F, .25F, .25F, .25F};

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "render/look/clouds.h"
+#include "render/look/veil.h"
 #include "render/shapes/fast_math.h"
 #include "world/common_generated.h"
 
@@ -18,6 +20,13 @@ class Sky {
     /// the Earth Taking into Account Atmospheric Scattering", 1993), clouds after Kasten and
     /// Czeplak.
     explicit Sky(const world::Weather& weather);
+
+    /// Before a picture is made: from where, when, and how high the town's lowest ground is. All in
+    /// the scene's frame. Clouds are where they are by then.
+    void look_from(const Eigen::Vector3f& eye, float ground, std::uint64_t tick) {
+        veil_.stand_on(ground);
+        clouds_.look_from(eye, to_sun_, tick);
+    }
 
     /// Radiance from a direction (unit vector). `detailed` draws the clouds' shapes and the sun's
     /// disc.
@@ -37,7 +46,9 @@ class Sky {
         return sun_radius_;
     }  ///< of the disc or the glow through clouds [rad]
 
-    float extinction() const { return extinction_; }  ///< [1/m] of fog, haze and rain
+    const Veil& veil() const { return veil_; }
+
+    const Clouds& clouds() const { return clouds_; }
 
     float exposure() const { return exposure_; }  ///< factor from radiance to picture
 
@@ -50,21 +61,22 @@ class Sky {
   private:
     Color clear_radiance(const Eigen::Vector3f& direction) const;
     Color cloud_radiance(const Eigen::Vector3f& direction) const;
-    float cloudiness(const Eigen::Vector3f& direction) const;
     Color stored(const Eigen::Vector3f& direction) const;
     static Color look_up(const std::vector<Color>& table, const Eigen::Vector3f& direction);
     void fill_table();
+    void add_fog();
     void project_ambient();
     void choose_exposure();
 
     world::Weather weather_;
+    Veil veil_;
+    Clouds clouds_;
     Eigen::Vector3f to_sun_;
     Color sun_;
     Color sun_above_clouds_;
     float sun_radius_;
     float haze_scattering_;  // [1/m] at the ground
     float overcast_;         // share of the light that comes through a closed cover
-    float extinction_;
     float exposure_;
     bool lamps_on_;
     bool dim_;

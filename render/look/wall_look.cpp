@@ -172,7 +172,7 @@ Look model_building_look(const ShadingInput& input, const Surface& at) {
                                   facades.buildings[at.tag / building_finishes],
                                   static_cast<BuildingFinish>(at.tag % building_finishes));
     }
-    soak_masonry(look, input.sky.weather().wetness());
+    soak_masonry(look, at.wetness);
     return look;
 }
 

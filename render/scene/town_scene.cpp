@@ -65,6 +65,7 @@ struct TownScene::Device {
 TownScene::TownScene(const world::TownT& town, bool portable)
     : device_(portable ? nullptr : std::make_unique<Device>()),
       origin_(whole_metres_amid(town)),
+      ground_(static_cast<float>(town.low.z() - origin_.z())),
       lanes_(town, origin_) {
     build_models();
     build_town(town);

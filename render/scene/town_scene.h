@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "render/scene/lane_raster.h"
+#include "render/scene/shelter.h"
 #include "render/shapes/buildings/building_mesh.h"
 #include "render/shapes/cars/car_shape.h"
 #include "render/shapes/people/figure_part.h"
@@ -96,6 +98,15 @@ class TownScene {
 
     const Eigen::Vector3d& origin() const { return origin_; }
 
+    /// Height of the town's lowest ground in the scene's frame. [m]
+    float ground() const { return ground_; }
+
+    /// Made when the first picture asks for it: in dry weather nobody does.
+    const Shelter& shelter() const {
+        std::call_once(shelter_asked_, [this] { shelter_.emplace(instances_); });
+        return *shelter_;
+    }
+
     /// Adds an instance in its place, in the scene's frame.
     void add_instance(std::vector<Instance>& instances,
                       Instance instance,
@@ -123,7 +134,10 @@ class TownScene {
 
     std::unique_ptr<Device> device_;  // none when portable
     Eigen::Vector3d origin_;
+    float ground_;
     LaneRaster lanes_;
+    mutable std::once_flag shelter_asked_;
+    mutable std::optional<Shelter> shelter_;
     std::deque<Prototype> meshes_;  // a deque keeps their addresses
     Prototypes prototypes_;
     std::vector<BuildingFrame> buildings_;

@@ -56,6 +56,15 @@ void draw_rain(const ShadingInput& input,
                const std::vector<Hit>& hits,
                Frame& frame);
 
+/// Likewise falling flakes, which stand in the world while the camera moves.
+void draw_snow(const ShadingInput& input,
+               const Camera& camera,
+               const std::vector<Hit>& hits,
+               Frame& frame);
+
+/// Drops on the lens of a camera that drives in the rain.
+void wet_lens(const ShadingInput& input, Frame& frame);
+
 /// Tone curve and sRGB: 3 bytes a pixel.
 std::vector<std::uint8_t> tone_map(const Frame& frame, std::uint64_t tick);
 

@@ -114,9 +114,10 @@ Color outgoing_radiance(const ShadingInput& input,
 
 Color through_atmosphere(const Sky& sky,
                          const Color& radiance,
+                         const Vector3f& from,
                          const Vector3f& view,
                          float distance) {
-    const float passes = fast_exp(-sky.extinction() * distance);
+    const float passes = sky.veil().passes(from.z(), view.z(), distance);
     return radiance * passes + sky.haze(view) * (1 - passes);
 }
 

@@ -35,9 +35,10 @@ Color outgoing_radiance(const ShadingInput& input,
                         const Eigen::Vector3f& position,
                         const Eigen::Vector3f& view);
 
-/// Fog, haze and the veil of rain over a distance. [m]
+/// Fog, dust and the veil of rain and snow over a distance. [m] `from` in the scene's frame.
 Color through_atmosphere(const Sky& sky,
                          const Color& radiance,
+                         const Eigen::Vector3f& from,
                          const Eigen::Vector3f& view,
                          float distance);
 

@@ -28,7 +28,8 @@ Color mirrored_radiance(const ShadingJob& job,
     const ShadingInput& input = job.input;
     if (hit.instance == no_instance)
         return input.sky.radiance(ray.direction, false);
-    const Surface at = surface_at(input.scene, hit, ray.origin, ray.direction, footprint_scale);
+    Surface at = surface_at(input.scene, hit, ray.origin, ray.direction, footprint_scale);
+    expose(input, at);
     const Look look = shade_surface(input, at);
     Light light{job.sun_matters ? 0.6F : 1.0F, 0.75F, Color::Zero()};
     if (look.gloss > 0)
@@ -37,7 +38,7 @@ Color mirrored_radiance(const ShadingJob& job,
     const Color color = outgoing_radiance(input, job.beams, look, light, at.position, at.view);
     // Lamps would leave single dots: what one ray finds stands for 16 pixels.
     const Color seen = color.min(2.2F / input.sky.exposure());
-    return through_atmosphere(input.sky, seen, at.view, at.distance);
+    return through_atmosphere(input.sky, seen, ray.origin, at.view, at.distance);
 }
 
 /// Rays among leaves are the dearest and change the least; from far, corners are too small to see.
@@ -89,7 +90,8 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         if (hit.instance == no_instance)
             continue;
         const Vector3f direction = job.camera.ray(pixel.x() + 0.5, pixel.y() + 0.5).cast<float>();
-        const Surface at = surface_at(job.input.scene, hit, job.eye, direction, job.pixel);
+        Surface at = surface_at(job.input.scene, hit, job.eye, direction, job.pixel);
+        expose(job.input, at);
         Sample& sample = job.frame.samples[index];
         sample.look = shade_surface(job.input, at);
         sample.position = at.position;
@@ -104,7 +106,8 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
     }
     std::vector<RawLight>& lights = job.frame.lights;
     trace_batch(job, rays, rays.sun, true, [&](std::size_t owner, bool visible) {
-        lights[owner].light.sun_visibility = visible ? 1.0F : 0.0F;
+        lights[owner].light.sun_visibility =
+            visible ? job.input.sky.clouds().sunlight(lights[owner].position) : 0.0F;
     });
     // Into a half sphere each: as packets that run alike they take four times as long.
     trace_batch(job, rays, rays.sky, false, [&](std::size_t owner, bool visible) {

@@ -96,8 +96,8 @@ Color color_of(const ShadingJob& job, const Ray& ray, const SubpixelSample& samp
                                   sample.light,
                                   sample.surface.position,
                                   sample.surface.view);
-        color =
-            through_atmosphere(job.input.sky, color, sample.surface.view, sample.surface.distance);
+        color = through_atmosphere(
+            job.input.sky, color, ray.origin, sample.surface.view, sample.surface.distance);
     }
     return color * job.input.sky.exposure();
 }
@@ -133,6 +133,7 @@ void refine_tile(ShadingJob& job,
             continue;
         sample.surface = surface_at(
             job.input.scene, sample.hit, job.eye, primary.rays[i].direction, job.pixel * 0.6F);
+        expose(job.input, sample.surface);
         sample.look = shade_surface(job.input, sample.surface);
         const auto owner = static_cast<int>(primary.owners[i]);
         sample.light = neighbour_light(
@@ -144,7 +145,8 @@ void refine_tile(ShadingJob& job,
         rays.sun.add(sun_ray(job, origin, static_cast<int>(i % 16)), i);
     }
     trace_batch(job, rays, rays.sun, true, [&](std::size_t owner, bool visible) {
-        samples[owner].light.sun_visibility = visible ? 1.0F : 0.0F;
+        samples[owner].light.sun_visibility =
+            visible ? job.input.sky.clouds().sunlight(samples[owner].surface.position) : 0.0F;
     });
     for (std::size_t i = 0; i < samples.size(); i += subpixels) {
         Color sum = Color::Zero();

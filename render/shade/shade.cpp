@@ -64,7 +64,7 @@ void combine_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
             const Vector3f view = direction.normalized();
             color = outgoing_radiance(
                 job.input, job.beams, sample.look, sample.light, sample.position, view);
-            color = through_atmosphere(job.input.sky, color, view, sample.distance);
+            color = through_atmosphere(job.input.sky, color, job.eye, view, sample.distance);
         }
         frame.colors[index] = color * job.input.sky.exposure();
         const float light = luminance(frame.colors[index]);

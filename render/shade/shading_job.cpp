@@ -75,12 +75,7 @@ Ray sun_ray(const ShadingJob& job, const Vector3f& origin, int place) {
 }
 
 Color sky_color(const ShadingJob& job, const Vector3f& direction) {
-    const Vector3f view = direction.normalized();
-    // Fog reaches about as far as the clouds' base is seen: thicker towards the horizon.
-    const Color sky = job.input.sky.radiance(view, true);
-    const float far = 120 / (std::max(view.z(), 0.0F) + 0.06F);
-    return through_atmosphere(
-        job.input.sky, sky, view, job.input.sky.extinction() > 1e-3F ? far : 0.0F);
+    return job.input.sky.radiance(direction.normalized(), true);
 }
 
 }  // namespace reprise::render

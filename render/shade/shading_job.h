@@ -93,7 +93,7 @@ Eigen::Vector3f offset_origin(const Eigen::Vector3f& position,
 /// To a place on the sun's disc.
 Ray sun_ray(const ShadingJob& job, const Eigen::Vector3f& origin, int place);
 
-/// Radiance of the sky behind a pixel, with haze.
+/// Radiance of the sky behind a pixel.
 Color sky_color(const ShadingJob& job, const Eigen::Vector3f& direction);
 
 // The stages, for the tile at `corner`.
