@@ -28,9 +28,8 @@ bool front_lamp(Look& look,
     look.gloss = 1;
     look.roughness = 0.05F;
     look.albedo = away < 0.5F ? Color(.55F, .56F, .58F) : Color(.16F, .165F, .17F);
-    const bool on = (at.lamps & world::lamp_low_beam) != 0 || input.sky.lamps_on();
-    if (on)
-        look.emission = Color(1, .95F, .84F) * (light * (away < 0.5F ? 7.0F : 0.30F));
+    look.emission = Color(1, .95F, .84F) *
+                    (low_beam(at.lamps, input.sky) * light * (away < 0.5F ? 7.0F : 0.30F));
     if (flashing(at) && at.side > mix(inner, at.half, 0.72F))
         look.emission = Color(1.0F, .42F, .03F) * (4 * light);
     return true;
@@ -53,8 +52,8 @@ bool rear_lamp(Look& look,
     const float row = (at.z - low) / (high - low);
     if ((at.lamps & world::lamp_brake) != 0)
         look.emission = red * (4.5F * light);
-    else if (input.sky.lamps_on() || (at.lamps & world::lamp_low_beam) != 0)
-        look.emission = red * (0.8F * light);
+    else
+        look.emission = red * (low_beam(at.lamps, input.sky) * 0.8F * light);
     if (flashing(at) && row > 0.62F)
         look.emission = Color(1.0F, .40F, .02F) * (4.5F * light);
     if ((at.lamps & world::lamp_reverse) != 0 && row < 0.25F)

@@ -63,7 +63,7 @@ Look car_part_look(const ShadingInput& input, const Surface& at) {
         look.roughness = 0.05F;
         look.emission = color * (power * light);
     };
-    const bool dark = input.sky.lamps_on() || (lamps & world::lamp_low_beam) != 0;
+    const float lit = low_beam(lamps, input.sky);
     switch (static_cast<CarPart>(at.tag)) {
         case CarPart::chrome:
             look.albedo = Color(.38F, .39F, .40F);
@@ -89,11 +89,11 @@ Look car_part_look(const ShadingInput& input, const Surface& at) {
             look.roughness = 0.04F;
             break;
         case CarPart::front_lamp:
-            lamp(Color(1, .95F, .84F), dark ? 5.0F : 0.0F);
+            lamp(Color(1, .95F, .84F), 5.0F * lit);
             look.albedo = Color(.5F, .51F, .53F);
             break;
         case CarPart::rear_lamp:
-            lamp(Color(1, .006F, .004F), (lamps & world::lamp_brake) != 0 ? 4.5F : dark ? .8F : 0);
+            lamp(Color(1, .006F, .004F), (lamps & world::lamp_brake) != 0 ? 4.5F : 0.8F * lit);
             break;
         case CarPart::left_indicator:
             lamp(Color(1, .42F, .03F), flashing(world::lamp_left) ? 4.5F : 0.0F);
@@ -115,8 +115,8 @@ Look car_part_look(const ShadingInput& input, const Surface& at) {
             const float low = at.instance->prototype->mesh.vertices.back().z() - 0.105F;
             if (faces && written("TAXI", u, (at.local.z() - low) / 0.085F))
                 look.albedo = Color::Constant(0.02F);
-            else if (dark)
-                look.emission = Color(1, .85F, .35F) * (1.2F * light);
+            else
+                look.emission = Color(1, .85F, .35F) * (1.2F * lit * light);
             break;
         }
     }

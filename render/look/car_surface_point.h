@@ -69,9 +69,4 @@ bool number_plate(Look& look, const CarSurfacePoint& at, float low, std::uint32_
 /// Stripes and checks on the sides and ends of a service's vehicle.
 void paint_livery(Look& look, const CarSurfacePoint& at);
 
-/// Lamps flash 1.5 times a second, all vehicles together: ticks are 50 ms.
-inline bool flashes_now(std::uint64_t tick) {
-    return tick * 3 % 40 < 22;
-}
-
 }  // namespace reprise::render

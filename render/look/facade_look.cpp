@@ -187,12 +187,12 @@ void glaze_facade(Look& look,
     const float room_z = z + point.slope_z * behind;
     const float back = value_noise(room_u * 0.8F, room_z * 1.1F, opening.seed & 0xffffu);
     Color room = Color(.055F, .050F, .045F) * (0.4F + 1.1F * back);
-    const bool lit = input.sky.dim() && (opening.shop ? fate < 0.7F : fate < 0.34F);
+    const float lit = room_light(input.sky, fate, opening.shop ? 0.7F : 0.34F);
     Color lamp = Color::Zero();
-    if (lit) {
+    if (lit > 0) {
         const Color warm = fate < 0.2F ? Color(1.0F, .66F, .34F) : Color(1.0F, .80F, .56F);
-        lamp =
-            warm * ((opening.shop ? 0.34F : 0.42F) * (0.45F + 0.9F * back) / input.sky.exposure());
+        lamp = warm * ((opening.shop ? 0.34F : 0.42F) * (0.45F + 0.9F * back) * lit /
+                       input.sky.exposure());
     }
     // Curtains hang at both sides or half drawn.
     const float drawn = unit(hash(opening.seed, 3)) * 0.42F - 0.06F;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "render/look/lamp_colors.h"
 #include "render/shapes/noise.h"
 #include "render/shapes/street/thing_mesh.h"
 
@@ -48,19 +49,19 @@ Look signal_lamp_look(const ShadingInput& input, const Surface& at) {
         case SignalLamp::red:
             lit = color == SignalColor::red || color == SignalColor::red_yellow ||
                   color == SignalColor::stop;
-            light = Color(1.0F, .02F, .012F);
+            light = lens_red;
             break;
         case SignalLamp::yellow:
             lit = color == SignalColor::yellow || color == SignalColor::red_yellow;
-            light = Color(1.0F, .42F, .02F);
+            light = lens_amber;
             break;
         case SignalLamp::turn:
             lit = color == SignalColor::green;
-            light = Color(.02F, .95F, .24F);
+            light = lens_green;
             break;
         case SignalLamp::green:
             lit = color == SignalColor::green || color == SignalColor::green_minor;
-            light = Color(.02F, .95F, .24F);
+            light = lens_green;
             break;
     }
     Look look;

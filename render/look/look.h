@@ -78,6 +78,26 @@ void lay_snow(Look& look, const ShadingInput& input, const Surface& surface);
 world::SemanticClass prop_class(std::uint32_t tag);
 world::SemanticClass plot_class(world::PlotKind kind);
 
+/// How far a car's low beam and tail lamps are on, [0, 1]: as recorded, and in pictures that are
+/// made darker than the run was, as drivers would have them.
+inline float low_beam(std::uint16_t lamps, const Sky& sky) {
+    return (lamps & world::lamp_low_beam) != 0 ? 1.0F : sky.headlamps();
+}
+
+/// Lamps flash 1.5 times a second, all vehicles together: ticks are 50 ms.
+inline bool flashes_now(std::uint64_t tick) {
+    return tick * 3 % 40 < 22;
+}
+
+/// How far the room behind a window is lit: each lights up at a dusk of its own. `fate` in [0, 1)
+/// says whether at all, with the chance `share`.
+inline float room_light(const Sky& sky, float fate, float share) {
+    if (fate >= share || sky.lamplight() <= 0)
+        return 0;
+    const float start = 0.7F * fate / share;
+    return smooth_step(start, start + 0.3F, sky.lamplight());
+}
+
 /// Wet walls and roofs are darker and smoother, their panes are not. `wetness` in [0, 1].
 inline void soak_masonry(Look& look, float wetness) {
     if (look.gloss > 0)

@@ -48,12 +48,12 @@ void glaze(Look& look,
         room = mix(
             room, goods, 0.6F * detail(at, 0.6F) * (fraction(room_z / 0.42F) < 0.7F ? 1.0F : 0.2F));
     }
-    const bool lit = input.sky.dim() && (shop ? fate < 0.75F : fate < (tinted ? 0.5F : 0.34F));
+    const float lit = room_light(input.sky, fate, shop ? 0.75F : tinted ? 0.5F : 0.34F);
     Color lamp = Color::Zero();
-    if (lit) {
+    if (lit > 0) {
         const Color warm =
             fate < 0.2F && !tinted ? Color(1.0F, .66F, .34F) : Color(1.0F, .84F, .64F);
-        lamp = warm * ((shop ? 0.38F : 0.42F) * (0.45F + 0.9F * back) / input.sky.exposure());
+        lamp = warm * ((shop ? 0.38F : 0.42F) * (0.45F + 0.9F * back) * lit / input.sky.exposure());
         if (shop)
             lamp *= 0.5F + 2.2F * room;
     }

@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "render/look/lamp_colors.h"
 #include "render/look/lettering.h"
 #include "render/look/look.h"
 #include "render/shapes/noise.h"
@@ -94,8 +95,7 @@ void as_plate(Look& look, const ShadingInput& input, const Surface& at, const Pr
     }
     look.roughness = 0.35F;
     // Sheets that send light back look brighter than paint at night.
-    if (input.sky.dim())
-        look.emission = look.albedo * (0.10F / input.sky.exposure());
+    look.emission = look.albedo * (0.10F * input.sky.lamplight() / input.sky.exposure());
 }
 
 Color painted(const PropTag& tag, std::uint32_t style) {
@@ -151,8 +151,7 @@ void as_timber(Look& look, const Surface& at) {
 void as_lamp(Look& look, const ShadingInput& input) {
     look.albedo = Color(.55F, .55F, .52F);
     look.roughness = 0.2F;
-    if (input.sky.dim())
-        look.emission = Color(1.0F, .80F, .50F) * (5.0F / input.sky.exposure());
+    look.emission = street_lamp_color * (input.sky.lamplight() * input.sky.lamp(30000, 5));
 }
 
 }  // namespace

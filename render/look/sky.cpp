@@ -34,8 +34,26 @@ float air_mass(float sine) {
     return 1 / (std::max(sine, 0.0F) + 0.50572F / (base * std::sqrt(base) * 1.18F));
 }
 
+/// The lowest sun that gives single scattering its shape; below, only its strength falls. [rad]
+constexpr float lowest_glow = -0.11F;
+
+/// Optical depth of a ray that comes from below the horizon: past the lowest place of its way, and
+/// up again.
+Color grazing_depth(float sine, float height, float haze) {
+    const float lowest = (earth + height) * std::sqrt(1 - sine * sine) - earth;
+    const auto column = [&](float at) -> Color {
+        return rayleigh * rayleigh_height * fast_exp(-at / rayleigh_height) +
+               haze * 1.1F * haze_height * fast_exp(-at / haze_height);
+    };
+    const float level = air_mass(0);
+    return (2 * level * column(lowest) - air_mass(-sine) * column(height)).max(0.0F) +
+           ozone_depth * level;
+}
+
 /// How much of the sunlight arrives at a height.
 Color sunlight(float sine, float height, float haze) {
+    if (sine < 0)
+        return solar * fast_exp(Color(-grazing_depth(sine, height, haze)));
     const float mass = air_mass(sine);
     const Color depth = rayleigh * rayleigh_height * fast_exp(-height / rayleigh_height) +
                         haze * 1.1F * haze_height * fast_exp(-height / haze_height) + ozone_depth;
@@ -58,35 +76,67 @@ Vector3f direction_at(float x, float y) {
     return Vector3f(u, v, std::max(0.0F, 1 - std::abs(u) - std::abs(v))).normalized();
 }
 
+Vector3f table_direction(int row, int column) {
+    return direction_at(static_cast<float>(column) * 2 / (table_size - 1) - 1,
+                        static_cast<float>(row) * 2 / (table_size - 1) - 1);
+}
+
+/// Unit vector, z up, from east counter-clockwise.
+Vector3f towards(double azimuth, double altitude) {
+    return Eigen::Vector3d(std::cos(altitude) * std::cos(azimuth),
+                           std::cos(altitude) * std::sin(azimuth),
+                           std::sin(altitude))
+        .cast<float>();
+}
+
 }  // namespace
 
-Sky::Sky(const world::Weather& weather) : weather_(weather), veil_(weather), clouds_(weather) {
-    const auto azimuth = static_cast<double>(weather.sun_azimuth());
-    const auto altitude = static_cast<double>(weather.sun_altitude());
-    to_sun_ = Eigen::Vector3d(std::cos(altitude) * std::cos(azimuth),
-                              std::cos(altitude) * std::sin(azimuth),
-                              std::sin(altitude))
-                  .cast<float>();
+Sky::Sky(const world::Weather& weather)
+    : weather_(weather),
+      veil_(weather),
+      clouds_(weather),
+      to_sun_(towards(static_cast<double>(weather.sun_azimuth()),
+                      static_cast<double>(weather.sun_altitude()))),
+      to_glow_(towards(static_cast<double>(weather.sun_azimuth()),
+                       static_cast<double>(std::max(lowest_glow, weather.sun_altitude())))),
+      daylight_(twilight_illuminance(weather.sun_altitude()) / twilight_illuminance(0)),
+      moon_(to_sun_, weather.cloud_cover()) {
     haze_scattering_ = 4e-6F * std::max(0.3F, weather.turbidity() - 1);
     const float cover = weather.cloud_cover();
     // Kasten and Czeplak, 1980: global radiation under N oktas of cloud.
     const float squared = cover * cover;
     overcast_ = 1 - 0.75F * squared * cover * std::sqrt(std::sqrt(std::sqrt(cover)));
-    sun_above_clouds_ = sunlight(to_sun_.z(), 0, haze_scattering_);
-    if (to_sun_.z() < 0)
-        sun_above_clouds_ *= std::max(0.0F, 1 + to_sun_.z() * 12);
-    sun_ = sun_above_clouds_ * (1 - squared) * (to_sun_.z() > -0.02F ? 1.0F : 0.0F);
+    const Color arriving = sunlight(std::max(to_sun_.z(), 0.0F), 0, haze_scattering_);
+    sun_above_clouds_ = arriving * daylight_;
+    // Clouds redden with the last sun; deep in twilight none reaches them.
+    sun_tint_ = mix(Color(0.9F, 0.95F, 1.15F),
+                    Color(arriving / arriving.mean()),
+                    smooth_step(-0.13F, -0.02F, to_sun_.z()));
+    // The disc sinks; refraction holds it up a little.
+    sun_ = arriving * ((1 - squared) * smooth_step(-0.016F, 0.002F, to_sun_.z()));
     sun_radius_ = mix(0.006F, 0.06F, squared);
-    lamps_on_ = weather.rain() > 0 || weather.sun_altitude() < 0.17F;
+    const Color sun_above_fog = sun_;
     fill_table();
     add_fog();
     project_ambient();
     choose_exposure();
+    is_night_ = lamplight_ > 0 || moon_.light.maxCoeff() > 0;
+    if (!is_night_)
+        return;
+    // Exposure goes by daylight alone; what else lights the sky shines through the same fog.
+    sun_ = sun_above_fog;
+    fill_table();
+    add_night();
+    add_fog();
+    project_ambient();
 }
 
 Color Sky::clear_radiance(const Vector3f& direction) const {
-    const float cosine = direction.dot(to_sun_);
+    const float cosine = direction.dot(to_glow_);
     const float up = std::max(direction.z(), 0.0F);
+    // Over far places a low sun stands higher or lower: only twilight shows it.
+    const float bend = smooth_step(0.05F, -0.03F, to_glow_.z()) *
+                       direction.head<2>().dot(to_glow_.head<2>()) / earth;
     // To the top of the air, at most as far as the earth's curve lets one see into it.
     const float top = 60e3F;
     const float far = -earth * up + std::sqrt(earth * earth * up * up + 2 * earth * top);
@@ -105,7 +155,7 @@ Color Sky::clear_radiance(const Vector3f& direction) const {
         const Color air = rayleigh * fast_exp(-height / rayleigh_height);
         const float haze = haze_scattering_ * fast_exp(-height / haze_height);
         const Color step_depth = (air + 1.1F * haze) * (next - last);
-        const Color light = sunlight(to_sun_.z(), height, haze_scattering_);
+        const Color light = sunlight(to_glow_.z() + bend * middle, height, haze_scattering_);
         const Color through = fast_exp(Color(-(depth + 0.5F * step_depth)));
         // Light scattered more than once is about as strong again, from everywhere.
         const Color twice = 0.16F * light.mean() * Color(1.0F, 1.02F, 1.06F) * (0.35F + up);
@@ -120,12 +170,13 @@ Color Sky::clear_radiance(const Vector3f& direction) const {
 Color Sky::cloud_radiance(const Vector3f& direction) const {
     // Moon and Spencer's overcast dome, lit by what comes from above, with a warm glow where the
     // sun stands behind it.
+    const float sine = std::max(to_sun_.z(), 0.0F);
     const float light =
-        sun_above_clouds_.mean() * std::max(to_sun_.z(), 0.02F) + 0.12F * to_sun_.z() + .02F;
+        sun_above_clouds_.mean() * std::max(sine, 0.02F) + (0.12F * sine + .02F) * daylight_;
     const float dome = (1 + 2 * std::max(direction.z(), 0.0F)) / 3;
     const Color grey(0.93F, 0.98F, 1.06F);
-    const Color tint = mix(grey, Color(sun_above_clouds_ / sun_above_clouds_.mean()), 0.25F);
-    const float cosine = direction.dot(to_sun_);
+    const Color tint = mix(grey, sun_tint_, 0.25F);
+    const float cosine = direction.dot(to_glow_);
     const Color glow = sun_above_clouds_ *
                        (0.30F * forward_phase(cosine, 0.72F) * (1 - 0.8F * weather_.cloud_cover()) +
                         0.05F * forward_phase(cosine, 0.4F));
@@ -138,12 +189,13 @@ Color Sky::radiance(const Vector3f& direction, bool detailed) const {
         return plain;
     const float cover = clouds_.cover(direction);
     const Color clear = look_up(clear_table_, direction);
-    const Color cloud = cloud_radiance(direction);
+    Color cloud = cloud_radiance(direction);
+    if (is_night_)
+        cloud += 1.7F * night_glow(direction, moon_, weather_.cloud_cover(), lamplight_);
     const float light = sun_above_clouds_.mean() * (0.10F + 0.35F * (1 - weather_.cloud_cover()));
     // Thin clouds shine white in the sun, thick ones are grey below.
     const float thickness = smooth_step(0.2F, 1.0F, cover);
-    const Color white = clear * 0.5F + light * 0.55F * Color(1, 0.985F, 0.965F) *
-                                           sun_above_clouds_ / sun_above_clouds_.mean();
+    const Color white = clear * 0.5F + light * 0.55F * Color(1, 0.985F, 0.965F) * sun_tint_;
     const Color body = mix(white,
                            Color(cloud * mix(1.25F, 0.72F, thickness)),
                            std::max(thickness * 0.6F, weather_.cloud_cover()));
@@ -153,7 +205,10 @@ Color Sky::radiance(const Vector3f& direction, bool detailed) const {
     seen = mix(plain, seen, veil_.passes_upwards(direction.z()));
     const float cosine = direction.dot(to_sun_);
     const float disc = smooth_step(0.999965F, 0.99998F, cosine);
-    return seen + sun_ * disc * (1 - cover) * 400;
+    const float moon = smooth_step(0.999985F, 0.999991F, direction.dot(moon_.to_moon)) *
+                       smooth_step(0, 0.03F, moon_.to_moon.z()) * moon_.through_clouds *
+                       lamp(2500, 1.6F);
+    return seen + (sun_ * disc * 400 + Color(moon, moon, 0.94F * moon)) * (1 - cover);
 }
 
 Color Sky::stored(const Vector3f& direction) const {
@@ -180,17 +235,66 @@ Color Sky::look_up(const std::vector<Color>& table, const Vector3f& direction) {
 void Sky::fill_table() {
     const std::size_t size = static_cast<std::size_t>(table_size) * table_size;
     clear_table_.resize(size);
+    tbb::parallel_for(0, table_size, [&](int row) {
+        const DefaultFloatMode plain;
+        for (int column = 0; column < table_size; ++column) {
+            const Vector3f direction = table_direction(row, column);
+            const auto index = static_cast<std::size_t>(row * table_size + column);
+            clear_table_[index] = clear_radiance(direction);
+        }
+    });
+    if (to_sun_.z() < 0)
+        darken_twilight();
     table_.resize(size);
     tbb::parallel_for(0, table_size, [&](int row) {
         const DefaultFloatMode plain;
         for (int column = 0; column < table_size; ++column) {
-            const Vector3f direction =
-                direction_at(static_cast<float>(column) * 2 / (table_size - 1) - 1,
-                             static_cast<float>(row) * 2 / (table_size - 1) - 1);
             const auto index = static_cast<std::size_t>(row * table_size + column);
-            clear_table_[index] = clear_radiance(direction);
-            table_[index] =
-                mix(clear_table_[index], cloud_radiance(direction), weather_.cloud_cover());
+            table_[index] = mix(clear_table_[index],
+                                cloud_radiance(table_direction(row, column)),
+                                weather_.cloud_cover());
+        }
+    });
+}
+
+/// Single scattering says how twilight looks; how bright it is has been measured.
+void Sky::darken_twilight() {
+    // The model's horizon is not quite the measured one: both meet within six degrees.
+    const float trust = smooth_step(0, -0.115F, weather_.sun_altitude());
+    // What was scattered more often comes from everywhere, and is blue.
+    const float once = dome_illuminance(clear_table_);
+    for (Color& light : clear_table_)
+        light += Color(0.55F, 0.95F, 1.7F) * (once * trust * 0.2F / pi);
+    const float measured = twilight_illuminance(weather_.sun_altitude()) * lux;
+    const double share = static_cast<double>(measured / dome_illuminance(clear_table_));
+    const auto factor = static_cast<float>(std::pow(share, static_cast<double>(trust)));
+    for (Color& light : clear_table_)
+        light *= factor;
+}
+
+/// Of level ground, by a sky alone.
+float Sky::dome_illuminance(const std::vector<Color>& table) {
+    float sum = 0;
+    constexpr int rows = 12;
+    constexpr int columns = 24;
+    for (int i = 0; i < rows * columns; ++i) {
+        const float z = (static_cast<float>(i / columns) + 0.5F) / rows;
+        const double altitude = std::asin(static_cast<double>(z));
+        const Vector3f way = towards(2 * std::numbers::pi * (i % columns) / columns, altitude);
+        sum += luminance(look_up(table, way)) * (z * 2 * pi / (rows * columns));
+    }
+    return sum;
+}
+
+void Sky::add_night() {
+    tbb::parallel_for(0, table_size, [&](int row) {
+        const DefaultFloatMode plain;
+        for (int column = 0; column < table_size; ++column) {
+            const auto index = static_cast<std::size_t>(row * table_size + column);
+            const Color night =
+                night_glow(table_direction(row, column), moon_, weather_.cloud_cover(), lamplight_);
+            clear_table_[index] += night;
+            table_[index] += night * mix(1.0F, 1.7F, weather_.cloud_cover());
         }
     });
 }
@@ -276,7 +380,8 @@ void Sky::project_ambient() {
                                z}) *
                        (z * 2 * pi / (rows * columns));
             }
-            const Color arriving = sum + sun_ * std::max(to_sun_.z(), 0.0F);
+            const Color arriving = sum + sun_ * std::max(to_sun_.z(), 0.0F) +
+                                   moon_.light * std::max(moon_.to_moon.z(), 0.0F);
             // Snow throws most of it back.
             const float albedo = mix(ground_albedo, 0.75F, weather_.snow_cover());
             down = arriving * (albedo / pi) * Color(1.0F, 0.98F, 0.9F);
@@ -306,14 +411,16 @@ Color Sky::haze(const Vector3f& direction) const {
     return 0.55F * stored(level) + 0.45F * horizon_;
 }
 
+/// By what the sun gives, before the night's own light is added: the lower it stands, the longer.
 void Sky::choose_exposure() {
-    // A fixed exposure for each weather - no adaptation, so that every frame stands alone. Dusk is
-    // let to look darker than noon.
+    // A fixed exposure for each weather - no adaptation to what a picture shows, so that every
+    // frame stands alone. By night it is made for a street between two lamps.
+    constexpr float street = 3.5F * lux / pi;
     const Color ground = sun_ * std::max(to_sun_.z(), 0.0F) / pi + ambient(Vector3f::UnitZ());
     const float light = luminance(ground);
-    dim_ = light < 0.15F;
-    const float wish = dim_ ? 0.42F : 1.05F;
-    exposure_ = wish / std::max(light, 1e-4F);
+    lamplight_ = lamplight_at(light * pi / lux);
+    headlamps_ = headlamps_at(light * pi / lux, weather_.rain());
+    exposure_ = exposure_for(light + street * lamplight_);
 }
 
 }  // namespace reprise::render

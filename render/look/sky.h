@@ -6,14 +6,16 @@
 #include <Eigen/Core>
 
 #include "render/look/clouds.h"
+#include "render/look/night_sky.h"
 #include "render/look/veil.h"
 #include "render/shapes/fast_math.h"
 #include "world/common_generated.h"
 
 namespace reprise::render {
 
-/// The light of a weather: sun, sky, clouds, haze. Radiances are relative to the sun's irradiance
-/// above the atmosphere (about 1.8).
+/// The light of a weather: sun, moon, sky, clouds, haze. Radiances are relative to the sun's
+/// irradiance above the atmosphere (about 1.8, see `lux`). Everything is finite and without a jump
+/// for a sun anywhere between nadir and zenith.
 class Sky {
   public:
     /// 20 ms: single scattering by air and haze for every direction (Nishita et al., "Display of
@@ -50,11 +52,22 @@ class Sky {
 
     const Clouds& clouds() const { return clouds_; }
 
+    const Moon& moon() const { return moon_; }
+
     float exposure() const { return exposure_; }  ///< factor from radiance to picture
 
-    bool lamps_on() const { return lamps_on_; }  ///< would drivers switch their lamps on?
+    /// How far lamps of streets and windows are lit, and drivers' head lamps: 0 by day, 1 by night.
+    float lamplight() const { return lamplight_; }
 
-    bool dim() const { return dim_; }  ///< dusk: windows are lit
+    float headlamps() const { return headlamps_; }
+
+    /// Radiance of a lamp of this luminance [cd/m2]; one that outshines everything by far shows as
+    /// bright as `most` in the picture, so that its colour is still seen.
+    float lamp(float luminance_cd, float most) const {
+        const float physical = luminance_cd * lux;
+        const float limit = most / exposure_;
+        return physical * limit / (physical + limit);
+    }
 
     const world::Weather& weather() const { return weather_; }
 
@@ -65,6 +78,9 @@ class Sky {
     static Color look_up(const std::vector<Color>& table, const Eigen::Vector3f& direction);
     void fill_table();
     void add_fog();
+    void darken_twilight();
+    static float dome_illuminance(const std::vector<Color>& table);
+    void add_night();
     void project_ambient();
     void choose_exposure();
 
@@ -72,14 +88,19 @@ class Sky {
     Veil veil_;
     Clouds clouds_;
     Eigen::Vector3f to_sun_;
+    Eigen::Vector3f to_glow_;  // the sun, or where it would give twilight its shape
     Color sun_;
-    Color sun_above_clouds_;
+    Color sun_above_clouds_;  // what is left of it in twilight
+    Color sun_tint_;          // its colour, mean 1
+    float daylight_;          // share of a sun on the horizon, 1 above it
+    Moon moon_;
     float sun_radius_;
     float haze_scattering_;  // [1/m] at the ground
     float overcast_;         // share of the light that comes through a closed cover
     float exposure_;
-    bool lamps_on_;
-    bool dim_;
+    float lamplight_ = 0;
+    float headlamps_ = 0;
+    bool is_night_ = false;           // does anything but the sun light the sky?
     std::vector<Color> clear_table_;  // upper half sphere without clouds
     std::vector<Color> table_;        // with their mean
     std::array<Color, 9> harmonics_;  // of the whole sphere, the ground included

@@ -95,8 +95,8 @@ Look sign_look(const ShadingInput& input, const Surface& at, const WallSurfacePo
     Look look;
     look.normal = at.normal;
     look.albedo = mix(board, ink, ink_share);
-    if (input.sky.dim())
-        look.emission = mix(Color(board * 0.3F), ink, ink_share) * (0.7F / input.sky.exposure());
+    look.emission = mix(Color(board * 0.3F), ink, ink_share) *
+                    (0.7F * input.sky.lamplight() / input.sky.exposure());
     look.roughness = 0.4F;
     return look;
 }
@@ -125,8 +125,8 @@ Look clock_look(const ShadingInput& input, const Surface& at, const WallSurfaceP
     }
     mark |= hand(-0.819F, 0.574F, 0.45F, 0.05F) || hand(0.866F, 0.5F, 0.68F, 0.032F);
     look.albedo = mark ? Color(.03F, .03F, .035F) : Color(.68F, .66F, .60F);
-    if (input.sky.dim() && !mark)
-        look.emission = Color(1, .9F, .7F) * (0.5F / input.sky.exposure());
+    if (!mark)
+        look.emission = Color(1, .9F, .7F) * (0.5F * input.sky.lamplight() / input.sky.exposure());
     return look;
 }
 

@@ -99,6 +99,7 @@ void TownScene::build_town(const world::TownT& town) {
         add(std::move(houses), Kind::town, solid_bit);
     place_trees(town);
     place_props(town);
+    lamps_ = TownLamps(town, facades_, origin_);
 }
 
 /// Buildings and signals, and which triangles are of which.

@@ -13,6 +13,7 @@
 
 #include "render/scene/lane_raster.h"
 #include "render/scene/shelter.h"
+#include "render/scene/town_lamps.h"
 #include "render/shapes/buildings/building_mesh.h"
 #include "render/shapes/cars/car_shape.h"
 #include "render/shapes/people/figure_part.h"
@@ -91,6 +92,8 @@ class TownScene {
 
     std::span<const PlotFrame> plots() const { return plots_; }
 
+    const TownLamps& lamps() const { return lamps_; }
+
     const LaneRaster& lanes() const { return lanes_; }
 
     /// 1 + the number in world::TownThings of what an instance's triangle is of; 0: of none.
@@ -143,6 +146,7 @@ class TownScene {
     std::vector<BuildingFrame> buildings_;
     Facades facades_;
     std::vector<PlotFrame> plots_;
+    TownLamps lamps_;
     std::vector<Instance> instances_;
     std::vector<PlacedProp> props_;
     std::vector<std::uint32_t>

@@ -33,8 +33,9 @@ struct Frame {
     int height = 0;
     std::vector<Sample> samples;
     std::vector<RawLight> lights;
-    std::vector<Color> colors;  ///< radiance times exposure
-    std::vector<float> tones;   ///< how bright each looks, in [0, 1): before edges are refined
+    std::vector<LampLight> lamps;  ///< empty by day
+    std::vector<Color> colors;     ///< radiance times exposure
+    std::vector<float> tones;      ///< how bright each looks, in [0, 1): before edges are refined
 
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -64,6 +65,9 @@ void draw_snow(const ShadingInput& input,
 
 /// Drops on the lens of a camera that drives in the rain.
 void wet_lens(const ShadingInput& input, Frame& frame);
+
+/// Lets what is brighter than white shine over its edges; `strength` in [0, 1], 0 does nothing.
+void add_glare(Frame& frame, float strength);
 
 /// Tone curve and sRGB: 3 bytes a pixel.
 std::vector<std::uint8_t> tone_map(const Frame& frame, std::uint64_t tick);

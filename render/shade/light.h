@@ -1,8 +1,6 @@
 #pragma once
 
-#include <vector>
-
-#include "render/look/look.h"
+#include "render/shade/lamp_light.h"
 
 namespace reprise::render {
 
@@ -11,16 +9,8 @@ struct Light {
     float sun_visibility = 1;         ///< share of the sun's disc that is seen
     float sky_visibility = 1;         ///< share of the sky that is not hidden by things near
     Color reflected = Color::Zero();  ///< radiance from where a mirror would show
+    float lamp_visibility = 0;        ///< share of what lamps and the moon give that arrives
 };
-
-/// A car's head lamps, for the light that they throw on the road.
-struct Beam {
-    Eigen::Vector3f position;
-    Eigen::Vector3f ahead;  ///< unit vector
-};
-
-/// The beams of the cars nearest to the eye, in the order of the instances; none by day.
-std::vector<Beam> find_beams(const ShadingInput& input, const Eigen::Vector3f& eye);
 
 /// Where a mirror lying there would show: never into the surface itself.
 Eigen::Vector3f mirror_direction(const Eigen::Vector3f& view,
@@ -29,10 +19,9 @@ Eigen::Vector3f mirror_direction(const Eigen::Vector3f& view,
 
 /// Radiance of a lit place towards the eye, without what is between them.
 Color outgoing_radiance(const ShadingInput& input,
-                        const std::vector<Beam>& beams,
                         const Look& look,
                         const Light& light,
-                        const Eigen::Vector3f& position,
+                        const LampLight& lamps,
                         const Eigen::Vector3f& view);
 
 /// Fog, dust and the veil of rain and snow over a distance. [m] `from` in the scene's frame.

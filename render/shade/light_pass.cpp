@@ -31,13 +31,17 @@ Color mirrored_radiance(const ShadingJob& job,
     Surface at = surface_at(input.scene, hit, ray.origin, ray.direction, footprint_scale);
     expose(input, at);
     const Look look = shade_surface(input, at);
-    Light light{job.sun_matters ? 0.6F : 1.0F, 0.75F, Color::Zero()};
+    Light light{job.sun_matters ? 0.6F : 1.0F, 0.75F, Color::Zero(), 0.75F};
     if (look.gloss > 0)
         light.reflected =
             input.sky.radiance(mirror_direction(at.view, look.normal, at.flat), false) * 0.8F;
-    const Color color = outgoing_radiance(input, job.beams, look, light, at.position, at.view);
-    // Lamps would leave single dots: what one ray finds stands for 16 pixels.
-    const Color seen = color.min(2.2F / input.sky.exposure());
+    LampLight lamps;
+    if (job.lamps_matter)
+        lamps = LampSum(input, job.sources, look, at.position, at.view).light();
+    const Color color = outgoing_radiance(input, look, light, lamps, at.view);
+    // Lamps would leave single dots: what one ray finds stands for 16 pixels. By night their shine
+    // on what is wet is added up, see LampSum.
+    const Color seen = color.min(mix(2.2F, 1.0F, input.sky.lamplight()) / input.sky.exposure());
     return through_atmosphere(input.sky, seen, ray.origin, at.view, at.distance);
 }
 
@@ -56,6 +60,12 @@ void request_light(const ShadingJob& job,
     const float facing = look.normal.dot(job.input.sky.to_sun());
     if (job.sun_matters && (facing > 0 || look.translucency > 0))
         rays.sun.add(sun_ray(job, origin, place), owner);
+    if (job.lamps_matter) {
+        const LampSum lamps(job.input, job.sources, look, at.position, at.view);
+        job.frame.lamps[owner] = lamps.light();
+        if (lamps.any())
+            rays.lamp.add(lamp_ray(job, origin, lamps, place), owner);
+    }
     const OrthonormalBasis axes(at.normal);
     for (int i = 0; i < 2 && asks_for_sky(at); ++i) {
         Vector3f direction = axes.apply(sky_direction(place + 16 * i));
@@ -78,6 +88,7 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
     thread_local TileRays rays;
     rays.sun.clear();
     rays.sky.clear();
+    rays.lamp.clear();
     rays.mirror.clear();
     for (int i = 0; i < tile * tile; ++i) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
@@ -99,7 +110,7 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         raw.position = at.position;
         raw.flat = at.flat;
         raw.tolerance = 0.01F + 4 * at.distance * job.pixel;
-        raw.light = {job.sun_matters ? 0.0F : 1.0F, 0.0F, Color::Zero()};
+        raw.light = {job.sun_matters ? 0.0F : 1.0F, 0.0F, Color::Zero(), 1.0F};
         if (!asks_for_sky(at))
             raw.light.sky_visibility = at.material == Material::leaf ? 0.7F : 0.95F;
         request_light(job, at, sample.look, pattern(pixel.x(), pixel.y()), index, rays);
@@ -108,6 +119,9 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
     trace_batch(job, rays, rays.sun, true, [&](std::size_t owner, bool visible) {
         lights[owner].light.sun_visibility =
             visible ? job.input.sky.clouds().sunlight(lights[owner].position) : 0.0F;
+    });
+    trace_batch(job, rays, rays.lamp, true, [&](std::size_t owner, bool visible) {
+        lights[owner].light.lamp_visibility = visible ? 1.0F : 0.0F;
     });
     // Into a half sphere each: as packets that run alike they take four times as long.
     trace_batch(job, rays, rays.sky, false, [&](std::size_t owner, bool visible) {

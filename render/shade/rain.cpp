@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/look/lamp_colors.h"
 #include "render/shade/frame.h"
 #include "render/shade/streak.h"
 #include "world/random.h"
@@ -38,8 +39,9 @@ void draw_rain(const ShadingInput& input,
     const Vector3d wind = 0.45 * static_cast<double>(weather.wind_speed()) *
                           Vector3d(std::cos(azimuth), std::sin(azimuth), 0);
     // A drop shows most of the sphere around it, upside down: the mean of the sky.
-    const Color light =
-        input.sky.ambient(Eigen::Vector3f::UnitZ()) * (1.15F * input.sky.exposure());
+    const Color light = (input.sky.ambient(Eigen::Vector3f::UnitZ()) * 1.15F +
+                         street_lamp_color * (0.25F * lux * input.sky.lamplight())) *
+                        input.sky.exposure();
     const Shelter& shelter = input.scene.town().shelter();
     const std::uint64_t tick = input.tick;
     for (std::uint64_t drop = 0; drop < count; ++drop) {

@@ -35,29 +35,33 @@ bool is_edge(const Frame& frame, int x, int y) {
     return false;
 }
 
-/// The light of the neighbour that lies on the same surface, or of the pixel itself.
-Light neighbour_light(const Frame& frame,
-                      const Eigen::Vector2i& pixel,
-                      const Hit& hit,
-                      const Surface& at) {
-    Light best{0, 0.8F, Color::Zero()};
-    float least = infinite;
-    for (int i = 0; i < 9; ++i) {
-        const int x = std::clamp(pixel.x() + i % 3 - 1, 0, frame.width - 1);
-        const int y = std::clamp(pixel.y() + i / 3 - 1, 0, frame.height - 1);
-        const std::size_t index = frame.index(x, y);
-        const RawLight& raw = frame.lights[index];
-        if (raw.instance != hit.instance)
-            continue;
-        const float away =
-            (raw.position - at.position).norm() + (1 - raw.flat.dot(at.flat)) * at.distance * 0.01F;
-        if (away < least) {
-            least = away;
-            best = frame.samples[index].light;
+/// The neighbour that lies on the same thing, closest to the place: for the light that arrived
+/// there.
+struct Neighbour {
+    Neighbour(const Frame& frame, const Eigen::Vector2i& pixel, const Hit& hit, const Surface& at) {
+        float least = infinite;
+        for (int i = 0; i < 9; ++i) {
+            const int x = std::clamp(pixel.x() + i % 3 - 1, 0, frame.width - 1);
+            const int y = std::clamp(pixel.y() + i / 3 - 1, 0, frame.height - 1);
+            const std::size_t next = frame.index(x, y);
+            const RawLight& raw = frame.lights[next];
+            if (raw.instance != hit.instance)
+                continue;
+            const float turned = 1 - raw.flat.dot(at.flat);
+            const float away = (raw.position - at.position).norm() + turned * at.distance * 0.01F;
+            if (away < least) {
+                least = away;
+                index = next;
+                flush = turned < 0.02F && away < raw.tolerance;
+            }
         }
+        found = least < infinite;
     }
-    return best;
-}
+
+    std::size_t index = 0;
+    bool found = false;
+    bool flush = false;  ///< on the same plane, and near: lamps give both the same
+};
 
 /// What a ray through a part of a pixel hit, and how it is lit.
 struct SubpixelSample {
@@ -65,6 +69,7 @@ struct SubpixelSample {
     Surface surface;
     Look look;
     Light light;
+    LampLight lamps;
 };
 
 RayBatch subpixel_rays(const ShadingJob& job,
@@ -85,19 +90,26 @@ RayBatch subpixel_rays(const ShadingJob& job,
     return batch;
 }
 
+void light_subpixel(const ShadingJob& job, const Eigen::Vector2i& pixel, SubpixelSample& sample) {
+    const Surface& at = sample.surface;
+    const Neighbour neighbour(job.frame, pixel, sample.hit, at);
+    sample.light = neighbour.found ? job.frame.samples[neighbour.index].light
+                                   : Light{0, 0.8F, Color::Zero(), 0.8F};
+    if (!job.lamps_matter)
+        return;
+    sample.lamps = neighbour.flush
+                       ? job.frame.lamps[neighbour.index]
+                       : LampSum(job.input, job.sources, sample.look, at.position, at.view).light();
+}
+
 Color color_of(const ShadingJob& job, const Ray& ray, const SubpixelSample& sample) {
     Color color;
     if (sample.hit.instance == no_instance) {
         color = sky_color(job, ray.direction);
     } else {
-        color = outgoing_radiance(job.input,
-                                  job.beams,
-                                  sample.look,
-                                  sample.light,
-                                  sample.surface.position,
-                                  sample.surface.view);
-        color = through_atmosphere(
-            job.input.sky, color, ray.origin, sample.surface.view, sample.surface.distance);
+        const Surface& at = sample.surface;
+        color = outgoing_radiance(job.input, sample.look, sample.light, sample.lamps, at.view);
+        color = through_atmosphere(job.input.sky, color, ray.origin, at.view, at.distance);
     }
     return color * job.input.sky.exposure();
 }
@@ -136,8 +148,7 @@ void refine_tile(ShadingJob& job,
         expose(job.input, sample.surface);
         sample.look = shade_surface(job.input, sample.surface);
         const auto owner = static_cast<int>(primary.owners[i]);
-        sample.light = neighbour_light(
-            frame, {owner % frame.width, owner / frame.width}, sample.hit, sample.surface);
+        light_subpixel(job, {owner % frame.width, owner / frame.width}, sample);
         if (!job.sun_matters)
             continue;
         const Vector3f origin =

@@ -74,6 +74,14 @@ Ray sun_ray(const ShadingJob& job, const Vector3f& origin, int place) {
             job.mask & ~marking_bit};
 }
 
+Ray lamp_ray(const ShadingJob& job, const Vector3f& origin, const LampSum& lamps, int place) {
+    const Vector3f way =
+        lamps.towards((static_cast<float>(place) + 0.5F) / 16, disc_point((place * 5 + 3) & 15));
+    // It ends before the lamp's own housing.
+    const float share = 1 - std::min(0.2F / way.norm(), 0.9F);
+    return {origin, way, share, job.mask & ~marking_bit};
+}
+
 Color sky_color(const ShadingJob& job, const Vector3f& direction) {
     return job.input.sky.radiance(direction.normalized(), true);
 }

@@ -28,7 +28,8 @@ struct ShadingJob {
     std::uint32_t mask;
     const std::vector<Hit>& hits;
     Frame& frame;
-    std::vector<Beam> beams;
+    SourceGrid sources;
+    bool lamps_matter;  ///< is there a lamp, or a moon?
     Eigen::Vector3f eye;
     float pixel;
     OrthonormalBasis sun_basis;
@@ -62,7 +63,7 @@ struct RayBatch {
 
 /// Secondary rays of a tile by their kind, and memory for what they find.
 struct TileRays {
-    RayBatch sun, sky, mirror;
+    RayBatch sun, sky, lamp, mirror;
     std::vector<std::uint8_t> visible;
     std::vector<Hit> hits;
 };
@@ -92,6 +93,9 @@ Eigen::Vector3f offset_origin(const Eigen::Vector3f& position,
 
 /// To a place on the sun's disc.
 Ray sun_ray(const ShadingJob& job, const Eigen::Vector3f& origin, int place);
+
+/// To one of the lamps that light a place, or to the moon.
+Ray lamp_ray(const ShadingJob& job, const Eigen::Vector3f& origin, const LampSum& lamps, int place);
 
 /// Radiance of the sky behind a pixel.
 Color sky_color(const ShadingJob& job, const Eigen::Vector3f& direction);

@@ -28,13 +28,6 @@ bool is_left(world::Turn turn) {
            turn == world::Turn::around;
 }
 
-std::uint32_t main_signal(const world::TownT& town, const std::vector<std::uint32_t>& signals) {
-    for (const std::uint32_t signal : signals)
-        if (turn_of(town, signal) == world::Turn::straight)
-            return signal;
-    return signals.front();
-}
-
 /// A lamp for a turn, beside the case's lowest one.
 void add_turn_lamp(
     Mesh& mesh, const Eigen::Isometry3f& frame, float y, float bottom, std::uint32_t signal) {
@@ -95,6 +88,13 @@ void add_head(Mesh& mesh,
 }
 
 }  // namespace
+
+std::uint32_t main_signal(const world::TownT& town, const std::vector<std::uint32_t>& signals) {
+    for (const std::uint32_t signal : signals)
+        if (turn_of(town, signal) == world::Turn::straight)
+            return signal;
+    return signals.front();
+}
 
 void add_signal_head(Mesh& mesh,
                      const world::TownT& town,

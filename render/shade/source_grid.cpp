@@ -1,0 +1,104 @@
+#include "render/shade/source_grid.h"
+
+#include <algorithm>
+
+namespace reprise::render {
+
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr float cell_size = 8;  // [m]
+constexpr int side = 90;        // [cells] the grid reaches 360 m from the eye
+
+int cell_of(float metres) {
+    return floor_int(metres / cell_size);
+}
+
+/// About how bright a source makes the brightest place of a square; 0 where it does not reach.
+float rank_of(const LightSource& source, float x, float y) {
+    constexpr float half = cell_size / 2;
+    const float dx = x - source.position.x();
+    const float dy = y - source.position.y();
+    const float near_x = std::max(std::abs(dx) - half, 0.0F);
+    const float near_y = std::max(std::abs(dy) - half, 0.0F);
+    const float squared = near_x * near_x + near_y * near_y;
+    if (squared >= source.reach * source.reach)
+        return 0;
+    float share = 1;
+    if (source.lobe == LightSource::Lobe::low_beam) {
+        const float ahead = dx * source.axis.x() + dy * source.axis.y();
+        const float across = std::abs(dx * source.left.x() + dy * source.left.y());
+        if (ahead < -6 || across > 6 + 1.6F * std::max(ahead, 0.0F))
+            return 0;
+        share = 0.15F;  // most of it goes over the ground
+    } else if (source.lobe == LightSource::Lobe::lens || source.lobe == LightSource::Lobe::window) {
+        if (dx * source.axis.x() + dy * source.axis.y() < -6)
+            return 0;
+    }
+    const float fade = 1 - squared / (source.reach * source.reach);
+    return luminance(source.intensity) * share * fade * fade / (squared + 9);
+}
+
+}  // namespace
+
+SourceGrid::SourceGrid(std::vector<LightSource> sources, const Vector3f& eye)
+    : sources_(std::move(sources)) {
+    if (sources_.empty())
+        return;
+    sources_.resize(std::min<std::size_t>(sources_.size(), 65535));
+    west_ = cell_of(eye.x()) - side / 2;
+    south_ = cell_of(eye.y()) - side / 2;
+    cells_.resize(static_cast<std::size_t>(side) * side);
+    ranks_.resize(cells_.size() * most);
+    for (std::size_t i = 0; i < sources_.size(); ++i)
+        enter(static_cast<std::uint16_t>(i));
+    ranks_.clear();
+}
+
+void SourceGrid::enter(std::uint16_t index) {
+    const LightSource& source = sources_[index];
+    const auto clamped = [](int cell) { return std::clamp(cell, 0, side - 1); };
+    const int left = clamped(cell_of(source.position.x() - source.reach) - west_);
+    const int right = clamped(cell_of(source.position.x() + source.reach) - west_);
+    const int low = clamped(cell_of(source.position.y() - source.reach) - south_);
+    const int high = clamped(cell_of(source.position.y() + source.reach) - south_);
+    for (int row = low; row <= high; ++row) {
+        for (int column = left; column <= right; ++column) {
+            const float x = (static_cast<float>(west_ + column) + 0.5F) * cell_size;
+            const float y = (static_cast<float>(south_ + row) + 0.5F) * cell_size;
+            const float rank = rank_of(source, x, y);
+            if (rank > 0)
+                enter(static_cast<std::size_t>(row * side + column), rank, index);
+        }
+    }
+}
+
+/// Keeps the brightest, brighter ones first; of two that are alike the earlier one.
+void SourceGrid::enter(std::size_t at, float rank, std::uint16_t index) {
+    Cell& cell = cells_[at];
+    float* ranks = &ranks_[at * most];
+    std::size_t place = cell.count;
+    while (place > 0 && ranks[place - 1] < rank)
+        --place;
+    if (place == most)
+        return;
+    cell.count = static_cast<std::uint16_t>(std::min<std::size_t>(cell.count + 1u, most));
+    for (std::size_t i = cell.count - 1u; i > place; --i) {
+        cell.sources[i] = cell.sources[i - 1];
+        ranks[i] = ranks[i - 1];
+    }
+    cell.sources[place] = index;
+    ranks[place] = rank;
+}
+
+std::span<const std::uint16_t> SourceGrid::near(const Vector3f& position) const {
+    const int column = cell_of(position.x()) - west_;
+    const int row = cell_of(position.y()) - south_;
+    if (cells_.empty() || column < 0 || column >= side || row < 0 || row >= side)
+        return {};
+    const Cell& cell = cells_[static_cast<std::size_t>(row * side + column)];
+    return std::span(cell.sources).first(cell.count);
+}
+
+}  // namespace reprise::render
