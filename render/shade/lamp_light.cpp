@@ -57,7 +57,9 @@ void LampSum::add_source(const LightSource& source,
     const Vector3f half = (way - view).normalized();
     const float shine = fresnel(look.f0, half.dot(way)) *
                         highlight(look.roughness, std::max(0.0F, half.dot(look.normal)));
-    light_.shine += arrives * (pi * std::min(shine, 20.0F));
+    // A head lamp's mirror is wide: just before the car its highlight is a pale spot, not a point.
+    const float point = source.lobe == LightSource::Lobe::low_beam ? 0.35F : 1.0F;
+    light_.shine += arrives * (pi * point * std::min(shine, 20.0F));
 }
 
 void LampSum::add_moon(const Look& look) {

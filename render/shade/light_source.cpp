@@ -22,8 +22,9 @@ float low_beam_share(const LightSource& source, const Vector3f& way) {
     const float wide = side / 0.75F;
     const float across = 0.85F / ((1 + narrow * narrow) * (1 + narrow * narrow)) +
                          0.15F / ((1 + wide * wide) * (1 + wide * wide));
-    return across * smooth_step(0.25F, 0.5F, ahead) *
-           (0.012F + 0.988F * cut / (1 + drop * drop * (1 + 0.6F * drop)));
+    const float shape =
+        mix(0.012F, 1 / (1 + drop * drop * (1 + 0.6F * drop)), cut);  // above, below
+    return across * smooth_step(0.25F, 0.5F, ahead) * shape;
 }
 
 }  // namespace

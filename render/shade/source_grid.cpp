@@ -53,7 +53,18 @@ SourceGrid::SourceGrid(std::vector<LightSource> sources, const Vector3f& eye)
     ranks_.resize(cells_.size() * most);
     for (std::size_t i = 0; i < sources_.size(); ++i)
         enter(static_cast<std::uint16_t>(i));
+    drop_faint();
     ranks_.clear();
+}
+
+/// Those that give less than a part in 250 of the brightest cost as much, and show nothing.
+void SourceGrid::drop_faint() {
+    for (std::size_t at = 0; at < cells_.size(); ++at) {
+        const float* ranks = &ranks_[at * most];
+        std::uint16_t& count = cells_[at].count;
+        while (count > 1 && ranks[count - 1] < 0.004F * ranks[0])
+            --count;
+    }
 }
 
 void SourceGrid::enter(std::uint16_t index) {

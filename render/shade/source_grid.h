@@ -13,7 +13,7 @@ namespace reprise::render {
 /// Squares are fixed in the scene, so that an eye that moves changes nothing.
 class SourceGrid {
   public:
-    static constexpr int most = 8;  ///< in a square
+    static constexpr int most = 12;  ///< in a square
 
     SourceGrid() = default;
     SourceGrid(std::vector<LightSource> sources, const Eigen::Vector3f& eye);
@@ -32,6 +32,7 @@ class SourceGrid {
     };
 
     void enter(std::uint16_t index);
+    void drop_faint();
     void enter(std::size_t cell, float rank, std::uint16_t index);
 
     std::vector<LightSource> sources_;
