@@ -177,7 +177,9 @@ Color Sky::cloud_radiance(const Vector3f& direction) const {
     const Color grey(0.93F, 0.98F, 1.06F);
     const Color tint = mix(grey, sun_tint_, 0.25F);
     const float cosine = direction.dot(to_glow_);
-    const Color glow = sun_above_clouds_ *
+    // Through a closed cover nobody sees where the sun stands.
+    const float squared = weather_.cloud_cover() * weather_.cloud_cover();
+    const Color glow = sun_above_clouds_ * mix(1.0F, 0.2F, squared * squared) *
                        (0.30F * forward_phase(cosine, 0.72F) * (1 - 0.8F * weather_.cloud_cover()) +
                         0.05F * forward_phase(cosine, 0.4F));
     return tint * (light * overcast_ * dome * 9 / (7 * pi) * 1.15F) + glow;

@@ -46,6 +46,16 @@ Said read_change(const std::string& part) {
     return said;
 }
 
+/// The nearest name, or else the first that begins so: 'hard_rain' is that of noon.
+std::string hint(const std::string& text, const std::vector<std::string>& names) {
+    if (std::string near = did_you_mean(text, names); !near.empty() || text.size() < 3)
+        return near;
+    for (const std::string& name : names)
+        if (name.compare(0, text.size(), text) == 0)
+            return " (did you mean '" + name + "'?)";
+    return "";
+}
+
 [[noreturn]] void refuse_key(const std::string& key, const std::vector<std::string>& known) {
     throw Error(fmt::format(
         "no number '{}'{}; there are {}", key, did_you_mean(key, known), fmt::join(known, ", ")));
@@ -134,9 +144,8 @@ WeatherPreset read_weather(const std::string& text) {
     std::vector<std::string> names = weather_names();
     names.emplace_back("carla");
     if (std::find(names.begin(), names.end(), base) == names.end())
-        throw Error(fmt::format("no weather '{}'{}; reprise list weathers shows them all",
-                                base,
-                                did_you_mean(base, names)));
+        throw Error(fmt::format(
+            "no weather '{}'{}; reprise list weathers shows them all", base, hint(base, names)));
     std::vector<Said> changes;
     for (const std::string& part : parts)
         changes.push_back(read_change(part));

@@ -36,7 +36,7 @@ TEST(List, TellsWhatAScenarioCanNameFromAnyFolder) {
     const Folder folder;
     for (const auto& [noun, row] : {std::pair("models", "sedan +passenger +4\\.70 +1\\.82"),
                                     std::pair("walkers", "child +child +1\\."),
-                                    std::pair("weathers", "clear_noon +1\\.00"),
+                                    std::pair("weathers", "clear_noon +paper +1\\.00"),
                                     std::pair("words", "ego:set_speed +\\(speed: number"),
                                     std::pair("checks", "check\\.never"),
                                     std::pair("towns", "town1 +[0-9.]+ "),

@@ -45,8 +45,9 @@ TEST(WeatherText, EveryNumberCanBeSaidByItsKeyAndItsAlias) {
             const std::string value = std::to_string(said);
             const Weather weather = read_weather(std::string(field.key) + "=" + value).weather;
             EXPECT_NEAR(field.said(weather), said, 1e-4 * (1 + std::abs(said))) << field.key;
-            if (*field.alias != 0)
+            if (*field.alias != 0) {
                 EXPECT_EQ(read_weather(std::string(field.alias) + "=" + value).weather, weather);
+            }
         }
 }
 
@@ -64,6 +65,9 @@ TEST(WeatherText, MistakesAreOneLineThatHelps) {
     EXPECT_EQ(mistake("claer_noon"),
               "no weather 'claer_noon' (did you mean 'clear_noon'?); reprise list weathers shows "
               "them all");
+    EXPECT_EQ(mistake("hard_rain"),
+              "no weather 'hard_rain' (did you mean 'hard_rain_noon'?); reprise list weathers "
+              "shows them all");
     EXPECT_EQ(mistake("rian=3").substr(0, 41), "no number 'rian' (did you mean 'rain'?); ");
     EXPECT_EQ(mistake("rain=-1"), "'rain' must be in [0, 200] mm/h, got -1");
     EXPECT_EQ(mistake("fog=5"), "'fog' must be in [10, 100000] m, got 5");
