@@ -29,6 +29,18 @@ target_compile_options(reprise_build INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-er
 target_compile_definitions(reprise_build INTERFACE EIGEN_DONT_VECTORIZE EIGEN_DONT_PARALLELIZE)
 # As fmt's own target says to those who link it: the compiled headers were read with it.
 target_compile_definitions(reprise_build INTERFACE FMT_SHARED)
+# ccache takes the old compiled headers for what the new ones are made from, and may hand out those of another schema:
+# layouts would mix in silence. On the command line the schemas are part of what it compares.
+file(GLOB schemas CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/world/*.fbs ${PROJECT_SOURCE_DIR}/remote/*.fbs)
+set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${schemas})
+set(digests "")
+foreach(schema IN LISTS schemas)
+  file(SHA256 ${schema} digest)
+  string(APPEND digests ${digest})
+endforeach()
+string(SHA256 digests "${digests}")
+string(SUBSTRING ${digests} 0 12 digests)
+target_compile_definitions(reprise_build INTERFACE REPRISE_SCHEMAS=0x${digests})
 if(REPRISE_SANITIZE)
   target_compile_options(reprise_build INTERFACE
     -fsanitize=${REPRISE_SANITIZE} -fno-sanitize-recover=undefined -fno-omit-frame-pointer)

@@ -193,7 +193,7 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
             others.push_back({one.centre, one.direction, one.half_length, one.half_width});
     if (others.empty())
         return world::infinity;
-    const WayAhead way(car, *town_, *graph_, looked_at);
+    const WayAhead way(car, meetings_.lines(), *graph_, looked_at);
     const auto touches = [&](double driven) {
         const BodyBox body = way.at(driven).widened(hair);
         return std::any_of(others.begin(), others.end(), [&](const BodyBox& other) {

@@ -21,6 +21,7 @@
 #include "world/check.h"
 #include "world/external/sensor_attributes.h"
 #include "world/models/actors.h"
+#include "world/units.h"
 #include "world/weather/weather.h"
 
 namespace reprise::cli {
@@ -28,8 +29,6 @@ namespace reprise::cli {
 namespace {
 
 using world::SensorKind;
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// As options say: each kind once, all in one place.
 world::SensorRig named_rig(const RenderOptions& options) {
@@ -39,8 +38,8 @@ world::SensorRig named_rig(const RenderOptions& options) {
         sensor.name = kind;
         sensor.kind = *world::find_sensor_kind(kind);
         sensor.position = {options.mount[0], options.mount[1], options.mount[2]};
-        sensor.pitch = options.pitch_deg * degree;
-        sensor.yaw = options.yaw_deg * degree;
+        sensor.pitch = options.pitch_deg * world::degree;
+        sensor.yaw = options.yaw_deg * world::degree;
         for (const world::AttributeValue& one : options.attributes)
             if (world::find_attribute(sensor.kind, one.name) != nullptr)
                 sensor.attributes.push_back(one);

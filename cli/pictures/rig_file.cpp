@@ -12,6 +12,7 @@
 
 #include "world/check.h"
 #include "world/external/sensor_attributes.h"
+#include "world/units.h"
 
 namespace reprise::cli {
 
@@ -19,7 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double farthest_place = 1e6;  // [m] in the world
 constexpr std::size_t most_rig_sensors = 1000;
 
@@ -176,11 +176,11 @@ void read_sensor(const Json& json, const std::string& where, std::uint64_t step_
         for (int axis = 0; axis < 3; ++axis)
             sensor.position[axis] =
                 table.within("position", (*place)[static_cast<std::size_t>(axis)], -reach, reach);
-    sensor.roll = table.number("roll_deg", 0, -360, 360) * degree;
-    sensor.pitch = table.number("pitch_deg", 0, -90, 90) * degree;
-    sensor.yaw = table.number("yaw_deg", 0, -360, 360) * degree;
-    sensor.fov =
-        table.number("fov_deg", 90, world::narrowest_view_deg, world::widest_view_deg) * degree;
+    sensor.roll = table.number("roll_deg", 0, -360, 360) * world::degree;
+    sensor.pitch = table.number("pitch_deg", 0, -90, 90) * world::degree;
+    sensor.yaw = table.number("yaw_deg", 0, -360, 360) * world::degree;
+    sensor.fov = table.number("fov_deg", 90, world::narrowest_view_deg, world::widest_view_deg) *
+                 world::degree;
     if (const Json* size = table.list("size", 2)) {
         sensor.width =
             static_cast<int>(table.whole("size", (*size)[0], world::largest_picture_side));

@@ -35,6 +35,9 @@ class Meetings {
     /// [m/s] for cars[index] in the next tick, as of the last look; infinite where nobody is met.
     double allowed_speed(std::size_t index) const { return allowed_[index]; }
 
+    /// Of the town's lanes, for who foretells bodies as well.
+    const LaneLines& lines() const { return lines_; }
+
   private:
     /// One of the cars.
     struct Driver {
