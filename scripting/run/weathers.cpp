@@ -22,8 +22,8 @@ namespace {
 using world::Weather;
 using world::WeatherField;
 
-/// A row of the weather's numbers: those that scripts of old could not say leave no trace in Lua when
-/// they are not said.
+/// A row of the weather's numbers: those that scripts of old could not say leave no trace in Lua
+/// when they are not said.
 std::optional<double> said_number(const Fields& fields, const WeatherField& field) {
     if (!fields.mentions(field.key))
         return std::nullopt;

@@ -30,8 +30,8 @@ struct WeatherEntry {
     std::uint32_t line = 0;
 };
 
-/// The value at the top of the stack: a preset's name (or a text as of `--weather`), or a table { preset =, rain_mm_h =, ... }.
-/// What it does not name is as in `before`. Throws world::Error.
+/// The value at the top of the stack: a preset's name (or a text as of `--weather`), or a table {
+/// preset =, rain_mm_h =, ... }. What it does not name is as in `before`. Throws world::Error.
 SaidWeather weather_at_top(lua_State* L, const std::string& who, const SaidWeather& before);
 
 /// The same, with the keys `at` and `over` beside: an entry of a timeline.

@@ -74,10 +74,8 @@ Weather composed(const Lighting& light, const Air& air) {
 
 void add_lighting(std::vector<WeatherPreset>& presets, const Lighting& light, const char* source) {
     for (const Air& air : airs)
-        presets.push_back({std::string(air.name) + "_" + light.name,
-                           composed(light, air),
-                           air.friction,
-                           source});
+        presets.push_back(
+            {std::string(air.name) + "_" + light.name, composed(light, air), air.friction, source});
 }
 
 void add_own(std::vector<WeatherPreset>& presets) {
