@@ -38,14 +38,14 @@ TEST(Mistakes, OfSpawn) {
             {"spawn{}",
              "spawn: 'model' is missing: one of sedan, hatchback, suv, van, lorry, bus, city_car, "
              "wagon, coupe, pickup, taxi, police, ambulance, minibus, motorcycle, bicycle, one of "
-             "50 walkers such as adult (reprise list walkers), or one of 9 props such as cone "
+             "50 walkers such as adult (reprise list walkers), or one of 10 props such as cone "
              "(reprise list props)"},
             {"spawn{ model = 'sedna' }",
              "spawn: no model 'sedna' (did you mean 'sedan'?); there are sedan, hatchback, "
              "suv, van, lorry, bus, city_car, wagon, coupe, pickup, taxi, police, ambulance, "
              "minibus, motorcycle, bicycle, one of 50 walkers such as adult (reprise list "
              "walkers), "
-             "or one of 9 props such as cone (reprise list props)"},
+             "or one of 10 props such as cone (reprise list props)"},
             {"spawn{ model = 'sedan', driver = 'autopilt' }",
              "spawn: no driver 'autopilt' (did you mean 'autopilot'?); there are "
              "autopilot, manual, traffic, parked, walker, external, prop"},

@@ -47,7 +47,6 @@ TEST(Obstacle, AllThatStandsStopsAVehicle) {
                                     prop(PropKind::hedge, 8, 0.6, 1.2),
                                     prop(PropKind::parked_vehicle, 4.6, 1.8, 1.5),
                                     prop(PropKind::street_light, 2, 0.16, 7.5),
-                                    prop(PropKind::stop_sign, 0.1, 0.6, 2.4),
                                     prop(PropKind::bus_stop, 4, 1.3, 2.5)}) {
         world::TownT town;
         town.props.push_back(each);
