@@ -41,10 +41,8 @@ std::vector<render::Probe> cone_of(const Eigen::Isometry3d& pose_world_sensor) {
     return probes;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) try {
-    replay::TraceReader trace(argc > 1 ? argv[1] : "trace.mcap");
+void show(const char* path) {
+    replay::TraceReader trace(path);
     render::Sensors sensors(trace.recording().town);
     for (std::uint64_t index = trace.first(); index <= trace.last(); index += 20) {
         const world::TickView tick = trace.tick(index).view;
@@ -62,8 +60,15 @@ int main(int argc, char** argv) try {
         }
         std::printf("\n");
     }
+}
 
-} catch (const world::Error& error) {
-    std::fprintf(stderr, "own_sensor: %s\n", error.what());
-    return 2;
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        show(argc > 1 ? argv[1] : "trace.mcap");
+    } catch (const world::Error& error) {
+        std::fprintf(stderr, "own_sensor: %s\n", error.what());
+        return 2;
+    }
 }
