@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "world/frames.h"
+#include "world/lanes/junctions.h"
 #include "world/tick.h"
 #include "world/town.h"
 
@@ -25,14 +26,14 @@ bool must_yield(const world::LaneT& lane) {
            });
 }
 
-/// Does a sign of this kind stand beside the lane's end, for those who drive on it?
-bool has_sign(const world::TownT& town, const world::LaneT& lane, world::PropKind kind) {
+/// Does a sign to give way stand beside the lane's end, for those who drive on it?
+bool has_yield_sign(const world::TownT& town, const world::LaneT& lane) {
     constexpr double reach = 10;   // [m]
     constexpr double askew = 0.6;  // [rad]
     const world::Vec3& end = lane.centre.back();
     const double yaw = world::point_at(lane, lane.length).yaw;
     return std::any_of(town.props.begin(), town.props.end(), [&](const world::Prop& prop) {
-        return prop.kind() == kind &&
+        return prop.kind() == world::PropKind::yield_sign &&
                (world::to_eigen(prop.position()) - world::to_eigen(end)).norm() < reach &&
                std::abs(world::wrap_angle(prop.yaw() - yaw)) < askew;
     });
@@ -42,6 +43,7 @@ bool has_sign(const world::TownT& town, const world::LaneT& lane, world::PropKin
 
 StopLines::StopLines(const world::TownT& town)
     : town_(&town),
+      has_stop_sign_(world::lanes_with_stop_sign(town)),
       has_priority_road_(town.junctions.size(), false) {
     for (const world::LaneT& lane : town.lanes)
         if (lane.kind == world::LaneKind::driving && lane.junction < has_priority_road_.size() &&
@@ -49,7 +51,8 @@ StopLines::StopLines(const world::TownT& town)
             has_priority_road_[lane.junction] = true;
 }
 
-StopLines::Kind StopLines::kind_of(const world::LaneT& lane) const {
+StopLines::Kind StopLines::kind_of(std::uint32_t index) const {
+    const world::LaneT& lane = town_->lanes[index];
     // A left turn that gives way to oncoming traffic does not make a priority road stop.
     if (std::any_of(lane.links.begin(), lane.links.end(), [](const world::Link& link) {
             return link.signal() != world::none;
@@ -57,10 +60,10 @@ StopLines::Kind StopLines::kind_of(const world::LaneT& lane) const {
         return Kind::stop;
     if (!must_yield(lane))
         return Kind::none;
-    if (has_sign(*town_, lane, world::PropKind::stop_sign))
+    if (has_stop_sign_[index])
         return Kind::stop;
     // A main road with a crossing gives way as well, to walkers: the sign tells who is meant.
-    if (has_sign(*town_, lane, world::PropKind::yield_sign))
+    if (has_yield_sign(*town_, lane))
         return Kind::give_way;
     const bool is_minor =
         lane.junction < has_priority_road_.size() && has_priority_road_[lane.junction];
@@ -70,7 +73,7 @@ StopLines::Kind StopLines::kind_of(const world::LaneT& lane) const {
 void StopLines::paint(std::uint32_t index, const Line& centre, Paint& paint) const {
     const world::LaneT& lane = town_->lanes[index];
     const double length = length_of(centre);
-    const Kind kind = kind_of(lane);
+    const Kind kind = kind_of(index);
     if (kind == Kind::none || length < shortest_marked)
         return;
     const double width = lane.width - 2 * line_width;

@@ -23,9 +23,10 @@ class StopLines {
   private:
     enum class Kind { none, stop, give_way };
 
-    Kind kind_of(const world::LaneT& lane) const;
+    Kind kind_of(std::uint32_t lane) const;
 
     const world::TownT* town_;
+    std::vector<bool> has_stop_sign_;      ///< by lane
     std::vector<bool> has_priority_road_;  ///< by junction: does somebody not have to yield?
 };
 

@@ -197,20 +197,8 @@ Look car_look(const ShadingInput& input, const Surface& surface) {
     const Instance& car = *surface.instance;
     const CarShape& shape = input.scene.car_shape(car.model);
     const Vector3f& p = surface.local;
-    const CarSurfacePoint at{shape,
-                             p.x(),
-                             p.y(),
-                             p.z(),
-                             std::abs(p.y()),
-                             static_cast<float>(shape.model->width) * 0.5F,
-                             shape.height(),
-                             shape.belt(p.x()),
-                             shape.front - p.x(),
-                             p.x() - shape.rear,
-                             surface.local_normal,
-                             detail(surface, 0.03F),
-                             car.lamps,
-                             input.tick};
+    const CarSurfacePoint at = car_surface_point(
+        shape, p, surface.local_normal, detail(surface, 0.03F), car.lamps, input.tick);
     Look look;
     const Color& color = car.color;
     if (surface.material == Material::car_under) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "render/look/look.h"
 #include "render/shapes/noise.h"
 
@@ -20,6 +22,29 @@ struct CarSurfacePoint {
     std::uint16_t lamps;
     std::uint64_t tick;
 };
+
+/// `p` and `normal` in the car's frame; lines of 2 cm can be seen, and lamps are off, unless said.
+inline CarSurfacePoint car_surface_point(const CarShape& shape,
+                                         const Eigen::Vector3f& p,
+                                         const Eigen::Vector3f& normal,
+                                         float fine = 1,
+                                         std::uint16_t lamps = 0,
+                                         std::uint64_t tick = 0) {
+    return {shape,
+            p.x(),
+            p.y(),
+            p.z(),
+            std::abs(p.y()),
+            static_cast<float>(shape.model->width) * 0.5F,
+            shape.height(),
+            shape.belt(p.x()),
+            shape.front - p.x(),
+            p.x() - shape.rear,
+            normal,
+            fine,
+            lamps,
+            tick};
+}
 
 inline bool is_long(const CarSurfacePoint& at) {
     return at.shape.style == world::BodyStyle::bus || at.shape.style == world::BodyStyle::lorry;

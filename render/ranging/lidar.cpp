@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include <tbb/parallel_for.h>
@@ -18,6 +17,7 @@
 #include "render/look/look.h"
 #include "render/ranging/lidar_shot.h"
 #include "render/ranging/mount.h"
+#include "render/ranging/point_frame.h"
 #include "render/ranging/sweep.h"
 #include "render/trace/default_float_mode.h"
 #include "world/external/point_fields.h"
@@ -148,9 +148,7 @@ class Block {
 };
 
 /// Of a moment: columns whose time lies in the same 10 ms before the tick.
-void trace_moment(const Work& work,
-                  std::span<const Sweep::Column> columns,
-                  std::vector<std::uint8_t>& data) {
+void trace_moment(const Work& work, std::span<const Sweep::Column> columns, Words& all) {
     std::vector<Words> found((columns.size() + block - 1) / block);
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
         const DefaultFloatMode plain;
@@ -158,12 +156,8 @@ void trace_moment(const Work& work,
         Block(work, columns.subspan(first, std::min(block, columns.size() - first)))
             .trace(found[i]);
     });
-    for (const Words& words : found) {
-        const std::size_t size = data.size();
-        data.resize(size + words.size() * sizeof(std::uint32_t));
-        if (!words.empty())
-            std::memcpy(data.data() + size, words.data(), words.size() * sizeof(std::uint32_t));
-    }
+    for (const Words& words : found)
+        all.insert(all.end(), words.begin(), words.end());
 }
 
 int moment_of(const Sweep::Column& column, bool rolls) {
@@ -191,13 +185,7 @@ world::SensorFrame lidar_frame(Scene& scene,
     const std::uint32_t hidden = mount.hidden();
     const std::span<const std::uint32_t> mounts(&hidden, hidden != 0 ? 1 : 0);
 
-    world::SensorFrame frame;
-    frame.name = spec.name;
-    frame.kind = spec.kind;
-    frame.tick = tick.index();
-    frame.width = 1;
-    frame.channels = static_cast<int>(world::point_fields(spec.kind).size());
-    frame.type = world::PixelType::f32;
+    Words words;
     const std::span<const Sweep::Column> columns = sweep.columns;
     for (std::size_t first = 0; first < columns.size();) {
         const int now = moment_of(columns[first], rolls);
@@ -217,12 +205,10 @@ world::SensorFrame lidar_frame(Scene& scene,
                         scene.mask_hiding(hidden),
                         elevations,
                         optics && optics->returns > 1 ? rays_of_wide_beam : 1};
-        trace_moment(work, columns.subspan(first, next - first), frame.data);
+        trace_moment(work, columns.subspan(first, next - first), words);
         first = next;
     }
-    frame.height = static_cast<int>(frame.data.size() / sizeof(float) /
-                                    static_cast<std::size_t>(frame.channels));
-    return frame;
+    return point_frame(tick, spec, words);
 }
 
 }  // namespace reprise::render

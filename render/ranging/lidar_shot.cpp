@@ -112,22 +112,6 @@ bool is_lost(const LidarOptics& optics,
     return noise.uniform(shot, weak_lost + 3 * number) >= kept;
 }
 
-template <typename Weather>
-double snow_of(const Weather& weather) {
-    if constexpr (requires { weather.snow(); })
-        return static_cast<double>(weather.snow());
-    else
-        return 0;
-}
-
-template <typename Weather>
-double dust_of(const Weather& weather) {
-    if constexpr (requires { weather.dust(); })
-        return static_cast<double>(weather.dust());
-    else
-        return 0;
-}
-
 }  // namespace
 
 LidarOptics::LidarOptics(const world::SensorSpec& spec, const world::Weather& weather)
@@ -154,9 +138,9 @@ LidarOptics::LidarOptics(const world::SensorSpec& spec, const world::Weather& we
         return;
     wetness = weather.wetness();
     const Hydrometeors drops = rain_drops(static_cast<double>(weather.rain()));
-    const Hydrometeors flakes = snow_flakes(snow_of(weather));
+    const Hydrometeors flakes = snow_flakes(static_cast<double>(weather.snow()));
     // Dust is a fog of other grains.
-    const double haze = static_cast<double>(weather.fog_extinction()) + dust_of(weather);
+    const double haze = static_cast<double>(weather.fog_extinction() + weather.dust());
     extinction = haze + drops.extinction + flakes.extinction;
     clear = !(extinction > 0);
     const Pulse pulse{divergence, least_power, extinction, range};

@@ -2,12 +2,12 @@
 
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <vector>
 
 #include "render/ranging/echo.h"
 #include "render/ranging/mount.h"
+#include "render/ranging/point_frame.h"
 #include "world/external/point_fields.h"
 #include "world/external/sensor_attributes.h"
 
@@ -49,22 +49,12 @@ world::SensorFrame obstacle_frame(Scene& scene,
             (nearest == nullptr || echo.distance < nearest->distance))
             nearest = &echo;
 
-    world::SensorFrame frame;
-    frame.name = spec.name;
-    frame.kind = spec.kind;
-    frame.tick = tick.index();
-    frame.width = 1;
-    frame.channels = static_cast<int>(world::point_fields(spec.kind).size());
-    frame.type = world::PixelType::f32;
     if (nearest == nullptr)
-        return frame;
-    frame.height = 1;
+        return point_frame(tick, spec, {});
     const std::uint32_t words[] = {
         nearest->instance->actor,
         std::bit_cast<std::uint32_t>(static_cast<float>(nearest->distance))};
-    frame.data.resize(sizeof(words));
-    std::memcpy(frame.data.data(), words, sizeof(words));
-    return frame;
+    return point_frame(tick, spec, words);
 }
 
 }  // namespace reprise::render

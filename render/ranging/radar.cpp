@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -21,6 +20,7 @@
 #include <tbb/parallel_for.h>
 
 #include "render/ranging/mount.h"
+#include "render/ranging/point_frame.h"
 #include "render/ranging/radar_link.h"
 #include "render/ranging/reflectance.h"
 #include "render/trace/default_float_mode.h"
@@ -246,18 +246,7 @@ world::SensorFrame radar_frame(Scene& scene,
                                    decibel(target.cross_section)})
             words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
     }
-    world::SensorFrame frame;
-    frame.name = spec.name;
-    frame.kind = spec.kind;
-    frame.tick = tick.index();
-    frame.width = 1;
-    frame.height = static_cast<int>(found.size());
-    frame.channels = static_cast<int>(world::point_fields(spec.kind).size());
-    frame.type = world::PixelType::f32;
-    frame.data.resize(words.size() * sizeof(std::uint32_t));
-    if (!words.empty())
-        std::memcpy(frame.data.data(), words.data(), frame.data.size());
-    return frame;
+    return point_frame(tick, spec, words);
 }
 
 }  // namespace reprise::render

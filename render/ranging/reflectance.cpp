@@ -23,21 +23,7 @@ bool is_car_glass(const Scene& scene, const Echo& echo, const Mesh& mesh) {
     const Eigen::Vector3f to_b = mesh.vertices[corners[1]] - a;
     const Eigen::Vector3f to_c = mesh.vertices[corners[2]] - a;
     const Eigen::Vector3f p = a + echo.hit.u * to_b + echo.hit.v * to_c;
-    const CarSurfacePoint at{shape,
-                             p.x(),
-                             p.y(),
-                             p.z(),
-                             std::abs(p.y()),
-                             static_cast<float>(shape.model->width) * 0.5F,
-                             shape.height(),
-                             shape.belt(p.x()),
-                             shape.front - p.x(),
-                             p.x() - shape.rear,
-                             to_b.cross(to_c).normalized(),
-                             1,
-                             0,
-                             0};
-    return is_glass(at);
+    return is_glass(car_surface_point(shape, p, to_b.cross(to_c).normalized()));
 }
 
 Reflectance of_car_body(const Scene& scene, const Echo& echo, const Mesh& mesh) {
