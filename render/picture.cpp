@@ -168,6 +168,13 @@ Rgb color_of_flow(float x, float y) {
     return {signed_grey(x / full), signed_grey(y / full), 128};
 }
 
+/// Rising light is blue, falling light red, as CARLA shows them.
+Rgb color_of_events(std::uint8_t rising, std::uint8_t falling) {
+    return {static_cast<std::uint8_t>(falling > 0 ? 255 : 0),
+            0,
+            static_cast<std::uint8_t>(rising > 0 ? 255 : 0)};
+}
+
 /// Near things bright; equal ratios of distance are equal steps of grey.
 std::uint8_t depth_grey(float depth) {
     if (!std::isfinite(depth))
@@ -191,6 +198,8 @@ Rgb color_at(const world::SensorFrame& frame, std::size_t i) {
             const Eigen::Vector3f normal = normal_at(frame, i);
             return {signed_grey(normal.x()), signed_grey(normal.y()), signed_grey(normal.z())};
         }
+        case world::SensorKind::dvs:
+            return color_of_events(frame.data[2 * i], frame.data[2 * i + 1]);
         default:
             return frame.data[i] < cityscapes.size() ? cityscapes[frame.data[i]] : Rgb{};
     }

@@ -12,6 +12,9 @@
 
 #include "render/labels/channels.h"
 #include "render/labels/flow.h"
+#include "render/optics/develop.h"
+#include "render/optics/events.h"
+#include "render/optics/photograph.h"
 #include "render/ranging/lidar.h"
 #include "render/ranging/obstacle.h"
 #include "render/ranging/radar.h"
@@ -19,6 +22,7 @@
 #include "render/shade/frame.h"
 #include "render/trace/default_float_mode.h"
 #include "world/check.h"
+#include "world/external/rig.h"
 #include "world/external/sensor_attributes.h"
 #include "world/models/viewpoint.h"
 
@@ -49,6 +53,28 @@ class Observer {
                                          const world::Weather& weather,
                                          const Neighbours& neighbours);
 
+    /// What cameras of one place and lens have in common.
+    struct Look {
+        const world::TickView& tick;
+        const world::SensorRig& rig;
+        const Neighbours& neighbours;
+        const std::vector<std::uint32_t>& mounts;
+        std::vector<std::size_t> cameras;  ///< by their number in the rig
+        Stage stage;
+        Sight sight;
+        std::vector<Band> bands;
+        std::vector<Hit> hits;
+    };
+
+    void label(Look& look, std::vector<world::SensorFrame>& frames);
+    std::vector<std::uint8_t> photograph(Look& look, std::size_t number, Sky& sky);
+    void watch(Look& look, std::size_t number, Sky& sky, world::SensorFrame& frame);
+    Sight sight_of(const world::SensorSpec& spec,
+                   std::size_t number,
+                   const Camera& camera,
+                   std::uint32_t mask,
+                   const Neighbours& neighbours);
+
     /// Of what measures by rays. Places the scene as it needs it.
     world::SensorFrame measure(const world::TickView& tick,
                                const world::SensorSpec& spec,
@@ -71,6 +97,7 @@ class Observer {
     Scene next_;
     std::optional<Sky> sky_;
     Frame frame_;
+    Frame work_;
 };
 
 }  // namespace
@@ -135,11 +162,13 @@ std::optional<Camera> find_camera(const world::TickView& tick,
 Camera camera_of(const world::TickView& tick,
                  const world::SensorSpec& spec,
                  const Eigen::Vector3d& origin) {
-    if (spec.width <= 0 || spec.height <= 0 || !(spec.fov > 0.001 && spec.fov < 3.1) ||
+    if (spec.width <= 0 || spec.height <= 0 || !(spec.fov > 0.001 && spec.fov < 3.5) ||
         !spec.position.allFinite() || !std::isfinite(spec.yaw) || !std::isfinite(spec.pitch) ||
         !std::isfinite(spec.roll))
         throw world::Error("sensor '" + spec.name +
                            "': size, field of view or place is not possible");
+    if (const std::string why = world::contradiction(spec); !why.empty())
+        throw world::Error("sensor '" + spec.name + "': " + why);
     const std::optional<Camera> camera = find_camera(tick, spec, origin);
     if (!camera)
         throw world::Error("sensor '" + spec.name + "': there is no actor " +
@@ -297,54 +326,157 @@ std::vector<world::SensorFrame> Observer::look(const world::TickView& tick,
     // Sensors of one place look once, together.
     std::vector<world::SensorFrame> frames(rig.size());
     std::vector<bool> done(rig.size(), false);
-    std::vector<Hit> hits;
     for (std::size_t first = 0; first < rig.size(); ++first) {
         if (done[first])
             continue;
         const std::uint32_t hidden = hidden_from(tick, rig[first]);
-        const std::uint32_t mask = placed.mask_hiding(hidden);
-        trace_primary(placed, cameras[first], mask, hits);
+        const bool moves = std::any_of(rig.begin(), rig.end(), world::takes_time);
+        Look look{
+            tick,
+            rig,
+            neighbours,
+            mounts,
+            {},
+            Stage(
+                placed, moves && neighbours.last ? &last_ : nullptr, tick, mounts, rig[first].step),
+            sight_of(rig[first], first, cameras[first], placed.mask_hiding(hidden), neighbours),
+            bands_of(rig[first]),
+            {}};
         for (std::size_t i = first; i < rig.size(); ++i) {
             if (done[i] || rig[i].actor != rig[first].actor || !(cameras[i] == cameras[first]) ||
-                hidden_from(tick, rig[i]) != hidden)
+                hidden_from(tick, rig[i]) != hidden ||
+                Shutter(rig[i]).readout != Shutter(rig[first]).readout)
                 continue;
             done[i] = true;
             frames[i] = empty_frame(tick, rig[i]);
-            switch (rig[i].kind) {
-                case world::SensorKind::depth:
-                    frames[i].data = depth_bytes(hits);
-                    break;
-                case world::SensorKind::semantic:
-                    frames[i].data = class_bytes(placed, hits);
-                    break;
-                case world::SensorKind::instance:
-                    frames[i].data = instance_bytes(placed, hits);
-                    break;
-                case world::SensorKind::normals:
-                    frames[i].data = normal_bytes(placed, cameras[i], hits);
-                    break;
-                case world::SensorKind::flow:
-                    frames[i].data = flow(rig[i], i, cameras[i], hits, neighbours);
-                    break;
-                case world::SensorKind::rgb: {
-                    Sky& sky = sky_of(weather);
-                    sky.look_from(
-                        cameras[i].position().cast<float>(), placed.town().ground(), tick.index());
-                    const ShadingInput input{placed, sky, tick.index()};
-                    shade(input, cameras[i], mask, hits, frame_);
-                    draw_rain(input, cameras[i], hits, frame_);
-                    draw_snow(input, cameras[i], hits, frame_);
-                    if (rig[i].actor != 0)
-                        wet_lens(input, frame_);
-                    frames[i].data = tone_map(frame_, tick.index());
-                    break;
-                }
-                default:
-                    throw world::Error("sensor '" + rig[i].name + "': no pictures of its kind");
-            }
+            look.cameras.push_back(i);
         }
+        label(look, frames);
+        for (const std::size_t i : look.cameras) {
+            if (rig[i].kind == world::SensorKind::rgb)
+                frames[i].data = photograph(look, i, sky_of(weather));
+            else if (rig[i].kind == world::SensorKind::dvs)
+                watch(look, i, sky_of(weather), frames[i]);
+            blank_unseen(cameras[i], frames[i]);
+        }
+        look.stage.go_back(0);
     }
     return frames;
+}
+
+/// Where the camera was at the last tick as well; not where it jumped, as views do that follow.
+Sight Observer::sight_of(const world::SensorSpec& spec,
+                         std::size_t number,
+                         const Camera& camera,
+                         std::uint32_t mask,
+                         const Neighbours& neighbours) {
+    constexpr double jump = 4;  // [m] between two ticks
+    Sight sight{camera, std::nullopt, mask};
+    if (neighbours.last) {
+        const world::SensorRig& rig = neighbours.last->rig;
+        const world::SensorSpec& there = rig.empty() ? spec : rig.at(number);
+        sight.last = find_camera(neighbours.last->tick, there, scene_.origin());
+        if (sight.last && (sight.last->position() - camera.position()).norm() > jump)
+            sight.last.reset();
+    }
+    return sight;
+}
+
+/// What is seen first, and all that says what that is: row by row at the time of each.
+void Observer::label(Look& look, std::vector<world::SensorFrame>& frames) {
+    const bool whole = look.bands.size() == 1;
+    std::vector<Hit> rows;
+    for (const Band& band : look.bands) {
+        look.stage.go_back(band.ago);
+        const Camera camera =
+            whole ? look.sight.now
+                  : look.sight.at(look.stage.share(band.ago)).cropped(band.first, band.rows);
+        trace_primary(scene_, camera, look.sight.mask, whole ? look.hits : rows);
+        const std::vector<Hit>& hits = whole ? look.hits : rows;
+        for (const std::size_t i : look.cameras) {
+            std::vector<std::uint8_t>& data = frames[i].data;
+            const auto take = [&](const std::vector<std::uint8_t>& bytes) {
+                data.insert(data.end(), bytes.begin(), bytes.end());
+            };
+            switch (look.rig[i].kind) {
+                case world::SensorKind::depth:
+                    take(depth_bytes(hits));
+                    break;
+                case world::SensorKind::semantic:
+                    take(class_bytes(scene_, hits));
+                    break;
+                case world::SensorKind::instance:
+                    take(instance_bytes(scene_, hits));
+                    break;
+                case world::SensorKind::normals:
+                    take(normal_bytes(scene_, camera, hits));
+                    break;
+                case world::SensorKind::flow:
+                    take(flow(look.rig[i], i, camera, hits, look.neighbours));
+                    break;
+                case world::SensorKind::rgb:
+                case world::SensorKind::dvs:
+                    break;
+                default:
+                    throw world::Error("sensor '" + look.rig[i].name +
+                                       "': no pictures of its kind");
+            }
+        }
+        if (!whole)
+            look.hits.insert(look.hits.end(), rows.begin(), rows.end());
+    }
+}
+
+std::vector<std::uint8_t> Observer::photograph(Look& look, std::size_t number, Sky& sky) {
+    const world::SensorSpec& spec = look.rig[number];
+    const Camera& camera = look.sight.now;
+    const std::uint64_t tick = look.tick.index();
+    sky.look_from(camera.position().cast<float>(), scene_.town().ground(), tick);
+    const ShadingInput input{scene_, sky, tick};
+    const Shutter shutter(spec);
+    if (shutter.blurs() || shutter.open > 0 || shutter.sharp > 0 || look.bands.size() > 1) {
+        gather_light(look.stage, look.sight, shutter, look.bands, input, work_, frame_);
+        look.stage.go_back(0);
+    } else {
+        shade(input, camera, look.sight.mask, look.hits, frame_);
+    }
+    add_glare(frame_, sky.lamplight());
+    draw_rain(input, camera, look.hits, frame_);
+    draw_snow(input, camera, look.hits, frame_);
+    if (spec.actor != 0)
+        wet_lens(input, frame_);
+    return develop(spec, sky, tick, frame_);
+}
+
+/// Pictures of the last tick, of instants between, and of this tick, for what changes between them.
+/// Drops and flakes that fall are not in them.
+void Observer::watch(Look& look, std::size_t number, Sky& sky, world::SensorFrame& frame) {
+    const world::SensorSpec& spec = look.rig[number];
+    const auto samples = static_cast<int>(world::attribute(spec, "samples"));
+    std::vector<LogPicture> pictures;
+    const auto see = [&](const Camera& camera, std::uint64_t tick, double ago) {
+        sky.look_from(camera.position().cast<float>(), scene_.town().ground(), tick);
+        const ShadingInput input{scene_, sky, tick};
+        trace_primary(scene_, camera, look.sight.mask, look.hits);
+        shade(input, camera, look.sight.mask, look.hits, frame_);
+        add_glare(frame_, sky.lamplight());
+        pictures.push_back(log_picture(
+            frame_,
+            world::attribute(spec, "log_eps"),
+            std::llround((static_cast<double>(look.tick.index()) * spec.step - ago) * 1e9)));
+    };
+    if (look.neighbours.last && look.sight.last) {
+        const world::TickView& last = look.neighbours.last->tick;
+        scene_.place(last, look.mounts);
+        see(*look.sight.last, last.index(), spec.step);
+        look.stage.forget_place();
+        for (int i = 1; i <= samples; ++i) {
+            const double ago = spec.step * (samples - i) / samples;
+            look.stage.go_back(ago);
+            see(look.sight.at(look.stage.share(ago)), look.tick.index(), ago);
+        }
+    }
+    find_events(spec, pictures, frame);
 }
 
 void Observer::arrange_neighbours(const world::SensorRig& rig, const Neighbours& neighbours) {
@@ -353,6 +485,8 @@ void Observer::arrange_neighbours(const world::SensorRig& rig, const Neighbours&
     for (const world::SensorSpec& spec : rig)
         if (spec.kind == world::SensorKind::flow)
             (looks_forward(spec) ? next : last) = true;
+        else if (world::takes_time(spec))
+            last = true;
     if (last && neighbours.last)
         last_.arrange(neighbours.last->tick);
     if (next && neighbours.next)

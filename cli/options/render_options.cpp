@@ -65,25 +65,54 @@ std::string joined_but_first(const std::vector<std::string>& kinds) {
     return joined({kinds.begin() + 1, kinds.end()});
 }
 
+/// Of all kinds that are asked for.
+std::vector<const world::AttributeRow*> known_attributes(const RenderOptions& render) {
+    std::vector<const world::AttributeRow*> rows;
+    for (const std::vector<std::string>& kinds : {render.cameras, render.measured})
+        for (const std::string& name : kinds)
+            for (const world::AttributeRow& row : world::attribute_rows())
+                if (row.is_of(*world::find_sensor_kind(name)))
+                    rows.push_back(&row);
+    return rows;
+}
+
+double attribute_value(const world::AttributeRow& row, const std::string& text) {
+    if (!row.words.empty()) {
+        try {
+            return world::value_of_word(row, text);
+        } catch (const world::WrongWord& wrong) {
+            throw CLI::ValidationError("--attribute", wrong.what());
+        }
+    }
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (text.empty() || error != std::errc() || stop != end)
+        throw CLI::ValidationError("--attribute",
+                                   "expected NAME=NUMBER such as channels=64, got '" +
+                                       std::string(row.name) + "=" + text + "'");
+    return value;
+}
+
 void read_attributes(const std::vector<std::string>& words, RenderOptions& render) {
+    const std::vector<const world::AttributeRow*> rows = known_attributes(render);
     for (const std::string& word : words) {
         const std::size_t split = word.find('=');
-        world::AttributeValue one{word.substr(0, split), 0};
-        const char* end = word.data() + word.size();
-        const char* from = split == std::string::npos ? end : word.data() + split + 1;
-        const auto [stop, error] = std::from_chars(from, end, one.value);
-        if (from == end || error != std::errc() || stop != end)
+        const std::string name = word.substr(0, split);
+        const auto row = std::find_if(
+            rows.begin(), rows.end(), [&](const auto* one) { return one->name == name; });
+        if (split == std::string::npos)
             throw CLI::ValidationError(
                 "--attribute", "expected NAME=NUMBER such as channels=64, got '" + word + "'");
-        std::vector<std::string> known;
-        for (const std::string& kind : render.measured)
-            for (std::string& name : world::attribute_names(*world::find_sensor_kind(kind)))
-                known.push_back(std::move(name));
-        if (std::find(known.begin(), known.end(), one.name) == known.end())
+        if (row == rows.end()) {
+            std::vector<std::string> known;
+            for (const world::AttributeRow* one : rows)
+                known.emplace_back(one->name);
             throw CLI::ValidationError("--attribute",
-                                       "none of these sensors has an attribute '" + one.name + "'" +
-                                           world::did_you_mean(one.name, known));
-        render.attributes.push_back(std::move(one));
+                                       "none of these sensors has an attribute '" + name + "'" +
+                                           world::did_you_mean(name, known));
+        }
+        render.attributes.push_back({name, attribute_value(**row, word.substr(split + 1))});
     }
 }
 
@@ -112,6 +141,12 @@ void add_labels(CLI::App& command, RenderOptions& render) {
         "--npy",
         render.npy,
         "depth [m], flow [px] and normals as they are: float32 arrays, DIR/000120.npy");
+    command
+        .add_option("--events",
+                    render.events,
+                    "Of dvs: DIR/000120.npy (default) or .csv, each event's x, y, t [ns], pol")
+        ->type_name("npy|csv")
+        ->check(one_of({"npy", "csv"}, "format"));
     command
         .add_option("--classes",
                     render.classes,
@@ -178,8 +213,14 @@ void check_preset(const CLI::App& command, const RenderOptions& render) {
 /// A rig says itself what its sensors are; a film shows nothing but pictures.
 void check_labels(const CLI::App& command, const RenderOptions& render) {
     if (!render.rig.empty())
-        for (const char* option :
-             {"--camera", "--size", "--fov", "--mount", "--pitch", "--yaw", "--preset"})
+        for (const char* option : {"--camera",
+                                   "--size",
+                                   "--fov",
+                                   "--mount",
+                                   "--pitch",
+                                   "--yaw",
+                                   "--preset",
+                                   "--attribute"})
             if (command.count(option) > 0)
                 throw CLI::ValidationError(option, "--rig says itself what its sensors are");
     if (!film_ending(render.output).empty() && (render.boxes || render.calibration || render.npy))
@@ -255,7 +296,8 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
     command
         .add_option("--attribute",
                     words.attributes,
-                    "Of sensors that are no cameras, as channels=64; several by commas")
+                    "Of sensors and lenses, as channels=64 or lens=fisheye; several by commas: see "
+                    "docs/rendering.md and docs/sensors.md")
         ->type_name("NAME=VALUE")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->delimiter(',');
@@ -275,10 +317,12 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
     add_views(command, render, words);
     command.add_option("--size", words.size, "Of the pictures (default 800x600)")->type_name("WxH");
     command
-        .add_option(
-            "--fov", render.fov_deg, "Horizontal field of view (default 90; of a preset its own)")
+        .add_option("--fov",
+                    render.fov_deg,
+                    "Horizontal field of view, to 170, of a fisheye to 200 (default 90; of a "
+                    "preset its own)")
         ->type_name("DEGREES")
-        ->check(CLI::Range(1.0, 170.0));
+        ->check(CLI::Range(1.0, 200.0));
     add_ticks(command, render.ticks);
     // As ticks were chosen before: they go on working, and nobody is told of them.
     command.add_option("--from", render.from)->group("");
@@ -335,8 +379,15 @@ void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions&
     if (command.count("--ticks") > 0 && command.count("--from") + command.count("--to") > 0)
         throw CLI::ValidationError("--ticks", "says what --from and --to said: without these");
     render.heading_up = words.up == "heading";
-    for (const char* option :
-         {"--rig", "--camera", "--size", "--fov", "--mount", "--pitch", "--yaw", "--preset"})
+    for (const char* option : {"--rig",
+                               "--camera",
+                               "--size",
+                               "--fov",
+                               "--mount",
+                               "--pitch",
+                               "--yaw",
+                               "--preset",
+                               "--attribute"})
         if (command.count(option) > 0)
             render.recorded_rig = false;
     part_kinds(render);
@@ -344,9 +395,9 @@ void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions&
         throw CLI::ValidationError(
             "--sensor",
             "a film shows a camera, no " + render.measured.front() + ": give -o a folder");
-    read_attributes(words.attributes, render);
     if (render.cameras.empty() && render.measured.empty())
         render.cameras = {"rgb"};
+    read_attributes(words.attributes, render);
 }
 
 }  // namespace reprise::cli

@@ -19,7 +19,7 @@ struct RenderOptions {
     std::string weather;                            ///< empty: as recorded
     std::vector<std::string> cameras;               ///< kinds: rgb, depth, ...
     std::vector<std::string> measured;              ///< kinds that are no cameras
-    std::vector<world::AttributeValue> attributes;  ///< of these
+    std::vector<world::AttributeValue> attributes;  ///< of these and of cameras
     std::string points = "ply";                     ///< how points are written
     std::string readings = "csv";                   ///< and tables
     bool recorded_rig = true;  ///< where there is one: no option says other cameras
@@ -42,6 +42,7 @@ struct RenderOptions {
     std::string rig;       ///< a file of sensors; empty: as the other options say
     std::string depth_coding = "cm";
     std::string classes = "carla";
+    std::string events = "npy";  ///< how those of dvs are written
     bool npy = false;          ///< floats as arrays of numpy
     bool own_car = false;      ///< who carries a camera is in its pictures
     bool boxes = false;        ///< of all that is seen, for each picture

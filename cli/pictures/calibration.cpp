@@ -8,6 +8,7 @@
 
 #include "files/output_file.h"
 #include "render/trace/camera.h"
+#include "world/external/sensor_attributes.h"
 
 namespace reprise::cli {
 
@@ -26,9 +27,10 @@ Rows into_camera(const render::Camera& camera) {
 
 Rows projection(const render::Camera& camera) {
     Rows rows = Rows::Zero();
-    rows(0, 0) = rows(1, 1) = camera.focal();
-    rows(0, 2) = camera.width() / 2.0;
-    rows(1, 2) = camera.height() / 2.0;
+    rows(0, 0) = camera.focal();
+    rows(1, 1) = camera.focal_y();
+    rows(0, 2) = camera.middle().x();
+    rows(1, 2) = camera.middle().y();
     rows(2, 2) = 1;
     return rows;
 }
@@ -51,6 +53,29 @@ std::string line_of(const char* name, const Eigen::Ref<const Eigen::MatrixXd>& m
     return line + "\n";
 }
 
+/// As they were said; all others are as usual.
+Json attributes_of(const world::SensorSpec& sensor) {
+    Json said = Json::object();
+    for (const world::AttributeValue& one : sensor.attributes) {
+        const std::vector<std::string> words =
+            world::words_of(*world::find_attribute(sensor.kind, one.name));
+        if (words.empty())
+            said[one.name] = one.value;
+        else
+            said[one.name] = words.at(static_cast<std::size_t>(one.value));
+    }
+    return said;
+}
+
+/// As KITTI's raw data have it for cameras that are not rectified; its devkit looks past them.
+std::string lens_lines(const render::Camera& camera) {
+    const std::vector<double> d = camera.lens().coefficients();
+    return line_of("K_02", projection(camera).leftCols<3>()) +
+           line_of(
+               camera.lens().is_fisheye() ? "D_02_fisheye" : "D_02",
+               Eigen::Map<const Eigen::RowVectorXd>(d.data(), static_cast<Eigen::Index>(d.size())));
+}
+
 }  // namespace
 
 void write_calibration(const std::filesystem::path& folder,
@@ -65,6 +90,9 @@ void write_calibration(const std::filesystem::path& folder,
     json["size"] = {sensor.width, sensor.height};
     json["fov_deg"] = sensor.fov * degrees;
     json["intrinsics"] = nested(projection(camera).leftCols<3>());
+    json["model"] = camera.lens().is_fisheye() ? "fisheye" : "pinhole";
+    json["distortion_coefficients"] = camera.lens().coefficients();
+    json["attributes"] = attributes_of(sensor);
     json["mounted_on"] = carrier;
     json["position"] = {sensor.position.x(), sensor.position.y(), sensor.position.z()};
     json["roll_deg"] = sensor.roll * degrees;
@@ -80,6 +108,8 @@ void write_calibration(const std::filesystem::path& folder,
     for (const char* name : {"P0", "P1", "P2", "P3"})
         kitti += line_of(name, projection(camera));
     kitti += line_of("R0_rect", upright) + line_of("Tr_velo_to_cam", to_camera);
+    if (!camera.lens().is_plain())
+        kitti += lens_lines(camera);
     files::write_file(folder / "calib.txt", "the calibration", kitti);
 }
 

@@ -9,6 +9,7 @@
 
 #include "cli/pictures/recorded_rig.h"
 #include "cli/pictures/rig_file.h"
+#include "cli/pictures/told.h"
 #include "replay/table/actor_search.h"
 #include "world/check.h"
 #include "world/external/sensor_attributes.h"
@@ -35,6 +36,7 @@ world::SensorRig make_rig(const RenderOptions& options) {
         sensor.position = {options.mount[0], options.mount[1], options.mount[2]};
         sensor.pitch = options.pitch_deg * radians;
         sensor.yaw = options.yaw_deg * radians;
+        tell(sensor, options.attributes);
         rig.push_back(sensor);
     }
     return rig;
@@ -108,6 +110,8 @@ Cameras::Cameras(const RenderOptions& options, replay::TraceReader& trace, const
         for (world::SensorSpec& sensor : sensors_)
             if (world::attribute(sensor, "own_car") == 0)
                 sensor.attributes.push_back({"own_car", 1});
+    for (world::SensorSpec& sensor : sensors_)
+        sensor.step = static_cast<double>(trace.episode().step_ns) * 1e-9;
     if (!options.preset.empty())
         follow(trace, ticks);
 }

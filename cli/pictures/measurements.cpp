@@ -13,6 +13,7 @@
 
 #include "cli/pictures/reading_file.h"
 #include "cli/pictures/recorded_rig.h"
+#include "cli/pictures/told.h"
 #include "cli/process/new_folder.h"
 #include "exchange/geo_origin.h"
 #include "render/point_file.h"
@@ -40,20 +41,7 @@ world::SensorRig named_rig(const RenderOptions& options) {
         sensor.position = {options.mount[0], options.mount[1], options.mount[2]};
         sensor.pitch = options.pitch_deg * world::degree;
         sensor.yaw = options.yaw_deg * world::degree;
-        for (const world::AttributeValue& one : options.attributes)
-            if (world::find_attribute(sensor.kind, one.name) != nullptr)
-                sensor.attributes.push_back(one);
-        if (!world::are_possible(sensor.kind, sensor.attributes))
-            for (const world::AttributeValue& one : sensor.attributes) {
-                const world::AttributeRow& row = *world::find_attribute(sensor.kind, one.name);
-                throw world::Error(fmt::format(
-                    "--attribute: {} of a {} must be in [{:g}, {:g}] and said once, got {:g}",
-                    one.name,
-                    kind,
-                    row.low,
-                    row.high,
-                    one.value));
-            }
+        tell(sensor, options.attributes);
         rig.push_back(std::move(sensor));
     }
     return rig;

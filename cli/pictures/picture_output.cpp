@@ -4,6 +4,7 @@
 
 #include "cli/pictures/calibration.h"
 #include "files/output_file.h"
+#include "render/event_file.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -43,6 +44,9 @@ PictureFolders::PictureFolders(const RenderOptions& options, const Cameras& came
 
 void PictureFolders::write(const world::SensorFrame& frame,
                            const std::filesystem::path& folder) const {
+    if (frame.kind == world::SensorKind::dvs)
+        return render::write_events(frame,
+                                    folder / fmt::format("{:06}.{}", frame.tick, options_.events));
     if (options_.npy && is_of_floats(frame))
         return render::write_npy(frame, folder / fmt::format("{:06}.npy", frame.tick));
     const bool mapped = frame.kind == world::SensorKind::semantic && options_.classes == "paper";

@@ -136,7 +136,15 @@ void read_attributes(const Json& json, const std::string& where, world::SensorSp
         if (table.find(name) == nullptr)
             continue;
         const world::AttributeRow& row = *world::find_attribute(sensor.kind, name);
-        sensor.attributes.push_back({name, table.number(name, row.usual, row.low, row.high)});
+        if (row.words.empty()) {
+            sensor.attributes.push_back({name, table.number(name, row.usual, row.low, row.high)});
+            continue;
+        }
+        try {
+            sensor.attributes.push_back({name, world::value_of_word(row, *table.text(name))});
+        } catch (const world::WrongWord& wrong) {
+            table.refuse(wrong.what());
+        }
     }
 }
 
@@ -179,7 +187,7 @@ void read_sensor(const Json& json, const std::string& where, std::uint64_t step_
     sensor.roll = table.number("roll_deg", 0, -360, 360) * world::degree;
     sensor.pitch = table.number("pitch_deg", 0, -90, 90) * world::degree;
     sensor.yaw = table.number("yaw_deg", 0, -360, 360) * world::degree;
-    sensor.fov = table.number("fov_deg", 90, world::narrowest_view_deg, world::widest_view_deg) *
+    sensor.fov = table.number("fov_deg", 90, world::narrowest_view_deg, world::widest_fisheye_deg) *
                  world::degree;
     if (const Json* size = table.list("size", 2)) {
         sensor.width =
@@ -189,6 +197,8 @@ void read_sensor(const Json& json, const std::string& where, std::uint64_t step_
     }
     if (const Json* attributes = table.find("attributes"))
         read_attributes(*attributes, where, sensor);
+    if (const std::string why = world::contradiction(sensor); !why.empty())
+        table.refuse(why);
     for (const world::SensorSpec& other : file.rig.sensors)
         if (other.name == sensor.name)
             table.refuse(fmt::format("an earlier sensor is named '{}' as well", sensor.name));

@@ -59,10 +59,16 @@ PixelBox around_corners(const Camera& camera,
     constexpr double nearest = 0.05;  // [m] before the camera
     constexpr double far = std::numeric_limits<double>::max();
     PixelBox box{far, far, -far, -far};
-    for (int corner = 0; corner < 8; ++corner) {
-        const Eigen::Vector3d way((corner & 1) != 0 ? 0.5 : -0.5,
-                                  (corner & 2) != 0 ? 0.5 : -0.5,
-                                  (corner & 4) != 0 ? 0.5 : -0.5);
+    // Of a lens that bends straight lines the edges as well.
+    const int parts = camera.lens().is_plain() ? 1 : 16;
+    for (int point = 0; point < 12 * (parts + 1); ++point) {
+        const int axis = point / (4 * (parts + 1));
+        const int edge = point / (parts + 1) % 4;
+        const double along = static_cast<double>(point % (parts + 1)) / parts;
+        Eigen::Vector3d way;
+        way[axis] = along - 0.5;
+        way[(axis + 1) % 3] = (edge & 1) != 0 ? 0.5 : -0.5;
+        way[(axis + 2) % 3] = (edge & 2) != 0 ? 0.5 : -0.5;
         const Eigen::Vector3d at =
             camera.project(pose_world_middle * Eigen::Vector3d(way.cwiseProduct(size)));
         if (at.z() < nearest)

@@ -7,34 +7,15 @@
 
 #include <cstring>
 #include <limits>
-#include <map>
 
 #include <tbb/parallel_for.h>
 
+#include "render/scene/motion.h"
 #include "render/trace/default_float_mode.h"
 
 namespace reprise::render {
 
 namespace {
-
-/// For each moving instance the one that is the same part of the same actor at the other tick.
-std::vector<const Instance*> partners(const Scene& scene, const Scene& other) {
-    std::map<std::uint32_t, std::vector<const Instance*>> parts;
-    for (const Instance& instance : other.moving())
-        parts[instance.actor].push_back(&instance);
-    std::map<std::uint32_t, std::size_t> taken;
-    std::vector<const Instance*> found;
-    for (const Instance& instance : scene.moving()) {
-        const std::size_t number = taken[instance.actor]++;
-        const auto those = parts.find(instance.actor);
-        const Instance* partner = those == parts.end() || number >= those->second.size()
-                                      ? nullptr
-                                      : those->second[number];
-        found.push_back(partner != nullptr && partner->prototype == instance.prototype ? partner
-                                                                                       : nullptr);
-    }
-    return found;
-}
 
 class Flow {
   public:

@@ -6,6 +6,7 @@
 #include "world/external/sensor_attributes.h"
 #include "world/external/sensor_noise.h"
 #include "world/frames.h"
+#include "world/models/actors.h"
 #include "world/models/car_model.h"
 
 namespace reprise::render {

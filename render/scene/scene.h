@@ -10,6 +10,8 @@
 
 namespace reprise::render {
 
+struct Motion;
+
 /// All geometry at a tick: a town, which is borrowed, and everybody in it. Instances of the town
 /// are numbered first, then those of the tick.
 class Scene {
@@ -27,6 +29,12 @@ class Scene {
     /// `ago`: where they were so many seconds before, as far as the tick tells, see Twist::back;
     /// limbs, wheels and lamps are as at the tick.
     void place(const world::TickView& tick, std::span<const std::uint32_t> mounts, double ago = 0);
+
+    /// As place(), everybody a share of the way along `motions`, which are of the tick's parts.
+    void place_along(const world::TickView& tick,
+                     std::span<const std::uint32_t> mounts,
+                     std::span<const Motion> motions,
+                     double share);
 
     /// As place(), only to know where everybody is: rays find nobody.
     void arrange(const world::TickView& tick);

@@ -2,6 +2,7 @@
 #include <numbers>
 #include <string>
 
+#include "render/scene/motion.h"
 #include "render/scene/scene.h"
 #include "render/scene/twist.h"
 #include "render/shapes/cars/two_wheeler.h"
@@ -155,6 +156,24 @@ void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mo
     arrange(tick);
     if (ago > 0)
         move_back(tick, ago);
+    hide_mounts();
+    commit();
+}
+
+void Scene::place_along(const world::TickView& tick,
+                        std::span<const std::uint32_t> mounts,
+                        std::span<const Motion> motions,
+                        double share) {
+    mounts_.assign(mounts.begin(), mounts.end());
+    arrange(tick);
+    REPRISE_CHECK(motions.size() == moving_.size(), std::to_string(motions.size()) + " motions");
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+        if (!motions[i].moves)
+            continue;
+        const Eigen::Affine3d moved = motions[i].at(share);
+        moving_[i].pose = moved * moving_[i].pose;
+        moving_[i].normal_to_scene = moved.linear().cast<float>() * moving_[i].normal_to_scene;
+    }
     hide_mounts();
     commit();
 }

@@ -69,6 +69,9 @@ void wet_lens(const ShadingInput& input, Frame& frame);
 /// Lets what is brighter than white shine over its edges; `strength` in [0, 1], 0 does nothing.
 void add_glare(Frame& frame, float strength);
 
+/// The tone curve of film: what is bright turns pale, what is coloured stays so. To [0, 1].
+Color film(const Color& light);
+
 /// Tone curve and sRGB: 3 bytes a pixel.
 std::vector<std::uint8_t> tone_map(const Frame& frame, std::uint64_t tick);
 

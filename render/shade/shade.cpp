@@ -113,7 +113,6 @@ void shade(const ShadingInput& input,
     std::vector<std::uint8_t> edges(hits.size());
     for_tiles(camera, [&](const Eigen::Vector2i& corner) { mark_edges(job, corner, edges); });
     for_tiles(camera, [&](const Eigen::Vector2i& corner) { refine_tile(job, corner, edges); });
-    add_glare(frame, input.sky.lamplight());
 }
 
 }  // namespace reprise::render

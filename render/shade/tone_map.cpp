@@ -35,6 +35,8 @@ float film(float x) {
     return clamp01(x * (2.51F * x + 0.10F) / (x * (2.43F * x + 0.55F) + 0.16F));
 }
 
+}  // namespace
+
 /// Each channel by the curve, so that what is bright turns pale; but lamps of one colour keep it:
 /// their brightest channel takes the curve, and the others their share of that.
 Color film(const Color& light) {
@@ -46,8 +48,6 @@ Color film(const Color& light) {
     const float pure = smooth_step(0.15F, 0.06F, least / most) * smooth_step(0.5F, 1.2F, most);
     return mix(curved, Color(light * (film(most) / most)), pure);
 }
-
-}  // namespace
 
 std::vector<std::uint8_t> tone_map(const Frame& frame, std::uint64_t tick) {
     std::vector<std::uint8_t> bytes(frame.colors.size() * 3);

@@ -47,12 +47,12 @@ std::int64_t whole_within(const Fields& fields,
 constexpr Key sensor_key_rows[] = {
     {"name", "string", "letters, digits, _ and -; unique on the vehicle", true},
     {"kind",
-     "'rgb'|'depth'|'semantic'|'instance'|'flow'|'normals'|'lidar'|'semantic_lidar'|'radar'|"
+     "'rgb'|'depth'|'semantic'|'instance'|'flow'|'normals'|'dvs'|'lidar'|'semantic_lidar'|'radar'|"
      "'gnss'|'imu'|'collision'|'lane_invasion'|'obstacle'",
      "default 'rgb'; docs/rendering.md and docs/sensors.md say what each is"},
     {"width", "integer", "[px] 1 to 4096, default 800"},
     {"height", "integer", "[px] 1 to 4096, default 600"},
-    {"fov_deg", "number", "[deg] 1 to 170 across, default 90"},
+    {"fov_deg", "number", "[deg] 1 to 170 across, of a fisheye to 200; default 90"},
     {"x", "number", "[m] ahead of the rear axle, default 1"},
     {"y", "number", "[m] to the left, default 0"},
     {"z", "number", "[m] above the ground, default 1.4"},
@@ -60,8 +60,27 @@ constexpr Key sensor_key_rows[] = {
     {"pitch_deg", "number", "[deg] up, default 0"},
     {"roll_deg", "number", "[deg] right side down, default 0"},
     {"every", "integer", "[ticks] between frames, default 1"},
-    {"attributes", "table", "of its kind, such as { own_car = 1 }; see docs/rendering.md"},
+    {"attributes", "table", "of its kind, such as { lens = 'fisheye' }; see docs/rendering.md"},
 };
+
+double value_of_word(const Fields& fields, const world::AttributeRow& row) {
+    try {
+        return world::value_of_word(row, fields.text(std::string(row.name).c_str()).value_or(""));
+    } catch (const world::WrongWord& wrong) {
+        refuse(fields.who(), wrong.what());
+    }
+}
+
+/// What the sensor is told that does not go together.
+void refuse_contradiction(const Fields& fields, const world::SensorT& sensor) {
+    world::SensorSpec spec;
+    spec.kind = sensor.kind;
+    spec.fov = sensor.fov;
+    for (const auto& one : sensor.attributes)
+        spec.attributes.push_back({one->name, one->value});
+    if (const std::string why = world::contradiction(spec); !why.empty())
+        refuse(fields.who(), why);
+}
 
 /// The table on top of the stack as attributes of the sensor, in the order of their names.
 std::vector<std::unique_ptr<world::SensorAttributeT>> read_attributes(
@@ -75,7 +94,10 @@ std::vector<std::unique_ptr<world::SensorAttributeT>> read_attributes(
         const world::AttributeRow& row = *world::find_attribute(sensor.kind, name);
         auto& one = attributes.emplace_back(std::make_unique<world::SensorAttributeT>());
         one->name = name;
-        one->value = within(fields, name.c_str(), row.usual, row.low, row.high);
+        if (row.words.empty())
+            one->value = within(fields, name.c_str(), row.usual, row.low, row.high);
+        else
+            one->value = value_of_word(fields, row);
     }
     return attributes;
 }
@@ -112,7 +134,8 @@ std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number) {
     sensor->width = side("width", usual.width);
     sensor->height = side("height", usual.height);
     sensor->fov =
-        within(fields, "fov_deg", 90, world::narrowest_view_deg, world::widest_view_deg) * degree;
+        within(fields, "fov_deg", 90, world::narrowest_view_deg, world::widest_fisheye_deg) *
+        degree;
     const auto place = [&](const char* key, double metres) {
         return within(fields, key, metres, -world::farthest_mount, world::farthest_mount);
     };
@@ -130,6 +153,7 @@ std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number) {
         sensor->attributes = read_attributes(L, fields.who(), *sensor);
         lua_pop(L, 1);
     }
+    refuse_contradiction(fields, *sensor);
     return sensor;
 }
 

@@ -40,7 +40,7 @@ INNER = {
     "traffic": "roads cars sight .",
     "drivers": "way control .",
     "kernel": "drill physics .",
-    "render": "shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look labels shade ranging readings map views overlay film .",
+    "render": "shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look labels shade optics ranging readings map views overlay film .",
     "scripting": "lua run words .",
     "replay": "mcap . table compare golden score",
     "exchange": ". carla page",

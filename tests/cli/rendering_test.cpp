@@ -232,7 +232,7 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     EXPECT_THAT(of_sensor("\"size\": [100000, 100000]"),
                 HasSubstr("'size' must be a number in [1, 4096], got 100000"));
     EXPECT_THAT(of_sensor("\"size\": [0, 10]"), HasSubstr("'size' must be a number in [1, 4096]"));
-    EXPECT_THAT(of_sensor("\"fov_deg\": 0"), HasSubstr("'fov_deg' must be a number in [1, 170]"));
+    EXPECT_THAT(of_sensor("\"fov_deg\": 0"), HasSubstr("'fov_deg' must be a number in [1, 200]"));
     EXPECT_THAT(of_sensor("\"yaw_deg\": 1e999"), HasSubstr("too large"));
     EXPECT_THAT(of_sensor("\"postion\": [1, 2, 3]"), HasSubstr("(did you mean 'position'?)"));
     EXPECT_THAT(of_sensor("\"actor\": \"ega\""), HasSubstr("(did you mean 'ego'?)"));

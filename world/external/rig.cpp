@@ -24,13 +24,14 @@ bool is_possible(const SensorSpec& sensor, std::uint32_t every) {
            (is_camera(sensor.kind) || is_ranging(sensor.kind) || is_reading(sensor.kind)) &&
            within(sensor.width, 1, largest_picture_side) &&
            within(sensor.height, 1, largest_picture_side) &&
-           within(
-               sensor.fov, narrowest_view_deg * degree - 1e-9, widest_view_deg * degree + 1e-9) &&
+           within(sensor.fov,
+                  narrowest_view_deg * degree - 1e-9,
+                  widest_fisheye_deg * degree + 1e-9) &&
            sensor.position.allFinite() &&
            sensor.position.lpNorm<Eigen::Infinity>() <= farthest_mount &&
            within(sensor.yaw, -turn, turn) && within(sensor.pitch, -turn, turn) &&
            within(sensor.roll, -turn, turn) && are_possible(sensor.kind, sensor.attributes) &&
-           every >= 1 && every <= longest_sensor_period;
+           contradiction(sensor).empty() && every >= 1 && every <= longest_sensor_period;
 }
 
 }  // namespace
@@ -86,9 +87,30 @@ Rig rig_of(const Command& spawn, std::uint64_t tick) {
     return rig_of(command, tick);
 }
 
+std::string contradiction(const SensorSpec& sensor) {
+    if (!is_camera(sensor.kind))
+        return "";
+    const bool fisheye = attribute(sensor, "lens") > 0;
+    const auto said = [&](const char* name) { return attribute(sensor, name) != 0; };
+    if (fisheye && (said("p1") || said("p2")))
+        return "a fisheye has k1, k2, k3 and k4, and no p1 and p2";
+    if (!fisheye && said("k4"))
+        return "k4 is of lens fisheye; a pinhole has k1, k2, p1, p2 and k3";
+    if (!fisheye && sensor.fov > widest_view_deg * std::numbers::pi / 180 + 1e-9)
+        return "a field of view beyond 170 degrees needs lens fisheye";
+    return "";
+}
+
+bool takes_time(const SensorSpec& sensor) {
+    const auto said = [&](std::string_view name) {
+        return find_attribute(sensor.kind, name) != nullptr && attribute(sensor, name) > 0;
+    };
+    return sensor.kind == SensorKind::dvs || said("readout_time") || said("motion_blur");
+}
+
 bool see_motion(const SensorRig& sensors) {
     return std::any_of(sensors.begin(), sensors.end(), [](const SensorSpec& sensor) {
-        return sensor.kind == SensorKind::flow;
+        return sensor.kind == SensorKind::flow || takes_time(sensor);
     });
 }
 

@@ -17,6 +17,7 @@ inline constexpr std::size_t most_sensors = 16;                         ///< on 
 inline constexpr int largest_picture_side = 4096;                       ///< [px]
 inline constexpr std::size_t longest_sensor_name = 40;                  ///< [bytes]
 inline constexpr double narrowest_view_deg = 1, widest_view_deg = 170;  ///< horizontal
+inline constexpr double widest_fisheye_deg = 200;
 inline constexpr double farthest_mount = 50;  ///< [m] from the vehicle's origin, along each axis
 inline constexpr std::uint32_t longest_sensor_period = 100'000;  ///< [ticks]
 
@@ -44,6 +45,12 @@ struct Rig {
 /// a rig that no scenario could have said.
 Rig rig_of(const CommandT& spawn, std::uint64_t tick);
 Rig rig_of(const Command& spawn, std::uint64_t tick);
+
+/// Why what a sensor is told does not go together, in a line; empty where it does.
+std::string contradiction(const SensorSpec& sensor);
+
+/// Whether a camera's picture is of a while, and not of an instant.
+bool takes_time(const SensorSpec& sensor);
 
 /// Whether one of them says how things move, and so needs the ticks beside its own.
 bool see_motion(const SensorRig& sensors);

@@ -5,14 +5,13 @@ namespace reprise::world {
 std::vector<std::string> sensor_kinds() {
     std::vector<std::string> names;
     for (const SensorKind kind : EnumValuesSensorKind())
-        if (kind != SensorKind::dvs)
-            names.emplace_back(EnumNameSensorKind(kind));
+        names.emplace_back(EnumNameSensorKind(kind));
     return names;
 }
 
 std::optional<SensorKind> find_sensor_kind(std::string_view name) {
     for (const SensorKind kind : EnumValuesSensorKind())
-        if (kind != SensorKind::dvs && name == EnumNameSensorKind(kind))
+        if (name == EnumNameSensorKind(kind))
             return kind;
     return std::nullopt;
 }

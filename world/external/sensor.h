@@ -42,6 +42,16 @@ using SensorRig = std::vector<SensorSpec>;
 
 enum class PixelType : std::uint8_t { u8, u16, f32 };
 
+/// A change of brightness that a pixel of an event camera noticed.
+struct PixelEvent {
+    std::int64_t time_ns = 0;  ///< of the run
+    std::uint16_t x = 0;
+    std::uint16_t y = 0;
+    bool rising = false;
+
+    bool operator==(const PixelEvent& other) const = default;
+};
+
 /// What was seen: rows from the top, pixels from the left, channels interleaved.
 ///   rgb       u8, 3 channels: R, G, B (sRGB)
 ///   depth     f32, 1 channel: [m] along the optical axis; infinity where there is only sky
@@ -53,7 +63,9 @@ enum class PixelType : std::uint8_t { u8, u16, f32 };
 ///   normals   f32, 3 channels: unit vector out of the surface, in the camera's frame; zero where
 ///             there is only sky
 ///   dvs       u8, 2 channels: how many events of rising and of falling brightness since the last
-///             tick, 255 at most
+///             tick, 255 at most; `events` has each of them
+/// The depth of a fisheye is the distance from the camera. What a lens does not see at all (its
+/// picture ends before the picture's corners) is black, of class unlabeled, and without depth.
 struct SensorFrame {
     std::string name;
     SensorKind kind = SensorKind::rgb;
@@ -63,11 +75,12 @@ struct SensorFrame {
     int channels = 0;
     PixelType type = PixelType::u8;
     std::vector<std::uint8_t> data;
+    std::vector<PixelEvent> events{};  ///< of dvs: by time, then by rows
 };
 
-/// Those that make pictures; dvs has a number and no pictures yet.
+/// Those that make pictures.
 inline constexpr bool is_camera(SensorKind kind) {
-    return kind < SensorKind::dvs;
+    return kind <= SensorKind::dvs;
 }
 
 /// What measures by rays: frames are rows of numbers, see world/external/point_fields.h.
