@@ -117,14 +117,17 @@ std::optional<Vector3d> Lens::direction(const Vector2d& place) const {
         return std::nullopt;
     Vector2d flat = wanted < nearly_nothing ? place : Vector2d(place * (straight(wanted) / wanted));
     if (tangential_ != decltype(tangential_){}) {
-        // Tangential distortion is small: what is left over is taken back along the radius.
+        // Tangential distortion is small: what is left over is taken back as the radial one bends.
         for (int round = 0; round < most_rounds; ++round) {
             const Vector2d off = distorted(flat) - place;
             const double r = flat.norm();
             const double along = r <= reach_ ? slope(r) : 0.0;
             if (along <= 0)
                 return std::nullopt;
-            flat -= off / along;
+            const Vector2d out = r < nearly_nothing ? Vector2d::UnitX() : Vector2d(flat / r);
+            const double across = r < nearly_nothing ? 1.0 : bent(r) / r;
+            const Vector2d radial = out.dot(off) * out;
+            flat -= radial / along + (off - radial) / across;
             if (off.norm() <= precise_enough * (1 + r))
                 break;
         }

@@ -52,7 +52,7 @@ world::SensorFrame seen(render::Sensors& sensors,
     neighbours.last = render::Neighbour{last.view(), {}};
     // Clouds move, and their shadows.
     world::Weather clear = test::noon();
-    clear.mutate_cloud_cover(0);
+    clear.mutate_wind_speed(0);
     return sensors.observe(now.view(), {event_camera()}, clear, neighbours)[0];
 }
 
