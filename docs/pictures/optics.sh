@@ -12,15 +12,13 @@ trap 'rm -rf "$work"' EXIT
 $reprise run scenarios/free_drive.lua --town town1 --cars 60 --walkers 60 --seed 3 --for 8 -o "$work/a.mcap"
 
 pictures=
-take() {  # take NAME OPTIONS...: a picture with its name on it
+take() {  # take NAME OPTIONS...
     name=$1
     shift
     $reprise render "$work/a.mcap" -o "$work/$name" --ticks 120t --size 640x480 "$@"
     found=$work/$name/000120.png
     [ -f "$found" ] || found=$work/$name/view/000120.png
-    convert "$found" -resize 400x300 -gravity SouthWest -fill white -undercolor '#00000090' -pointsize 15 \
-        -annotate +4+4 " $(echo "$name" | tr _ ' ') " "$work/$name.png"
-    pictures="$pictures $work/$name.png"
+    pictures="$pictures $found"
 }
 noon='--weather clear_noon'
 take pinhole $noon
@@ -30,7 +28,7 @@ take night_by_the_weather --weather clear_night
 take noise_at_ISO_1600 --weather clear_night --attribute noise=1,iso=1600
 take fixed_exposure_too_long $noon --attribute exposure_mode=manual,fstop=8,shutter_speed=100
 take motion_blur_of_50_ms $noon --yaw 60 --attribute motion_blur=1,shutter_speed=20,samples=24
-take rolling_shutter_of_50_ms $noon --yaw 90 --mount=1,0,0.6 --pitch=-25 --attribute readout_time=50
+take rolling_shutter_of_50_ms $noon --yaw 60 --fov 30 --pitch=-2 --attribute readout_time=50
 take events $noon --sensor dvs
 # The names hold no blanks.
-montage $pictures -tile 3x -geometry +2+2 -background white -strip -sampling-factor 4:2:0 -quality 78 "$here/optics.jpg"
+montage $pictures -tile 3x -geometry 400x300+2+2 -background white -strip -sampling-factor 4:2:0 -quality 78 "$here/optics.jpg"
