@@ -89,7 +89,7 @@ TEST(RigWords, MistakesAreOneLineThatNamesTheSensor) {
     EXPECT_EQ(of_sensor("kind = 'detph'"),
               first +
                   "no kind 'detph' (did you mean 'depth'?); there are rgb, depth, semantic, "
-                  "instance, flow, normals, lidar, semantic_lidar, radar, gnss, imu, "
+                  "instance, flow, normals, dvs, lidar, semantic_lidar, radar, gnss, imu, "
                   "collision, lane_invasion, obstacle");
     EXPECT_EQ(of_sensor("kind = 'lidar', attributes = { chanels = 3 }"),
               first + "'attributes': unknown key 'chanels' (did you mean 'channels'?)");
@@ -99,7 +99,15 @@ TEST(RigWords, MistakesAreOneLineThatNamesTheSensor) {
     EXPECT_EQ(of_sensor("width = 0"), first + "'width' must be in [1, 4096], got 0");
     EXPECT_EQ(of_sensor("height = 4097"), first + "'height' must be in [1, 4096], got 4097");
     EXPECT_EQ(of_sensor("width = 84.5"), first + "'width' must be a whole number, got 84.5");
-    EXPECT_EQ(of_sensor("fov_deg = 171"), first + "'fov_deg' must be in [1, 170], got 171.0");
+    EXPECT_EQ(of_sensor("fov_deg = 201"), first + "'fov_deg' must be in [1, 200], got 201.0");
+    EXPECT_EQ(of_sensor("fov_deg = 171"),
+              first + "a field of view beyond 170 degrees needs lens fisheye");
+    EXPECT_EQ(of_sensor("attributes = { lens = 'fishey' }"),
+              first +
+                  "'attributes': 'lens' must be pinhole or fisheye, got 'fishey' (did you mean "
+                  "'fisheye'?)");
+    EXPECT_EQ(of_sensor("attributes = { lens = 'fisheye', p1 = 0.1 }"),
+              first + "a fisheye has k1, k2, k3 and k4, and no p1 and p2");
     EXPECT_EQ(of_sensor("x = 0/0"), first + "'x' must be a finite number, got nan");
     EXPECT_EQ(of_sensor("z = 51"), first + "'z' must be in [-50, 50], got 51.0");
     EXPECT_EQ(of_sensor("pitch_deg = 91"), first + "'pitch_deg' must be in [-90, 90], got 91.0");
