@@ -152,7 +152,12 @@ void go_on(There& there,
     for (std::uint64_t index = 1; index <= what_if.branch.tick; ++index)
         writer.append(trace.tick(index));
     Seats seats(options.drivers, {options.driver_timeout}, recording);
-    seats.take_over(there.drivers, there.guides, *there.tick);
+    TickBytes before;
+    if (what_if.branch.tick > 1) {
+        const replay::RecordedTick recorded = trace.tick(what_if.branch.tick - 1);
+        before = {recorded.tick_bytes, recorded.traffic_bytes};
+    }
+    seats.take_over(there.drivers, there.guides, before, *there.tick);
     kernel.branch(what_if.branch);
     for (std::uint64_t next = what_if.branch.tick + 1; !kernel.finished() && !seats.loss();
          ++next) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "remote/schema.h"
 #include "remote/shared_memory.h"
 #include "world/check.h"
+#include "world/external/point_fields.h"
 #include "world/story/wording.h"
 
 namespace reprise::remote {
@@ -95,11 +97,32 @@ struct Client::Parts {
         flatbuffers::Verifier verifier(hello.spawn()->data(), hello.spawn()->size());
         if (!verifier.VerifyBuffer<world::Command>(nullptr))
             throw world::Error("the run said hello with what is no command");
-        rig = world::rig_of(*flatbuffers::GetRoot<world::Command>(hello.spawn()->data()), 0);
+        rig = world::rig_of(*flatbuffers::GetRoot<world::Command>(hello.spawn()->data()), 0, step);
+    }
+
+    /// Index in the rig. Throws world::Error.
+    std::size_t find(std::string_view sensor) const {
+        for (std::size_t i = 0; i < rig.sensors.size(); ++i)
+            if (rig.sensors[i].name == sensor)
+                return i;
+        throw world::Error(fmt::format("'{}' carries no sensor '{}'", name, sensor));
+    }
+
+    /// Of the last tick; null where the sensor was not due.
+    const remote::Picture* shown(std::size_t sensor) const {
+        const auto* pictures =
+            last.kind == Kind::observation ? last.as<Observation>().pictures() : nullptr;
+        if (pictures != nullptr)
+            for (const remote::Picture* picture : *pictures)
+                if (picture->sensor() == sensor)
+                    return picture;
+        return nullptr;
     }
 
     /// The pixels of a frame, wherever they are.
     std::span<const std::uint8_t> pixels(const remote::Picture& picture, std::size_t size) const {
+        if (size == 0)
+            return {};
         if (picture.data() != nullptr && picture.data()->size() == size)
             return {picture.data()->data(), size};
         if (!memory || picture.offset() > memory->bytes().size() ||
@@ -207,21 +230,39 @@ const world::SensorRig& Client::sensors() const {
 }
 
 std::optional<Client::Picture> Client::picture(std::string_view sensor) const {
-    const world::SensorRig& sensors = parts_->rig.sensors;
-    const auto carried =
-        std::find_if(sensors.begin(), sensors.end(), [&](const world::SensorSpec& one) {
-            return one.name == sensor;
-        });
-    if (carried == sensors.end())
-        throw world::Error(fmt::format("'{}' carries no sensor '{}'", name(), sensor));
-    const auto* shown = parts_->last.kind == Kind::observation
-                            ? parts_->last.as<Observation>().pictures()
-                            : nullptr;
-    if (shown != nullptr)
-        for (const remote::Picture* picture : *shown)
-            if (picture->sensor() == carried - sensors.begin())
-                return Picture{&*carried, parts_->pixels(*picture, world::picture_bytes(*carried))};
+    const std::size_t index = parts_->find(sensor);
+    const world::SensorSpec& spec = parts_->rig.sensors[index];
+    if (!world::is_camera(spec.kind))
+        throw world::Error(fmt::format("'{}' is no camera: rows() has what it measured", sensor));
+    if (const remote::Picture* shown = parts_->shown(index))
+        return Picture{&spec, parts_->pixels(*shown, world::picture_bytes(spec))};
     return std::nullopt;
+}
+
+std::optional<Client::Rows> Client::rows(std::string_view sensor) const {
+    const std::size_t index = parts_->find(sensor);
+    const world::SensorSpec& spec = parts_->rig.sensors[index];
+    if (world::is_camera(spec.kind))
+        throw world::Error(fmt::format("'{}' is a camera: picture() has what it saw", sensor));
+    const remote::Picture* shown = parts_->shown(index);
+    if (shown == nullptr)
+        return std::nullopt;
+    const std::size_t row = world::row_bytes(spec.kind);
+    return Rows{&spec, shown->size() / row, parts_->pixels(*shown, shown->size())};
+}
+
+double Client::Rows::at(std::size_t row, std::size_t column) const {
+    const auto fields = world::point_fields(sensor->kind);
+    REPRISE_CHECK(row < count && column < fields.size(),
+                  fmt::format("row {} of {}, column {}", row, count, column));
+    const auto number = [&]<typename Number>(Number value) {
+        std::memcpy(
+            &value, bytes.data() + (row * fields.size() + column) * sizeof(value), sizeof(value));
+        return static_cast<double>(value);
+    };
+    if (world::is_reading(sensor->kind))
+        return number(double());
+    return fields[column].whole ? number(std::uint32_t()) : number(float());
 }
 
 Client::Way Client::way() const {

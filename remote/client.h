@@ -72,9 +72,24 @@ class Client {
         std::span<const std::uint8_t> pixels;
     };
 
-    /// What a sensor saw at the last tick; nothing when it was not due. Throws world::Error for a
-    /// sensor that the vehicle does not carry.
+    /// What a camera saw at the last tick; nothing when it was not due. Throws world::Error for a
+    /// sensor that the vehicle does not carry, or that is no camera.
     std::optional<Picture> picture(std::string_view sensor) const;
+
+    /// What a sensor measured that is no camera: rows as world/external/point_fields.h has them,
+    /// which stay as pixels do.
+    struct Rows {
+        const world::SensorSpec* sensor = nullptr;
+        std::size_t count = 0;
+        std::span<const std::uint8_t> bytes;
+
+        /// A number of a row, by its column.
+        double at(std::size_t row, std::size_t column) const;
+    };
+
+    /// At the last tick; nothing when it was not due. Throws world::Error for a sensor that the
+    /// vehicle does not carry, or that is a camera.
+    std::optional<Rows> rows(std::string_view sensor) const;
 
     /// The way to the goal that the scenario gave, as the planner of the CARLA paper says it.
     struct Way {

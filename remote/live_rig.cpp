@@ -6,11 +6,13 @@
 //   keeps     which tick was asked for last, and which answered
 #include "remote/live_rig.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <poll.h>
 #include <string_view>
 #include <sys/socket.h>
@@ -27,7 +29,7 @@ namespace reprise::remote {
 
 namespace {
 
-constexpr std::size_t largest_note = 64 << 10;       // [bytes] of what a renderer says
+constexpr std::size_t largest_note = 16 << 20;       // [bytes] of what a renderer says
 constexpr std::size_t largest_from_run = 256 << 20;  // [bytes] a town of a large city
 constexpr std::string_view variable = "REPRISE_LIVE";
 
@@ -43,7 +45,7 @@ std::array<int, 2> socket_pair() {
 
 struct LiveRig::Parts {
     Parts(const world::Rig& rig, unsigned latency, int descriptor)
-        : sees_motion(world::see_motion(rig.sensors)),
+        : needs_last(world::need_last(rig.sensors)),
           ring(rig, latency),
           memory(ring.bytes()),
           channel(std::in_place, descriptor, largest_note) {}
@@ -73,14 +75,34 @@ struct LiveRig::Parts {
         if (pictures == nullptr || pictures->size() == 0)
             fail("said something else than pictures");
         done = pictures->Get(0)->tick();
+        std::vector<PlacedPicture>& frames = answered.emplace_back();
+        for (const Picture* picture : *pictures) {
+            frames.push_back(
+                {picture->sensor(), picture->tick(), picture->offset(), picture->size(), {}});
+            if (const auto* rows = picture->data())
+                frames.back().reading.assign(rows->begin(), rows->end());
+        }
     }
 
-    bool sees_motion;
+    bool tell(std::span<const std::uint8_t> tick,
+              std::span<const std::uint8_t> traffic,
+              std::span<const PlacedPicture> wished) {
+        const Packed wish = pack_observation(tick, traffic, wished, nullptr);
+        try {
+            channel->send(Kind::observation, bytes_of(wish));
+        } catch (const ChannelFault&) {
+            return false;
+        }
+        return true;
+    }
+
+    bool needs_last;
     PictureRing ring;
     SharedMemory memory;
     std::optional<process::Companion> program;  // waited for once the channel is closed
     std::optional<FrameChannel> channel;
-    std::uint64_t done = 0;  ///< the last tick whose frames are there
+    std::uint64_t done = 0;                           ///< the last tick whose frames are there
+    std::deque<std::vector<PlacedPicture>> answered;  ///< and not taken yet
 };
 
 LiveRig::LiveRig(const std::string& program,
@@ -91,8 +113,12 @@ LiveRig::LiveRig(const std::string& program,
     const Descriptor handed_over(theirs);
     parts_ = std::make_unique<Parts>(rig, spawn.latency, ours);
     parts_->program.emplace(program, theirs, std::string(variable) + "=fd:%d");
-    const Packed hello =
-        pack_hello({spawn.actor, spawn.text, &spawn, nullptr, parts_->ring.bytes()}, recording);
+    const bool on_globe =
+        std::any_of(rig.sensors.begin(), rig.sensors.end(), [](const world::SensorSpec& sensor) {
+            return sensor.kind == world::SensorKind::gnss;
+        });
+    const Packed hello = pack_hello(
+        {spawn.actor, spawn.text, &spawn, nullptr, parts_->ring.bytes(), on_globe}, recording);
     try {
         parts_->channel->send(Kind::hello, bytes_of(hello), {}, parts_->memory.descriptor());
     } catch (const ChannelFault&) {
@@ -106,19 +132,19 @@ const SharedMemory& LiveRig::memory() const {
     return parts_->memory;
 }
 
-std::vector<PlacedPicture> LiveRig::ask(const world::SealedTick& tick) {
-    std::vector<PlacedPicture> pictures = parts_->ring.of(tick.view().index());
+void LiveRig::remember(std::span<const std::uint8_t> tick, std::span<const std::uint8_t> traffic) {
+    if (parts_->needs_last)
+        parts_->tell(tick, traffic, {});  // who is gone says so when it is asked
+}
+
+bool LiveRig::ask(const world::SealedTick& tick) {
+    const std::vector<PlacedPicture> pictures = parts_->ring.of(tick.view().index());
     // Who says how things move looks at the tick before as well, whether anything is due in it.
-    if (pictures.empty() && !parts_->sees_motion)
-        return pictures;
-    const Packed wish =
-        pack_observation(tick.tick_bytes(), tick.traffic_bytes(), pictures, nullptr);
-    try {
-        parts_->channel->send(Kind::observation, bytes_of(wish));
-    } catch (const ChannelFault& fault) {
-        parts_->fail(fault.what());
-    }
-    return pictures;
+    if (pictures.empty() && !parts_->needs_last)
+        return false;
+    if (!parts_->tell(tick.tick_bytes(), tick.traffic_bytes(), pictures))
+        parts_->fail("has hung up");
+    return !pictures.empty();
 }
 
 bool LiveRig::has(std::uint64_t tick) {
@@ -131,6 +157,13 @@ bool LiveRig::has(std::uint64_t tick) {
 void LiveRig::wait_for(std::uint64_t tick, const std::function<bool()>& given_up) {
     while (parts_->done < tick)
         parts_->hear({std::nullopt, given_up});
+}
+
+std::vector<PlacedPicture> LiveRig::take() {
+    REPRISE_CHECK(!parts_->answered.empty(), "no frames to take");
+    std::vector<PlacedPicture> frames = std::move(parts_->answered.front());
+    parts_->answered.pop_front();
+    return frames;
 }
 
 int LiveRig::descriptor() const {
@@ -146,6 +179,7 @@ struct LivePictures::Parts {
     Frame last;    ///< the wish looks into it
     Frame before;  ///< and into what was told before it
     world::TownT town;
+    std::string network;
     world::Rig rig;
     std::optional<SharedMemory> memory;
 };
@@ -173,7 +207,11 @@ LivePictures::LivePictures() : parts_(std::make_unique<Parts>(live_descriptor())
     const Hello& hello = frame.as<Hello>();
     REPRISE_CHECK(hello.town() != nullptr && hello.spawn() != nullptr, "hello without a town");
     world::GetTown(hello.town()->data())->UnPackTo(&parts.town);
-    parts.rig = world::rig_of(*flatbuffers::GetRoot<world::Command>(hello.spawn()->data()), 0);
+    if (hello.network() != nullptr)
+        parts.network = hello.network()->str();
+    parts.rig = world::rig_of(*flatbuffers::GetRoot<world::Command>(hello.spawn()->data()),
+                              0,
+                              world::seconds(1, hello.step_ns()));
     parts.memory.emplace(
         std::move(frame.descriptor), hello.shared_bytes(), SharedMemory::Use::write);
 }
@@ -182,6 +220,14 @@ LivePictures::~LivePictures() = default;
 
 const world::TownT& LivePictures::town() const {
     return parts_->town;
+}
+
+const std::string& LivePictures::network() const {
+    return parts_->network;
+}
+
+const world::SensorRig& LivePictures::sensors() const {
+    return parts_->rig.sensors;
 }
 
 void LivePictures::ready() {
@@ -223,12 +269,16 @@ void LivePictures::show(std::span<const world::SensorFrame> frames) {
     std::vector<PlacedPicture> done;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const Picture& place = *wished.Get(static_cast<flatbuffers::uoffset_t>(i));
-        const std::vector<std::uint8_t>& pixels = frames[i].data;
-        REPRISE_CHECK(
-            place.offset() <= memory.size() && pixels.size() <= memory.size() - place.offset(),
-            "no place for a picture");
-        std::memcpy(memory.data() + place.offset(), pixels.data(), pixels.size());
-        done.push_back({place.sensor(), place.tick(), place.offset(), pixels.size()});
+        const std::vector<std::uint8_t>& bytes = frames[i].data;
+        done.push_back({place.sensor(), place.tick(), place.offset(), bytes.size(), {}});
+        if (world::is_reading(frames[i].kind)) {
+            done.back().reading = bytes;
+            continue;
+        }
+        REPRISE_CHECK(bytes.size() <= place.size() && place.offset() <= memory.size() &&
+                          bytes.size() <= memory.size() - place.offset(),
+                      "no place for a picture");
+        std::memcpy(memory.data() + place.offset(), bytes.data(), bytes.size());
     }
     parts.channel.send(Kind::observation, bytes_of(pack_observation({}, {}, done, nullptr)));
 }

@@ -23,9 +23,10 @@ class RenderFault : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What the cameras of one vehicle see while the run goes on. A process of its own renders: it is
-/// told the town once, then ticks as they are recorded, and writes pixels into memory that it, the
-/// run and the driver share. It knows no kernel, the run no renderer.
+/// What the sensors of one vehicle see while the run goes on. A process of its own renders: it is
+/// told the town once, then ticks as they are recorded, and writes pixels and points into memory
+/// that it, the run and the driver share; readings are in its answers. It knows no kernel, the run
+/// no renderer.
 class LiveRig {
   public:
     /// Starts it; does not wait for it. `program`: the line for the shell; it finds its socket in
@@ -40,15 +41,21 @@ class LiveRig {
 
     const SharedMemory& memory() const;
 
-    /// Has the frames of this tick rendered; which ones those are, none where no sensor is due.
-    /// Does not wait for them. Throws RenderFault.
-    std::vector<PlacedPicture> ask(const world::SealedTick& tick);
+    /// Of a rig in the middle of a run: the tick before the first that it is asked for.
+    void remember(std::span<const std::uint8_t> tick, std::span<const std::uint8_t> traffic);
+
+    /// Has the frames of this tick rendered; whether any sensor is due. Does not wait for them.
+    /// Throws RenderFault.
+    bool ask(const world::SealedTick& tick);
 
     /// Whether the frames of this tick, for which it was asked, are there. Throws RenderFault.
     bool has(std::uint64_t tick);
 
     /// Waits for them. Throws RenderFault, and ChannelFault when somebody gives up.
     void wait_for(std::uint64_t tick, const std::function<bool()>& given_up);
+
+    /// The frames of the first tick that was asked for and not taken yet; they are there.
+    std::vector<PlacedPicture> take();
 
     /// Readable when frames have come, for poll().
     int descriptor() const;
@@ -70,6 +77,11 @@ class LivePictures {
 
     const world::TownT& town() const;
 
+    /// The town's SUMO network; empty where no sensor asks for it.
+    const std::string& network() const;
+
+    const world::SensorRig& sensors() const;
+
     /// Says that all is ready for the first tick.
     void ready();
 
@@ -82,7 +94,7 @@ class LivePictures {
     /// The next tick to be looked at, until the next call.
     Wish next();
 
-    /// The pixels of the last wish, in its order.
+    /// What was seen of the last wish, in its order. Of readings the bytes of their rows.
     void show(std::span<const world::SensorFrame> frames);
 
   private:

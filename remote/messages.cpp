@@ -53,6 +53,9 @@ Packed pack_hello(const Greeting& greeting, const world::Recording& recording) {
     flatbuffers::Offset<flatbuffers::Vector<std::uint8_t>> route;
     if (greeting.route != nullptr)
         route = add(message, bytes_of(packed<world::Command>(*greeting.route, nullptr)));
+    flatbuffers::Offset<flatbuffers::String> network;
+    if (greeting.with_network)
+        network = message.CreateString(recording.network);
     message.Finish(CreateHello(message,
                                wire_version,
                                schema,
@@ -63,7 +66,8 @@ Packed pack_hello(const Greeting& greeting, const world::Recording& recording) {
                                town,
                                spawn,
                                greeting.shared_bytes,
-                               route));
+                               route,
+                               network));
     return message;
 }
 
@@ -72,19 +76,21 @@ Packed pack_observation(std::span<const std::uint8_t> tick,
                         std::span<const PlacedPicture> pictures,
                         const std::uint8_t* memory,
                         const Guidance& guidance) {
+    using Bytes = flatbuffers::Offset<flatbuffers::Vector<std::uint8_t>>;
     Packed message(tick.size() + traffic.size() + 256);
     std::vector<flatbuffers::Offset<Picture>> placed;
     for (const PlacedPicture& picture : pictures) {
-        const auto data = memory == nullptr
-                              ? flatbuffers::Offset<flatbuffers::Vector<std::uint8_t>>()
-                              : add(message, {memory + picture.offset, picture.size});
-        placed.push_back(
-            CreatePicture(message, picture.sensor, picture.tick, picture.offset, data));
+        Bytes data;
+        if (!picture.reading.empty())
+            data = add(message, picture.reading);
+        else if (memory != nullptr)
+            data = add(message, {memory + picture.offset, picture.size});
+        placed.push_back(CreatePicture(
+            message, picture.sensor, picture.tick, picture.offset, data, picture.size));
     }
     const auto of_pictures =
         placed.empty() ? flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<Picture>>>()
                        : message.CreateVector(placed);
-    using Bytes = flatbuffers::Offset<flatbuffers::Vector<std::uint8_t>>;
     const Bytes of_traffic = traffic.empty() ? Bytes() : add(message, traffic);
     const Bytes of_tick = tick.empty() ? Bytes() : add(message, tick);
     message.Finish(CreateObservation(

@@ -20,6 +20,7 @@ struct Greeting {
     const world::CommandT* spawn = nullptr;  ///< null: not known
     const world::CommandT* route = nullptr;  ///< to be driven already; null: none
     std::size_t shared_bytes = 0;            ///< of the memory whose descriptor goes with it
+    bool with_network = false;               ///< for who asks where the town lies
 };
 
 /// A message as it is packed. The bytes live as long as it.
@@ -29,7 +30,8 @@ std::span<const std::uint8_t> bytes_of(const Packed& message);
 
 Packed pack_hello(const Greeting& greeting, const world::Recording& recording);
 
-/// `memory`: null where the other end looks into it itself; else the pictures go along.
+/// `memory`: null where the other end looks into it itself; else the pictures go along. Readings
+/// always do.
 Packed pack_observation(std::span<const std::uint8_t> tick,
                         std::span<const std::uint8_t> traffic,
                         std::span<const PlacedPicture> pictures,

@@ -1,5 +1,7 @@
 #include "remote/picture_ring.h"
 
+#include <algorithm>
+
 namespace reprise::remote {
 
 namespace {
@@ -12,11 +14,12 @@ PictureRing::PictureRing(const world::Rig& rig, unsigned latency)
     : rig_(rig),
       places_(std::size_t{2} + latency) {
     for (const world::SensorSpec& sensor : rig.sensors) {
-        const std::size_t size = world::picture_bytes(sensor);
+        const std::size_t size = world::frame_bytes(sensor);
         starts_.push_back(bytes_);
         strides_.push_back((size + cache_line - 1) / cache_line * cache_line);
         bytes_ += strides_.back() * places_;
     }
+    bytes_ = std::max(bytes_, cache_line);  // of a rig of readings as well: no memory is none
 }
 
 std::vector<PlacedPicture> PictureRing::of(std::uint64_t tick) const {
@@ -27,7 +30,8 @@ std::vector<PlacedPicture> PictureRing::of(std::uint64_t tick) const {
         pictures.push_back({static_cast<std::uint16_t>(sensor),
                             tick,
                             starts_[sensor] + place * strides_[sensor],
-                            world::picture_bytes(rig_.sensors[sensor])});
+                            world::frame_bytes(rig_.sensors[sensor]),
+                            {}});
     }
     return pictures;
 }

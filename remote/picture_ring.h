@@ -12,8 +12,9 @@ namespace reprise::remote {
 struct PlacedPicture {
     std::uint16_t sensor = 0;  ///< index in the rig
     std::uint64_t tick = 0;
-    std::uint64_t offset = 0;  ///< [bytes]
-    std::size_t size = 0;      ///< [bytes]
+    std::uint64_t offset = 0;             ///< [bytes]
+    std::size_t size = 0;                 ///< [bytes] of the frame; where it is to be made: at most
+    std::vector<std::uint8_t> reading{};  ///< the frame itself, of what needs no memory
 };
 
 /// Where the frames of a rig lie: each sensor has 2 + latency places that are taken in turn. A run
@@ -25,7 +26,7 @@ class PictureRing {
 
     std::size_t bytes() const { return bytes_; }
 
-    /// Those that are due in a tick.
+    /// Those that are due in a tick, as large as they may become.
     std::vector<PlacedPicture> of(std::uint64_t tick) const;
 
   private:

@@ -53,7 +53,7 @@ struct Seat::Parts {
         std::uint64_t index = 0;
         std::vector<std::uint8_t> tick;
         std::vector<std::uint8_t> traffic;
-        std::vector<PlacedPicture> pictures;
+        bool has_frames = false;
         Guidance guidance;
     };
 
@@ -121,14 +121,14 @@ struct Seat::Parts {
     std::optional<Lost> show_finished() {
         for (; !unshown.empty(); unshown.pop_front()) {
             const Unshown& next = unshown.front();
-            if (!next.pictures.empty() && !rig->has(next.index))
+            if (next.has_frames && !rig->has(next.index))
                 break;
+            const auto frames = next.has_frames ? rig->take() : std::vector<PlacedPicture>();
             const auto* memory =
                 channel->carries_descriptors() ? nullptr : rig->memory().bytes().data();
-            if (auto gone =
-                    hand_over(next.index,
-                              pack_observation(
-                                  next.tick, next.traffic, next.pictures, memory, next.guidance)))
+            if (auto gone = hand_over(
+                    next.index,
+                    pack_observation(next.tick, next.traffic, frames, memory, next.guidance)))
                 return gone;
         }
         return std::nullopt;
@@ -202,9 +202,12 @@ std::optional<Lost> Seat::take(std::uint32_t id,
     parts.guide = spawned.guide != nullptr ? *spawned.guide : Guide(recording.town, id);
     if (spawned.command != nullptr) {
         parts.sees_sensors = spawned.command->sees_sensors;
-        const world::Rig rig = world::rig_of(*spawned.command, spawned.tick);
+        const world::Rig rig = world::rig_of(
+            *spawned.command, spawned.tick, world::seconds(1, recording.episode.step_ns));
         if (!rig.sensors.empty())  // it reads the town while the driver does
             parts.rig.emplace(spawned.render_program, *spawned.command, rig, recording);
+        if (parts.rig && !spawned.tick_before.empty())
+            parts.rig->remember(spawned.tick_before, spawned.traffic_before);
     }
     if (parts.door) {
         try {
@@ -253,14 +256,14 @@ std::optional<Lost> Seat::show(const world::SealedTick& tick) {
         of_traffic = {};
     }
     try {
-        auto pictures = parts.rig ? parts.rig->ask(tick) : std::vector<PlacedPicture>();
-        if (pictures.empty() && parts.unshown.empty())
+        const bool has_frames = parts.rig && parts.rig->ask(tick);
+        if (!has_frames && parts.unshown.empty())
             return parts.hand_over(index,
                                    pack_observation(of_tick, of_traffic, {}, nullptr, guidance));
         parts.unshown.push_back({index,
                                  {of_tick.begin(), of_tick.end()},
                                  {of_traffic.begin(), of_traffic.end()},
-                                 std::move(pictures),
+                                 has_frames,
                                  guidance});
         return parts.show_finished();
     } catch (const RenderFault& fault) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 
@@ -30,6 +31,8 @@ struct Spawned {
     std::uint64_t tick = 0;        ///< in which it appeared
     std::string render_program;    ///< for the shell, see LiveRig
     const Guide* guide = nullptr;  ///< of who takes over: what the vehicle was told until now
+    std::span<const std::uint8_t> tick_before{};     ///< of who takes over, as recorded
+    std::span<const std::uint8_t> traffic_before{};  ///< likewise
 };
 
 /// The place at the wheel that a driver in another program takes. The run goes tick by tick with

@@ -57,6 +57,10 @@ flatbuffers::Offset<Place> pack(Builder& builder, const TaskPlace& place) {
 
 flatbuffers::Offset<TaskSensor> pack(Builder& builder, const TaskCamera& camera) {
     const world::SensorSpec& sensor = camera.sensor;
+    std::vector<flatbuffers::Offset<TaskAttribute>> attributes;
+    for (const world::AttributeValue& one : sensor.attributes)
+        attributes.push_back(
+            CreateTaskAttribute(builder, builder.CreateString(one.name), one.value));
     return CreateTaskSensor(builder,
                             builder.CreateString(sensor.name),
                             builder.CreateString(world::EnumNameSensorKind(sensor.kind)),
@@ -68,7 +72,9 @@ flatbuffers::Offset<TaskSensor> pack(Builder& builder, const TaskCamera& camera)
                             sensor.position.z(),
                             sensor.yaw * degrees,
                             sensor.pitch * degrees,
-                            camera.every);
+                            camera.every,
+                            sensor.roll * degrees,
+                            builder.CreateVector(attributes));
 }
 
 flatbuffers::Offset<Task> pack_task(Builder& builder, const EpisodePlan& plan) {

@@ -29,7 +29,7 @@ struct AtSpawnPoint {
 
 using TaskPlace = std::variant<Drawn, OnLane, AtSpawnPoint>;
 
-/// A camera of a task's vehicle.
+/// A sensor of a task's vehicle.
 struct TaskCamera {
     world::SensorSpec sensor;
     std::uint32_t every = 1;  ///< [ticks]

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "wheel/dashboard.h"
 #include "wheel/hands.h"
@@ -37,7 +39,11 @@ class Drive {
           view_(view),
           clock_(clock),
           pace_(pace, run.step()) {
-        shown_ = first_shown(run.sensors());
+        world::SensorRig cameras = run.sensors();
+        std::erase_if(cameras, [](const auto& one) { return !world::is_camera(one.kind); });
+        for (const world::SensorSpec& camera : cameras)
+            cameras_.push_back(camera.name);
+        shown_ = first_shown(cameras);
     }
 
     /// Answers a tick; false when that was the last one.
@@ -66,9 +72,9 @@ class Drive {
   private:
     /// What the rig shows now; the last picture where none is due.
     void look() {
-        if (run_.sensors().empty())
+        if (cameras_.empty())
             return;
-        if (const auto picture = run_.picture(run_.sensors()[shown_].name))
+        if (const auto picture = run_.picture(cameras_[shown_]))
             image_ = image_of(*picture);
     }
 
@@ -102,8 +108,8 @@ class Drive {
     }
 
     void next_picture(const Wishes& wishes) {
-        if (!run_.sensors().empty())
-            shown_ = (shown_ + wishes.sensor) % run_.sensors().size();
+        if (!cameras_.empty())
+            shown_ = (shown_ + wishes.sensor) % cameras_.size();
     }
 
     remote::Client& run_;
@@ -111,7 +117,8 @@ class Drive {
     const Clock& clock_;
     Pace pace_;
     std::optional<Hands> hands_;
-    std::size_t shown_ = 0;  ///< index in the rig
+    std::vector<std::string> cameras_;  ///< of the rig, which may carry other sensors as well
+    std::size_t shown_ = 0;             ///< index in them
     std::optional<Image> image_;
 };
 

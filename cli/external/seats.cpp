@@ -55,7 +55,7 @@ void Seats::lose(const remote::Seat& seat, remote::Lost lost) {
 }
 
 /// Gives an actor the driver that was named for it, if one was.
-bool Seats::seat(const world::Spawn& spawn, const remote::Guide* guide) {
+bool Seats::seat(const world::Spawn& spawn, const remote::Guide* guide, const TickBytes& before) {
     const auto seat = std::find_if(free_.begin(), free_.end(), [&](const auto& one) {
         return one->actor() == spawn.command.text;
     });
@@ -64,7 +64,9 @@ bool Seats::seat(const world::Spawn& spawn, const remote::Guide* guide) {
     const remote::Spawned spawned{&spawn.command,
                                   spawn.tick,
                                   spawn.command.rig.empty() ? std::string() : render_program(),
-                                  guide};
+                                  guide,
+                                  before.tick,
+                                  before.traffic};
     const std::uint32_t actor = spawn.command.actor;
     if (auto lost = (*seat)->take(actor, *recording_, spawned))
         lose(**seat, std::move(*lost));
@@ -110,10 +112,11 @@ void Seats::go_on(const world::SealedTick& tick, const std::function<void()>& me
 
 void Seats::take_over(const world::ExternalDrivers& there,
                       const std::map<std::uint32_t, remote::Guide>& guides,
+                      const TickBytes& before,
                       const world::SealedTick& tick) {
     for (const auto& [actor, spawn] : there.spawns()) {
         const auto told = guides.find(actor);
-        seat(spawn, told == guides.end() ? nullptr : &told->second);
+        seat(spawn, told == guides.end() ? nullptr : &told->second, before);
     }
     ask(tick, [] {});
 }

@@ -20,6 +20,12 @@ namespace reprise::cli {
 /// What --driver was given. Throws world::Error, also when an actor is named twice.
 std::vector<remote::SeatPlan> parse_seats(const std::vector<std::string>& texts);
 
+/// As they are recorded; of somebody else.
+struct TickBytes {
+    std::span<const std::uint8_t> tick{};
+    std::span<const std::uint8_t> traffic{};
+};
+
 /// The drivers in other programs through a run: who appears gets the one that was named for it, all
 /// are shown each tick, and all are waited for. Their controls are inputs of the run, which is
 /// recorded with them and needs no driver to be made again.
@@ -42,9 +48,11 @@ class Seats {
 
     /// Likewise in the middle of a run: who is named here drives whoever is there from this tick
     /// on; nobody else needs a driver. Until its first answer acts, a vehicle keeps its control.
-    /// `guides`: what those vehicles were told until then, by actor.
+    /// `guides`: what those vehicles were told until then, by actor. `before`: the tick before, as
+    /// it was recorded, which some sensors look at; empty where there is none.
     void take_over(const world::ExternalDrivers& there,
                    const std::map<std::uint32_t, remote::Guide>& guides,
+                   const TickBytes& before,
                    const world::SealedTick& tick);
 
     /// Behind the last tick: who appears in it has nothing left to be asked for, and its driver,
@@ -88,7 +96,9 @@ class Seats {
 
   private:
     void welcome(const world::Tick& tick);
-    bool seat(const world::Spawn& spawn, const remote::Guide* guide = nullptr);
+    bool seat(const world::Spawn& spawn,
+              const remote::Guide* guide = nullptr,
+              const TickBytes& before = {});
     void ask(const world::SealedTick& tick, const std::function<void()>& meanwhile);
     void lose(const remote::Seat& seat, remote::Lost lost);
 

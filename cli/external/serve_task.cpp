@@ -19,6 +19,7 @@ namespace {
 constexpr unsigned most_cars = 10'000;
 constexpr unsigned most_walkers = 2'000;
 constexpr unsigned most_sensors = 16;  // as a rig has
+constexpr unsigned most_attributes = 40;
 constexpr std::size_t longest_word = 40;
 constexpr std::uint64_t most_seed = std::numeric_limits<std::int64_t>::max();  // Lua's integers
 constexpr std::string_view word_letters =
@@ -85,6 +86,35 @@ NamedPlace named_place(const remote::Place& place, const world::TownT& town, con
     return {};
 }
 
+std::string number_text(std::string_view key, double value) {
+    if (!std::isfinite(value))
+        throw world::Error(fmt::format("the task's rig: {} is no number", key));
+    return fmt::format("{} = {}", key, value);
+}
+
+/// Words that end up in the text are checked: they may not end their quotes.
+std::string_view word(const flatbuffers::String* text) {
+    if (text == nullptr || text->size() == 0 || text->size() > longest_word ||
+        text->string_view().find_first_not_of(word_letters) != std::string_view::npos)
+        throw world::Error(
+            "the task's rig: names and kinds have letters, digits and _, at most 40 of them");
+    return text->string_view();
+}
+
+/// `, attributes = { ... }` of a sensor.
+std::string attributes_text(const remote::TaskSensor& sensor) {
+    if (sensor.attributes() == nullptr || sensor.attributes()->size() == 0)
+        return "";
+    if (sensor.attributes()->size() > most_attributes)
+        throw world::Error(
+            fmt::format("the task's rig: at most {} attributes of a sensor", most_attributes));
+    std::string text;
+    for (const remote::TaskAttribute* one : *sensor.attributes())
+        // In brackets, as a word of Lua's would be no key.
+        text += number_text(fmt::format("['{}']", word(one->name())), one->value()) + ", ";
+    return ", attributes = { " + text + "}";
+}
+
 /// `, rig = { ... }` of spawn, in the scenario's words, which say what may be in it.
 std::string rig_text(const remote::Task& task) {
     if (task.rig() == nullptr || task.rig()->size() == 0)
@@ -93,16 +123,9 @@ std::string rig_text(const remote::Task& task) {
         throw world::Error(fmt::format("the task's rig: at most {} sensors", most_sensors));
     std::string text;
     for (const remote::TaskSensor* sensor : *task.rig()) {
-        // Words that end up in the text are checked: they may not end their quotes.
-        for (const auto* word : {sensor->name(), sensor->kind()})
-            if (word == nullptr || word->size() == 0 || word->size() > longest_word ||
-                word->string_view().find_first_not_of(word_letters) != std::string_view::npos)
-                throw world::Error(
-                    "the task's rig: names and kinds have letters, digits and _, at most 40 of "
-                    "them");
         text += fmt::format("{{ name = '{}', kind = '{}', width = {}, height = {}, every = {}",
-                            sensor->name()->string_view(),
-                            sensor->kind()->string_view(),
+                            word(sensor->name()),
+                            word(sensor->kind()),
                             sensor->width(),
                             sensor->height(),
                             sensor->every());
@@ -111,12 +134,10 @@ std::string rig_text(const remote::Task& task) {
                                          std::pair("y", sensor->y()),
                                          std::pair("z", sensor->z()),
                                          std::pair("yaw_deg", sensor->yaw_deg()),
-                                         std::pair("pitch_deg", sensor->pitch_deg())}) {
-            if (!std::isfinite(value))
-                throw world::Error(fmt::format("the task's rig: {} is no number", key));
-            text += fmt::format(", {} = {}", key, value);
-        }
-        text += " }, ";
+                                         std::pair("pitch_deg", sensor->pitch_deg()),
+                                         std::pair("roll_deg", sensor->roll_deg())})
+            text += ", " + number_text(key, value);
+        text += attributes_text(*sensor) + " }, ";
     }
     return ", rig = { " + text + "}";
 }

@@ -13,17 +13,16 @@
 
 #include "cli/pictures/reading_file.h"
 #include "cli/pictures/recorded_rig.h"
+#include "cli/pictures/tick_readings.h"
 #include "cli/pictures/told.h"
 #include "cli/process/new_folder.h"
-#include "exchange/geo_origin.h"
 #include "render/point_file.h"
-#include "render/readings/readings.h"
 #include "replay/table/actor_search.h"
 #include "world/check.h"
 #include "world/external/sensor_attributes.h"
 #include "world/models/actors.h"
 #include "world/units.h"
-#include "world/weather/weather.h"
+#include "world/weather/weather_text.h"
 
 namespace reprise::cli {
 
@@ -169,35 +168,14 @@ class Reader {
     Reader(replay::TraceReader& trace, Files& files)
         : trace_(trace),
           files_(files),
-          lanes_(trace.recording().town),
-          origin_(exchange::GeoOrigin::of(trace.recording().network)) {}
+          readings_(trace.recording().town, trace.recording().network) {}
 
     void read(std::size_t number, const world::SensorSpec& spec, std::uint64_t index, bool due) {
         advance(index);
-        const world::TickView now = tick_.view();
-        const world::TickView before = last_.view();
-        const bool has_last = !last_.tick.empty();
-        switch (spec.kind) {
-            case SensorKind::gnss:
-                if (due)
-                    files_.read(number, index, gnss(now, spec));
-                break;
-            case SensorKind::imu:
-                if (due)
-                    files_.read(number,
-                                index,
-                                render::imu_reading(has_last ? &before : nullptr, now, spec));
-                break;
-            case SensorKind::collision:
-                for (world::Reading& reading : render::collision_readings(now, spec))
-                    files_.read(number, index, std::move(reading));
-                break;
-            default:
-                if (has_last)
-                    for (world::Reading& reading : render::lane_invasion_readings(
-                             before, now, spec, trace_.recording().town, lanes_))
-                        files_.read(number, index, std::move(reading));
-        }
+        const world::TickView last = last_.view();
+        for (world::Reading& reading :
+             readings_.read(last_.tick.empty() ? nullptr : &last, tick_.view(), spec, due))
+            files_.read(number, index, std::move(reading));
     }
 
   private:
@@ -230,26 +208,9 @@ class Reader {
         kept.traffic.assign(read.traffic_bytes.begin(), read.traffic_bytes.end());
     }
 
-    world::Reading gnss(const world::TickView& tick, const world::SensorSpec& spec) const {
-        const Eigen::Vector3d place = render::antenna_place(tick, spec);
-        render::GlobePlace on_globe;
-        if (origin_) {
-            const exchange::Geodetic there =
-                origin_->at(world::Vec3(place.x(), place.y(), place.z()));
-            on_globe = {there.latitude_deg, there.longitude_deg};
-        } else {
-            on_globe = render::place_on_globe(
-                {world::attribute(spec, "latitude"), world::attribute(spec, "longitude")},
-                place.x(),
-                place.y());
-        }
-        return render::gnss_reading(tick.index(), spec, on_globe, place.z());
-    }
-
     replay::TraceReader& trace_;
     Files& files_;
-    world::LaneMap lanes_;
-    std::optional<exchange::GeoOrigin> origin_;
+    TickReadings readings_;
     Kept tick_;
     Kept last_;
 };
@@ -342,7 +303,9 @@ std::size_t Measurements::write(const std::function<render::Sensors&()>& sensors
     if (!carried)
         throw world::Error("no vehicle to mount the sensors on in these ticks of " +
                            options_.trace);
-    const world::WeatherPreset* weather = world::find_weather(options_.weather);
+    std::optional<world::Weather> weather;
+    if (!options_.weather.empty())
+        weather = world::read_weather(options_.weather).weather;
     std::uint64_t index = ticks_.from;
     if (has_rays)
         sensors().observe_each([&]() -> std::unique_ptr<render::Observation> {
@@ -356,7 +319,7 @@ std::size_t Measurements::write(const std::function<render::Sensors&()>& sensors
                         look->add(i, placed(i, *actor));
                 if (look->rig().empty())
                     continue;
-                look->set(weather != nullptr ? weather->weather : *look->tick().tick->weather());
+                look->set(weather.value_or(*look->tick().tick->weather()));
                 ++index;
                 return look;
             }

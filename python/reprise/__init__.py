@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from .driver import Control, Driver, Ego, Observation, Run, drive
     from .multi_simulation import MultiSimulation
     from .nouns import Noun, dtype, enum, points
-    from .pictures import Images, Sensors
+    from .pictures import Frames, Images, Sensors, xyz
     from .simulation import Fault, Outcome, Simulation
     from .trace import Trace, TraceError
     from .view import View
@@ -24,7 +24,7 @@ _PARTS = {
     "driver": ("Control", "Driver", "Ego", "Observation", "Run", "drive"),
     "multi_simulation": ("MultiSimulation",),
     "nouns": ("Noun", "dtype", "enum", "points"),
-    "pictures": ("Images", "Sensors"),
+    "pictures": ("Frames", "Images", "Sensors", "xyz"),
     "simulation": ("Fault", "Outcome", "Simulation"),
     "trace": ("Trace", "TraceError"),
     "view": ("View",),
@@ -34,8 +34,8 @@ _PARTS = {
 _PART_OF = {name: part for part, names in _PARTS.items() for name in names}
 
 __all__ = [
-    "Control", "Driver", "Ego", "Fault", "Images", "MultiSimulation", "Noun", "Observation", "Outcome", "Run", "Sensors", "Simulation",
-    "Trace", "TraceError", "View", "Way", "WireError", "drive", "dtype", "enum", "points",
+    "Control", "Driver", "Ego", "Fault", "Frames", "Images", "MultiSimulation", "Noun", "Observation", "Outcome", "Run", "Sensors", "Simulation",
+    "Trace", "TraceError", "View", "Way", "WireError", "drive", "dtype", "enum", "points", "xyz",
 ]  # fmt: skip
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Callable
 import numpy as np
 
 from .nouns import Noun, dtype, enum
-from .pictures import Images, Sensors
+from .pictures import Frames, Images, Sensors
 from .wire import VERSION, Wire, WireError
 
 if TYPE_CHECKING:
@@ -143,6 +143,16 @@ class Observation:
         Raises KeyError for a sensor that the vehicle does not carry.
         """
         return self.images.get(name)
+
+    @functools.cached_property
+    def sensors(self) -> Frames:
+        """What all sensors of the rig saw in this tick, by their names: images of cameras, and of others rows with
+        named columns (docs/sensors.md), float32 of what measures by rays and float64 of readings.
+
+        `seen.sensors['roof']['intensity']`, `reprise.xyz(seen.sensors['roof'])`, `seen.sensors['imu']['gyroscope_z'][0]`.
+        `collision` and `lane_invasion` have a row for each thing that happened, so mostly none. Views, as of image().
+        """
+        return Frames(self.run.sensors, self._message.pictures)
 
     @functools.cached_property
     def traffic(self) -> Noun:

@@ -83,8 +83,16 @@ class _Server:
                 continue
 
 
-#: of a camera, where nothing else is said
-_SENSOR = dict(kind="rgb", width=800, height=600, fov_deg=90.0, x=1.0, y=0.0, z=1.4, yaw_deg=0.0, pitch_deg=0.0, every=1)
+#: of a sensor, where nothing else is said
+_SENSOR = dict(kind="rgb", width=800, height=600, fov_deg=90.0, x=1.0, y=0.0, z=1.4, yaw_deg=0.0, pitch_deg=0.0,
+               roll_deg=0.0, every=1)  # fmt: skip
+
+
+def _sensor(said: Mapping[str, Any]) -> dict[str, Any]:
+    sensor = {**_SENSOR, **said}
+    attributes = sensor.pop("attributes", None) or {}
+    sensor["attributes"] = [dict(name=name, value=float(value)) for name, value in attributes.items()] or None
+    return sensor
 
 
 class Client:
@@ -169,7 +177,7 @@ class Client:
                                    walker_seeded=plan["walker_seed"] is not None,
                                    walker_seed=plan["walker_seed"] or 0, weather=plan["weather"], model=plan["model"],
                                    start=_place(plan["start"]), goal=_place(plan["goal"]),
-                                   rig=[{**_SENSOR, **sensor} for sensor in plan["rig"]] or None)  # fmt: skip
+                                   rig=[_sensor(sensor) for sensor in plan["rig"]] or None)  # fmt: skip
             return message
         scenario = os.fspath(plan["scenario"])
         if "\n" in scenario:
@@ -204,8 +212,9 @@ class Simulation(Client):
 
     `walkers` people go on foot; who they are and where they go follows from `walker_seed`, or from `seed` without one.
 
-    `rig` of a task: cameras of the vehicle, in the words of a scenario's rig, such as [dict(name='front', kind='rgb',
-    width=84, height=84)]; `seen.image('front')` is what one sees. A process that renders is started in each reset.
+    `rig` of a task: sensors of the vehicle, in the words of a scenario's rig, such as [dict(name='front', kind='rgb',
+    width=84, height=84), dict(name='roof', kind='lidar', z=1.8, attributes=dict(channels=16))]; `seen.image('front')`
+    is what a camera sees, `seen.sensors['roof']` what another one does. A process that renders is started in each reset.
 
     `trace` is a name in the folder, such as 'a.mcap'; each reset writes it anew. Equal arguments give equal ticks,
     whatever was driven before, here or elsewhere.

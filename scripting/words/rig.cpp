@@ -176,24 +176,25 @@ std::size_t count_sensors(lua_State* L) {
     return length;
 }
 
-std::size_t bytes_of(const world::SensorT& sensor) {
-    if (!world::is_camera(sensor.kind))
-        return 0;
+/// [bytes] that a frame needs in memory, at most.
+std::size_t bytes_of(const world::SensorT& sensor, double step) {
     world::SensorSpec spec;
     spec.kind = sensor.kind;
     spec.width = sensor.width;
     spec.height = sensor.height;
-    return world::picture_bytes(spec);
+    spec.step = step;
+    spec.every = sensor.every;
+    for (const auto& one : sensor.attributes)
+        spec.attributes.push_back({one->name, one->value});
+    return world::frame_bytes(spec);
 }
 
 }  // namespace
 
 constinit const KeyList sensor_keys{"SensorOptions", "rig of spawn", sensor_key_rows};
 
-std::vector<std::unique_ptr<world::SensorT>> read_rig(lua_State* L,
-                                                      const Fields& spawn,
-                                                      const Actor& actor,
-                                                      std::uint8_t latency) {
+std::vector<std::unique_ptr<world::SensorT>> read_rig(
+    lua_State* L, const Fields& spawn, const Actor& actor, std::uint8_t latency, double step) {
     std::vector<std::unique_ptr<world::SensorT>> rig;
     if (!spawn.mentions("rig"))
         return rig;
@@ -210,15 +211,7 @@ std::vector<std::unique_ptr<world::SensorT>> read_rig(lua_State* L,
         lua_rawgeti(L, -1, static_cast<lua_Integer>(i));
         rig.push_back(read_sensor(L, i));
         lua_pop(L, 1);
-        bytes += bytes_of(*rig.back());
-        // What drivers are shown is pictures: the rest is made from the trace, see docs/sensors.md.
-        if (actor.driver == world::Driver::external && !world::is_camera(rig.back()->kind))
-            refuse("spawn",
-                   fmt::format("sensor '{}' of 'rig': a driver in another program is shown cameras "
-                               "only; make its {} from the trace with 'reprise render --sensor {}'",
-                               rig.back()->name,
-                               world::EnumNameSensorKind(rig.back()->kind),
-                               world::EnumNameSensorKind(rig.back()->kind)));
+        bytes += bytes_of(*rig.back(), step);
         for (std::size_t other = 0; other + 1 < i; ++other)
             if (rig[other]->name == rig.back()->name)
                 refuse("spawn",
@@ -232,7 +225,7 @@ std::vector<std::unique_ptr<world::SensorT>> read_rig(lua_State* L,
     const std::size_t kept = bytes * (std::size_t{2} + latency);
     if (kept > most_picture_bytes)
         refuse("spawn",
-               fmt::format("the pictures of 'rig' need {:.1f} GB of memory, where {:.1f} are the "
+               fmt::format("the frames of 'rig' need {:.1f} GB of memory, where {:.1f} are the "
                            "most: smaller or fewer ones, or a smaller 'latency'",
                            static_cast<double>(kept) * 1e-9,
                            static_cast<double>(most_picture_bytes) * 1e-9));

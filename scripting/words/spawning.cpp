@@ -225,7 +225,7 @@ int spawn(Run& run, lua_State* L) {
         refuse("spawn", fmt::format("'{}' starts at rest", actor.name));
 
     const std::uint8_t latency = read_latency(fields, actor);
-    auto rig = read_rig(L, fields, actor, latency);
+    auto rig = read_rig(L, fields, actor, latency, world::seconds(1, run.episode.step_ns));
     const bool sees_sensors = read_sees_sensors(fields, actor);
     actor.keeps_lane = read_keeps_lane(fields, actor);
     actor.pilot = read_pilot(fields, actor);

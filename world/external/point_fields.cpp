@@ -1,5 +1,9 @@
 #include "world/external/point_fields.h"
 
+#include <algorithm>
+
+#include "world/external/sensor_attributes.h"
+
 namespace reprise::world {
 
 namespace {
@@ -84,6 +88,33 @@ std::span<const PointField> point_fields(SensorKind kind) {
             return lane_invasion;
         default:
             return {};
+    }
+}
+
+std::size_t row_bytes(SensorKind kind) {
+    return point_fields(kind).size() * (is_reading(kind) ? sizeof(double) : sizeof(float));
+}
+
+std::size_t most_rows(const SensorSpec& sensor) {
+    const auto said = [&](const char* name) { return attribute(sensor, name); };
+    const double time = sensor.step * static_cast<double>(sensor.every);
+    switch (sensor.kind) {
+        case SensorKind::lidar:
+        case SensorKind::semantic_lidar: {
+            // A sweep counts whole columns at both of its ends: render/ranging/sweep.h.
+            const auto channels = static_cast<std::size_t>(said("channels"));
+            const double swept = std::min(time, 1 / said("rotation_frequency"));
+            const double columns =
+                swept * said("points_per_second") / static_cast<double>(channels) + 2;
+            const double returns = sensor.kind == SensorKind::lidar ? said("returns") : 1;
+            return static_cast<std::size_t>(columns) * channels * static_cast<std::size_t>(returns);
+        }
+        case SensorKind::radar:
+            return static_cast<std::size_t>(std::max(1.0, said("points_per_second") * time));
+        case SensorKind::obstacle:
+            return 1;
+        default:
+            return 0;
     }
 }
 

@@ -30,4 +30,10 @@ std::span<const PointField> point_fields(SensorKind kind);
 /// What a reading says, at a tick: columns as point_fields tells.
 using Reading = std::vector<double>;
 
+/// [bytes] of one row, of a sensor that is no camera.
+std::size_t row_bytes(SensorKind kind);
+
+/// How many rows a frame of a ranging sensor has at most.
+std::size_t most_rows(const SensorSpec& sensor);
+
 }  // namespace reprise::world

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "world/check.h"
+#include "world/external/point_fields.h"
 #include "world/external/sensor_attributes.h"
 #include "world/frames.h"
 
@@ -44,7 +45,7 @@ std::vector<std::size_t> Rig::due(std::uint64_t tick) const {
     return found;
 }
 
-Rig rig_of(const CommandT& spawn, std::uint64_t tick) {
+Rig rig_of(const CommandT& spawn, std::uint64_t tick, double step) {
     Rig rig;
     rig.since = tick;
     if (spawn.rig.size() > most_sensors)
@@ -74,6 +75,7 @@ Rig rig_of(const CommandT& spawn, std::uint64_t tick) {
             throw Error(fmt::format("actor {} carries a sensor {} that is not possible",
                                     spawn.actor,
                                     rig.sensors.size() + 1));
+        sensor.step = step;
         sensor.every = said->every;
         rig.sensors.push_back(sensor);
         rig.every.push_back(said->every);
@@ -81,10 +83,10 @@ Rig rig_of(const CommandT& spawn, std::uint64_t tick) {
     return rig;
 }
 
-Rig rig_of(const Command& spawn, std::uint64_t tick) {
+Rig rig_of(const Command& spawn, std::uint64_t tick, double step) {
     CommandT command;
     spawn.UnPackTo(&command);
-    return rig_of(command, tick);
+    return rig_of(command, tick, step);
 }
 
 std::string contradiction(const SensorSpec& sensor) {
@@ -114,6 +116,13 @@ bool see_motion(const SensorRig& sensors) {
     });
 }
 
+bool need_last(const SensorRig& sensors) {
+    return see_motion(sensors) ||
+           std::any_of(sensors.begin(), sensors.end(), [](const SensorSpec& sensor) {
+               return sensor.kind == SensorKind::imu || sensor.kind == SensorKind::lane_invasion;
+           });
+}
+
 bool is_sensor_name(std::string_view name) {
     return !name.empty() && name.size() <= longest_sensor_name &&
            std::all_of(name.begin(), name.end(), [](char c) {
@@ -126,6 +135,11 @@ std::size_t picture_bytes(const SensorSpec& sensor) {
     const std::size_t pixel =
         bytes_of(pixel_type(sensor.kind)) * static_cast<std::size_t>(channels(sensor.kind));
     return static_cast<std::size_t>(sensor.width) * static_cast<std::size_t>(sensor.height) * pixel;
+}
+
+std::size_t frame_bytes(const SensorSpec& sensor) {
+    return is_camera(sensor.kind) ? picture_bytes(sensor)
+                                  : most_rows(sensor) * row_bytes(sensor.kind);
 }
 
 }  // namespace reprise::world

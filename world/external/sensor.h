@@ -94,6 +94,11 @@ inline constexpr bool is_reading(SensorKind kind) {
     return kind >= SensorKind::gnss && kind <= SensorKind::lane_invasion;
 }
 
+/// Of these, what says what happened, in whatever tick that was.
+inline constexpr bool tells_what_happens(SensorKind kind) {
+    return kind == SensorKind::collision || kind == SensorKind::lane_invasion;
+}
+
 /// All that can be asked for by the names that users say, then those of cameras alone.
 std::vector<std::string> sensor_kinds();
 std::optional<SensorKind> find_sensor_kind(std::string_view name);

@@ -58,11 +58,15 @@ int main(int count, char** words) {
         reprise::remote::Client run;
         int ticks = 0;
         while (const auto tick = run.next()) {
-            for (const reprise::world::SensorSpec& sensor : run.sensors())
-                if (const auto picture = run.picture(sensor.name))
-                    keep(words[1],
-                         sensor.name + "_" + std::to_string(tick->index()),
-                         picture->pixels);
+            for (const reprise::world::SensorSpec& sensor : run.sensors()) {
+                const std::string name = sensor.name + "_" + std::to_string(tick->index());
+                if (!reprise::world::is_camera(sensor.kind)) {
+                    if (const auto rows = run.rows(sensor.name))
+                        keep(words[1], name, rows->bytes);
+                } else if (const auto picture = run.picture(sensor.name)) {
+                    keep(words[1], name, picture->pixels);
+                }
+            }
             if (++ticks == 4 && count > 2)
                 misbehave(words[2], words[1]);
             run.say({.throttle = 0.5, .steer = 0.125});

@@ -291,10 +291,28 @@ class Episodes(Case):
         np.testing.assert_array_equal(*episodes)
         self.assertGreater(episodes[0][0].std(), 5, "a street is not all of one colour")
 
+    def test_a_task_carries_sensors_that_are_no_cameras(self):
+        rig = [dict(name="roof", kind="lidar", z=1.8, roll_deg=10, attributes=dict(channels=4, range=30, rotation_frequency=20, rolling=0)),
+               dict(name="imu", kind="imu"), dict(name="bumper", kind="collision", every=9)]  # fmt: skip
+        with reprise.Simulation("town1", seed=3, rig=rig, start=("b1_b2_1", 20.0)) as sim:
+            seen = sim.reset()
+            roof = sim.step().sensors["roof"].copy()
+            self.assertEqual(sorted(set(roof["ring"])), [0, 1, 2, 3])
+            np.testing.assert_allclose(seen.sensors["imu"][0]["compass"], (np.pi / 2 - seen.ego.yaw) % (2 * np.pi), atol=1e-6)
+            self.assertEqual(len(seen.sensors["bumper"]), 0)
+            sim.reset(rig=[{**rig[0], "roll_deg": 0}])
+            level = sim.step().sensors["roof"]
+            # Rolled to the right, the ground on the left lies deeper in the sensor's own frame.
+            ground = lambda points: reprise.xyz(points)[(points["y"] > 2) & (points["y"] < 4), 2].min()
+            self.assertGreater(abs(ground(roof) - ground(level)), 0.2)
+
     def test_a_rig_that_cannot_be_is_refused(self):
         with reprise.Simulation("town1", folder=self.folder) as sim:
             for sensor in (dict(name="a' }, x = os.exit() --"), dict(name="a", kind="smell"), dict(name="a", fov_deg=float("nan")),
-                           dict(name="a", width=100000), dict(name="")):  # fmt: skip
+                           dict(name="a", width=100000), dict(name=""), dict(name="a", kind="lidar", attributes={"chanels": 3}),
+                           dict(name="a", kind="lidar", attributes={"channels'] = 1 } } --": 3}),
+                           dict(name="a", kind="lidar", attributes=dict(range=float("inf"))), dict(name="a", roll_deg=1e9),
+                           dict(name="a", kind="lidar", every=1000, attributes=dict(points_per_second=1e8, rotation_frequency=0.1))):  # fmt: skip
                 with self.assertRaises(reprise.Fault):
                     sim.reset(rig=[sensor])
             self.assertEqual(sim.reset(rig=()).index, 1)

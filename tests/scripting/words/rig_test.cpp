@@ -125,7 +125,7 @@ TEST(RigWords, MistakesAreOneLineThatNamesTheSensor) {
               "'v' has another one");
     EXPECT_EQ(mistake("spawn{ name = 'v', model = 'van', driver = 'external', latency = 100, rig = "
                       "{ { name = 'a', width = 4096, height = 4096 } } }"),
-              "test.lua:1: spawn: the pictures of 'rig' need 5.1 GB of memory, where 2.1 are the "
+              "test.lua:1: spawn: the frames of 'rig' need 5.1 GB of memory, where 2.1 are the "
               "most: smaller or fewer ones, or a smaller 'latency'");
     EXPECT_EQ(mistake("spawn{ name = 'v', model = 'van', sees = 'sensors' }"),
               "test.lua:1: spawn: 'sees' is for driver = 'external', 'v' is driven by Reprise");
