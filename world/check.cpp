@@ -40,6 +40,53 @@ void check_failed(const char* condition, const char* file, int line, const std::
                       std::to_string(line) + ": check failed: " + condition + ": " + values);
 }
 
+namespace {
+
+/// Between '_' and at capitals: "HardRainNoon" and "hard_rain_noon" have the same ones.
+std::vector<std::string> words_of(const std::string& name) {
+    std::vector<std::string> words(1);
+    for (const char letter : name) {
+        const bool is_capital = letter >= 'A' && letter <= 'Z';
+        if ((letter == '_' || is_capital) && !words.back().empty())
+            words.emplace_back();
+        if (letter != '_')
+            words.back() += is_capital ? static_cast<char>(letter - 'A' + 'a') : letter;
+    }
+    return words;
+}
+
+/// How many of the words stand in the name as well, or nearly.
+std::size_t shared_words(const std::vector<std::string>& words, const std::string& name) {
+    constexpr std::size_t shortest_word = 4;
+    const std::vector<std::string> others = words_of(name);
+    return static_cast<std::size_t>(
+        std::count_if(words.begin(), words.end(), [&](const std::string& word) {
+            return word.size() >= shortest_word &&
+                   std::any_of(others.begin(), others.end(), [&](const std::string& other) {
+                       return edit_distance(word, other) <= word.size() / 4;
+                   });
+        }));
+}
+
+/// The name that shares most words; of several the one that is most alike.
+const std::string* of_same_words(const std::string& word,
+                                 const std::vector<std::string>& candidates) {
+    const std::vector<std::string> words = words_of(word);
+    const std::string* best = nullptr;
+    std::size_t most = 0;
+    for (const std::string& candidate : candidates) {
+        const std::size_t shared = shared_words(words, candidate);
+        if (shared > most || (shared > 0 && shared == most &&
+                              edit_distance(word, candidate) < edit_distance(word, *best))) {
+            most = shared;
+            best = &candidate;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
     constexpr std::size_t longest_word = 100;
     if (word.size() > longest_word)
@@ -53,6 +100,8 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
             nearest = &candidate;
         }
     }
+    if (nearest == nullptr)
+        nearest = of_same_words(word, candidates);
     return nearest == nullptr ? "" : " (did you mean '" + *nearest + "'?)";
 }
 

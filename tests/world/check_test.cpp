@@ -58,6 +58,11 @@ TEST(DidYouMean, SuggestsTheNearestName) {
 
 TEST(DidYouMean, KeepsQuietWhenNothingIsNear) {
     EXPECT_EQ(did_you_mean("submarine", models), "");
+    const std::vector<std::string> weathers{"clear_noon", "clear_night", "soft_rain_night"};
+    EXPECT_EQ(did_you_mean("rainy_night", weathers), " (did you mean 'soft_rain_night'?)");
+    EXPECT_EQ(did_you_mean("night", weathers), " (did you mean 'clear_night'?)");
+    EXPECT_EQ(did_you_mean("NightRain", weathers), " (did you mean 'soft_rain_night'?)");
+    EXPECT_EQ(did_you_mean("thunderstorm", weathers), "");
     EXPECT_EQ(did_you_mean("x", {}), "");
 }
 
