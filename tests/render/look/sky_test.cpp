@@ -1,0 +1,46 @@
+#include "render/look/sky.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "world/weather/weather_text.h"
+
+namespace reprise::render {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Relative to the zenith. Kasten and Young, Applied Optics 28 (1989).
+double air_mass(double altitude_deg) {
+    return 1 /
+           (std::sin(altitude_deg * degree) + 0.50572 * std::pow(altitude_deg + 6.07995, -1.6364));
+}
+
+/// [relative] what a surface that faces the sun gets, as eyes weigh it (Rec. 709).
+double illuminance(double altitude_deg) {
+    const Sky sky(
+        world::read_weather("clear_noon,clouds=0,sun_altitude=" + std::to_string(altitude_deg))
+            .weather);
+    return 0.2126 * static_cast<double>(sky.sun().x()) +
+           0.7152 * static_cast<double>(sky.sun().y()) +
+           0.0722 * static_cast<double>(sky.sun().z());
+}
+
+/// Direct light falls by e^(-c m). c of air alone is 0.10 (molecules, Bodhaine et al., 1999: 0.097
+/// at 550 nm), 0.21 of the usual clear sky with its haze (IES RP-21, 1984): ours is a very clear
+/// one.
+TEST(Sun, IlluminanceFallsByTheAirMass) {
+    const double high = illuminance(60);
+    const auto per_mass = [&](double altitude) {
+        return std::log(high / illuminance(altitude)) / (air_mass(altitude) - air_mass(60));
+    };
+    EXPECT_GT(per_mass(30), 0.10);
+    EXPECT_LT(per_mass(30), 0.21);
+    for (const double altitude : {45.0, 20.0, 12.0})
+        EXPECT_NEAR(per_mass(altitude), per_mass(30), 0.03 * per_mass(30)) << altitude;
+}
+
+}  // namespace
+}  // namespace reprise::render
