@@ -25,7 +25,7 @@ for each in "$pictures" "$program"; do
 done
 
 expected=$("$pictures")
-(($(wc -l <<<"$expected") == 36)) || { echo "thirty-six pictures expected:"; echo "$expected"; exit 1; }
+(($(wc -l <<<"$expected") == 44)) || { echo "forty-four pictures and measurements expected:"; echo "$expected"; exit 1; }
 compare() {
     local name=$1
     shift
@@ -35,7 +35,7 @@ for mask in -FMA,-FMA4 -AVX,-AVX2,-FMA,-FMA4,-SSE4_1,-SSE4_2; do
     compare "glibc $mask" env GLIBC_TUNABLES=glibc.cpu.hwcaps=$mask "$pictures"
 done
 for cpu in "$@"; do
-    expected=$(tail -n 18 <<<"$expected")  # an emulated CPU takes twenty times as long
+    expected=$(tail -n 22 <<<"$expected")  # an emulated CPU takes twenty times as long
     compare "qemu's $cpu" qemu-x86_64 -cpu "$cpu" "$pictures" furnished
 done
 exit $failed
