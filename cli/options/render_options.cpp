@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
@@ -56,7 +57,10 @@ void read_mount(const std::string& text, RenderOptions& render) {
     int used = 0;
     std::vector<double>& at = render.mount;
     const int found = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &at[0], &at[1], &at[2], &used);
-    if (found != 3 || used != static_cast<int>(text.size()))
+    const bool are_numbers = std::all_of(at.begin(), at.end(), [](double x) {
+        return std::isfinite(x);  // "nan" and "inf" are read as well
+    });
+    if (found != 3 || used != static_cast<int>(text.size()) || !are_numbers)
         throw CLI::ValidationError("--mount", "expected X,Y,Z such as 1,0,1.4, got '" + text + "'");
 }
 
