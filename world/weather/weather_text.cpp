@@ -133,17 +133,20 @@ Weather changed(Weather weather, const std::vector<Said>& changes) {
 }  // namespace
 
 WeatherPreset read_weather(const std::string& text) {
+    return read_weather(text, find_weather("clear_noon")->weather);
+}
+
+WeatherPreset read_weather(const std::string& text, const Weather& before) {
     if (const WeatherPreset* preset = find_weather(text))
         return *preset;
     std::vector<std::string> parts = split(text);
-    std::string base = "clear_noon";
-    if (parts.front().find('=') == std::string::npos) {
-        base = parts.front();
+    const bool has_base = parts.front().find('=') == std::string::npos;
+    const std::string base = has_base ? parts.front() : "";
+    if (has_base)
         parts.erase(parts.begin());
-    }
     std::vector<std::string> names = weather_names();
     names.emplace_back("carla");
-    if (std::find(names.begin(), names.end(), base) == names.end())
+    if (has_base && std::find(names.begin(), names.end(), base) == names.end())
         throw Error(fmt::format(
             "no weather '{}'{}; reprise list weathers shows them all", base, hint(base, names)));
     std::vector<Said> changes;
@@ -155,7 +158,7 @@ WeatherPreset read_weather(const std::string& text) {
             const Weather weather = changed_as_carla(preset.weather, changes);
             return {text, weather, road_friction_in(weather), "CARLA"};
         }
-    const Weather weather = changed(find_weather(base)->weather, changes);
+    const Weather weather = changed(has_base ? find_weather(base)->weather : before, changes);
     return {text, weather, road_friction_in(weather), "own"};
 }
 

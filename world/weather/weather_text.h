@@ -15,6 +15,9 @@ namespace reprise::world {
 /// Throws Error in one line. The preset's name is the text.
 WeatherPreset read_weather(const std::string& text);
 
+/// The same where numbers alone change `before`, not clear_noon.
+WeatherPreset read_weather(const std::string& text, const Weather& before);
+
 /// The same, or none where the text says no weather: of names that traces carry.
 std::optional<WeatherPreset> weather_of_text(const std::string& text);
 
