@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 
@@ -255,6 +256,38 @@ void write_npy(const world::SensorFrame& frame, const std::filesystem::path& pat
     bytes.insert(bytes.end(), header.begin(), header.end());
     bytes.insert(bytes.end(), frame.data.begin(), frame.data.end());
     files::write_file(path, "the array", bytes);
+}
+
+void write_exr(const world::SensorFrame& frame, const std::filesystem::path& path) {
+    REPRISE_CHECK(frame.type == world::PixelType::f32, frame.name);
+    const int channels = frame.channels == 1 ? 1 : 3;
+    cv::Mat matrix(frame.height, frame.width, channels == 1 ? CV_32FC1 : CV_32FC3);
+    // OpenCV keeps blue first.
+    for (std::size_t i = 0; i < pixel_count(frame); ++i) {
+        float* pixel = matrix.ptr<float>() + i * static_cast<std::size_t>(channels);
+        if (channels == 1) {
+            pixel[0] = depth_at(frame, i);
+        } else if (frame.channels == 3) {
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                pixel[2 - axis] = value_at<float>(frame, 3 * i + axis);
+        } else {
+            const float x = value_at<float>(frame, 2 * i);
+            const float y = value_at<float>(frame, 2 * i + 1);
+            const bool known = std::isfinite(x) && std::isfinite(y);
+            pixel[0] = known ? 1.0F : 0.0F;
+            pixel[1] = known ? y : 0.0F;
+            pixel[2] = known ? x : 0.0F;
+        }
+    }
+    // Off unless one asks for it: Debian's OpenCV has it nevertheless.
+    static const bool asked = setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1) == 0;
+    std::vector<std::uint8_t> exr;
+    const std::vector<int> packing{cv::IMWRITE_EXR_TYPE,
+                                   cv::IMWRITE_EXR_TYPE_FLOAT,
+                                   cv::IMWRITE_EXR_COMPRESSION,
+                                   cv::IMWRITE_EXR_COMPRESSION_ZIP};
+    REPRISE_CHECK(asked && cv::imencode(".exr", matrix, exr, packing), "OpenCV: " + path.string());
+    files::write_file(path, "the picture", exr);
 }
 
 world::SensorFrame in_paper_classes(const world::SensorFrame& frame) {

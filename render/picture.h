@@ -36,6 +36,10 @@ void write_png(const world::SensorFrame& frame,
 /// channels).
 void write_npy(const world::SensorFrame& frame, const std::filesystem::path& path);
 
+/// Writes a frame of floats as OpenEXR of 32-bit floats, ZIP packed: depth as Y, normals as R, G,
+/// B, flow as R, G and 1 in B where it is known, all 0 where it is not.
+void write_exr(const world::SensorFrame& frame, const std::filesystem::path& path);
+
 /// The classes of a semantic frame as the twelve of CARLA's paper (CoRL 2017) and of its releases
 /// before 0.9.14: 0 unlabeled, 1 building, 2 fence, 3 other, 4 pedestrian, 5 pole, 6 road line, 7
 /// road, 8 sidewalk, 9 vegetation, 10 car, 11 wall, 12 traffic sign.

@@ -244,23 +244,33 @@ void Sensors::observe_each(const std::function<std::unique_ptr<Observation>()>& 
             control.stop();
         return look;
     };
+    // Who fails ends all of it, and loops that others are in end early: their frames look whole.
+    tbb::task_group_context whole;
     const auto see = [&](Asked look) {
         // Who waits for others in the middle of a picture helps them, and begins no other picture.
         tbb::this_task_arena::isolate([&] {
             studio_->with_observer([&](Observer& observer) {
-                look->seen(observer.observe(
-                    look->tick(), look->rig(), look->weather(), look->neighbours()));
+                std::vector<world::SensorFrame> frames = observer.observe(
+                    look->tick(), look->rig(), look->weather(), look->neighbours());
+                if (whole.is_group_execution_cancelled())
+                    look.reset();
+                else
+                    look->seen(std::move(frames));
             });
         });
         return look;
     };
-    const auto finish = [](const Asked& look) { look->done(); };
+    const auto finish = [](const Asked& look) {
+        if (look)
+            look->done();
+    };
     studio_->arena.execute([&] {
         tbb::parallel_pipeline(
             most,
             tbb::make_filter<void, Asked>(filter_mode::serial_in_order, ask) &
                 tbb::make_filter<Asked, Asked>(filter_mode::parallel, see) &
-                tbb::make_filter<Asked, void>(filter_mode::serial_in_order, finish));
+                tbb::make_filter<Asked, void>(filter_mode::serial_in_order, finish),
+            whole);
     });
 }
 
