@@ -1,27 +1,25 @@
 #include "cli/render.h"
 
+#include <algorithm>
+#include <chrono>
 #include <memory>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "cli/check_render.h"
 #include "cli/options/tick_option.h"
 #include "cli/options/tick_range.h"
-#include "cli/pictures/annotation.h"
-#include "cli/pictures/box_text.h"
 #include "cli/pictures/cameras.h"
-#include "cli/pictures/kept_ticks.h"
+#include "cli/pictures/manifest.h"
 #include "cli/pictures/measurements.h"
 #include "cli/pictures/picture_output.h"
+#include "cli/pictures/renderer.h"
 #include "cli/process/guard.h"
-#include "cli/process/progress.h"
 #include "cli/process/say.h"
-#include "render/picture.h"
 #include "render/sensors.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
-#include "world/external/sensor_attributes.h"
-#include "world/weather/weather_text.h"
 
 namespace reprise::cli {
 
@@ -54,235 +52,80 @@ bool as_recorded(const RenderOptions& options, const Cameras& cameras) {
     return cameras.recorded() && options.every.empty();
 }
 
+/// The weathers of a film that shows several.
+std::vector<std::string> side_by_side(const RenderOptions& options) {
+    constexpr std::size_t most = 8;
+    if (options.compare.empty())
+        return {};
+    std::vector<std::string> weathers;
+    try {
+        weathers = weather_list(options.compare);
+    } catch (const world::Error& error) {
+        throw world::Error(std::string("--compare: ") + error.what());
+    }
+    if (weathers.size() < 2 || weathers.size() > most)
+        throw world::Error(
+            fmt::format("--compare: expected 2 to {} weathers such as "
+                        "clear_noon,hard_rain_sunset, got '{}'",
+                        most,
+                        options.compare));
+    return weathers;
+}
+
 std::unique_ptr<PictureOutput> open_output(const RenderOptions& options,
                                            const Cameras& cameras,
                                            const Ticks& ticks,
-                                           std::uint64_t step_ns) {
+                                           std::uint64_t step_ns,
+                                           WrittenFiles& files) {
     const std::string ending = film_ending(options.output);
     if (ending.empty())
-        return std::make_unique<PictureFolders>(options, cameras);
+        return std::make_unique<PictureFolders>(options, cameras, files);
     const std::uint64_t every =
         as_recorded(options, cameras) ? cameras.recorded()->every.front() : ticks.every;
-    return std::make_unique<Film>(
-        options.output, ending, cameras, 1e9 / static_cast<double>(step_ns * every));
+    return std::make_unique<Film>(options.output,
+                                  ending,
+                                  cameras,
+                                  1e9 / static_cast<double>(step_ns * every),
+                                  std::max<std::size_t>(1, side_by_side(options).size()));
 }
-
-/// A tick's cameras and what becomes of their pictures. Keeps the tick: the trace is read on while
-/// it is looked at.
-class LookAtTick : public render::Observation {
-  public:
-    LookAtTick(KeptTicks ticks, const Annotation& annotation, PictureOutput& output, bool boxes)
-        : ticks_(std::move(ticks)),
-          annotation_(annotation),
-          output_(output),
-          boxes_(boxes) {}
-
-    world::TickView tick() const override { return ticks_.tick.view(); }
-
-    render::Neighbours neighbours() const override { return neighbours_; }
-
-    const world::SensorRig& rig() const override { return rig_; }
-
-    const world::Weather& weather() const override { return weather_; }
-
-    /// `last`: nothing comes after it, and the run ends so.
-    void point(const Cameras& cameras,
-               const std::vector<std::size_t>& looking,
-               std::uint32_t actor,
-               const std::optional<world::WeatherPreset>& weather,
-               bool last) {
-        looking_ = looking;
-        actor_ = actor;
-        last_ = last;
-        weather_ = weather ? weather->weather : *tick().tick->weather();
-        for (const std::size_t i : looking)
-            rig_.push_back(cameras.placed(i, actor, tick()));
-        words_ = annotation_.words({tick(), rig_.front(), actor, last});
-        // Cameras of one place look together: what is seen is found once.
-        if (annotation_.needs_depth())
-            look_also(world::SensorKind::depth);
-        first_of_boxes_ = rig_.size();
-        if (boxes_) {
-            look_also(world::SensorKind::instance);
-            look_also(world::SensorKind::semantic);
-        }
-        if (ticks_.last)
-            neighbours_.last = neighbour(cameras, ticks_.last->view());
-        if (ticks_.next)
-            neighbours_.next = neighbour(cameras, ticks_.next->view());
-    }
-
-    void seen(std::vector<world::SensorFrame> frames) override {
-        frames_ = std::move(frames);
-        for (std::size_t i = 0; i < looking_.size(); ++i) {
-            shown_.push_back(output_.shows(looking_[i]) ? shown(i) : world::SensorFrame());
-            if (!output_.in_order())
-                output_.take(looking_[i], frames_[i], shown_[i]);
-            if (boxes_)
-                output_.take_text(looking_[i],
-                                  "boxes",
-                                  tick().index(),
-                                  box_text(tick(),
-                                           rig_[i],
-                                           frames_[first_of_boxes_ + i],
-                                           frames_[first_of_boxes_ + looking_.size() + i]));
-        }
-    }
-
-    void done() override {
-        for (std::size_t i = 0; i < looking_.size() && output_.in_order(); ++i)
-            output_.take(looking_[i], frames_[i], shown_[i]);
-    }
-
-  private:
-    /// Each camera sees this as well.
-    void look_also(world::SensorKind kind) {
-        for (std::size_t i = 0; i < looking_.size(); ++i) {
-            rig_.push_back(rig_[i]);
-            rig_.back().kind = kind;
-            // What is of another kind, it would not know.
-            std::erase_if(rig_.back().attributes, [&](const world::AttributeValue& one) {
-                return world::find_attribute(kind, one.name) == nullptr;
-            });
-        }
-    }
-
-    /// The same cameras there; nothing where they are not.
-    std::optional<render::Neighbour> neighbour(const Cameras& cameras,
-                                               const world::TickView& there) const {
-        if (!cameras.actor(there))
-            return std::nullopt;
-        render::Neighbour found{there, rig_};
-        for (std::size_t i = 0; i < looking_.size(); ++i) {
-            const world::SensorSpec placed = cameras.placed(looking_[i], actor_, there);
-            found.rig[i].actor = placed.actor;
-            found.rig[i].position = placed.position;
-            found.rig[i].yaw = placed.yaw;
-            found.rig[i].pitch = placed.pitch;
-        }
-        return found;
-    }
-
-    world::SensorFrame shown(std::size_t i) const {
-        world::SensorFrame shown = render::viewable(frames_[i]);
-        const std::size_t depth = looking_.size() + i;
-        annotation_.write(shown,
-                          annotation_.needs_depth() ? &frames_[depth] : nullptr,
-                          {tick(), rig_[i], actor_, last_},
-                          words_);
-        return shown;
-    }
-
-    KeptTicks ticks_;
-    const Annotation& annotation_;
-    PictureOutput& output_;
-    bool boxes_;
-    std::size_t first_of_boxes_ = 0;  ///< of rig_: the instances, behind them the classes
-    render::Neighbours neighbours_;
-    std::vector<std::size_t> looking_;  ///< by their index in Cameras::sensors()
-    std::uint32_t actor_ = 0;
-    bool last_ = false;
-    world::Weather weather_;
-    world::SensorRig rig_;
-    Annotation::Words words_;
-    std::vector<world::SensorFrame> frames_;
-    std::vector<world::SensorFrame> shown_;
-};
-
-std::optional<world::WeatherPreset> weather_of(const RenderOptions& options) {
-    if (options.weather.empty())
-        return std::nullopt;
-    return world::read_weather(options.weather);
-}
-
-/// Goes through the ticks, and says who looks at each.
-class Renderer {
-  public:
-    Renderer(const RenderOptions& options,
-             replay::TraceReader& trace,
-             const Cameras& cameras,
-             PictureOutput& output)
-        : trace_(trace),
-          cameras_(cameras),
-          output_(output),
-          annotation_(options, trace),
-          boxes_(options.boxes),
-          weather_(weather_of(options)) {}
-
-    /// Nobody looks at some ticks. `last`: nothing comes after it, and the run ends so.
-    std::unique_ptr<LookAtTick> look(std::uint64_t index, bool last) {
-        std::vector<std::size_t> looking = cameras_.due(index);
-        if (looking.empty())
-            return nullptr;
-        annotation_.read_to(last ? trace_.last() : index);
-        auto look = std::make_unique<LookAtTick>(
-            KeptTicks(trace_, index, cameras_.see_motion()), annotation_, output_, boxes_);
-        const auto actor = cameras_.actor(look->tick());
-        std::erase_if(looking, [&](std::size_t i) { return !cameras_.is_there(i, look->tick()); });
-        if (!actor || looking.empty())
-            return nullptr;
-        look->point(cameras_, looking, *actor, weather_, last);
-        pictures_ += looking.size();
-        return look;
-    }
-
-    std::size_t pictures() const { return pictures_; }
-
-    std::string weather_name() const {
-        return weather_ ? weather_->name : trace_.episode().weather_name;
-    }
-
-  private:
-    replay::TraceReader& trace_;
-    const Cameras& cameras_;
-    PictureOutput& output_;
-    Annotation annotation_;
-    bool boxes_;
-    std::optional<world::WeatherPreset> weather_;  ///< none: as recorded
-    std::size_t pictures_ = 0;
-};
 
 void render_pictures(const RenderOptions& options,
                      replay::TraceReader& trace,
                      Ticks ticks,
                      const Cameras& cameras,
-                     render::Sensors& sensors) {
-    const auto output = open_output(options, cameras, ticks, trace.episode().step_ns);
+                     render::Sensors& sensors,
+                     WrittenFiles& files) {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto output = open_output(options, cameras, ticks, trace.episode().step_ns, files);
     if (as_recorded(options, cameras))
         ticks.every = 1;
-    Renderer renderer(options, trace, cameras, *output);
-    Progress progress("rendering", "ticks", (ticks.to - ticks.from) / ticks.every + 1);
-    std::uint64_t done = 0;
-    std::uint64_t index = ticks.from;
-    sensors.observe_each([&]() -> std::unique_ptr<render::Observation> {
-        for (; index <= ticks.to; index += ticks.every) {
-            progress.update(++done);
-            const bool ends = ticks.to == trace.last() && index + ticks.every > ticks.to;
-            if (auto look = renderer.look(index, ends)) {
-                index += ticks.every;
-                return look;
-            }
-        }
-        return nullptr;
-    });
-    if (renderer.pictures() == 0)
-        throw world::Error("no vehicle to mount the camera on in these ticks of " + options.trace);
+    const std::vector<std::string> beside = side_by_side(options);
+    Renderer renderer(options, trace, cameras, *output, beside);
+    renderer.look_at_all(sensors, ticks, "rendering");
     output->finish();
-    progress.clear();
-    say("{}: {} pictures of {} in {:.2f} s\n",
-        options.output,
-        renderer.pictures(),
-        renderer.weather_name(),
-        progress.seconds());
+    const std::string recorded = trace.episode().weather_name;
+    if (!options.quiet)
+        say("{}: {} pictures of {} in {:.2f} s\n",
+            options.output,
+            renderer.pictures(),
+            !beside.empty()           ? options.compare
+            : options.weather.empty() ? recorded
+                                      : options.weather,
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
 }
 
 }  // namespace
 
 int render(const RenderOptions& options) {
+    if (!options.check.empty())
+        return check_render(options, render);
+    side_by_side(options);
     replay::TraceReader trace(options.trace);
     const Ticks ticks = ticks_to_render(options, trace);
     Measurements measurements(options, trace, ticks);
     const Cameras cameras(options, trace, ticks);
+    const bool film = !film_ending(options.output).empty();
+    WrittenFiles files;
     // The town takes seconds to build, and sensors without rays do not look at it.
     std::optional<render::Sensors> made;
     const auto sensors = [&]() -> render::Sensors& {
@@ -290,13 +133,18 @@ int render(const RenderOptions& options) {
                                            .portable = options.portable};
         return made ? *made : made.emplace(trace.recording().town, how);
     };
-    if (!measurements.empty() && film_ending(options.output).empty())
-        say("{}: {} frames and readings of {}\n",
-            options.output,
-            measurements.write(sensors),
-            measurements.names());
+    if (!measurements.empty() && !film) {
+        const std::size_t count = measurements.write(sensors, files);
+        if (!options.quiet)
+            say("{}: {} frames and readings of {}\n", options.output, count, measurements.names());
+    }
     if (!cameras.sensors().empty())
-        render_pictures(options, trace, ticks, cameras, sensors());
+        render_pictures(options, trace, ticks, cameras, sensors(), files);
+    if (!film) {
+        world::SensorRig all = cameras.sensors();
+        all.insert(all.end(), measurements.sensors().begin(), measurements.sensors().end());
+        write_manifest(options, trace, ticks, all, files);
+    }
     return exit_good;
 }
 

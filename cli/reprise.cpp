@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
             become("reprise-town", argv);
         if (line.command == "query" || line.command == "export" || line.command == "show")
             become("reprise-exchange", argv);
-        become(line.command == "render" ? "reprise-render" : "reprise-run", argv);
+        const bool renders = line.command == "render" || line.command == "dataset";
+        become(renders ? "reprise-render" : "reprise-run", argv);
     });
 }

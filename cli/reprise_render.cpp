@@ -2,6 +2,7 @@
 // only come from the trace, or from a run that started it to look on.
 #include <string_view>
 
+#include "cli/dataset/dataset.h"
 #include "cli/live.h"
 #include "cli/process/command_main.h"
 #include "cli/process/guard.h"
@@ -11,5 +12,7 @@ int main(int argc, char** argv) {
     using namespace reprise::cli;
     if (argc == 2 && std::string_view(argv[1]) == "live")
         return guarded(command_text(argc, argv), live);
-    return command_main(argc, argv, [](const CommandLine& line) { return render(line.render); });
+    return command_main(argc, argv, [](const CommandLine& line) {
+        return line.command == "dataset" ? dataset(line.dataset) : render(line.render);
+    });
 }

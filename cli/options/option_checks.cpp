@@ -8,6 +8,7 @@
 
 #include "world/check.h"
 #include "world/lanes/density.h"
+#include "world/weather/weather_course.h"
 #include "world/weather/weather_text.h"
 
 namespace reprise::cli {
@@ -35,6 +36,20 @@ CLI::Validator a_weather() {
         [](std::string& text) -> std::string {
             try {
                 world::read_weather(text);
+                return "";
+            } catch (const world::Error& error) {
+                return error.what();
+            }
+        },
+        "");
+}
+
+CLI::Validator a_weather_course() {
+    return CLI::Validator(
+        [](std::string& text) -> std::string {
+            try {
+                if (text != "recorded")
+                    world::WeatherCourse{text};
                 return "";
             } catch (const world::Error& error) {
                 return error.what();

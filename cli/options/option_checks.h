@@ -19,6 +19,9 @@ CLI::Validator one_of(std::vector<std::string> words, const std::string& what);
 /// A weather as world::read_weather takes it: a preset, numbers, or both.
 CLI::Validator a_weather();
 
+/// A weather that may change over time, as world::WeatherCourse takes it, or "recorded".
+CLI::Validator a_weather_course();
+
 /// Adds --ticks A..B and --actor NAME: one spelling wherever ticks and an actor are chosen.
 void add_ticks(CLI::App& command, std::string& ticks);
 void add_actor(CLI::App& command, std::string& actor);

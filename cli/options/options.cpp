@@ -94,6 +94,7 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     add_branch(app, branch, app_->branch_assignments);
     add_serve(app, serve);
     add_render(app, render, app_->render_words);
+    add_dataset(app, dataset);
     add_tool_commands(app, tools);
     add_town_commands(app, town);
     add_golden_commands(app, test, accept, golden_list, app_->accept_assignments);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/options/dataset_options.h"
 #include "cli/options/discover_options.h"
 #include "cli/options/drive_options.h"
 #include "cli/options/golden_options.h"
@@ -39,6 +40,7 @@ class CommandLine {
     ExpandOptions expand;
     BranchOptions branch;
     RenderOptions render;
+    DatasetOptions dataset;
     TestOptions test;
     AcceptOptions accept;
     GoldenListOptions golden_list;

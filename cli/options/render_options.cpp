@@ -145,6 +145,7 @@ void add_labels(CLI::App& command, RenderOptions& render) {
         "--npy",
         render.npy,
         "depth [m], flow [px] and normals as they are: float32 arrays, DIR/000120.npy");
+    command.add_flag("--exr", render.exr, "The same as EXR of 32-bit floats: DIR/000120.exr");
     command
         .add_option("--events",
                     render.events,
@@ -227,9 +228,10 @@ void check_labels(const CLI::App& command, const RenderOptions& render) {
                                    "--attribute"})
             if (command.count(option) > 0)
                 throw CLI::ValidationError(option, "--rig says itself what its sensors are");
-    if (!film_ending(render.output).empty() && (render.boxes || render.calibration || render.npy))
-        throw CLI::ValidationError("--output",
-                                   "--boxes, --calibration and --npy are of pictures in a folder");
+    if (!film_ending(render.output).empty() &&
+        (render.boxes || render.calibration || render.npy || render.exr))
+        throw CLI::ValidationError(
+            "--output", "--boxes, --calibration, --npy and --exr are of pictures in a folder");
     if (!render.preset.empty() && render.calibration)
         throw CLI::ValidationError("--calibration",
                                    "a preset's camera is not mounted; --boxes says where it is");
@@ -262,6 +264,42 @@ void check_output(const std::string& output) {
                 "'");
 }
 
+/// What a manifest keeps: another place, and other threads, make the same.
+void keep_words(const CLI::App& command, RenderOptions& render) {
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_lnames().empty() ? "" : option->get_lnames().front();
+        if (option->count() == 0 || name.empty() || name == "output" || name == "threads" ||
+            name == "rig" || name == "check")
+            continue;
+        std::string value;
+        for (const std::string& one : option->results())
+            value += (value.empty() ? "" : ",") + one;
+        render.said.emplace_back("--" + name, value);
+    }
+}
+
+/// Of options that may not stand together.
+void check_together(const CLI::App& command, const RenderOptions& render) {
+    if (render.npy && render.exr)
+        throw CLI::ValidationError("--exr", "says what --npy says: one of them");
+    if (render.check.empty()) {
+        if (render.trace.empty())
+            throw CLI::RequiredError("trace");
+        if (render.output.empty())
+            throw CLI::RequiredError("--output");
+    } else {
+        for (const CLI::Option* option : command.get_options())
+            for (const std::string& name : option->get_lnames())
+                if (option->count() > 0 && name != "check" && name != "threads")
+                    throw CLI::ValidationError("--check",
+                                               "the manifest says it: without --" + name);
+    }
+    if (!render.compare.empty() && film_ending(render.output).empty())
+        throw CLI::ValidationError("--compare", "is of a film: -o run.mp4");
+    if (!render.compare.empty() && !render.weather.empty())
+        throw CLI::ValidationError("--compare", "says the weathers: without --weather");
+}
+
 }  // namespace
 
 std::string film_ending(const std::string& output) {
@@ -273,21 +311,33 @@ std::string film_ending(const std::string& output) {
 
 void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
     CLI::App& command = *app.add_subcommand("render", "Render what cameras saw, from a trace");
-    command.add_option("trace", render.trace, "The trace")->required()->type_name("T.mcap");
+    // Asked for by hand: --check knows both.
+    command.add_option("trace", render.trace, "The trace")->type_name("T.mcap REQUIRED");
     command
         .add_option("-o,--output",
                     render.output,
                     "Folder for the pictures, or a film: a name that ends in .mp4, .mkv, .webm or "
                     ".avi")
-        ->required()
-        ->type_name("DIR|FILM");
+        ->type_name("DIR|FILM REQUIRED");
     command
         .add_option("--weather",
                     render.weather,
                     "Another weather than recorded, such as wet_sunset, rain=30,fog=200, or "
-                    "cloudy_noon,snow=1: see reprise list weathers")
+                    "cloudy_noon,snow=1: see reprise list weathers; over time: "
+                    "0s:clear_noon,30s:rain=20")
         ->type_name("PRESET,KEY=VALUE,...")
-        ->check(a_weather());
+        ->check(a_weather_course());
+    command
+        .add_option("--compare",
+                    render.compare,
+                    "Of a film: these weathers side by side, such as clear_noon,hard_rain_sunset")
+        ->type_name("WEATHER,...");
+    command
+        .add_option("--check",
+                    render.check,
+                    "Make all that a manifest is about again, and compare byte for byte; needs no "
+                    "-o, and the trace only where it is no longer in its place")
+        ->type_name("MANIFEST");
     command
         .add_option("--camera,--sensor",
                     render.cameras,
@@ -371,6 +421,10 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
 
 void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions& render) {
     const CLI::App& command = *app.get_subcommand("render");
+    if (!command.parsed())
+        return;
+    check_together(command, render);
+    keep_words(command, render);
     read_size(words.size, render);
     if (!words.mount.empty())
         read_mount(words.mount, render);

@@ -103,14 +103,19 @@ void write_calibration(const std::filesystem::path& folder,
     json["camera_from_mount"] = nested(whole);
     files::write_file(folder / "camera.json", "the calibration", json.dump(2) + "\n");
 
+    files::write_file(folder / "calib.txt", "the calibration", kitti_calibration(sensor));
+}
+
+std::string kitti_calibration(const world::SensorSpec& sensor) {
+    const render::Camera camera(sensor, Eigen::Isometry3d::Identity());
     const Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();
     std::string kitti;
     for (const char* name : {"P0", "P1", "P2", "P3"})
         kitti += line_of(name, projection(camera));
-    kitti += line_of("R0_rect", upright) + line_of("Tr_velo_to_cam", to_camera);
+    kitti += line_of("R0_rect", upright) + line_of("Tr_velo_to_cam", into_camera(camera));
     if (!camera.lens().is_plain())
         kitti += lens_lines(camera);
-    files::write_file(folder / "calib.txt", "the calibration", kitti);
+    return kitti;
 }
 
 }  // namespace reprise::cli

@@ -14,4 +14,7 @@ void write_calibration(const std::filesystem::path& folder,
                        const world::SensorSpec& sensor,
                        const std::string& carrier);
 
+/// calib.txt alone, with a LiDAR's frame that is the carrier's.
+std::string kitti_calibration(const world::SensorSpec& sensor);
+
 }  // namespace reprise::cli

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/pictures/chosen_weather.h"
 #include "cli/pictures/reading_file.h"
 #include "cli/pictures/recorded_rig.h"
 #include "cli/pictures/tick_readings.h"
@@ -22,7 +23,6 @@
 #include "world/external/sensor_attributes.h"
 #include "world/models/actors.h"
 #include "world/units.h"
-#include "world/weather/weather_text.h"
 
 namespace reprise::cli {
 
@@ -65,9 +65,13 @@ world::Reading reading_of(const world::SensorFrame& frame) {
 /// Where all of it goes.
 class Files {
   public:
-    Files(const RenderOptions& options, const world::SensorRig& rig, double step)
+    Files(const RenderOptions& options,
+          const world::SensorRig& rig,
+          double step,
+          WrittenFiles& written)
         : options_(options),
-          root_(options.output) {
+          root_(options.output),
+          written_(written) {
         for (const world::SensorSpec& sensor : rig) {
             tables_.emplace_back(sensor.kind, step);
             const bool alone = rig.size() == 1 && options.measured.size() == 1;
@@ -86,10 +90,10 @@ class Files {
     /// From any thread.
     void take(std::size_t sensor, const world::SensorFrame& frame) {
         if (!has_table(frame.kind)) {
-            render::write_points(
-                frame,
-                folders_[sensor] / fmt::format("{:06}.{}", frame.tick, options_.points),
-                format_of(options_.points));
+            const std::filesystem::path path =
+                folders_[sensor] / fmt::format("{:06}.{}", frame.tick, options_.points);
+            written_.add(path);
+            render::write_points(frame, path, format_of(options_.points));
         } else if (frame.height > 0) {
             read(sensor, frame.tick, reading_of(frame));
         }
@@ -106,7 +110,9 @@ class Files {
     std::size_t finish() {
         for (std::size_t i = 0; i < tables_.size(); ++i)
             if (has_table(kinds_[i])) {
-                tables_[i].write(root_ / (names_[i] + "." + options_.readings));
+                const std::filesystem::path path = root_ / (names_[i] + "." + options_.readings);
+                written_.add(path);
+                tables_[i].write(path);
                 if (world::is_reading(kinds_[i]))
                     frames_ += tables_[i].count();
             }
@@ -116,6 +122,7 @@ class Files {
   private:
     const RenderOptions& options_;
     std::filesystem::path root_;
+    WrittenFiles& written_;
     std::vector<ReadingFile> tables_;
     std::vector<std::filesystem::path> folders_;
     std::vector<std::string> names_;
@@ -277,8 +284,10 @@ std::optional<std::uint32_t> Measurements::carrier(const world::TickView& tick) 
     return actor != 0 && world::find_pose(tick, actor) ? std::optional(actor) : std::nullopt;
 }
 
-std::size_t Measurements::write(const std::function<render::Sensors&()>& sensors) {
-    Files files(options_, rig_.sensors, static_cast<double>(trace_.episode().step_ns) * 1e-9);
+std::size_t Measurements::write(const std::function<render::Sensors&()>& sensors,
+                                WrittenFiles& written) {
+    const double step = static_cast<double>(trace_.episode().step_ns) * 1e-9;
+    Files files(options_, rig_.sensors, step, written);
     const bool has_rays =
         std::any_of(rig_.sensors.begin(), rig_.sensors.end(), [](const world::SensorSpec& sensor) {
             return world::is_ranging(sensor.kind);
@@ -303,9 +312,7 @@ std::size_t Measurements::write(const std::function<render::Sensors&()>& sensors
     if (!carried)
         throw world::Error("no vehicle to mount the sensors on in these ticks of " +
                            options_.trace);
-    std::optional<world::Weather> weather;
-    if (!options_.weather.empty())
-        weather = world::read_weather(options_.weather).weather;
+    const ChosenWeather weather(options_.weather, step);
     std::uint64_t index = ticks_.from;
     if (has_rays)
         sensors().observe_each([&]() -> std::unique_ptr<render::Observation> {
@@ -319,7 +326,7 @@ std::size_t Measurements::write(const std::function<render::Sensors&()>& sensors
                         look->add(i, placed(i, *actor));
                 if (look->rig().empty())
                     continue;
-                look->set(weather.value_or(*look->tick().tick->weather()));
+                look->set(weather.at(look->tick()));
                 ++index;
                 return look;
             }

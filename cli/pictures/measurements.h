@@ -6,6 +6,7 @@
 
 #include "cli/options/render_options.h"
 #include "cli/pictures/cameras.h"
+#include "cli/pictures/written_files.h"
 #include "render/sensors.h"
 #include "replay/trace_reader.h"
 
@@ -24,7 +25,9 @@ class Measurements {
 
     /// Goes through the ticks and writes what they measured. `sensors` is asked for when rays are
     /// needed. Returns how many frames and readings there are.
-    std::size_t write(const std::function<render::Sensors&()>& sensors);
+    std::size_t write(const std::function<render::Sensors&()>& sensors, WrittenFiles& written);
+
+    const world::SensorRig& sensors() const { return rig_.sensors; }
 
   private:
     std::optional<std::uint32_t> carrier(const world::TickView& tick) const;

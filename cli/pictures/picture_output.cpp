@@ -1,5 +1,7 @@
 #include "cli/pictures/picture_output.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "cli/pictures/calibration.h"
@@ -25,9 +27,12 @@ bool is_of_floats(const world::SensorFrame& frame) {
 
 }  // namespace
 
-PictureFolders::PictureFolders(const RenderOptions& options, const Cameras& cameras)
+PictureFolders::PictureFolders(const RenderOptions& options,
+                               const Cameras& cameras,
+                               WrittenFiles& files)
     : options_(options),
       cameras_(cameras),
+      files_(files),
       coding_(coding_of(options.depth_coding)),
       view_(!options.no_view) {
     const std::filesystem::path folder = options.output;
@@ -48,12 +53,20 @@ void PictureFolders::write(const world::SensorFrame& frame,
         return render::write_events(frame,
                                     folder / fmt::format("{:06}.{}", frame.tick, options_.events));
     if (options_.npy && is_of_floats(frame))
-        return render::write_npy(frame, folder / fmt::format("{:06}.npy", frame.tick));
+        return render::write_npy(frame, noted(folder / fmt::format("{:06}.npy", frame.tick)));
+    if (options_.exr && is_of_floats(frame))
+        return render::write_exr(frame, noted(folder / fmt::format("{:06}.exr", frame.tick)));
     const bool mapped = frame.kind == world::SensorKind::semantic && options_.classes == "paper";
     render::write_png(mapped ? render::in_paper_classes(frame) : frame,
-                      folder / fmt::format("{:06}.png", frame.tick),
+                      noted(folder / fmt::format("{:06}.png", frame.tick)),
                       render::Texture::grainy,
                       coding_);
+}
+
+/// A file that is about to be written.
+std::filesystem::path PictureFolders::noted(std::filesystem::path path) const {
+    files_.add(path);
+    return path;
 }
 
 void PictureFolders::take(std::size_t sensor,
@@ -61,31 +74,37 @@ void PictureFolders::take(std::size_t sensor,
                           const world::SensorFrame& shown) {
     write(for_people_[sensor] ? shown : frame, of_sensors_[sensor]);
     if (!for_people_[sensor] && view_)
-        render::write_png(shown,
-                          of_sensors_[sensor] / "view" / fmt::format("{:06}.png", frame.tick),
-                          render::Texture::flat);
+        render::write_png(
+            shown,
+            noted(of_sensors_[sensor] / "view" / fmt::format("{:06}.png", frame.tick)),
+            render::Texture::flat);
 }
 
-void PictureFolders::take_text(std::size_t sensor,
-                               const std::string& folder,
-                               std::uint64_t tick,
-                               const std::string& text) {
+void PictureFolders::take_boxes(std::size_t sensor,
+                                std::uint64_t tick,
+                                const std::string& text,
+                                const world::SensorFrame& /*instances*/) {
     files::write_file(
-        of_sensors_[sensor] / folder / fmt::format("{:06}.json", tick), "the " + folder, text);
+        noted(of_sensors_[sensor] / "boxes" / fmt::format("{:06}.json", tick)), "the boxes", text);
 }
 
 void PictureFolders::finish() {
     if (!options_.calibration && options_.rig.empty())
         return;
     for (std::size_t i = 0; i < of_sensors_.size(); ++i)
-        if (std::filesystem::is_directory(of_sensors_[i]))
+        if (std::filesystem::is_directory(of_sensors_[i])) {
             write_calibration(of_sensors_[i], cameras_.sensors()[i], cameras_.carrier(i));
+            noted(of_sensors_[i] / "camera.json");
+            noted(of_sensors_[i] / "calib.txt");
+        }
 }
 
 Film::Film(const std::filesystem::path& path,
            const std::string& ending,
            const Cameras& cameras,
-           double rate) {
+           double rate,
+           std::size_t strips)
+    : strips_(strips) {
     const world::SensorRig& sensors = cameras.sensors();
     if (sensors.size() != 1) {
         std::vector<std::string> names;
@@ -104,7 +123,27 @@ Film::Film(const std::filesystem::path& path,
 void Film::take(std::size_t /*sensor*/,
                 const world::SensorFrame& /*frame*/,
                 const world::SensorFrame& shown) {
-    pipe_->add(shown.data);
+    if (strips_ == 1)
+        return pipe_->add(shown.data);
+    // Rows of pixels, three bytes each.
+    const auto width = static_cast<std::size_t>(shown.width);
+    const std::size_t from = width * taken_ / strips_;
+    const std::size_t to = width * (taken_ + 1) / strips_;
+    composed_.resize(shown.data.size());
+    for (std::size_t row = 0; row < static_cast<std::size_t>(shown.height); ++row) {
+        const auto at = [&](std::size_t column) {
+            return static_cast<std::ptrdiff_t>(3 * (row * width + column));
+        };
+        std::copy(shown.data.begin() + at(from),
+                  shown.data.begin() + at(to),
+                  composed_.begin() + at(from));
+        if (taken_ > 0)  // a line between two of them
+            std::fill_n(composed_.begin() + at(from), 3 * std::min<std::size_t>(2, to - from), 255);
+    }
+    if (++taken_ < strips_)
+        return;
+    taken_ = 0;
+    pipe_->add(composed_);
 }
 
 void Film::finish() {

@@ -10,6 +10,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .dataset import Dataset
     from .driver import Control, Driver, Ego, Observation, Run, drive
     from .multi_simulation import MultiSimulation
     from .nouns import Noun, dtype, enum, points
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from .wire import WireError
 
 _PARTS = {
+    "dataset": ("Dataset",),
     "driver": ("Control", "Driver", "Ego", "Observation", "Run", "drive"),
     "multi_simulation": ("MultiSimulation",),
     "nouns": ("Noun", "dtype", "enum", "points"),
@@ -34,7 +36,7 @@ _PARTS = {
 _PART_OF = {name: part for part, names in _PARTS.items() for name in names}
 
 __all__ = [
-    "Control", "Driver", "Ego", "Fault", "Frames", "Images", "MultiSimulation", "Noun", "Observation", "Outcome", "Run", "Sensors", "Simulation",
+    "Control", "Dataset", "Driver", "Ego", "Fault", "Frames", "Images", "MultiSimulation", "Noun", "Observation", "Outcome", "Run", "Sensors", "Simulation",
     "Trace", "TraceError", "View", "Way", "WireError", "drive", "dtype", "enum", "points", "xyz",
 ]  # fmt: skip
 

@@ -66,7 +66,7 @@ class Rendering : public testing::Test {
         const Result result = reprise(words);
         EXPECT_EQ(result.code, 0) << result.out;
         const std::vector<std::string> files = out.files();
-        EXPECT_EQ(files.size(), 10U) << "two of rgb, four of the others";
+        EXPECT_EQ(files.size(), 11U) << "two of rgb, four of the others, the manifest";
         std::string bytes;
         for (const std::string& file : files)
             bytes += file + read_file(out / file);
@@ -103,7 +103,7 @@ TEST_F(Rendering, TicksAreChosenAsEverywhereAndAsTheyWereBefore) {
     const std::string some = files({"--ticks", "2s..3s", "--every", "10"});
     EXPECT_THAT(some, testing::HasSubstr("000060.png"));
     EXPECT_EQ(some, files({"--from", "40", "--to", "60", "--every", "10"}));
-    EXPECT_EQ(files({"--ticks", "50"}), "{ \"000050.png\" }");
+    EXPECT_EQ(files({"--ticks", "50"}), "{ \"000050.png\", \"manifest.json\" }");
     EXPECT_THAT(files({"--ticks", "40..60", "--to", "60"}, 2),
                 testing::HasSubstr("--ticks: says what --from and --to said: without these"));
     EXPECT_THAT(files({"--ticks", "90000.."}, 2), testing::HasSubstr("no such ticks"));
@@ -116,8 +116,10 @@ TEST_F(Rendering, WorksInAnEmptyFolder) {
     const Result result = reprise(
         {"render", "t.mcap", "-o", "pictures", "--size", "64x48", "--every", "40"}, empty.path());
     EXPECT_EQ(result.code, 0) << result.out;
-    EXPECT_THAT(empty.files(),
-                testing::ElementsAre("pictures/000001.png", "pictures/000041.png", "t.mcap"));
+    EXPECT_THAT(
+        empty.files(),
+        testing::ElementsAre(
+            "pictures/000001.png", "pictures/000041.png", "pictures/manifest.json", "t.mcap"));
 }
 
 TEST_F(Rendering, NeitherThreadsNorRepeatsChangeAByte) {
@@ -203,6 +205,7 @@ TEST_F(Rendering, ARigFileSaysWhatLooksWhenAndWithWhatBesideIt) {
                                      "front/boxes/000040.json",
                                      "front/calib.txt",
                                      "front/camera.json",
+                                     "manifest.json",
                                      "mast/000040.png",
                                      "mast/boxes/000040.json",
                                      "mast/calib.txt",

@@ -1,0 +1,115 @@
+#include "cli/dataset/dataset_layout.h"
+
+#include <set>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string numbered_file(std::size_t id, const char* ending) {
+    return fmt::format("{:06}.{}", id, ending);
+}
+
+void make_link(const fs::path& target, const fs::path& link) {
+    std::error_code error;
+    if (!fs::is_symlink(link))
+        fs::create_directory_symlink(target, link, error);
+    if (error)
+        throw world::Error(link.string() + ": cannot be made a link: " + error.message());
+}
+
+}  // namespace
+
+DatasetLayout::DatasetLayout(fs::path root, bool coco, world::SensorRig cameras)
+    : root_(std::move(root)),
+      coco_(coco),
+      cameras_(std::move(cameras)) {}
+
+bool DatasetLayout::is_rgb(std::size_t camera) const {
+    return cameras_[camera].kind == world::SensorKind::rgb;
+}
+
+/// KITTI's colour cameras are 2 and 3; more of them count on.
+std::string DatasetLayout::numbered(const char* name, std::size_t camera) const {
+    std::size_t number = 2;
+    for (std::size_t i = 0; i < camera; ++i)
+        number += is_rgb(i) ? 1 : 0;
+    return fmt::format("{}_{}", name, number);
+}
+
+std::string DatasetLayout::file_name(std::size_t camera, std::size_t id) const {
+    return cameras_[camera].name + "/" + numbered_file(id, "png");
+}
+
+fs::path DatasetLayout::picture(std::size_t camera,
+                                const std::string& weather,
+                                std::size_t id) const {
+    if (!is_rgb(camera))
+        return root_ / "labels" / file_name(camera, id);
+    const std::string folder = folder_of(weather);
+    return coco_
+               ? root_ / "images" / folder / file_name(camera, id)
+               : root_ / folder / "training" / numbered("image", camera) / numbered_file(id, "png");
+}
+
+fs::path DatasetLayout::boxes(std::size_t camera, std::size_t id) const {
+    return root_ / "labels" / ("boxes_" + cameras_[camera].name) / numbered_file(id, "json");
+}
+
+fs::path DatasetLayout::label(std::size_t camera, std::size_t id) const {
+    return coco_ ? root_ / "labels" / ("coco_" + cameras_[camera].name) / numbered_file(id, "json")
+                 : root_ / "labels" / numbered("label", camera) / numbered_file(id, "txt");
+}
+
+fs::path DatasetLayout::calibration(std::size_t camera, std::size_t id) const {
+    const std::string numbered_folder = numbered("calib", camera);
+    return root_ / "labels" / (numbered_folder == "calib_2" ? "calib" : numbered_folder) /
+           numbered_file(id, "txt");
+}
+
+std::vector<fs::path> DatasetLayout::folders(const std::vector<std::string>& weathers) const {
+    std::set<fs::path> all{root_ / (coco_ ? "annotations" : "ImageSets")};
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+        for (const std::string& weather : weathers)
+            all.insert(picture(i, weather, 0).parent_path());
+        if (!is_rgb(i))
+            continue;
+        for (const fs::path& file : {boxes(i, 0), label(i, 0), calibration(i, 0)})
+            all.insert(file.parent_path());
+    }
+    return {all.begin(), all.end()};
+}
+
+void DatasetLayout::link(const std::vector<std::string>& weathers) const {
+    if (coco_)
+        return;
+    for (const std::string& weather : weathers) {
+        const fs::path folder = root_ / folder_of(weather);
+        make_link("../ImageSets", folder / "ImageSets");
+        for (std::size_t i = 0; i < cameras_.size(); ++i) {
+            if (!is_rgb(i))
+                continue;
+            for (const fs::path& file : {label(i, 0), calibration(i, 0)}) {
+                const fs::path name = file.parent_path().filename();
+                make_link("../../labels" / name, folder / "training" / name);
+            }
+        }
+    }
+}
+
+std::string DatasetLayout::folder_of(const std::string& weather) {
+    std::string name = weather;
+    for (char& letter : name)
+        if (letter == ',' || letter == ':' || letter == ';')
+            letter = '+';
+    return name;
+}
+
+}  // namespace reprise::cli

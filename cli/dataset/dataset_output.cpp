@@ -1,0 +1,60 @@
+#include "cli/dataset/dataset_output.h"
+
+#include "cli/dataset/labels.h"
+#include "cli/pictures/calibration.h"
+#include "files/output_file.h"
+
+namespace reprise::cli {
+
+DatasetOutput::DatasetOutput(const DatasetLayout& layout,
+                             const world::SensorRig& cameras,
+                             std::string weather,
+                             std::map<std::uint64_t, std::size_t> ids,
+                             bool coco,
+                             bool labels)
+    : layout_(layout),
+      cameras_(cameras),
+      weather_(std::move(weather)),
+      ids_(std::move(ids)),
+      coco_(coco),
+      labels_(labels) {}
+
+/// Files appear whole, so that what is there is done.
+bool DatasetOutput::wants(std::size_t sensor, std::uint64_t tick) const {
+    const auto found = ids_.find(tick);
+    if (found == ids_.end() || (!layout_.is_rgb(sensor) && !labels_))
+        return false;
+    const std::size_t id = found->second;
+    // The label is written last.
+    return !std::filesystem::exists(layout_.picture(sensor, weather_, id)) ||
+           (labels_ && layout_.is_rgb(sensor) &&
+            !std::filesystem::exists(layout_.label(sensor, id)));
+}
+
+void DatasetOutput::take(std::size_t sensor,
+                         const world::SensorFrame& frame,
+                         const world::SensorFrame& shown) {
+    render::write_png(layout_.is_rgb(sensor) ? shown : frame,
+                      layout_.picture(sensor, weather_, ids_.at(frame.tick)),
+                      render::Texture::grainy,
+                      render::DepthCoding::kitti);
+    ++pictures_;
+}
+
+void DatasetOutput::take_boxes(std::size_t sensor,
+                               std::uint64_t tick,
+                               const std::string& text,
+                               const world::SensorFrame& instances) {
+    if (!layout_.is_rgb(sensor))
+        return;
+    const std::size_t id = ids_.at(tick);
+    files::write_file(layout_.boxes(sensor, id), "the boxes", text);
+    files::write_file(
+        layout_.calibration(sensor, id), "the calibration", kitti_calibration(cameras_[sensor]));
+    files::write_file(
+        layout_.label(sensor, id),
+        "the label",
+        coco_ ? coco_annotations(text, instances) : kitti_labels(text, cameras_[sensor]));
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,66 @@
+#include "cli/options/dataset_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "cli/options/option_checks.h"
+
+namespace reprise::cli {
+
+void add_dataset(CLI::App& app, DatasetOptions& dataset) {
+    CLI::App& command = *app.add_subcommand(
+        "dataset", "Make a data set: many traces under many weathers, labels once");
+    command.add_option("traces", dataset.traces, "The traces")
+        ->required()
+        ->type_name("T.mcap")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option("-o,--output",
+                    dataset.output,
+                    "Its folder; where a part of the same data set lies there, the rest is made")
+        ->required()
+        ->type_name("DIR");
+    command
+        .add_option("--weathers",
+                    dataset.weathers,
+                    "Such as clear_noon,cloudy_noon,snow=1,hard_rain_sunset; all18: the CARLA "
+                    "paper's; recorded (default)")
+        ->type_name("WEATHER,...");
+    command
+        .add_option("--rig",
+                    dataset.rig,
+                    "Cameras of a file, see docs/rendering.md: of those of kind rgb there is a "
+                    "picture under each weather, of others one")
+        ->type_name("RIG.json");
+    command
+        .add_option("--format", dataset.format, "The layout (default kitti): see docs/datasets.md")
+        ->type_name("kitti|coco")
+        ->check(one_of({"kitti", "coco"}, "format"));
+    command
+        .add_option("--split",
+                    dataset.split,
+                    "Shares of whole traces, or of one trace's time (default train:0.8,val:0.2)")
+        ->type_name("NAME:SHARE,...");
+    add_ticks(command, dataset.ticks);
+    command.add_option("--every", dataset.every, "Every so many ticks, or time (default 0.5s)")
+        ->type_name("N");
+    add_actor(command, dataset.actor);
+    command.add_option("--size", dataset.size, "Without a rig (default 1242x375)")
+        ->type_name("WxH");
+    command
+        .add_option(
+            "--fov", dataset.fov_deg, "Without a rig: horizontal field of view (default 82)")
+        ->type_name("DEGREES")
+        ->check(CLI::Range(1.0, 170.0));
+    command
+        .add_option("--threads", dataset.threads, "How many work on pictures (default: all cores)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    command.add_flag(
+        "--portable", dataset.portable, "Pictures whose bytes are the same on every x86-64 CPU");
+    command.footer(
+        "Stopped, by Ctrl-C or a full disk, the same command goes on where it was.\n"
+        "Example: reprise dataset a.mcap b.mcap -o set --weathers clear_noon,hard_rain_sunset "
+        "--rig rig.json");
+}
+
+}  // namespace reprise::cli

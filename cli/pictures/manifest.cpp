@@ -1,0 +1,111 @@
+#include "cli/pictures/manifest.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "files/output_file.h"
+#include "world/check.h"
+#include "world/digest.h"
+#include "world/fingerprint.h"
+#include "world/units.h"
+#include "world/weather/weather_field.h"
+
+namespace reprise::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string read_all(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file.is_open() || file.bad() || fs::is_directory(path))
+        throw world::Error(path.string() + ": cannot be read");
+    return text;
+}
+
+/// Of numbers with several names the first.
+Json numbers_of(const world::Weather& weather) {
+    Json json;
+    std::set<decltype(world::WeatherField::get)> seen;
+    for (const world::WeatherField& field : world::weather_fields())
+        if (std::find(seen.begin(), seen.end(), field.get) == seen.end())
+            json[field.key] = field.said(weather);
+    return json;
+}
+
+Json weather_of(const RenderOptions& options) {
+    const ChosenWeather chosen(options.weather, 1);
+    if (!chosen.course())
+        return "as recorded";
+    Json stops = Json::array();
+    for (const world::WeatherStop& stop : chosen.course()->stops())
+        stops.push_back({{"at", stop.at}, {"numbers", numbers_of(stop.said.weather)}});
+    return {{"said", chosen.course()->name()}, {"stops", stops}};
+}
+
+}  // namespace
+
+std::string sensor_text(const world::SensorSpec& sensor) {
+    Json json{{"name", sensor.name}, {"type", world::EnumNameSensorKind(sensor.kind)}};
+    if (world::is_camera(sensor.kind)) {
+        json["size"] = {sensor.width, sensor.height};
+        json["fov_deg"] = sensor.fov / world::degree;
+    }
+    json["position"] = {sensor.position.x(), sensor.position.y(), sensor.position.z()};
+    json["roll_deg"] = sensor.roll / world::degree;
+    json["pitch_deg"] = sensor.pitch / world::degree;
+    json["yaw_deg"] = sensor.yaw / world::degree;
+    for (const world::AttributeValue& one : sensor.attributes)
+        json["attributes"][one.name] = one.value;
+    return json.dump();
+}
+
+std::string chain_text(replay::TraceReader& trace) {
+    return world::to_hex(trace.chain(trace.last()));
+}
+
+std::string file_digest(const fs::path& path) {
+    return world::to_hex(world::digest128(read_all(path)));
+}
+
+void write_manifest(const RenderOptions& options,
+                    replay::TraceReader& trace,
+                    const Ticks& ticks,
+                    const world::SensorRig& sensors,
+                    const WrittenFiles& files) {
+    const fs::path folder = options.output;
+    Json json;
+    json["manifest"] = manifest_version;
+    for (const auto& [key, value] : world::build_fingerprint())
+        json["program"][key] = value;
+    json["trace"] = {{"path", options.trace},
+                     {"ticks", {trace.first(), trace.last()}},
+                     {"chain", chain_text(trace)}};
+    json["ticks"] = {{"from", ticks.from}, {"to", ticks.to}, {"every", ticks.every}};
+    json["weather"] = weather_of(options);
+    for (const world::SensorSpec& sensor : sensors)
+        json["sensors"].push_back(Json::parse(sensor_text(sensor)));
+    json["options"] = Json::object();
+    for (const auto& [name, value] : options.said)
+        json["options"][name] = value;
+    if (!options.rig.empty())
+        json["rig"] = Json::parse(read_all(options.rig));
+    std::vector<fs::path> paths = files.paths();
+    std::sort(paths.begin(), paths.end());
+    json["files"] = Json::array();
+    for (const fs::path& path : paths)
+        json["files"].push_back({{"path", path.lexically_relative(folder).string()},
+                                 {"bytes", fs::file_size(path)},
+                                 {"xxh3", file_digest(path)}});
+    files::write_file(folder / manifest_name, "the manifest", json.dump(1) + "\n");
+}
+
+}  // namespace reprise::cli

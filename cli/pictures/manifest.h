@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/options/render_options.h"
+#include "cli/pictures/cameras.h"
+#include "cli/pictures/chosen_weather.h"
+#include "cli/pictures/written_files.h"
+#include "replay/trace_reader.h"
+
+namespace reprise::cli {
+
+/// Its name, in the folder that it is about.
+inline constexpr const char* manifest_name = "manifest.json";
+
+inline constexpr int manifest_version = 1;
+
+/// Writes what a folder's files were made from, and what they are: trace, ticks, weather, sensors,
+/// options, the program, and XXH3 of each file. Depends on nothing else: neither on the folder's
+/// name, nor on threads.
+void write_manifest(const RenderOptions& options,
+                    replay::TraceReader& trace,
+                    const Ticks& ticks,
+                    const world::SensorRig& sensors,
+                    const WrittenFiles& files);
+
+/// Of a trace, or of a part of it: the chain of digests at its end says all that is before.
+std::string chain_text(replay::TraceReader& trace);
+
+/// A sensor as manifests say what it is: JSON.
+std::string sensor_text(const world::SensorSpec& sensor);
+
+/// XXH3-128 of a file. Throws world::Error when it cannot be read.
+std::string file_digest(const std::filesystem::path& path);
+
+}  // namespace reprise::cli
