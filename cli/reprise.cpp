@@ -37,6 +37,9 @@ int main(int argc, char** argv) {
     return command_main(argc, argv, [&](const CommandLine& line) -> int {
         if (line.command == "info")
             return info(line.info);
+        if (line.command == "diff" && std::filesystem::is_directory(line.diff.expected) &&
+            std::filesystem::is_directory(line.diff.found))
+            become("reprise-render", argv);
         if (line.command == "diff")
             return diff(line.diff);
         if (line.command == "recover")

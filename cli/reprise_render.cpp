@@ -4,6 +4,7 @@
 
 #include "cli/dataset/dataset.h"
 #include "cli/live.h"
+#include "cli/pictures/folder_comparison.h"
 #include "cli/process/command_main.h"
 #include "cli/process/guard.h"
 #include "cli/render.h"
@@ -13,6 +14,8 @@ int main(int argc, char** argv) {
     if (argc == 2 && std::string_view(argv[1]) == "live")
         return guarded(command_text(argc, argv), live);
     return command_main(argc, argv, [](const CommandLine& line) {
+        if (line.command == "diff")
+            return compare_folders(line.diff.expected, line.diff.found);
         return line.command == "dataset" ? dataset(line.dataset) : render(line.render);
     });
 }

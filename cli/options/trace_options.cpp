@@ -65,7 +65,9 @@ void add_diff(CLI::App& app, DiffOptions& diff) {
     add_actor(command, diff.actor);
     command.add_flag("--json", diff.json, "For programs: one JSON object");
     command.add_flag("--all", diff.all, "Every field in which the first differing tick differs");
-    command.footer("Exit status: 0 equal (within the tolerance), 1 different, 2 bad input.");
+    command.footer(
+        "Two folders of pictures: of each sensor whether its files are the same, else how far they "
+        "are\napart. Exit status: 0 equal (within the tolerance), 1 different, 2 bad input.");
 }
 
 void add_recover(CLI::App& app, RecoverOptions& recover) {

@@ -89,8 +89,8 @@ def _unfiltered(filters: np.ndarray, rows: np.ndarray) -> np.ndarray:
         left, up, corner = out[y + 1, x], out[y, x + 1], out[y, x]
         guess = left + up - corner
         far_left, far_up, far_corner = abs(guess - left), abs(guess - up), abs(guess - corner)
-        paeth = np.where((far_left <= far_up) & (far_left <= far_corner), left, np.where(far_up <= far_corner, up, corner))
+        nearest = np.where((far_left <= far_up) & (far_left <= far_corner), left, np.where(far_up <= far_corner, up, corner))
         kind = filters[y][:, None]
-        added = np.select([kind == 1, kind == 2, kind == 3, kind == 4], [left, up, (left + up) // 2, paeth], 0)
+        added = np.select([kind == 1, kind == 2, kind == 3, kind == 4], [left, up, (left + up) // 2, nearest], 0)
         out[y + 1, x + 1] = (rows[y, x] + added) & 255
     return out[1:, 1:].astype(np.uint8)

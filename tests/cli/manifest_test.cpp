@@ -163,6 +163,33 @@ TEST_F(Manifest, IsMissingWhereAFullDiskEndedTheMakingAndNoHalfPictureLooksWhole
     EXPECT_EQ(typed(once, folder_).out, first);
 }
 
+TEST_F(Manifest, FoldersAreComparedSensorBySensor) {
+    const std::vector<std::string> how{
+        "--sensor", "rgb,depth", "--ticks", "20..24", "--every", "4"};
+    const auto under = [&](const std::string& out, const std::string& weather) {
+        std::vector<std::string> words = how;
+        words.insert(words.end(), {"--weather", weather});
+        ASSERT_EQ(render(out, words).code, 0);
+    };
+    under("noon", "clear_noon");
+    under("again", "clear_noon");
+    under("night", "clear_night");
+    const auto diff = [&](const std::string& other) {
+        return reprise({"diff", "noon", other}, folder_.path());
+    };
+    const std::string same = "depth: 2 files, identical\ndepth/view: 2 files, identical\n";
+    EXPECT_EQ(diff("again").out, same + "rgb: 2 files, identical\n");
+    EXPECT_EQ(diff("again").code, 0);
+    const Result night = diff("night");
+    EXPECT_EQ(night.code, 1);
+    EXPECT_THAT(night.out, testing::StartsWith(same + "rgb: 2 files, 2 differ, PSNR "));
+    EXPECT_THAT(night.out, testing::EndsWith("; first in 000020.png at x 0 y 0\n"));
+    std::filesystem::remove(folder_ / "again/depth/000024.png");
+    EXPECT_THAT(diff("again").out,
+                testing::StartsWith("depth: 2 files, 0 differ, 1 in one of both only; first in "
+                                    "000024.png\n"));
+}
+
 TEST_F(Manifest, MistakesAreOneLineAndLeaveNothing) {
     const std::vector<std::string> before = folder_.files();
     const std::vector<std::pair<std::string, std::string>> mistakes{

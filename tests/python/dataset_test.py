@@ -36,8 +36,8 @@ def png(picture, filters):
             b = int(picture[y - 1, x, c]) if y else 0
             d = int(picture[y - 1, x - 1, c]) if x and y else 0
             p = a + b - d
-            paeth = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - d), 2, d))[2]
-            text += bytes([(int(picture[y, x, c]) - [0, a, b, (a + b) // 2, paeth][filters[y]]) % 256])
+            nearest = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - d), 2, d))[2]
+            text += bytes([(int(picture[y, x, c]) - [0, a, b, (a + b) // 2, nearest][filters[y]]) % 256])
     chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     head = struct.pack(">IIBBBBB", width, height, 8, 2 if unit == 3 else 0, 0, 0, 0)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(text)) + chunk(b"IEND", b"")
