@@ -43,6 +43,20 @@ bool is_side_glass(const CarSurfacePoint& at, float top) {
     return at.x > windows.last && std::abs(at.x - pillar) > 0.045F && !quarter;
 }
 
+/// Share of the length behind which there is a boot or a bed, and no rear window.
+float boot_end(BodyStyle style) {
+    switch (style) {
+        case BodyStyle::sedan:
+            return 0.13F;
+        case BodyStyle::coupe:
+            return 0.12F;
+        case BodyStyle::pickup:
+            return 0.37F;
+        default:
+            return 0;
+    }
+}
+
 /// Windows of cars with one cabin. Front and rear doors meet at the middle pillar.
 bool is_car_glass(const CarSurfacePoint& at) {
     const float top = at.shape.top(at.x);
@@ -52,8 +66,8 @@ bool is_car_glass(const CarSurfacePoint& at) {
     if (at.normal.x() > 0.22F && std::abs(at.normal.y()) < 0.52F)
         return at.z < 0.945F * at.height && at.shape.along(at.x) > 0.5F;
     if (at.normal.x() < -0.22F && std::abs(at.normal.y()) < 0.52F)
-        return at.z < 0.93F * at.height && at.z > at.belt + 0.09F && at.side < at.half * 0.72F &&
-               (!van || at.side > 0.03F);
+        return at.shape.along(at.x) > boot_end(at.shape.style) && at.z < 0.93F * at.height &&
+               at.z > at.belt + 0.09F && at.side < at.half * 0.72F && (!van || at.side > 0.03F);
     return is_side_glass(at, top);
 }
 
@@ -84,6 +98,54 @@ bool is_cab_glass(const CarSurfacePoint& at) {
 }
 
 }  // namespace
+
+void show_cabin(Look& look, const CarSurfacePoint& at, const Eigen::Vector3f& view, float near) {
+    if (is_long(at) || near <= 0)
+        return;
+    // Where the view leaves the cabin, a box.
+    const Eigen::Vector3f from(at.x, at.y, at.z);
+    const float belt = at.shape.belt(middle_pillar(at));
+    const Eigen::Vector3f low(
+        at.shape.rear + 0.16F * at.shape.length(), -0.86F * at.half, belt - 0.5F);
+    const Eigen::Vector3f high(
+        at.shape.rear + 0.70F * at.shape.length(), 0.86F * at.half, 0.94F * at.height);
+    float leaves = 1e9F;
+    int wall = 2;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(view[axis]) < 1e-4F)
+            continue;
+        const float way = ((view[axis] > 0 ? high : low)[axis] - from[axis]) / view[axis];
+        if (way < leaves) {
+            leaves = way;
+            wall = axis;
+        }
+    }
+    const Eigen::Vector3f end = from + std::max(0.0F, leaves) * view;
+    const bool through = wall != 2 && end.z() > belt + 0.06F && end.z() < 0.90F * at.height &&
+                         (wall == 0 || std::abs(end.x() - middle_pillar(at)) > 0.06F);
+    // Two panes take a good half of the light; below the horizon the street is darker than the sky.
+    Color seen = !through       ? Color(.013F, .0135F, .014F)
+                 : view.z() > 0 ? Color(.115F, .130F, .140F)
+                                : Color(.070F, .074F, .075F);
+    // Backs of seats with their head rests, those that are nearer first.
+    const float front_row = middle_pillar(at) - 0.12F;
+    float nearest = leaves;
+    for (const float row : {front_row, front_row - 0.85F}) {
+        const float way = std::abs(view.x()) < 1e-3F ? -1 : (row - from.x()) / view.x();
+        if (way <= 0 || way >= nearest)
+            continue;
+        const Eigen::Vector3f p = from + way * view;
+        const float y = std::abs(std::abs(p.y()) - 0.44F * at.half);
+        const bool back = p.z() < belt + 0.07F && y < 0.30F * at.half;
+        const float up = p.z() - (belt + 0.145F);
+        const bool rest = y * y / (0.13F * 0.13F) + up * up / (0.085F * 0.085F) < 1;
+        if (back || rest) {
+            seen = rest ? Color(.034F, .033F, .032F) : Color(.026F, .025F, .025F);
+            nearest = way;
+        }
+    }
+    look.albedo = mix(look.albedo, seen, near);
+}
 
 bool is_glass(const CarSurfacePoint& at) {
     switch (at.shape.style) {

@@ -69,10 +69,12 @@ bool front_details(Look& look,
     }
     if (at.from_front > 0.55F)
         return false;
-    const float edge = at.belt;
-    if (at.from_front < 0.46F &&
-        front_lamp(look, input, at, edge - 0.155F, edge - 0.015F, 0.60F * at.half))
-        return true;
+    if (at.from_front < 0.42F && at.side > 0.52F * at.half) {
+        // As high as the bonnet's edge, level: the belt falls towards the nose.
+        const float edge = at.shape.belt(at.shape.front - 0.11F);
+        if (front_lamp(look, input, at, edge - 0.175F, edge - 0.015F, 0.54F * at.half))
+            return true;
+    }
     if (at.normal.x() < 0.45F)
         return false;
     if (number_plate(look, at, 0.225F * h, actor))
@@ -198,7 +200,7 @@ Look car_look(const ShadingInput& input, const Surface& surface) {
     const CarShape& shape = input.scene.car_shape(car.model);
     const Vector3f& p = surface.local;
     const CarSurfacePoint at = car_surface_point(
-        shape, p, surface.local_normal, detail(surface, 0.03F), car.lamps, input.tick);
+        shape, p, surface.local_normal, detail(surface, 0.03F), car.lamps, input.tick, car.actor);
     Look look;
     const Color& color = car.color;
     if (surface.material == Material::car_under) {
@@ -220,6 +222,7 @@ Look car_look(const ShadingInput& input, const Surface& surface) {
         as_trim(look);  // the cover over the bed
     } else if (is_glass(at)) {
         as_glass(look);
+        show_cabin(look, at, car.normal_to_scene.transpose() * surface.view, detail(surface, 0.2F));
     } else {
         as_paint(look, color);
         if (!front_details(look, input, at, car.actor) &&

@@ -53,7 +53,7 @@ Look car_part_look(const ShadingInput& input, const Surface& at) {
     const float light = 1 / input.sky.exposure();
     const std::uint16_t lamps = at.instance->lamps;
     const auto flashing = [&](unsigned bit) {
-        return (lamps & bit) != 0 && flashes_now(input.tick);
+        return (lamps & bit) != 0 && flashes_now(input.tick, at.instance->actor);
     };
     Look look;
     look.roughness = 0.4F;
@@ -104,7 +104,9 @@ Look car_part_look(const ShadingInput& input, const Surface& at) {
         case CarPart::blue_lamp:
             // Left and right in turn, two and a half times a second.
             lamp(Color(.02F, .09F, .75F),
-                 (lamps & world::lamp_beacon) != 0 && (input.tick % 8 < 4) == (at.local.y() > 0)
+                 (lamps & world::lamp_beacon) != 0 &&
+                         ((input.tick + hash(at.instance->actor, 62) % 8) % 8 < 4) ==
+                             (at.local.y() > 0)
                      ? 12.0F
                      : 0.0F);
             break;

@@ -21,6 +21,7 @@ struct CarSurfacePoint {
     float fine;              ///< can a line of 2 cm be seen?
     std::uint16_t lamps;
     std::uint64_t tick;
+    std::uint32_t actor;
 };
 
 /// `p` and `normal` in the car's frame; lines of 2 cm can be seen, and lamps are off, unless said.
@@ -29,7 +30,8 @@ inline CarSurfacePoint car_surface_point(const CarShape& shape,
                                          const Eigen::Vector3f& normal,
                                          float fine = 1,
                                          std::uint16_t lamps = 0,
-                                         std::uint64_t tick = 0) {
+                                         std::uint64_t tick = 0,
+                                         std::uint32_t actor = 0) {
     return {shape,
             p.x(),
             p.y(),
@@ -43,7 +45,8 @@ inline CarSurfacePoint car_surface_point(const CarShape& shape,
             normal,
             fine,
             lamps,
-            tick};
+            tick,
+            actor};
 }
 
 inline bool is_long(const CarSurfacePoint& at) {
@@ -60,6 +63,10 @@ inline void as_trim(Look& look, const Color& color = black) {
 }
 
 bool is_glass(const CarSurfacePoint& at);
+
+/// What is seen through a car's glass: seats, the dashboard, the windows beyond. `view`: unit
+/// vector into the car, in its frame; `near`: can a head rest be seen?
+void show_cabin(Look& look, const CarSurfacePoint& at, const Eigen::Vector3f& view, float near);
 
 /// x of the pillar behind the front doors.
 inline float middle_pillar(const CarSurfacePoint& at) {

@@ -4,6 +4,7 @@
 #include "render/look/wet.h"
 #include "render/scene/scene.h"
 #include "render/scene/tracer.h"
+#include "world/hash.h"
 
 namespace reprise::render {
 
@@ -84,9 +85,9 @@ inline float low_beam(std::uint16_t lamps, const Sky& sky) {
     return (lamps & world::lamp_low_beam) != 0 ? 1.0F : sky.headlamps();
 }
 
-/// Lamps flash 1.5 times a second, all vehicles together: ticks are 50 ms.
-inline bool flashes_now(std::uint64_t tick) {
-    return tick * 3 % 40 < 22;
+/// Lamps flash 1.5 times a second, each vehicle's since an instant of its own: ticks are 50 ms.
+inline bool flashes_now(std::uint64_t tick, std::uint32_t actor) {
+    return (tick * 3 + world::hash(actor, 61) % 40) % 40 < 22;
 }
 
 /// How far the room behind a window is lit: each lights up at a dusk of its own. `fate` in [0, 1)

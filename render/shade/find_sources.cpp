@@ -176,7 +176,7 @@ void Collection::add_car(const Instance& car) {
     const float half = static_cast<float>(shape.model->width) / 2;
     for (const float side : {1.0F, -1.0F}) {
         if ((car.lamps & (side > 0 ? world::lamp_left : world::lamp_right)) == 0 ||
-            !flashes_now(input_.tick))
+            !flashes_now(input_.tick, car.actor))
             continue;
         add_car_lens(car,
                      {shape.rear - 0.06F, side * half, 0.85F},

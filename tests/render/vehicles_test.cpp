@@ -46,8 +46,12 @@ Glow glow_of(render::Sensors& sensors, std::uint16_t model, int lamps, std::uint
 
 TEST(Vehicles, LampsLightWhereTheyBelong) {
     render::Sensors sensors(test::straight_road(400));
-    constexpr std::uint64_t lit = 40;  // see flashes_now
-    constexpr std::uint64_t dark = 50;
+    std::uint64_t lit = 40;
+    while (!render::flashes_now(lit, 7))
+        ++lit;
+    std::uint64_t dark = lit;
+    while (render::flashes_now(dark, 7))
+        ++dark;
     for (std::uint16_t model = 0; model < world::vehicle_models().size(); ++model) {
         const world::VehicleModel& m = world::vehicle_models()[model];
         SCOPED_TRACE(m.name);
@@ -67,8 +71,66 @@ TEST(Vehicles, LampsLightWhereTheyBelong) {
 TEST(Vehicles, IndicatorsFlashThreeTimesInTwoSeconds) {
     int starts = 0;
     for (std::uint64_t tick = 1; tick <= 400; ++tick)  // 20 s
-        starts += render::flashes_now(tick) && !render::flashes_now(tick - 1) ? 1 : 0;
+        starts += render::flashes_now(tick, 7) && !render::flashes_now(tick - 1, 7) ? 1 : 0;
     EXPECT_EQ(starts, 30);
+}
+
+TEST(Vehicles, IndicatorsOfDifferentVehiclesFlashAtDifferentInstants) {
+    for (std::uint64_t tick = 0; tick < 40; ++tick) {
+        int lit = 0;
+        for (std::uint32_t actor = 1; actor <= 200; ++actor)
+            lit += render::flashes_now(tick, actor) ? 1 : 0;
+        // 22 of 40, give or take four deviations of a draw.
+        EXPECT_NEAR(lit, 110, 28) << "tick " << tick;
+    }
+}
+
+/// Mean x of the pixels of a plate's blue strip, and of its white. [px]
+struct Plate {
+    double strip = 0;
+    double white = 0;
+};
+
+Plate plate_in(const world::SensorFrame& frame, std::size_t width) {
+    Plate sum;
+    double blues = 0;
+    double whites = 0;
+    for (std::size_t i = 0; i + 2 < frame.data.size(); i += 3) {
+        const int red = frame.data[i];
+        const int green = frame.data[i + 1];
+        const int blue = frame.data[i + 2];
+        const auto x = static_cast<double>(i / 3 % width);
+        if (blue > 40 && blue > 3 * red && 2 * blue > 3 * green) {
+            sum.strip += x;
+            ++blues;
+        } else if (std::min(red, blue) > 120 && std::abs(red - blue) < 25) {
+            sum.white += x;
+            ++whites;
+        }
+    }
+    return {sum.strip / blues, sum.white / whites};
+}
+
+TEST(Vehicles, PlatesAreReadFromLeftToRightAtBothEnds) {
+    render::Sensors sensors(test::straight_road(400));
+    const std::uint16_t model = *world::find_vehicle_model("sedan");
+    world::CarState car = car_at(7, 120, -1.75);
+    car.mutate_model(model);
+    const world::SealedTick tick = test::tick_with({}, {car});
+    const world::VehicleModel& m = world::vehicle_models()[model];
+    const double h = m.height;
+    // So near and narrow that a plate fills the picture.
+    world::SensorSpec behind = camera(SensorKind::rgb, {118.6 - m.rear_overhang, -1.75, 0.36 * h});
+    world::SensorSpec ahead =
+        camera(SensorKind::rgb, {121.4 + m.length - m.rear_overhang, -1.75, 0.26 * h});
+    ahead.yaw = 3.14159265;
+    for (world::SensorSpec* spec : {&behind, &ahead})
+        spec->fov = 0.42;
+    const auto frames = sensors.observe(tick.view(), {behind, ahead}, test::noon());
+    for (const auto& frame : frames) {
+        const Plate plate = plate_in(frame, static_cast<std::size_t>(behind.width));
+        EXPECT_LT(plate.strip, plate.white - 0.15 * behind.width);
+    }
 }
 
 TEST(Vehicles, EachModelHasTheClassOfItsKind) {
