@@ -59,7 +59,13 @@ float blossoms(PlantKind kind, std::uint32_t style, Color& color) {
 /// Leaves on a bunch, or on the solid inside of a bough: patches that lean all ways, some in the
 /// shade of others.
 void dapple(Look& look, const Surface& at, float strength) {
-    const Eigen::Vector3f p = at.position * 8.0F;
+    Eigen::Vector3f p = at.position * 8.0F;
+    if (at.tag == 0) {
+        // The large faces inside show the lattice of patches: bent until no edge is straight.
+        p.x() += 1.5F * value_noise(p.y() * 1.9F, p.z() * 1.9F + 0.3F * p.x(), 10);
+        p.y() += 1.5F * value_noise(p.z() * 1.9F + 0.3F * p.y(), p.x() * 1.9F, 11);
+        p.z() += 1.5F * value_noise(p.x() * 1.9F + 0.3F * p.z(), p.y() * 1.9F, 12);
+    }
     const float bend = 2 * value_noise(p.x() * 0.7F + p.z() * 0.4F, p.y() * 0.7F - p.z() * 0.5F, 9);
     const int column = floor_int(p.x() + bend + 0.5F * p.z());
     const int row = floor_int(p.y() - bend + 0.3F * p.x());

@@ -34,10 +34,11 @@ void add_leaves(Mesh& mesh, const LeafBunch& bunch, HashRandom& random) {
         const float turn = 6.2831853F * random.next();
         const Vector3f along = std::cos(turn) * u + std::sin(turn) * v;
         const Vector3f across = lean.cross(along);
-        const std::uint32_t first = add_vertex(mesh, place + stretched(size * along));
-        add_vertex(mesh, place + stretched(size * 0.62F * across));
-        add_vertex(mesh, place - stretched(size * along));
-        add_vertex(mesh, place - stretched(size * 0.62F * across));
+        // Pointed ahead, widest behind its middle, folded along its rib: no square.
+        const std::uint32_t first = add_vertex(mesh, place + stretched(size * 1.15F * along));
+        add_vertex(mesh, place + stretched(size * (0.56F * across - 0.30F * along - 0.22F * lean)));
+        add_vertex(mesh, place - stretched(size * 0.75F * along));
+        add_vertex(mesh, place - stretched(size * (0.56F * across + 0.30F * along + 0.22F * lean)));
         const Finish leaf{Material::leaf, random.bits()};
         add_triangle(mesh, first, first + 1, first + 2, leaf);
         add_triangle(mesh, first, first + 2, first + 3, leaf);
