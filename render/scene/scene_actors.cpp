@@ -74,9 +74,10 @@ void Scene::place_cars(const world::TickView& tick) {
         const world::VehicleModel& model = *car_shape(car.model()).model;
         const auto rolled = static_cast<double>(car.lane_s());
         if (world::is_two_wheeler(model.body))
-            place_two_wheeler(pose, body, 0, rolled);
+            place_two_wheeler(pose, body, town_.steering_of(car), rolled);
         else
-            town_.add_car(moving_, pose, body, 0, {}, rolled / model.wheel_radius);
+            town_.add_car(
+                moving_, pose, body, town_.steering_of(car), {}, rolled / model.wheel_radius);
     }
 }
 

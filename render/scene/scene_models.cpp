@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "render/scene/town_scene.h"
@@ -72,6 +74,20 @@ void TownScene::add_car(std::vector<Instance>& instances,
             pose.rotate(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitZ()));
         add_instance(instances, part, pose);
     }
+}
+
+double TownScene::steering_of(const world::CarState& car) const {
+    constexpr double most = 0.62;  // [rad]
+    const world::VehicleModel& model = *prototypes_.car_shapes[car.model()].model;
+    const double front_axle =
+        static_cast<double>(car.lane_s()) - (model.length - model.rear_overhang - model.wheelbase);
+    const auto heading = headings_.at(car.lane(), front_axle);
+    if (!heading)
+        return 0;
+    const double turn =
+        std::remainder(*heading - static_cast<double>(car.yaw()), 2 * std::numbers::pi);
+    // Who stands across its lane, as after a crash, has let go of the wheel.
+    return std::abs(turn) > 1.2 ? 0 : std::clamp(turn, -most, most);
 }
 
 void TownScene::build_people() {

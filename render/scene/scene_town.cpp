@@ -5,6 +5,7 @@
 
 #include "ground/mesh/build_ground.h"
 #include "ground/paint/markings.h"
+#include "render/scene/land.h"
 #include "render/scene/town_scene.h"
 #include "render/shapes/street/plant_mesh.h"
 #include "render/shapes/street/signal_parts.h"
@@ -16,8 +17,6 @@ namespace reprise::render {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double skirt = 2000;  // [m] of grass around the town, up to the horizon
 
 Material ground_material(ground::Surface surface) {
     switch (surface) {
@@ -48,21 +47,6 @@ Mesh mesh_of(const ground::GroundMesh& ground, const Vector3d& origin) {
     return mesh;
 }
 
-/// Grass from the town's border to the horizon, below everything else.
-void add_skirt(Mesh& mesh, const world::TownT& town, const Vector3d& origin) {
-    const auto z = static_cast<float>(town.low.z() - origin.z() - 0.35);
-    const auto west = static_cast<float>(town.low.x() - origin.x() - skirt);
-    const auto east = static_cast<float>(town.high.x() - origin.x() + skirt);
-    const auto south = static_cast<float>(town.low.y() - origin.y() - skirt);
-    const auto north = static_cast<float>(town.high.y() - origin.y() + skirt);
-    add_quad(mesh,
-             {Eigen::Vector3f(west, south, z),
-              Eigen::Vector3f(east, south, z),
-              Eigen::Vector3f(east, north, z),
-              Eigen::Vector3f(west, north, z)},
-             {Material::grass});
-}
-
 BuildingFrame frame_of(const world::Building& building, const Vector3d& origin) {
     return {(world::to_eigen(building.centre()) - origin).cast<float>(),
             static_cast<float>(std::cos(building.yaw())),
@@ -80,9 +64,9 @@ void TownScene::build_town(const world::TownT& town) {
         instance.kind = kind;
         instance.mask = mask;
     };
+    add(land_mesh(town, origin_), Kind::ground, solid_bit);  // the first: see shelter()
     const ground::GroundMesh levels = ground::build_ground(town);
     Mesh ground = mesh_of(levels, origin_);
-    add_skirt(ground, town, origin_);
     add(std::move(ground), Kind::ground, solid_bit);
     Mesh markings = mesh_of(ground::build_markings(town), origin_);
     if (!markings.triangles.empty())

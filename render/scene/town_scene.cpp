@@ -66,7 +66,8 @@ TownScene::TownScene(const world::TownT& town, bool portable)
     : device_(portable ? nullptr : std::make_unique<Device>()),
       origin_(whole_metres_amid(town)),
       ground_(static_cast<float>(town.low.z() - origin_.z())),
-      lanes_(town, origin_) {
+      lanes_(town, origin_),
+      headings_(town) {
     build_models();
     build_town(town);
     tree_ = tree_of(instances_);

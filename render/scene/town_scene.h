@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include "render/scene/lane_headings.h"
 #include "render/scene/lane_raster.h"
 #include "render/scene/shelter.h"
 #include "render/scene/town_lamps.h"
@@ -96,6 +97,10 @@ class TownScene {
 
     const LaneRaster& lanes() const { return lanes_; }
 
+    /// How far the front wheels of a car of the traffic are turned: along its lane, where they are.
+    /// [rad] to the left; 0 off the lanes.
+    double steering_of(const world::CarState& car) const;
+
     /// 1 + the number in world::TownThings of what an instance's triangle is of; 0: of none.
     std::uint32_t thing_of(const Instance& instance, std::uint32_t triangle) const;
 
@@ -106,7 +111,10 @@ class TownScene {
 
     /// Made when the first picture asks for it: in dry weather nobody does.
     const Shelter& shelter() const {
-        std::call_once(shelter_asked_, [this] { shelter_.emplace(instances_); });
+        std::call_once(shelter_asked_, [this] {
+            // The first is the land around the town: nothing lies below its hills.
+            shelter_.emplace(std::span<const Instance>(instances_).subspan(1));
+        });
         return *shelter_;
     }
 
@@ -139,6 +147,7 @@ class TownScene {
     Eigen::Vector3d origin_;
     float ground_;
     LaneRaster lanes_;
+    LaneHeadings headings_;
     mutable std::once_flag shelter_asked_;
     mutable std::optional<Shelter> shelter_;
     std::deque<Prototype> meshes_;  // a deque keeps their addresses
