@@ -48,8 +48,9 @@ TEST(Land, IsLevelUpToTheTownsBorderAndHasHillsBeyond) {
                             p.x() < static_cast<float>(town.high.x()) + 59 &&
                             p.y() > static_cast<float>(town.low.y()) - 59 &&
                             p.y() < static_cast<float>(town.high.y()) + 59;
-        if (inside)
+        if (inside) {
             EXPECT_LT(p.z(), static_cast<float>(town.low.z()));
+        }
     }
     EXPECT_GT(highest, 20);
     for (const auto& corners : land.triangles) {
