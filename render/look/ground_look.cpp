@@ -30,14 +30,18 @@ Look asphalt(const Surface& at, float lane_distance) {
     // Tyres polish two tracks, oil drips between them, dust lies at the side.
     const float track = smooth_step(0.5F, 0.1F, std::abs(lane_distance - 0.78F));
     const float oil = smooth_step(0.45F, 0.1F, lane_distance);
-    const float wear = 0.5F + fractal_noise(x * 0.11F, y * 0.11F, 2, 12);
-    tone *= 1 - 0.17F * track * wear - 0.14F * oil * wear;
+    if (track > 0 || oil > 0) {
+        const float wear = 0.5F + fractal_noise(x * 0.11F, y * 0.11F, 2, 12);
+        tone *= 1 - 0.17F * track * wear - 0.14F * oil * wear;
+    }
     tone *= 1 + 0.16F * smooth_step(1.2F, 1.75F, lane_distance);
     // Cracks run where a noise crosses its mean, in some places only.
     const float crack_detail = detail(at, 0.06F);
-    if (crack_detail > 0) {
+    const float place = crack_detail > 0
+                            ? smooth_step(0.58F, 0.70F, fractal_noise(x * 0.13F, y * 0.13F, 2, 30))
+                            : 0.0F;
+    if (place > 0) {
         const float line = std::abs(fractal_noise(x * 1.3F, y * 1.3F, 4, 20) - 0.5F);
-        const float place = smooth_step(0.58F, 0.70F, fractal_noise(x * 0.13F, y * 0.13F, 2, 30));
         tone *= 1 - 0.5F * crack_detail * place * smooth_step(0.010F, 0.003F, line);
     }
     Look look;
@@ -52,7 +56,8 @@ Look paint(const Surface& at, float lane_distance) {
     const float y = at.position.y();
     const float wear =
         fractal_noise(x * 1.7F, y * 1.7F, 3, 60) + 0.25F * fractal_noise(x * 0.2F, y * 0.2F, 2, 61);
-    const float fine = value_noise(x * 45, y * 45, 62) * detail(at, 0.05F);
+    const float near = detail(at, 0.05F);
+    const float fine = near > 0 ? value_noise(x * 45, y * 45, 62) * near : 0.0F;
     const float left = smooth_step(0.86F, 0.66F, wear + 0.18F * fine);
     look.albedo =
         mix(look.albedo, Color(.60F, .595F, .57F) * (0.86F + 0.14F * fine), 0.12F + 0.82F * left);

@@ -140,8 +140,9 @@ Surface surface_at(const Scene& scene,
     at.position = eye + hit.distance * direction;
     at.local = (1 - hit.u - hit.v) * a + hit.u * b + hit.v * c;
     const Vector3f flat = (b - a).cross(c - a);
-    at.local_normal = flat.normalized();
-    if (!mesh.normals.empty()) {
+    if (mesh.normals.empty()) {
+        at.local_normal = flat.normalized();
+    } else {
         const std::array<Vector3f, 3>& normals = mesh.normals[hit.triangle];
         at.local_normal =
             ((1 - hit.u - hit.v) * normals[0] + hit.u * normals[1] + hit.v * normals[2])

@@ -59,6 +59,12 @@ float blossoms(PlantKind kind, std::uint32_t style, Color& color) {
 /// Leaves on a bunch, or on the solid inside of a bough: patches that lean all ways, some in the
 /// shade of others.
 void dapple(Look& look, const Surface& at, float strength) {
+    const float near = detail(at, 0.25F);
+    if (near <= 0) {
+        look.albedo *= 1 - 0.45F * strength;
+        look.normal = at.normal.normalized();
+        return;
+    }
     Eigen::Vector3f p = at.position * 8.0F;
     if (at.tag == 0) {
         // The large faces inside show the lattice of patches: bent until no edge is straight.
@@ -73,7 +79,6 @@ void dapple(Look& look, const Surface& at, float strength) {
     const std::uint32_t patch = hash(static_cast<std::uint32_t>(column),
                                      static_cast<std::uint32_t>(row),
                                      static_cast<std::uint32_t>(level));
-    const float near = detail(at, 0.25F);
     look.albedo *= mix(1 - 0.45F * strength, 1 + strength * (0.75F * unit(patch) - 0.75F), near);
     const Eigen::Vector3f lean(
         unit(hash(patch, 1)) - 0.5F, unit(hash(patch, 2)) - 0.5F, unit(hash(patch, 3)) - 0.5F);

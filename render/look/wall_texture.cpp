@@ -13,7 +13,9 @@ Color wall_texture(const BuildingPaint& paint, float u, float z, const Surface& 
     float tone = 0.90F + 0.2F * fractal_noise(u * 0.5F, z * 0.35F, 3, 130);
     // Rain has washed dirt up from the pavement, and down in streaks.
     const float low = z < 0 ? 0 : z;
-    tone *= 1 - 0.18F * smooth_step(1.1F, 0.0F, low) * (0.5F + value_noise(u * 2, 0.5F, 131));
+    const float dirt = smooth_step(1.1F, 0.0F, low);
+    if (dirt > 0)
+        tone *= 1 - 0.18F * dirt * (0.5F + value_noise(u * 2, 0.5F, 131));
     tone *= 0.96F + 0.06F * value_noise(u * 3.1F, z * 0.22F, 133);
     switch (paint.model->facade) {
         case FacadeKind::brick: {
@@ -57,7 +59,8 @@ Color wall_texture(const BuildingPaint& paint, float u, float z, const Surface& 
             break;
         }
         default:
-            tone *= 1 + 0.08F * detail(at, 0.08F) * (value_noise(u * 24, z * 24, 132) - 0.5F);
+            if (const float grain = detail(at, 0.08F); grain > 0)
+                tone *= 1 + 0.08F * grain * (value_noise(u * 24, z * 24, 132) - 0.5F);
     }
     return color * tone;
 }

@@ -23,6 +23,7 @@ struct RawLight {
     Eigen::Vector3f flat;  ///< the triangle's normal
     float tolerance = 0;   ///< [m] off the plane that still counts as the same surface
     std::uint32_t instance = no_instance;
+    std::uint32_t triangle = 0;
     Light light;
 };
 

@@ -98,6 +98,7 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         RawLight& raw = job.frame.lights[index];
         const Hit& hit = job.hits[index];
         raw.instance = hit.instance;
+        raw.triangle = hit.triangle;
         if (hit.instance == no_instance)
             continue;
         const Vector3f direction = job.camera.ray(pixel.x() + 0.5, pixel.y() + 0.5).cast<float>();

@@ -134,10 +134,12 @@ void refine_tile(ShadingJob& job,
     const RayBatch primary = subpixel_rays(job, corner, edges);
     if (primary.rays.empty())
         return;
-    TileRays rays;
+    thread_local TileRays rays;
+    thread_local std::vector<SubpixelSample> samples;
+    rays.sun.clear();
     rays.hits.resize(primary.rays.size());
     trace_nearest(job.input.scene, primary.rays, true, rays.hits);
-    std::vector<SubpixelSample> samples(primary.rays.size());
+    samples.assign(primary.rays.size(), {});
     for (std::size_t i = 0; i < samples.size(); ++i) {
         SubpixelSample& sample = samples[i];
         sample.hit = rays.hits[i];

@@ -22,6 +22,12 @@ namespace {
 
 using Eigen::Vector3f;
 
+/// Does the place of one thing lie where the other's surface goes on?
+bool on_same_surface(const RawLight& own, const RawLight& other) {
+    return other.flat.dot(own.flat) >= 0.9F &&
+           std::abs((other.position - own.position).dot(own.flat)) <= own.tolerance;
+}
+
 Light filtered(const ShadingJob& job, const Eigen::Vector2i& pixel) {
     const Frame& frame = job.frame;
     const RawLight& own = frame.lights[frame.index(pixel.x(), pixel.y())];
@@ -34,8 +40,8 @@ Light filtered(const ShadingJob& job, const Eigen::Vector2i& pixel) {
     for (int y = low; y <= high; ++y) {
         for (int x = left; x <= right; ++x) {
             const RawLight& other = frame.lights[frame.index(x, y)];
-            if (other.instance != own.instance || other.flat.dot(own.flat) < 0.9F ||
-                std::abs((other.position - own.position).dot(own.flat)) > own.tolerance)
+            if (other.instance != own.instance ||
+                (other.triangle != own.triangle && !on_same_surface(own, other)))
                 continue;
             sum.sun_visibility += other.light.sun_visibility;
             sum.sky_visibility += other.light.sky_visibility;

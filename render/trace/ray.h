@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -26,6 +27,13 @@ struct Hit {
 };
 
 /// Embree asserts that rays are numbers, and would end the process: others are not looked up.
-bool is_valid(const Ray& ray);
+inline bool is_valid(const Ray& ray) {
+    constexpr float most = 1e18F;
+    const auto within = [](const Eigen::Vector3f& v) {
+        return std::abs(v.x()) < most && std::abs(v.y()) < most && std::abs(v.z()) < most;
+    };
+    return within(ray.origin) && within(ray.direction) && ray.direction.squaredNorm() > 1e-12F &&
+           ray.far >= 0;
+}
 
 }  // namespace reprise::render
