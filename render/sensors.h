@@ -87,7 +87,8 @@ class Sensors {
 
     /// Many looks, several at a time, so that cores share no picture and do not wait for each
     /// other: frames are those that observe() makes. `next` is called by one thread at a time, and
-    /// says with nothing that this was all. A look takes 190 bytes a pixel by day, 212 by night.
+    /// says with nothing that this was all. A look in the making takes 190 bytes a pixel,
+    /// by night 213.
     void observe_each(const std::function<std::unique_ptr<Observation>()>& next);
 
   private:

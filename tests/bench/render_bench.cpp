@@ -1,5 +1,6 @@
 // Pictures of Town 1 with 100 cars and 50 walkers on one core, as the file that is written, beside
-// bare Embree: all the rays of the same picture on the same scenes, with nothing in between. Then
+// bare Embree: all the rays of the same picture on the same scenes, with nothing in between. LiDAR
+// sweeps likewise. Then
 // what a second thread makes of many pictures, beside what it makes of the bare rays. Figures are
 // medians of turns.
 #include <filesystem>
@@ -126,6 +127,42 @@ void look(benchmark::State& state, const Picture& picture) {
     state.counters["Mrays"] = 1e-6 * static_cast<double>(rays);
 }
 
+/// A whole turn of 64 lasers, 2048 shots each, on the roof of the first vehicle.
+world::SensorRig roof_lidar(SensorKind kind) {
+    world::SensorSpec sensor;
+    sensor.name = "roof";
+    sensor.kind = kind;
+    sensor.actor = scene().tick->view().vehicles().front().id();
+    sensor.position = {1.2, 0, 1.8};
+    sensor.attributes = {{"channels", 64},
+                         {"range", 100},
+                         {"rotation_frequency", 1 / sensor.step},
+                         {"points_per_second", 64 * 2048 / sensor.step}};
+    return {sensor};
+}
+
+void sweep(benchmark::State& state, SensorKind kind, const char* weather) {
+    const world::SensorRig rig = roof_lidar(kind);
+    const world::Weather& air = world::find_weather(weather)->weather;
+    render::Sensors sensors(scene().recording.town, {.threads = 1});
+    const auto observe = [&] {
+        benchmark::DoNotOptimize(sensors.observe(scene().tick->view(), rig, air));
+    };
+    observe();
+    const auto packets = bench::traced_packets(observe);
+    REPRISE_CHECK(bench::rays_of(packets) > 0, "no ray came by");
+    bench::ThreadTimer sweeps, bare;
+    for (int turn = 0; turn < turns; ++turn) {
+        sweeps.time(observe);
+        bare.time([&] { bench::trace_again(packets); });
+    }
+    for (auto _ : state)
+        state.SetIterationTime(sweeps.median());
+    state.counters["bare_ms"] = 1e3 * bare.median();
+    state.counters["of_bare"] = sweeps.median() / bare.median();
+    state.counters["Mrays"] = 1e-6 * static_cast<double>(bench::rays_of(packets));
+}
+
 /// The town as a program finds it: until the first picture can be made.
 void StartUp(benchmark::State& state) {
     const world::TownT& town = scene().recording.town;
@@ -222,6 +259,9 @@ BENCHMARK_CAPTURE(look, rgb_84x84, Picture{{SensorKind::rgb}, 84, 84})->Apply(on
 BENCHMARK_CAPTURE(look, semantic_84x84, Picture{{SensorKind::semantic}, 84, 84})->Apply(once);
 BENCHMARK_CAPTURE(look, rgb_200x88, Picture{{SensorKind::rgb}, 200, 88})->Apply(once);
 BENCHMARK_CAPTURE(look, semantic_200x88, Picture{{SensorKind::semantic}, 200, 88})->Apply(once);
+BENCHMARK_CAPTURE(sweep, semantic_64x2048, SensorKind::semantic_lidar, "clear_noon")->Apply(once);
+BENCHMARK_CAPTURE(sweep, lidar_64x2048, SensorKind::lidar, "clear_noon")->Apply(once);
+BENCHMARK_CAPTURE(sweep, lidar_rain_64x2048, SensorKind::lidar, "hard_rain_noon")->Apply(once);
 BENCHMARK(StartUp)->Unit(benchmark::kMillisecond)->Iterations(5)->UseManualTime();
 BENCHMARK(Threads)->Apply(once);
 
