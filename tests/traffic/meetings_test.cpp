@@ -108,7 +108,7 @@ TEST(WayAhead, NoBodyLeavesItsAreaOrItsCorridor) {
                 car.rear = car.trail.rear() + Eigen::Vector3d(0, beside / 2, 0);
                 const world::Box area = area_ahead(car, lines, graph, reach);
                 const WayAhead way(car, lines, graph, reach + 1);
-                const BodyBox corridor = way.corridor(reach);
+                const BodyBox corridor = way.corridor(reach, way.at(0).ahead);
                 narrowest = std::min(narrowest, corridor.half_width);
                 for (double driven = 0; driven < reach; driven += 0.25) {
                     const BodyBox body = way.at(driven);

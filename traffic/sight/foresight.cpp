@@ -36,10 +36,11 @@ double corner(const BodyBox& box, double margin) {
 void Foresight::look(const Car& car, const LaneLines& lines, const RoadGraph& graph, double reach) {
     way_.look(car, lines, graph, reach + 1);
     now_ = way_.at(0);
-    corridor_ = way_.corridor(reach).widened(room);
+    corridor_ = way_.corridor(reach, now_.ahead).widened(room);
     speed_ = car.speed;
     reach_ = reach;
     radius_ = corner(now_, 0);
+    roomy_radius_ = corner(now_, room);
     most_moved_ = way_.most_moved();
     drives_.known = soon_[0].known = soon_[1].known = sweep_.known = 0;
 }
@@ -54,45 +55,65 @@ const BodyBox& Foresight::drives(std::size_t i) {
     return drives_.bodies[i];
 }
 
+/// [m/s] of the two that it will have about.
+double Foresight::tried_speed(std::size_t which) const {
+    return which == 0 ? std::max(speed_, least_speed) : speed_ + speeding_up;
+}
+
 const BodyBox& Foresight::soon(std::size_t which, std::size_t i) {
     Row& row = soon_[which];
     if ((row.known >> i & 1U) == 0) {
         row.known |= 1U << i;
-        const double tried = which == 0 ? std::max(speed_, least_speed) : speed_ + speeding_up;
-        row.bodies[i] = way_.at(tried * sample * static_cast<double>(i)).widened(room);
+        const double tried = tried_speed(which);
+        row.bodies[i] =
+            (tried == speed_ ? drives(i) : way_.at(tried * sample * static_cast<double>(i)))
+                .widened(room);
     }
     return row.bodies[i];
 }
 
-const BodyBox& Foresight::sweep(std::size_t i) {
-    if ((sweep_.known >> i & 1U) == 0) {
-        sweep_.known |= 1U << i;
-        sweep_.bodies[i] = way_.at(reach_ / (samples - 1) * static_cast<double>(i));
+std::span<const BodyBox> Foresight::sweep() {
+    if (sweep_.known == 0) {
+        sweep_.known = 1;
+        for (std::size_t i = 0; i < samples; ++i)
+            sweep_.bodies[i] = way_.at(reach_ / (samples - 1) * static_cast<double>(i));
     }
-    return sweep_.bodies[i];
+    return sweep_.bodies;
 }
 
+/// At both speeds side by side: what one of them says about a moment, less what the other one has
+/// driven more or less by then, is true of the other one.
 bool Foresight::would_meet(Foresight& other) {
-    const double radii = corner(now_, room) + other.radius_;
-    for (const std::size_t which : {0U, 1U}) {
-        const double speed = which == 0 ? std::max(speed_, least_speed) : speed_ + speeding_up;
-        const double closing = (speed * most_moved_ + other.speed_ * other.most_moved_) * sample;
-        for (std::size_t i = 1; i < samples; ++i) {
-            const BodyBox& own = soon(which, i);
-            const BodyBox& its = other.drives(i);
-            const double gap = gap_between(own, its, radii);
-            if (gap <= 0 && overlap(own, its))
-                return true;
-            i += sure_samples(gap, closing);
-        }
+    const double radii = roomy_radius_ + other.radius_;
+    const double its_closing = other.speed_ * other.most_moved_;
+    const std::array<double, 2> closing{(tried_speed(0) * most_moved_ + its_closing) * sample,
+                                        (tried_speed(1) * most_moved_ + its_closing) * sample};
+    const double parting = (tried_speed(1) - tried_speed(0)) * most_moved_ * sample;
+    const double gap_now = gap_between(now_, other.now_, radii);
+    std::array<std::size_t, 2> next{1 + sure_samples(gap_now, closing[0]),
+                                    1 + sure_samples(gap_now, closing[1])};
+    for (;;) {
+        const std::size_t which = next[1] < next[0] ? 1 : 0;
+        const std::size_t i = next[which];
+        if (i >= samples)
+            return false;
+        const BodyBox& own = soon(which, i);
+        const BodyBox& its = other.drives(i);
+        const double gap = gap_between(own, its, radii);
+        if (gap <= 0 && overlap(own, its))
+            return true;
+        next[which] = i + 1 + sure_samples(gap, closing[which]);
+        const double gap_of_other = gap - parting * static_cast<double>(i);
+        if (gap_of_other > 0)
+            next[1 - which] =
+                std::max(next[1 - which], i + 1 + sure_samples(gap_of_other, closing[1 - which]));
     }
-    return false;
 }
 
 bool Foresight::would_meet(const BodyBox& standing) {
-    const double radii = corner(now_, room) + corner(standing, 0);
+    const double radii = roomy_radius_ + corner(standing, 0);
     for (const std::size_t which : {0U, 1U}) {
-        const double speed = which == 0 ? std::max(speed_, least_speed) : speed_ + speeding_up;
+        const double speed = tried_speed(which);
         for (std::size_t i = 1; i < samples; ++i) {
             const BodyBox& own = soon(which, i);
             const double gap = gap_between(own, standing, radii);
@@ -104,19 +125,20 @@ bool Foresight::would_meet(const BodyBox& standing) {
     return false;
 }
 
-/// `others(i)` are `count` bodies with corners at `radius` [m].
-template <typename Others>
-Foresight::Entry Foresight::first_on(const Others& others, std::size_t count, double radius) {
-    const double radii = corner(now_, room) + radius;
+/// Of `others`, with corners at `radius` [m].
+Foresight::Entry Foresight::first_on(std::span<const BodyBox> others, double radius) {
+    const double radii = roomy_radius_ + radius;
+    const double touching = (radii + rounding) * (radii + rounding);
     for (double s = 0; s <= reach_; s += spacing) {
         const BodyBox body = way_.at(s).widened(room);
-        double gap = 1e9;  // [m] to the nearest
-        for (std::size_t i = 0; i < count; ++i) {
-            const double to_this = gap_between(body, others(i), radii);
-            if (to_this <= 0 && overlap(body, others(i)))
-                return {s, body, i == 0, true};
-            gap = std::min(gap, to_this);
+        double nearest = 1e18;  // [m^2]
+        for (const BodyBox& other : others) {
+            const double squared = (body.middle - other.middle).squaredNorm();
+            if (squared <= touching && overlap(body, other))
+                return {s, body, &other == others.data(), true};
+            nearest = std::min(nearest, squared);
         }
+        const double gap = std::sqrt(nearest) - radii - rounding;
         // Added up one by one: the same places, whatever is passed over.
         for (auto sure = sure_samples(gap, spacing * most_moved_); sure > 0 && s <= reach_; --sure)
             s += spacing;
@@ -125,13 +147,11 @@ Foresight::Entry Foresight::first_on(const Others& others, std::size_t count, do
 }
 
 Foresight::Entry Foresight::first_on(const BodyBox& standing) {
-    return first_on(
-        [&](std::size_t) -> const BodyBox& { return standing; }, 1, corner(standing, 0));
+    return first_on({&standing, 1}, corner(standing, 0));
 }
 
 Foresight::Entry Foresight::first_on_way_of(Foresight& other) {
-    return first_on(
-        [&](std::size_t i) -> const BodyBox& { return other.sweep(i); }, samples, other.radius_);
+    return first_on(other.sweep(), other.radius_);
 }
 
 }  // namespace reprise::traffic

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "traffic/sight/way_ahead.h"
@@ -33,7 +34,7 @@ class Foresight {
     const BodyBox& corridor() const { return corridor_; }
 
     /// The first of the bodies along its way, as first_on_way_of compares them.
-    const BodyBox& way_start() { return sweep(0); }
+    const BodyBox& way_start() { return sweep().front(); }
 
     /// Would it come into the other one, as that drives on, at about the speed that it has or will
     /// have in a moment?
@@ -62,16 +63,17 @@ class Foresight {
 
     const BodyBox& drives(std::size_t i);
     const BodyBox& soon(std::size_t which, std::size_t i);
-    const BodyBox& sweep(std::size_t i);
-    template <typename Others>
-    Entry first_on(const Others& others, std::size_t count, double radius);
+    double tried_speed(std::size_t which) const;
+    std::span<const BodyBox> sweep();
+    Entry first_on(std::span<const BodyBox> others, double radius);
 
     WayAhead way_;
     BodyBox now_;
     BodyBox corridor_;
     double speed_ = 0;
     double reach_ = 0;
-    double radius_ = 0;        ///< [m] from the middle of its body to a corner
+    double radius_ = 0;        ///< [m] from the middle of its body to a corner,
+    double roomy_radius_ = 0;  ///< [m] and with room beside
     double most_moved_ = 0;    ///< [m] of its middle, for each metre driven
     Row drives_;               ///< as it drives on now, by time
     std::array<Row, 2> soon_;  ///< at about the speeds that it will have, by time; with room beside

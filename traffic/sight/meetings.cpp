@@ -69,8 +69,7 @@ void Meetings::gather(Cars& cars) {
         driver.seen = nullptr;
         driver.waits_for.clear();
         driver.half_length = model.length / 2;
-        driver.middle = car.rear.head<2>() +
-                        (driver.half_length - model.rear_overhang) * world::ahead_of(car.yaw);
+        driver.middle = car.rear.head<2>() + (driver.half_length - model.rear_overhang) * car.ahead;
         driver.reach = std::max(Foresight::look_ahead * (car.speed + Foresight::speeding_up),
                                 least_sweep + model.length);
         const world::LaneT& lane = lines_.town().lanes[car.lane];

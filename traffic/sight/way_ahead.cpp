@@ -148,8 +148,9 @@ void WayAhead::add(const Eigen::Vector2d& p) {
 }
 
 Eigen::Vector2d WayAhead::bumper_at(double driven) const {
-    const auto above = std::upper_bound(ends_.begin() + 1, ends_.end() - 1, driven);
-    const auto i = static_cast<std::size_t>(above - ends_.begin());
+    std::size_t i = 1;  // of few points: quicker one by one
+    for (const std::size_t last = ends_.size() - 1; i < last && ends_[i] <= driven; ++i) {
+    }
     const double piece = std::max(ends_[i] - ends_[i - 1], 1e-9);
     const double share = std::min((driven - ends_[i - 1]) / piece, 1.0);
     return points_[i - 1] + (points_[i] - points_[i - 1]) * share;
@@ -171,11 +172,10 @@ BodyBox WayAhead::at(double driven) const {
     return box;
 }
 
-BodyBox WayAhead::corridor(double driven) const {
+BodyBox WayAhead::corridor(double driven, const Eigen::Vector2d& ahead) const {
     constexpr double rounding = 0.01;  // [m]
     const Eigen::Vector2d& front = points_.front();
     const Eigen::Vector2d rear = car_->trail.rear().head<2>();
-    const Eigen::Vector2d ahead = at(0).ahead;
     world::Box box;  // in the frame of today's body, from its bumper
     const auto take = [&](const Eigen::Vector2d& p) {
         const Eigen::Vector2d offset = p - front;

@@ -56,9 +56,9 @@ class WayAhead {
     /// When the bumper is `driven` [m] ahead of where it is now; beyond the end of the way, there.
     BodyBox at(double driven) const;
 
-    /// A box along the body of today that no body leaves until the bumper is `driven` [m] ahead;
-    /// somewhat too large, and tight beside who drives straight on.
-    BodyBox corridor(double driven) const;
+    /// A box along the body of today, at(0).ahead, that no body leaves until the bumper is `driven`
+    /// [m] ahead; somewhat too large, and tight beside who drives straight on.
+    BodyBox corridor(double driven, const Eigen::Vector2d& ahead) const;
 
     /// [m] that the middle of the body moves at most for each metre driven.
     double most_moved() const;
