@@ -16,6 +16,14 @@
 #include "traffic/cars/fleet.h"
 #include "world/check.h"
 
+// SUMO looks for the translation of a message that it does not say, for each car in each step,
+// which is a hundredth of a tick. What it says is to be the same under every locale anyway: the
+// libraries that a program loads take this one for the C library's. In brackets, for that has a
+// macro of it.
+extern "C" char*(gettext)(const char* message) noexcept {
+    return const_cast<char*>(message);
+}
+
 namespace reprise::traffic {
 
 namespace {

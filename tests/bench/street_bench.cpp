@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
+#include <unistd.h>
 #include <utility>
 
 #include <benchmark/benchmark.h>
@@ -65,7 +67,8 @@ void Street(benchmark::State& state) {
     recording.episode.walker_seed = 7;
     recording.episode.jaywalkers = 0.1;
     const ground::GroundMesh ground = ground::build_ground(recording.town);
-    const auto path = std::filesystem::temp_directory_path() / "reprise_street_bench.mcap";
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("reprise_street_bench_" + std::to_string(getpid()) + ".mcap");
     for (auto _ : state) {
         bench::ThreadTimer whole, sumo, bullet_alone, crowd_alone;
         replay::TraceWriter trace(path, recording);

@@ -25,9 +25,10 @@ constexpr double halt = 0.1;               // [m/s]
 constexpr double hard = 0.8;               // of the hardest braking, that one plans with
 constexpr double longest_body = 12;        // [m]
 
+/// Most pairs that are near each other west to east are not south to north: these come first.
 bool touch(const world::Box& one, const world::Box& other) {
-    return (one.low.array() <= other.high.array()).all() &&
-           (other.low.array() <= one.high.array()).all();
+    return one.low.y() <= other.high.y() && other.low.y() <= one.high.y() &&
+           one.low.x() <= other.high.x() && other.low.x() <= one.high.x();
 }
 
 }  // namespace
@@ -172,10 +173,7 @@ void Meetings::wait(Driver& driver, Driver& other, const Stop& stop) {
         driver.car->pushes_until = tick_ + pushes_for;
 }
 
-bool Meetings::first_waits(const Driver& one,
-                           const Driver& other,
-                           const Stop& stop_one,
-                           const Stop& stop_other) const {
+bool Meetings::first_waits(const Driver& one, const Driver& other) const {
     const auto waits = [](const Driver& driver, const Driver& for_whom) {
         const auto& ids = driver.car->waits_for;
         return std::find(ids.begin(), ids.end(), for_whom.car->id) != ids.end();
@@ -185,6 +183,8 @@ bool Meetings::first_waits(const Driver& one,
         return !both_stand;
     if (waits(other, one))
         return both_stand;
+    const Stop stop_one = stop_before_way(one, other);
+    const Stop stop_other = stop_before_way(other, one);
     if (stop_one.is_possible != stop_other.is_possible)
         return stop_one.is_possible;
     if (yields(one) != yields(other))
@@ -231,12 +231,10 @@ void Meetings::meet(Driver& one, Driver& other) {
     const bool second = !one_follows && other.seen->would_meet(*one.seen);
     if (!first && !second)
         return;
-    const Stop stop_one = stop_before_way(one, other);
-    const Stop stop_other = stop_before_way(other, one);
-    if (first && (!second || first_waits(one, other, stop_one, stop_other)))
-        wait(one, other, stop_one);
+    if (first && (!second || first_waits(one, other)))
+        wait(one, other, stop_before_way(one, other));
     else
-        wait(other, one, stop_other);
+        wait(other, one, stop_before_way(other, one));
 }
 
 void Meetings::look(Cars& cars, std::uint64_t tick) {
@@ -245,11 +243,13 @@ void Meetings::look(Cars& cars, std::uint64_t tick) {
     double farthest = 0;
     for (const Place& place : places_)
         farthest = std::max(farthest, place.reach + longest_body / 2);
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        const Place& one = places_[i];
-        for (std::size_t j = i + 1; j < places_.size(); ++j) {
-            const Place& other = places_[j];
-            if (other.x - one.x > one.reach + longest_body / 2 + farthest)
+    const Place* const end = places_.data() + places_.size();
+    for (const Place* at = places_.data(); at != end; ++at) {
+        const Place one = *at;
+        const double window = one.reach + longest_body / 2 + farthest;
+        for (const Place* next = at + 1; next != end; ++next) {
+            const Place& other = *next;
+            if (other.x - one.x > window)
                 break;
             if (one.lane == other.lane)
                 follow(drivers_[one.driver], drivers_[other.driver]);

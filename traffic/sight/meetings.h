@@ -75,10 +75,7 @@ class Meetings {
     void prepare(Driver& driver);
     bool has_stood(const Driver& driver) const;
     bool yields(const Driver& driver) const;
-    bool first_waits(const Driver& one,
-                     const Driver& other,
-                     const Stop& stop_one,
-                     const Stop& stop_other) const;
+    bool first_waits(const Driver& one, const Driver& other) const;
     static bool follows(const Driver& driver, const Driver& leader);
     static bool is_all_on_its_lane(const Driver& driver);
     static Stop stop_at(const Driver& driver,
