@@ -1,5 +1,6 @@
 #include "traffic/sight/meetings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "tests/support/towns.h"
 #include "traffic/cars/fleet.h"
+#include "traffic/sight/foresight.h"
 #include "traffic/sight/way_ahead.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
@@ -45,7 +47,7 @@ Car car_before(const TownT& town,
     car.speed = speed;
     car.route = {graph.edge_of(lane), graph.edge_after(via)};
     const world::LanePoint at = world::point_at(on, on.length - before);
-    car.yaw = at.yaw;
+    car.turn_to(at.yaw);
     const Eigen::Vector3d ahead(std::cos(at.yaw), std::sin(at.yaw), 0);
     car.trail.start(at.position, -ahead, origin_to_front(car.model));
     car.rear = car.trail.rear();
@@ -134,6 +136,68 @@ TEST(WayAhead, NoBodyLeavesItsAreaOrItsCorridor) {
                 }
             }
     EXPECT_LT(narrowest, 0.5) << "of a bicycle that drives straight on";
+}
+
+/// The same question, of every moment that is looked at.
+bool meets_at_any_moment(const Car& one,
+                         const WayAhead& way,
+                         const Car& other,
+                         const WayAhead& its_way) {
+    for (const double speed :
+         {std::max(one.speed, Foresight::least_speed), one.speed + Foresight::speeding_up})
+        for (std::size_t i = 1; i < Foresight::samples; ++i) {
+            const double seconds = Foresight::sample * static_cast<double>(i);
+            if (overlap(way.at(speed * seconds).widened(Foresight::room),
+                        its_way.at(other.speed * seconds)))
+                return true;
+        }
+    return false;
+}
+
+/// [m] to the first place on the other's way, of every place that is looked at; none: -1.
+double first_on_way(const WayAhead& way, const WayAhead& its_way, double reach) {
+    for (double s = 0; s <= reach; s += Foresight::spacing)
+        for (std::size_t i = 0; i < Foresight::samples; ++i)
+            if (overlap(way.at(s).widened(Foresight::room),
+                        its_way.at(reach / (Foresight::samples - 1) * static_cast<double>(i))))
+                return s;
+    return -1;
+}
+
+/// What is passed over because it is sure is what a look at everything would find.
+TEST(Foresight, TellsWhatALookAtEveryMomentTells) {
+    constexpr double reach = 26;
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const LaneLines lines(town);
+    const std::vector<Entry> entries = entries_of(town);
+    int met = 0, missed = 0;
+    for (const Entry& one : entries)
+        for (const Entry& other : entries) {
+            if (graph.edge_of(one.first) >= graph.edge_of(other.first) ||
+                town.lanes[one.second].junction != town.lanes[other.second].junction)
+                continue;
+            for (const double speed : {0.0, 0.5, 4.0, 8.0}) {
+                const Car car =
+                    car_before(town, graph, 7, "bus", one.first, one.second, 1 + speed, speed);
+                const Car its =
+                    car_before(town, graph, 8, "sedan", other.first, other.second, 6, 7);
+                Foresight seen, its_seen;
+                seen.look(car, lines, graph, reach);
+                its_seen.look(its, lines, graph, reach);
+                const WayAhead way(car, lines, graph, reach + 1);
+                const WayAhead its_way(its, lines, graph, reach + 1);
+                const bool meets = meets_at_any_moment(car, way, its, its_way);
+                (meets ? met : missed) += 1;
+                ASSERT_EQ(seen.would_meet(its_seen), meets)
+                    << town.lanes[one.second].name << " and " << town.lanes[other.second].name;
+                ASSERT_EQ(its_seen.would_meet(seen), meets_at_any_moment(its, its_way, car, way));
+                const Foresight::Entry first = seen.first_on_way_of(its_seen);
+                ASSERT_EQ(first.is_any ? first.driven : -1, first_on_way(way, its_way, reach));
+            }
+        }
+    EXPECT_GT(met, 50);
+    EXPECT_GT(missed, 100);
 }
 
 /// Of two whose bodies would come into each other one waits, and only one.
