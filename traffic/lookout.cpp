@@ -60,10 +60,18 @@ struct Lookout::Corridor {
 void Lookout::look_on(std::uint32_t lane, double start, double aside, Corridor& corridor) const {
     constexpr double nose = 0.3;  // [m] what begins further behind the bumper is beside the car
     for (const Obstruction& one : obstructions_.on(lane)) {
-        const double distance = start + one.begin;
-        if (one.id == corridor.id || distance < -nose || distance > corridor.reach ||
+        double distance = start + one.begin;
+        if (one.id == corridor.id || distance > corridor.reach || start + one.end < -nose ||
             std::abs(one.z - corridor.z) > world::level_clearance + corridor.reach * 0.1)
             continue;
+        // Of what stands askew a corner beside the car says nothing of the body in front of it.
+        if (distance < -nose) {
+            const double middle = corridor.aside_at(0) - aside;
+            distance = start + one.begin_between(middle - corridor.half_width,
+                                                 middle + corridor.half_width);
+            if (distance < -nose || distance > corridor.reach)
+                continue;
+        }
         corridor.meet(distance, one.right + aside, one.left + aside, one);
     }
 }

@@ -263,6 +263,45 @@ TEST(Lookout, WalkersOnSidewalksChangeNothing) {
     EXPECT_EQ(digest(walkers_on_sidewalks(loaded.town, 100)), digest({}));
 }
 
+/// As one stands who turns around: its tail's corner in front of the car, its middle beside that.
+world::VehicleState askew_before(const world::LaneT& lane, double front) {
+    constexpr double turned = 2.64;  // [rad]
+    const Eigen::Vector2d middle(front - 0.1, 2.3);
+    world::VehicleState vehicle = test::vehicle_on(lane, 2, front);
+    const world::VehicleModel& model = world::vehicle_models()[vehicle.model()];
+    const world::LanePoint at = world::point_at(lane, middle.x());
+    const Eigen::Vector2d p =
+        at.position.head<2>() + middle.y() * world::left_of(at.yaw) -
+        (model.length / 2 - model.rear_overhang) * world::ahead_of(at.yaw + turned);
+    vehicle.mutable_position() = world::Vec3(p.x(), p.y(), at.position.z());
+    const double half = (at.yaw + turned) / 2;
+    vehicle.mutable_orientation() = world::Quat(std::cos(half), 0, 0, std::sin(half));
+    return vehicle;
+}
+
+TEST(Lookout, WhoWaitsDoesNotStartIntoATailThatStandsAskewBeforeIt) {
+    const auto& loaded = own_town("straight");
+    const std::uint32_t road = lane(loaded.town, "east_1");
+    Stage stage(loaded, 0);
+    stage.step({spawn(1, road, 60)});
+    const world::VehicleState turning =
+        askew_before(loaded.town.lanes[road], static_cast<double>(stage.car(1)->lane_s()));
+    const world::VehicleModel& model = world::vehicle_models()[turning.model()];
+    const Eigen::Isometry3d pose = world::pose(turning.position(), turning.orientation());
+    const Eigen::Vector2d ahead = pose.linear().col(0).head<2>();
+    const Box body{pose.translation().head<2>() + (model.length / 2 - model.rear_overhang) * ahead,
+                   ahead,
+                   {model.length / 2, model.width / 2}};
+    const Box waiting = box_of_car(*stage.car(1));
+    ASSERT_FALSE(overlap(waiting, body))
+        << waiting.centre.transpose() << ", " << body.centre.transpose() << ", "
+        << stage.car(1)->lane_s();
+    for (int i = 0; i < 300; ++i) {
+        stage.step({}, {turning});
+        ASSERT_FALSE(overlap(box_of_car(*stage.car(1)), body)) << "tick " << i;
+    }
+}
+
 TEST(Lookout, RunsWithThingsInTheWayAreRepeatable) {
     const auto digest = [] {
         Scene scene("straight", "east_1");

@@ -32,6 +32,31 @@ double half_extent(const Footprint& box, const Eigen::Vector2d& direction) {
 
 }  // namespace
 
+double Obstruction::begin_between(double from, double to) const {
+    double low = corners[0].y();
+    double high = corners[0].y();
+    for (const Eigen::Vector2d& corner : corners) {
+        low = std::min(low, corner.y());
+        high = std::max(high, corner.y());
+    }
+    // As much as it takes beside its body.
+    from -= left - high;
+    to += low - right;
+    double first = world::infinity;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Eigen::Vector2d& one = corners[i];
+        const Eigen::Vector2d& other = corners[(i + 1) % corners.size()];
+        if (one.y() >= from && one.y() <= to)
+            first = std::min(first, one.x());
+        for (const double line : {from, to})
+            if ((one.y() < line) != (other.y() < line))
+                first = std::min(
+                    first,
+                    one.x() + (line - one.y()) / (other.y() - one.y()) * (other.x() - one.x()));
+    }
+    return first;
+}
+
 /// Null: is to be looked at.
 const Obstructions::Off* Obstructions::still_off(const Footprint& footprint,
                                                  const Eigen::Vector2d& tip) const {
@@ -131,6 +156,15 @@ void Obstructions::add(const Footprint& footprint) {
         one.left = t + half_across + std::max(aside, 0.0);
         one.begin = s - half;
         one.end = s + half;
+        const Eigen::Vector2d length(footprint.direction.dot(ahead),
+                                     world::cross(ahead, footprint.direction));
+        const Eigen::Vector2d along = footprint.half_length * length;
+        const Eigen::Vector2d across = footprint.half_width * world::turned_left(length);
+        const Eigen::Vector2d middle(s, t);
+        one.corners = {middle + along + across,
+                       middle + along - across,
+                       middle - along - across,
+                       middle - along + across};
         const double edge = lane.width / 2 + beside_the_lane;
         if (one.right > edge || one.left < -edge || one.end < 0 || one.begin > lane.length)
             continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,11 +19,18 @@ struct Obstruction {
     double end = 0;
     double right = 0;  ///< left of the centre line: from here, with what is to be left beside it,
     double left = 0;   ///< to here
+    std::array<Eigen::Vector2d, 4>
+        corners;       ///< of the body now: along the lane, left of its middle
     double speed = 0;  ///< [m/s] along the lane, 0 for what comes towards us
     double z = 0;
     bool lasts = false;  ///< stands or lies still, and is not somebody who waits to drive on
     double gap = 0;      ///< [m] that one who stops behind it leaves
     std::uint32_t id = 0;
+
+    /// [m] along the lane where the body begins that lies between two lines along it, each left of
+    /// the centre line; infinity where it does not reach between them. A body that stands askew
+    /// begins there later than its foremost corner says. Who walks is taken for what he will take.
+    double begin_between(double from, double to) const;
 };
 
 /// Everything that lies, stands, walks or drives on lanes for cars, lane by lane.
