@@ -24,6 +24,7 @@ constexpr double forgotten_after = 20;  // [s] without contact
 constexpr double backwards = 1.2;       // [m/s]
 constexpr double behind_clear = 1.0;    // [m] kept from those behind
 constexpr double behind_braking = 1.5;  // [m/s^2]
+constexpr double lets_go_for = 6;       // [s] the other one, who takes a while to start
 constexpr double gives_up = 3;          // [s] of standing while it wants back
 constexpr double turn_of_tail = 0.3;    // [rad] for each metre beside the path
 constexpr double most_turn = 0.5;       // [rad]
@@ -85,6 +86,13 @@ bool BackOff::make_room(double distance, const world::TickView& last, const Ego&
     return true;
 }
 
+bool BackOff::give_room(double distance, const world::TickView& last, const Ego& ego) {
+    if (!make_room(distance, last, ego))
+        return false;
+    lets_go_first_ = true;
+    return true;
+}
+
 void BackOff::end() {
     going_back_ = false;
     pushing_ticks_ = 0;
@@ -95,7 +103,8 @@ void BackOff::begin(double distance, const Ego& ego) {
     distance_ = distance;
     from_ = ego.position.head<2>();
     pushing_ticks_ = standing_ticks_ = circling_ticks_ = 0;
-    free_ticks_ = 0;
+    free_ticks_ = waiting_ticks_ = 0;
+    lets_go_first_ = false;
 }
 
 bool BackOff::somebody_is_behind(const world::TickView& last, const Ego& ego) const {
@@ -150,8 +159,8 @@ BackOff::Move BackOff::next(const world::TickView& last,
                             double s) {
     const double driven = (from_ - ego.position.head<2>()).dot(ego.direction);
     const bool done = driven > distance_ - 0.3 || standing_ticks_ * step_ > gives_up;
-    if (done && std::abs(ego.speed) < 0.1) {
-        going_back_ = false;
+    if (waiting_ticks_ > 0 || (done && std::abs(ego.speed) < 0.1)) {
+        going_back_ = lets_go_first_ && ++waiting_ticks_ * step_ < lets_go_for;
         return {};
     }
     Move move;
@@ -191,6 +200,10 @@ void BackOff::add_to(world::Hasher& hasher) const {
     hasher.add(from_.x());
     hasher.add(from_.y());
     hasher.add(standing_ticks_);
+    if (!lets_go_first_)
+        return;
+    hasher.add(lets_go_first_);
+    hasher.add(waiting_ticks_);
 }
 
 }  // namespace reprise::drivers

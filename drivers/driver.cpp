@@ -114,7 +114,7 @@ void Autopilot::put_elsewhere() {
     state_->turn_around = {};
     state_->passing.drop();
     state_->back_off.end();
-    state_->waiting_ticks = 0;
+    state_->waiting_ticks = state_->standoff_ticks = 0;
     put_to_speed();
 }
 
@@ -345,6 +345,8 @@ std::uint64_t Autopilot::digest() const {
     if (state.pid)
         state.pid->add_to(hasher);
     hasher.add(state.waiting_ticks);
+    if (state.standoff_ticks > 0)
+        hasher.add(state.standoff_ticks);
     hasher.add(state.has_wide_turn);
     if (state.has_wide_turn)
         state.wide_turn->add_to(hasher);

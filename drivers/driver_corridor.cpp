@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "drivers/bodies.h"
 #include "drivers/control/steering.h"
 #include "drivers/driver_state.h"
 #include "world/geometry2d.h"
@@ -135,11 +136,55 @@ void DriverState::pass(const world::TickView& last, const Ego& ego) {
         const PassingPlan& plan = *passing.plan();
         news = {world::EventKind::overtakes, plan.row.front(), through(plan.uses)};
     } else if (passing.missing_room() > 0 &&
-               back_off.make_room(passing.missing_room() + 0.5, last, ego))
+               back_off.make_room(passing.missing_room() + 0.5, last, ego)) {
         news = {world::EventKind::backed_off,
                 0,
                 fmt::format("backs off {:.1f} m, to get around what stands ahead",
                             back_off.distance())};
+    } else if (!passing.plan()) {
+        notice_standoff(last, ego);
+    }
+}
+
+/// Does it stand across our way, or face us, and wait for somebody, maybe for us?
+bool DriverState::is_held_by(std::uint32_t other,
+                             const world::TickView& last,
+                             const PathPoint& there) const {
+    constexpr double goes_our_way = 0.8;  // cosine
+    constexpr double stands = 0.1;        // [m/s]
+    if (const world::CarState* seen = world::find(last.cars(), other))
+        return seen->speed() < static_cast<float>(stands) && !has_hazard_lights(seen->lamps()) &&
+               there.direction.dot(world::ahead_of(static_cast<double>(seen->yaw()))) <
+                   goes_our_way;
+    const world::VehicleState* vehicle = world::find(last.vehicles(), other);
+    if (vehicle == nullptr || other >= world::first_background_id ||
+        has_hazard_lights(vehicle->lamps()))
+        return false;
+    const Ego seen = ego_of(*vehicle);
+    return std::abs(seen.speed) < stands && there.direction.dot(seen.direction) < goes_our_way;
+}
+
+/// Two may stand nose to flank in a junction, each where the other has to go. Neither can until one
+/// makes room: who has it behind him goes back, and lets the other one go first.
+void DriverState::notice_standoff(const world::TickView& last, const Ego& ego) {
+    constexpr double patience = 10;  // [s]
+    constexpr double near = 7;       // [m] ahead
+    constexpr double back = 2.5;     // [m]
+    const auto overlaps = hazards.overlaps();
+    const auto nearest =
+        std::min_element(overlaps.begin(), overlaps.end(), [](const auto& one, const auto& other) {
+            return one.s < other.s;
+        });
+    const bool held = std::abs(ego.speed) < 0.1 && nearest != overlaps.end() &&
+                      nearest->s - ego.front_s() < near &&
+                      is_held_by(nearest->id, last, way().path().at(nearest->s));
+    standoff_ticks = held ? standoff_ticks + 1 : 0;
+    if (standoff_ticks * step < patience || !back_off.give_room(back, last, ego))
+        return;
+    standoff_ticks = 0;
+    news = {world::EventKind::backed_off,
+            0,
+            fmt::format("backs off {:.1f} m, to let go who waits for it", back_off.distance())};
 }
 
 /// The way may be counted from elsewhere, or be another one: a line past something goes on if it

@@ -55,6 +55,8 @@ struct DriverState {
     void notice_circling(const world::TickView& last, const Ego& ego);
     void go_back(const world::TickView& last, Ego& ego, world::Control& control);
     void pass(const world::TickView& last, const Ego& ego);
+    void notice_standoff(const world::TickView& last, const Ego& ego);
+    bool is_held_by(std::uint32_t other, const world::TickView& last, const PathPoint& there) const;
     void take_jump(const Ego& ego);
     double expected_offset() const;
     double tracked_beside(const Ego& ego) const;
@@ -85,6 +87,7 @@ struct DriverState {
     double rear_axle_s = 0;                ///< then
     std::vector<SweptWidth> moved_swept_;  ///< beside the path
     std::uint32_t waiting_ticks = 0;       ///< beside cars on the lane that we want
+    std::uint32_t standoff_ticks = 0;      ///< before somebody who cannot go on before we do
     bool at_end = false;                   ///< follows from the last tick and the way: not digested
 };
 

@@ -120,6 +120,44 @@ TEST(BackOff, ItsNoseDoesNotSwingIntoWhoStandsBesideIt) {
     EXPECT_FALSE(news.empty());
 }
 
+/// Nose to flank, as two stand in a junction.
+TEST(BackOff, ToLetGoWhoStandsAcrossItsWay) {
+    Drive drive(long_lane());
+    drive.place(0, 20, 5);
+    drive.autopilot->may_overtake(true);
+    world::CarState across{};
+    across.mutate_id(50);
+    across.mutate_lane(world::none);
+    across.mutate_yaw(static_cast<float>(std::acos(0.0)));
+    across.mutate_lamps(world::lamp_brake);
+    across.mutable_position() = world::Vec3(60, -2, 0);
+    drive.cars = {across};
+    std::vector<std::string> news;
+    double farthest = 0;
+    double back_at = 0;
+    while (drive.seconds() < 60 && news.empty()) {
+        drive.step();
+        farthest = std::max(farthest, drive.car.x);
+        if (const drivers::DriverNews* said = drive.autopilot->news())
+            news.push_back(said->text);
+    }
+    ASSERT_EQ(news.size(), 1u);
+    EXPECT_EQ(news[0], "backs off 2.5 m, to let go who waits for it");
+    // The other one takes its time to start, and has gone 4 m when we look.
+    const double begun = drive.seconds();
+    double least = farthest;
+    for (; drive.seconds() < begun + 9; back_at = drive.car.x) {
+        drive.step();
+        least = std::min(least, drive.car.x);
+    }
+    EXPECT_NEAR(farthest - least, 2.5, 0.4);
+    EXPECT_NEAR(back_at, least, 0.3) << "waits for the other one";
+    drive.cars.clear();
+    while (drive.seconds() < begun + 30)
+        drive.step();
+    EXPECT_GT(drive.car.x, 80) << "drives on";
+}
+
 TEST(BackOff, NotWhoWasToldASpeed) {
     Drive drive(long_lane());
     drive.place(0, 20, 5);
