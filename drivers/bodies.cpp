@@ -171,19 +171,23 @@ void collect_bodies(const world::TickView& last,
     collect_doors(last, self, bodies);
 }
 
-bool something_is_before(const world::TickView& last, const Ego& ego, double reach) {
+bool something_is_before(const world::TickView& last,
+                         const Ego& ego,
+                         double reach,
+                         double slower_than) {
     constexpr double step = 0.2;    // [m]
     constexpr double margin = 0.1;  // [m] to both sides
     world::Box around;
     around.take(ego.position.head<2>(), 10);
     std::vector<Body> bodies;
     collect_bodies(last, ego.id, around, 0, bodies);
+    std::erase_if(bodies, [&](const Body& body) { return body.speed >= slower_than; });
     const double half = ego.model->width / 2 + margin;
     const double front = ego.model->length - ego.model->rear_overhang;
     const double curvature = std::tan(ego.steering_angle) / ego.model->wheelbase;
     Eigen::Vector2d axle = ego.position.head<2>();
     double yaw = ego.yaw;
-    for (double driven = 0; driven <= reach; driven += step) {
+    for (double driven = 0; driven < reach + step; driven += step) {
         const Eigen::Vector2d ahead(std::cos(yaw), std::sin(yaw));
         const Eigen::Vector2d left(-ahead.y(), ahead.x());
         for (const Body& body : bodies)

@@ -54,6 +54,10 @@ void collect_bodies(const world::TickView& last,
                     std::vector<Body>& bodies);
 
 /// Would the front of the car touch somebody within `reach` [m], its wheels as they stand?
-bool something_is_before(const world::TickView& last, const Ego& ego, double reach);
+/// `slower_than` [m/s]: of those only.
+bool something_is_before(const world::TickView& last,
+                         const Ego& ego,
+                         double reach,
+                         double slower_than = world::infinity);
 
 }  // namespace reprise::drivers

@@ -114,7 +114,7 @@ void Autopilot::put_elsewhere() {
     state_->turn_around = {};
     state_->passing.drop();
     state_->back_off.end();
-    state_->waiting_ticks = state_->standoff_ticks = 0;
+    state_->waiting_ticks = state_->standoff_ticks = state_->standoffs = state_->held_ticks = 0;
     put_to_speed();
 }
 
@@ -231,7 +231,8 @@ double DriverState::careful_acceleration(const world::TickView& last, Ego& ego) 
     passing.follow(last, ego, way());
     hazards.look(last, ego, way().path(), style, corridor(ego));
     pass(last, ego);
-    acceleration = std::min(acceleration, past_junction_things(last, ego));
+    acceleration =
+        std::min({acceleration, past_junction_things(last, ego), last_resort(last, ego)});
     acceleration =
         std::min({acceleration, hazards.acceleration(), passing.acceleration(ego, style)});
     return std::min(acceleration,
@@ -250,6 +251,34 @@ double DriverState::past_junction_things(const world::TickView& last, const Ego&
         return world::infinity;
     if (speed < 0.1)
         passing.give_up();
+    return -braking;
+}
+
+/// Whatever the plan says: what stands where the wheels lead now is not driven into. Where the car
+/// is off its line, as behind a step back, hazards look at another place than it comes to. As late
+/// as it can be, as wheels turn on; fast ones keep to their line. Who is held by it goes back.
+/// [m/s^2]
+double DriverState::last_resort(const world::TickView& last, const Ego& ego) {
+    constexpr double fastest = 7;     // [m/s]
+    constexpr double stands = 0.5;    // [m/s]
+    constexpr double braking = 7;     // [m/s^2]
+    constexpr double reaction = 0.1;  // [s] until the brake bites
+    constexpr double patience = 5;    // [s]
+    constexpr double back = 2;        // [m]
+    const double speed = std::max(ego.speed, 0.0);
+    const double reach = 0.1 + reaction * speed + speed * speed / (2 * braking);
+    if (speed > fastest || !something_is_before(last, ego, reach, stands)) {
+        held_ticks = 0;
+        return world::infinity;
+    }
+    held_ticks = speed < 0.1 ? held_ticks + 1 : 0;
+    if (held_ticks * step > patience && back_off.make_room(back, last, ego)) {
+        held_ticks = 0;
+        news = {
+            world::EventKind::backed_off,
+            0,
+            fmt::format("backs off {:.1f} m, from what its wheels lead into", back_off.distance())};
+    }
     return -braking;
 }
 
@@ -347,6 +376,10 @@ std::uint64_t Autopilot::digest() const {
     hasher.add(state.waiting_ticks);
     if (state.standoff_ticks > 0)
         hasher.add(state.standoff_ticks);
+    if (state.standoffs > 0)
+        hasher.add(state.standoffs);
+    if (state.held_ticks > 0)
+        hasher.add(state.held_ticks);
     hasher.add(state.has_wide_turn);
     if (state.has_wide_turn)
         state.wide_turn->add_to(hasher);

@@ -167,7 +167,8 @@ bool DriverState::is_held_by(std::uint32_t other,
 /// Two may stand nose to flank in a junction, each where the other has to go. Neither can until one
 /// makes room: who has it behind him goes back, and lets the other one go first.
 void DriverState::notice_standoff(const world::TickView& last, const Ego& ego) {
-    constexpr double patience = 10;  // [s]
+    constexpr double patience = 10;  // [s] and as much more each time
+    constexpr double drives_on = 3;  // [m/s]
     constexpr double near = 7;       // [m] ahead
     constexpr double back = 2.5;     // [m]
     const auto overlaps = hazards.overlaps();
@@ -179,9 +180,12 @@ void DriverState::notice_standoff(const world::TickView& last, const Ego& ego) {
                       nearest->s - ego.front_s() < near &&
                       is_held_by(nearest->id, last, way().path().at(nearest->s));
     standoff_ticks = held ? standoff_ticks + 1 : 0;
-    if (standoff_ticks * step < patience || !back_off.give_room(back, last, ego))
+    if (ego.speed > drives_on)
+        standoffs = 0;
+    if (standoff_ticks * step < patience * (1 + standoffs) || !back_off.give_room(back, last, ego))
         return;
     standoff_ticks = 0;
+    ++standoffs;
     news = {world::EventKind::backed_off,
             0,
             fmt::format("backs off {:.1f} m, to let go who waits for it", back_off.distance())};

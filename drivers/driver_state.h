@@ -44,6 +44,7 @@ struct DriverState {
     double ordered_acceleration(const Ego& ego) const;
     double obedient_acceleration(const world::TickView& last, Ego& ego);
     double past_junction_things(const world::TickView& last, const Ego& ego);
+    double last_resort(const world::TickView& last, const Ego& ego);
     double careful_acceleration(const world::TickView& last, Ego& ego);
     double ended_acceleration(const Ego& ego) const;
     std::span<const SweptWidth> corridor(const Ego& ego);
@@ -88,6 +89,8 @@ struct DriverState {
     std::vector<SweptWidth> moved_swept_;  ///< beside the path
     std::uint32_t waiting_ticks = 0;       ///< beside cars on the lane that we want
     std::uint32_t standoff_ticks = 0;      ///< before somebody who cannot go on before we do
+    std::uint32_t standoffs = 0;           ///< in which it made room, since it drove on
+    std::uint32_t held_ticks = 0;          ///< before what its wheels lead into
     bool at_end = false;                   ///< follows from the last tick and the way: not digested
 };
 

@@ -158,6 +158,38 @@ TEST(BackOff, ToLetGoWhoStandsAcrossItsWay) {
     EXPECT_GT(drive.car.x, 80) << "drives on";
 }
 
+/// Beside its path and turned away from that, as after a step back: the path is free, but the way
+/// back to it leads past a car.
+TEST(BackOff, FromWhatItsWheelsLeadInto) {
+    for (const double aside : {1.5, 2.0, 2.5, 3.0}) {
+        Drive drive(long_lane());
+        drive.place(0, 40, 4);
+        drive.car.y = aside;
+        drive.car.yaw = 0.35;
+        world::CarState beside{};
+        beside.mutate_id(50);
+        beside.mutate_lane(world::none);
+        beside.mutable_position() = world::Vec3(40 + drive.car.front() + 3.5, aside + 1.6, 0);
+        drive.cars = {beside};
+        const world::VehicleModel& model = world::vehicle_models()[0];
+        const double rear = beside.position().x() - model.rear_overhang;
+        bool goes_back = false;
+        while (drive.seconds() < 12 && !goes_back) {
+            drive.step();
+            goes_back = drive.autopilot->news() != nullptr;
+            const Eigen::Vector2d ahead(std::cos(drive.car.yaw), std::sin(drive.car.yaw));
+            const double left = model.width / 2;
+            const double front = drive.car.x + drive.car.front() * ahead.x() - left * ahead.y();
+            const double corner = drive.car.y + drive.car.front() * ahead.y() + left * ahead.x();
+            ASSERT_FALSE(front > rear && front < rear + model.length &&
+                         corner > beside.position().y() - left)
+                << "from " << aside << " m beside, at " << drive.seconds() << " s, "
+                << drive.car.speed << " m/s";
+        }
+        EXPECT_TRUE(goes_back || drive.car.x > 80) << "from " << aside << " m beside";
+    }
+}
+
 TEST(BackOff, NotWhoWasToldASpeed) {
     Drive drive(long_lane());
     drive.place(0, 20, 5);
