@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "render/event_file.h"
 #include "render/picture.h"
 #include "render/sensors.h"
 #include "replay/trace_reader.h"
@@ -30,7 +31,9 @@ constexpr const char* rig = R"(rig = {
     { name = 'semantic', kind = 'semantic', width = 84, height = 84 },
     { name = 'instance', kind = 'instance', width = 60, height = 40, every = 3 },
     { name = 'flow', kind = 'flow', width = 60, height = 40, every = 3, attributes = { own_car = 1 } },
-    { name = 'side', width = 60, height = 40, fov_deg = 70, yaw_deg = 80, pitch_deg = -5, y = 0.8, every = 3 },
+    { name = 'side', width = 60, height = 40, fov_deg = 70, yaw_deg = 80, pitch_deg = -5, y = 0.8, every = 3,
+      attributes = { readout_time = 20, motion_blur = 1, samples = 2, k1 = -0.2, noise = 1 } },
+    { name = 'events', kind = 'dvs', width = 60, height = 40, every = 3, attributes = { samples = 1 } },
 }, )";
 
 /// One of each kind that is no camera, beside a camera; drivers say which way to go.
@@ -138,12 +141,17 @@ class Live : public testing::Test {
                     EXPECT_TRUE(seen == pixels) << frame.name << " at " << index;
                     ++shown;
                 }
-                const std::string written = folder_ / "one.png";
-                render::write_png(frame, written);
+                const bool events = frame.kind == world::SensorKind::dvs;
+                const std::string ending = events ? "npy" : "png";
+                const std::string written = folder_ / ("one." + ending);
+                if (events)
+                    render::write_events(frame, written);
+                else
+                    render::write_png(frame, written);
                 EXPECT_TRUE(
                     read_file(written) ==
                     read_file(folder_ /
-                              fmt::format("{}_again/{}/{:06}.png", name, frame.name, index)))
+                              fmt::format("{}_again/{}/{:06}.{}", name, frame.name, index, ending)))
                     << frame.name << " at " << index;
                 ++pictures;
             }
@@ -496,7 +504,7 @@ TEST_F(Live, EachOfSeveralSeesItsOwn) {
                                 "other=" + (compiled + make_folder("other"))},
                                folder_.path());
     ASSERT_EQ(ran.code, 0) << ran.out;
-    EXPECT_EQ(kept("ego").size(), 7U * 3 + 3 * 3);
+    EXPECT_EQ(kept("ego").size(), 7U * 3 + 4 * 3);
     EXPECT_EQ(kept("other").size(), 7U);
     replay::TraceReader trace(folder_ / "two.mcap");
     render::Sensors sensors(trace.recording().town);

@@ -6,7 +6,7 @@ import numpy as np
 import reprise
 
 SHAPES = {"rgb": ((84, 84, 3), np.uint8), "depth": ((84, 84), np.float32), "semantic": ((84, 84), np.uint8),
-          "instance": ((40, 60), np.uint16), "flow": ((40, 60, 2), np.float32)}
+          "instance": ((40, 60), np.uint16), "flow": ((40, 60, 2), np.float32), "events": ((40, 60, 2), np.uint8)}
 folder, sensors_only = sys.argv[1], sys.argv[2:] == ["sensors"]
 
 
@@ -23,7 +23,7 @@ def decide(seen):
         seen.image("back")
         raise SystemExit("there is no such sensor")
     except KeyError as error:
-        assert "the vehicle carries rgb, depth, semantic, instance, flow, side" in str(error), error
+        assert "the vehicle carries rgb, depth, semantic, instance, flow, side, events" in str(error), error
     if sensors_only:
         assert len(seen.cars) == len(seen.walkers) == len(seen.signals) == 0
         assert len(seen.vehicles) == 1 and len(seen.tick.measurements) == 1
