@@ -88,6 +88,16 @@ PixelBox around_corners(const Camera& camera,
             cut(box.bottom, camera.height())};
 }
 
+/// [m] along and across, by which somebody on foot reaches out of the body that others bump into:
+/// feet and hands, farther the faster they go. Found by tests/cli/labels_proof.py.
+Eigen::Vector2d reach_of_limbs(const world::TickView& tick, std::uint32_t actor) {
+    const world::WalkerState* walker = world::find(tick.walkers(), actor);
+    if (walker == nullptr)
+        return Eigen::Vector2d::Zero();
+    const double speed = std::clamp(static_cast<double>(walker->speed()), 0.0, 1.5);
+    return {0.3 + 0.35 * speed, 0.2};
+}
+
 }  // namespace
 
 std::vector<LabelBox> boxes_of(const world::TickView& tick,
@@ -122,6 +132,7 @@ std::vector<LabelBox> boxes_of(const world::TickView& tick,
         box.pixels = count->second.pixels;
         box.seen = count->second.around;
         box.size = {extent->front - extent->rear, 2 * extent->half_width, extent->height};
+        box.size.head<2>() += 2 * reach_of_limbs(tick, actor);
         const Eigen::Isometry3d middle =
             *pose * Eigen::Translation3d(extent->middle(), 0, extent->height / 2);
         box.whole = around_corners(camera, middle, box.size);
