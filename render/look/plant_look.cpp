@@ -61,7 +61,7 @@ float blossoms(PlantKind kind, std::uint32_t style, Color& color) {
 void dapple(Look& look, const Surface& at, float strength) {
     const float near = detail(at, 0.25F);
     if (near <= 0) {
-        look.albedo *= 1 - 0.45F * strength;
+        look.albedo *= 1 - 0.45F * strength;  // the mean of patches that no pixel can show
         look.normal = at.normal.normalized();
         return;
     }
