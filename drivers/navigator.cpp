@@ -163,7 +163,8 @@ std::vector<std::uint32_t> Navigator::committed_lanes(const Ego& ego) const {
 void Navigator::require_way(std::uint32_t from,
                             std::span<const std::uint32_t> stops,
                             double last_s) const {
-    const auto changes = way_.keeps_lane() ? world::LaneChanges::none : world::LaneChanges::allowed;
+    const auto changes =
+        way_.keeps_lane() ? world::LaneChanges::forbidden : world::LaneChanges::allowed;
     const Plan plan = map_->graph.plan({from, 0}, stops, last_s, changes);
     if (plan.unreachable != world::none)
         throw world::Error("route: no way leads from lane '" + map_->town.lanes[from].name +

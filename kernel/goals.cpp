@@ -36,7 +36,8 @@ void Goals::hear(const world::CommandT& command,
     if (!from || command.lanes.empty() ||
         !std::all_of(command.lanes.begin(), command.lanes.end(), is_way))
         return;
-    const auto changes = sent.keeps_lane ? world::LaneChanges::none : world::LaneChanges::allowed;
+    const auto changes =
+        sent.keeps_lane ? world::LaneChanges::forbidden : world::LaneChanges::allowed;
     if (auto route =
             world::plan_over(world::Planner(*town_, changes), *from, command.lanes, command.s)) {
         sent.length = route->length;

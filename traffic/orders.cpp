@@ -216,7 +216,7 @@ std::vector<std::uint32_t> Orders::way_to(const world::CommandT& command, Car& c
 
 /// Likewise for one who keeps its lane.
 std::vector<std::uint32_t> Orders::way_on_lane(const world::CommandT& command, Car& car) const {
-    const world::Planner planner(*town_, world::LaneChanges::none);
+    const world::Planner planner(*town_, world::LaneChanges::forbidden);
     std::vector<std::uint32_t> route{car.route.front()};
     world::LanePlace from{car.lane, 0};
     for (const std::uint32_t lane : command.lanes) {

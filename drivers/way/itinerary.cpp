@@ -12,7 +12,7 @@ void Itinerary::set_stops(std::vector<std::uint32_t> stops, double last_s) {
 }
 
 void Itinerary::keep_lane(bool keep) {
-    changes_ = keep ? world::LaneChanges::none : world::LaneChanges::allowed;
+    changes_ = keep ? world::LaneChanges::forbidden : world::LaneChanges::allowed;
 }
 
 void Itinerary::drop_plan() {

@@ -32,7 +32,7 @@ class Itinerary {
     /// hold some.
     void keep_lane(bool keep);
 
-    bool keeps_lane() const { return changes_ == world::LaneChanges::none; }
+    bool keeps_lane() const { return changes_ == world::LaneChanges::forbidden; }
 
     /// Is the next lane one of those that the restart was given?
     bool next_is_given() const { return given_ > 0; }

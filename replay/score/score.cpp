@@ -144,7 +144,7 @@ class Scorer {
             !std::all_of(stops.begin(), stops.end(), is_way))
             return;
         const auto changes =
-            scored.keeps_lane ? world::LaneChanges::none : world::LaneChanges::allowed;
+            scored.keeps_lane ? world::LaneChanges::forbidden : world::LaneChanges::allowed;
         auto route = world::plan_over(
             world::Planner(town_.town, changes), {scored.lane, scored.lane_s}, stops, last_s);
         if (!route)

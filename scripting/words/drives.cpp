@@ -39,7 +39,7 @@ std::optional<world::LanePlace> place_of(Run& run, const Actor& actor) {
 
 world::Planner planner_for(const Run& run, const Actor& actor) {
     return world::Planner(
-        run.town, actor.keeps_lane ? world::LaneChanges::none : world::LaneChanges::allowed);
+        run.town, actor.keeps_lane ? world::LaneChanges::forbidden : world::LaneChanges::allowed);
 }
 
 /// From here on it is watched how much of the way it has driven.
@@ -124,7 +124,8 @@ int route_to(Run& run, lua_State* L) {
         refuse("route_to", "'" + actor.name + "' is on no lane");
     run.vm.charge(L, run.town.lanes.size() * 20);
     const world::LaneT& here = run.town.lanes[body.lane];
-    const auto changes = actor.keeps_lane ? world::LaneChanges::none : world::LaneChanges::allowed;
+    const auto changes =
+        actor.keeps_lane ? world::LaneChanges::forbidden : world::LaneChanges::allowed;
     auto route = world::Planner(run.town, changes)
                      .plan({body.lane, world::project(here, body.position).s}, {lane, s});
     if (!route)

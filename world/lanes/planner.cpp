@@ -36,7 +36,7 @@ class Search {
   public:
     Search(const TownT& town, LanePlace from, LanePlace to, LaneChanges allowed)
         : town_(town),
-          most_(allowed == LaneChanges::none ? 0 : most_changes),
+          most_(allowed == LaneChanges::forbidden ? 0 : most_changes),
           count_(static_cast<Node>(town.lanes.size())),
           goal_(to),
           goal_point_(point_at(town.lanes[to.lane], to.s).position),

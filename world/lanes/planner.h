@@ -10,7 +10,7 @@
 namespace reprise::world {
 
 /// May a way change lanes?
-enum class LaneChanges : std::uint8_t { allowed, none };
+enum class LaneChanges : std::uint8_t { allowed, forbidden };
 
 /// Shortest ways over the lanes of a town, by A*. A pure function of the town: equal questions give
 /// equal answers.

@@ -83,7 +83,7 @@ TEST(Stops, AreLanesFromWhichTheNextOneCanBeReached) {
     EXPECT_THAT(chosen(world::LanePlace{in_2, 20}, {"in", "north"}), ElementsAre(in_2, north_1));
     EXPECT_THAT(chosen(world::LanePlace{in_1, 20}, {"in", "south"}), ElementsAre(in_1, south_1));
     EXPECT_THAT(chosen(std::nullopt, {"in", "east", "far"}), ElementsAre(in_2, east_2, far_1));
-    const auto none = world::LaneChanges::none;
+    const auto none = world::LaneChanges::forbidden;
     EXPECT_THAT(chosen(world::LanePlace{in_2, 20}, {"east"}, none), ElementsAre(east_2));
 }
 
