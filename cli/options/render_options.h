@@ -44,14 +44,14 @@ struct RenderOptions {
     std::string depth_coding = "cm";
     std::string classes = "carla";
     std::string events = "npy";  ///< how those of dvs are written
-    bool npy = false;          ///< floats as arrays of numpy
-    bool exr = false;          ///< floats as EXR
-    bool own_car = false;      ///< who carries a camera is in its pictures
-    bool boxes = false;        ///< of all that is seen, for each picture
-    bool calibration = false;  ///< of each camera, beside its pictures
-    std::string compare;       ///< weathers side by side in a film
-    std::string check;         ///< a manifest: make all of it again, and compare
-    bool quiet = false;        ///< says nothing of what it made
+    bool npy = false;            ///< floats as arrays of numpy
+    bool exr = false;            ///< floats as EXR
+    bool own_car = false;        ///< who carries a camera is in its pictures
+    bool boxes = false;          ///< of all that is seen, for each picture
+    bool calibration = false;    ///< of each camera, beside its pictures
+    std::string compare;         ///< weathers side by side in a film
+    std::string check;           ///< a manifest: make all of it again, and compare
+    bool quiet = false;          ///< says nothing of what it made
     /// As they were said, without those of the trace, the output, the rig and threads.
     std::vector<std::pair<std::string, std::string>> said;
     int threads = 0;  ///< 0: one a core

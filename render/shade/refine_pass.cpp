@@ -12,9 +12,11 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr std::size_t subpixels = 4;  // of a pixel, no two in one row or column (rotated grid)
-constexpr std::array<std::array<double, 2>, subpixels> subpixel_offsets{
-    {{.375, .125}, {.875, .375}, {.625, .875}, {.125, .625}}};
+// Of a pixel, no two in one row or column (rotated grid); the first two lie across its middle.
+constexpr std::array<std::array<double, 2>, 4> subpixel_offsets{
+    {{.375, .125}, {.625, .875}, {.875, .375}, {.125, .625}}};
+constexpr std::size_t pair = 2;
+constexpr float even = 0.045F;  ///< [tone] steps that nobody sees as stairs
 
 bool is_edge(const Frame& frame, int x, int y) {
     const std::size_t index = frame.index(x, y);
@@ -26,10 +28,10 @@ bool is_edge(const Frame& frame, int x, int y) {
         const int j = std::clamp(y + side[1], 0, frame.height - 1);
         const std::size_t next = frame.index(i, j);
         const float step = std::abs(frame.tones[next] - tone);
-        if (step > 0.045F)
+        const bool same = own.instance == frame.lights[next].instance;
+        if (step > (same ? 2 * even : even))
             return true;
-        if (step > 0.01F && own.instance != no_instance &&
-            own.instance != frame.lights[next].instance)
+        if (step > 0.01F && own.instance != no_instance && !same)
             return true;
     }
     return false;
@@ -72,20 +74,51 @@ struct SubpixelSample {
     LampLight lamps;
 };
 
-RayBatch subpixel_rays(const ShadingJob& job,
-                       const Eigen::Vector2i& corner,
-                       const std::vector<std::uint8_t>& edges) {
-    RayBatch batch;
+/// Pixels of a tile whose colour is a mean of several places.
+struct Refined {
+    std::size_t index;  ///< in the frame
+    Color sum = Color::Zero();
+    float weights = 0;
+
+    void add(const Color& color) {
+        // Weighted against the brightness, so that one bright place does not bring back stairs.
+        const float weight = 1 / (1 + luminance(color));
+        sum += color * weight;
+        weights += weight;
+    }
+};
+
+std::vector<Refined> edges_of(const ShadingJob& job,
+                              const Eigen::Vector2i& corner,
+                              const std::vector<std::uint8_t>& edges) {
+    std::vector<Refined> found;
     for (int i = 0; i < tile * tile; ++i) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
-        if (!job.contains(pixel) || edges[job.frame.index(pixel.x(), pixel.y())] == 0)
+        if (!job.contains(pixel))
             continue;
-        for (const auto& at : subpixel_offsets)
+        const std::size_t index = job.frame.index(pixel.x(), pixel.y());
+        if (edges[index] != 0)
+            found.push_back({index});
+    }
+    return found;
+}
+
+/// Two rays a pixel, from the subpixel `first` on.
+RayBatch subpixel_rays(const ShadingJob& job,
+                       const std::vector<Refined>& pixels,
+                       std::size_t first) {
+    RayBatch batch;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const auto owner = static_cast<int>(pixels[i].index);
+        const int x = owner % job.frame.width;
+        const int y = owner / job.frame.width;
+        for (std::size_t k = first; k < first + pair; ++k)
             batch.add({job.eye,
-                       job.camera.ray(pixel.x() + at[0], pixel.y() + at[1]).cast<float>(),
+                       job.camera.ray(x + subpixel_offsets[k][0], y + subpixel_offsets[k][1])
+                           .cast<float>(),
                        infinite,
                        job.mask},
-                      job.frame.index(pixel.x(), pixel.y()));
+                      i);
     }
     return batch;
 }
@@ -127,13 +160,12 @@ void mark_edges(const ShadingJob& job,
     }
 }
 
-void refine_tile(ShadingJob& job,
-                 const Eigen::Vector2i& corner,
-                 const std::vector<std::uint8_t>& edges) {
+namespace {
+
+/// Adds two places of each pixel; of `pixels` those stay of which the two differ.
+void add_pair(ShadingJob& job, std::size_t first, std::vector<Refined>& pixels) {
     Frame& frame = job.frame;
-    const RayBatch primary = subpixel_rays(job, corner, edges);
-    if (primary.rays.empty())
-        return;
+    const RayBatch primary = subpixel_rays(job, pixels, first);
     thread_local TileRays rays;
     thread_local std::vector<SubpixelSample> samples;
     rays.sun.clear();
@@ -149,30 +181,52 @@ void refine_tile(ShadingJob& job,
             job.input.scene, sample.hit, job.eye, primary.rays[i].direction, job.pixel * 0.6F);
         expose(job.input, sample.surface);
         sample.look = shade_surface(job.input, sample.surface);
-        const auto owner = static_cast<int>(primary.owners[i]);
+        const auto owner = static_cast<int>(pixels[primary.owners[i]].index);
         light_subpixel(job, {owner % frame.width, owner / frame.width}, sample);
         if (!job.sun_matters)
             continue;
         const Vector3f origin =
             offset_origin(sample.surface.position, sample.surface.flat, sample.surface.distance);
-        rays.sun.add(sun_ray(job, origin, static_cast<int>(i % 16)), i);
+        rays.sun.add(sun_ray(job, origin, static_cast<int>((2 * i + first) % 16)), i);
     }
     trace_batch(job, rays, rays.sun, true, [&](std::size_t owner, bool visible) {
         samples[owner].light.sun_visibility =
             visible ? job.input.sky.clouds().sunlight(samples[owner].surface.position) : 0.0F;
     });
-    for (std::size_t i = 0; i < samples.size(); i += subpixels) {
-        Color sum = Color::Zero();
-        float weights = 0;
-        for (std::size_t k = i; k < i + subpixels; ++k) {
-            const Color color = color_of(job, primary.rays[k], samples[k]);
-            // Weighted against the brightness, so that one bright place does not bring back stairs.
-            const float weight = 1 / (1 + luminance(color));
-            sum += color * weight;
-            weights += weight;
-        }
-        frame.colors[primary.owners[i]] = sum / weights;
+    std::vector<Refined> uneven;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const SubpixelSample& one = samples[pair * i];
+        const SubpixelSample& other = samples[pair * i + 1];
+        const Color first_color = color_of(job, primary.rays[pair * i], one);
+        const Color second_color = color_of(job, primary.rays[pair * i + 1], other);
+        Refined& pixel = pixels[i];
+        pixel.add(first_color);
+        pixel.add(second_color);
+        const float step = std::abs(tone_of(first_color) - tone_of(second_color));
+        const float own = frame.tones[pixel.index];
+        const float away = std::abs(tone_of(first_color) - own);
+        if (one.hit.instance != other.hit.instance || std::max(step, away) > 2 * even)
+            uneven.push_back(pixel);
+        else
+            frame.colors[pixel.index] = pixel.sum / pixel.weights;
     }
+    pixels.swap(uneven);
+}
+
+}  // namespace
+
+void refine_tile(ShadingJob& job,
+                 const Eigen::Vector2i& corner,
+                 const std::vector<std::uint8_t>& edges) {
+    std::vector<Refined> pixels = edges_of(job, corner, edges);
+    if (pixels.empty())
+        return;
+    add_pair(job, 0, pixels);
+    if (pixels.empty())
+        return;
+    add_pair(job, pair, pixels);
+    for (const Refined& pixel : pixels)
+        job.frame.colors[pixel.index] = pixel.sum / pixel.weights;
 }
 
 }  // namespace reprise::render

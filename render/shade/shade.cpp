@@ -7,9 +7,10 @@
 //      pixels.
 //   2. combine: the mean over 4 x 4 neighbours on the same surface has seen all the pattern's
 //      directions, so that little noise is left (interleaved sampling: Keller and Heidrich, 2001).
-//   3. refine: pixels on edges are taken again as the mean of four places inside the pixel.
-//   By night the light of lamps and the moon comes in between, see lamp_light.h: one more ray at a
-//   hit instead of the sun's; and lamps glare.
+//   3. refine: pixels on edges are taken again as the mean of two places inside, or of four
+//      where the two differ.
+// By night the light of lamps and the moon comes in between, see lamp_light.h: one more ray at a
+// hit instead of the sun's; and lamps glare.
 // What it keeps: nothing.
 #include <algorithm>
 #include <cmath>
@@ -82,8 +83,7 @@ void combine_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
             color = through_atmosphere(job.input.sky, color, job.eye, view, sample.distance);
         }
         frame.colors[index] = color * job.input.sky.exposure();
-        const float light = luminance(frame.colors[index]);
-        frame.tones[index] = light / (light + 0.5F);
+        frame.tones[index] = tone_of(frame.colors[index]);
     }
 }
 

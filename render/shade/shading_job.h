@@ -97,6 +97,12 @@ Ray sun_ray(const ShadingJob& job, const Eigen::Vector3f& origin, int place);
 /// To one of the lamps that light a place, or to the moon.
 Ray lamp_ray(const ShadingJob& job, const Eigen::Vector3f& origin, const LampSum& lamps, int place);
 
+/// How bright a colour looks, in [0, 1): steps of it show as edges.
+inline float tone_of(const Color& color) {
+    const float light = luminance(color);
+    return light / (light + 0.5F);
+}
+
 /// Radiance of the sky behind a pixel.
 Color sky_color(const ShadingJob& job, const Eigen::Vector3f& direction);
 

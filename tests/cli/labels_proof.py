@@ -66,7 +66,7 @@ def png(path):
 def hashes(folder):
     return {
         str(file.relative_to(folder)): hashlib.sha256(file.read_bytes()).hexdigest()
-        for file in sorted(folder.rglob("*")) if file.is_file()
+        for file in sorted(folder.rglob("*")) if file.is_file() and file.name != "manifest.json"
     }  # fmt: skip
 
 

@@ -44,7 +44,7 @@ TEST(PlacingMistakes, OfTrajectories) {
         {"ego:follow{ { t = 1, x = 3, y = 'far' } }",
          "follow: point 1: 'y' must be a number, got 'far'"},
         {"ego:follow{ { t = 1, x = 3, y = 3, heading = 3 } }",
-         "follow: point 1: unknown key 'heading' (known: t, x, y, heading_deg, lane, s, offset)"},
+         "follow: point 1: unknown key 'heading' (did you mean 'heading_deg'?)"},
         {"ego:follow{ { t = 1, lane = 'eats_1' } }",
          "no lane 'eats_1' in straight_road (did you mean 'east_1'?)"},
         {"ego:follow{ { t = 1, lane = 'east_1', s = 500 } }",
@@ -164,7 +164,7 @@ TEST(PlacingMistakes, OfFilesNameTheirLine) {
     EXPECT_EQ(mistake_in_csv("t,x\n1,2\n"), prefix + ":1: no column 'y'");
     EXPECT_EQ(mistake_in_csv("t,x,y,heading\n1,2,3,4\n"),
               prefix +
-                  ":1: no column 'heading'; the first line names "
+                  ":1: no column 'heading' (did you mean 'heading_deg'?); the first line names "
                   "the columns: t, x, y and, where it is known, heading_deg");
     EXPECT_EQ(mistake_in_csv("t,x,y,x\n"), prefix + ":1: column 'x' twice");
     EXPECT_EQ(mistake_in_csv("t,x,y\n1,30,0\n\n2,4O,0\n"),
