@@ -2,28 +2,16 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
+#include "render/neighbours.h"
 #include "render/ranging/probe.h"
 #include "world/external/sensor.h"
 #include "world/tick.h"
 #include "world/town.h"
 
 namespace reprise::render {
-
-/// The tick before or behind that which is looked at.
-struct Neighbour {
-    world::TickView tick;
-    world::SensorRig rig;  ///< the sensors in their places there; empty: in those of the tick
-};
-
-/// For sensors that say how things move; who has none says that it is not known.
-struct Neighbours {
-    std::optional<Neighbour> last;
-    std::optional<Neighbour> next;
-};
 
 /// One of many, see Sensors::observe_each.
 class Observation {
