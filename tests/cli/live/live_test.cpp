@@ -1,8 +1,8 @@
+#include "tests/cli/live/live.h"
+
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <poll.h>
-#include <sstream>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -14,7 +14,6 @@
 #include "render/picture.h"
 #include "render/sensors.h"
 #include "replay/trace_reader.h"
-#include "tests/cli/program.h"
 #include "world/external/rig.h"
 
 namespace reprise::test {
@@ -36,76 +35,17 @@ constexpr const char* rig = R"(rig = {
     { name = 'events', kind = 'dvs', width = 60, height = 40, every = 3, attributes = { samples = 1 } },
 }, )";
 
-/// One of each kind that is no camera, beside a camera; drivers say which way to go.
-constexpr const char* measuring_rig = R"(rig = {
-    { name = 'roof', kind = 'lidar', x = 1.2, z = 1.8, roll_deg = 3, attributes = { range = 60, points_per_second = 80000, returns = 2 } },
-    { name = 'front', width = 60, height = 40, every = 2 },
-    { name = 'labels', kind = 'semantic_lidar', x = 1.2, z = 1.8, every = 3, attributes = { range = 60, channels = 8 } },
-    { name = 'nose', kind = 'radar', x = 3.7, z = 0.6, every = 2 },
-    { name = 'gnss', kind = 'gnss', every = 2, attributes = { noise_lat_stddev = 1e-5, latitude = 50 } },
-    { name = 'imu', kind = 'imu', x = 1.3, z = 0.5, attributes = { noise_accel_stddev_x = 0.1 } },
-    { name = 'bumper', kind = 'collision', every = 7 },
-    { name = 'lines', kind = 'lane_invasion', every = 7 },
-    { name = 'ahead', kind = 'obstacle', x = 3.7, z = 0.6, attributes = { distance = 60 } },
-}, )";
-const std::vector<std::string> point_sensors{"roof", "labels", "nose"};
-const std::vector<std::string> table_sensors{"gnss", "imu", "bumper", "lines", "ahead"};
-
-constexpr const char* measuring =
-    "PYTHONPATH=" REPRISE_SOURCE "/python /usr/bin/python3 -B " REPRISE_SOURCE
-    "/tests/cli/live/measuring_driver.py ";
-
 constexpr const char* python =
     "PYTHONPATH=" REPRISE_SOURCE "/python /usr/bin/python3 -B " REPRISE_SOURCE
     "/tests/cli/live/looking_driver.py ";
-constexpr const char* compiled = "exec " REPRISE_LOOKING_DRIVER " ";
 
 /// Of a process that may be gone already: below 0.
 int pidfd(pid_t process) {
     return static_cast<int>(syscall(SYS_pidfd_open, process, 0));
 }
 
-/// Runs of half a second (10 ticks) on a street (each renderer builds the whole scene: that of a
-/// town takes twice as long) among 20 cars in the rain; who is driven comes in the third tick.
-class Live : public testing::Test {
+class LiveFrames : public Live {
   protected:
-    void scenario(const std::string& name, const std::string& more) {
-        write_file(folder_ / (name + ".lua"),
-                   "return scenario '" + name +
-                       "' { town = 'straight', cars = 20, seed = 7, duration = 0.5, weather = "
-                       "'hard_rain_sunset', run = function() wait_ticks(2) spawn{ name = 'ego', "
-                       "model = 'sedan', " +
-                       more + "} wait(60) end }\n");
-    }
-
-    /// Returns what was printed.
-    std::string run(const std::string& name, const std::string& driver, int code = 0) {
-        std::vector<std::string> words{"run", name + ".lua", "-o", name + ".mcap"};
-        if (!driver.empty())
-            words.insert(words.end(), {"--driver", "ego=" + driver});
-        const Result result = reprise(words, folder_.path());
-        EXPECT_EQ(result.code, code) << result.out;
-        return result.out;
-    }
-
-    std::string make_folder(const std::string& name) {
-        std::filesystem::create_directory(folder_ / name);
-        return folder_ / name;
-    }
-
-    /// The names of the frames that a driver kept.
-    std::vector<std::string> kept(const std::string& name) {
-        std::vector<std::string> names;
-        for (const auto& file : std::filesystem::directory_iterator(folder_ / name))
-            names.push_back(file.path().stem());
-        std::sort(names.begin(), names.end());
-        return names;
-    }
-
-    std::string kept_frame(const std::string& name, const world::SensorFrame& frame) {
-        return read_file(folder_ / fmt::format("{}/{}_{}.raw", name, frame.name, frame.tick));
-    }
-
     /// Each frame that a driver kept is what the renderer makes of the trace, and what `reprise
     /// render` writes, to the last bit; and none is missing but of the last ticks of a late driver,
     /// which the run does not wait for.
@@ -162,173 +102,9 @@ class Live : public testing::Test {
         const std::size_t unseen = carried.due(trace.last()).size();  // nobody is asked behind it
         EXPECT_THAT(rendered.out, HasSubstr(fmt::format(": {} pictures of ", pictures + unseen)));
     }
-
-    /// A car that swerves into one that stands in its way, three seconds long.
-    void crash(const std::string& name, const std::string& more) {
-        write_file(folder_ / (name + ".lua"),
-                   "return scenario '" + name +
-                       "' { town = 'straight', seed = 7, duration = 3, weather = "
-                       "'hard_rain_sunset', run = function() wait_ticks(2) local ego = spawn{ "
-                       "name = 'ego', model = 'sedan', speed = 10, " +
-                       more +
-                       "} spawn{ name = 'there', model = 'van', driver = 'parked', ahead_of = "
-                       "ego, gap = 9 } wait(60) end }\n");
-    }
-
-    /// What `reprise render` writes of a trace: of points the bytes of a frame, of tables the rows
-    /// of a tick, as text.
-    void expect_measured_again(const std::string& name, const std::string& frames) {
-        const std::string again = name + "_again";
-        for (const char* points : {"npy", "ply"}) {
-            const Result rendered = reprise(
-                {"render", name + ".mcap", "-o", again, "--points", points}, folder_.path());
-            ASSERT_EQ(rendered.code, 0) << rendered.out;
-        }
-        const std::uint64_t last = replay::TraceReader(folder_ / (name + ".mcap")).last();
-        std::map<std::string, std::size_t> rows;
-        for (std::uint64_t tick = 3; tick < last; ++tick) {
-            for (const std::string& sensor : point_sensors) {
-                const std::string kept = fmt::format("{}/{}_{}.raw", frames, sensor, tick);
-                const std::string ply = fmt::format("{}/{}/{:06}.ply", again, sensor, tick);
-                ASSERT_EQ(std::filesystem::exists(folder_ / kept),
-                          std::filesystem::exists(folder_ / ply))
-                    << kept;
-                if (!std::filesystem::exists(folder_ / ply))
-                    continue;
-                const std::string bytes = read_file(folder_ / kept);
-                const std::string file = read_file(folder_ / ply);
-                ASSERT_NE(file.find("end_header\n"), std::string::npos);
-                // Of a radar's points the file says x, y, z before them.
-                if (sensor == "nose")
-                    rows[sensor] += bytes.size();
-                else
-                    EXPECT_TRUE(file.substr(file.find("end_header\n") + 11) == bytes) << ply;
-                rows[sensor] += bytes.size();
-            }
-        }
-        for (const std::string& sensor : table_sensors)
-            rows[sensor] =
-                compare_table(again + "/" + sensor + ".csv", frames + "/" + sensor + "_", last);
-        for (const auto& [sensor, count] : rows)
-            EXPECT_GT(count, 0U) << sensor << " measured nothing: the test shows nothing of it";
-    }
-
-    /// Rows of a table and of what was kept tick by tick; how many there are.
-    std::size_t compare_table(const std::string& table,
-                              const std::string& kept,
-                              std::uint64_t last) {
-        std::istringstream lines(read_file(folder_ / table));
-        std::string line;
-        std::getline(lines, line);
-        std::vector<std::vector<double>> written;
-        while (std::getline(lines, line))
-            written.push_back(numbers(line, ','));
-        std::vector<std::vector<double>> shown;
-        for (std::uint64_t tick = 3; tick < last; ++tick) {
-            std::istringstream rows(read_file(folder_ / (kept + std::to_string(tick) + ".txt")));
-            std::getline(rows, line);
-            while (std::getline(rows, line)) {
-                shown.push_back({static_cast<double>(tick), static_cast<double>(tick) * 0.05});
-                const auto values = numbers(line, ' ');
-                shown.back().insert(shown.back().end(), values.begin(), values.end());
-            }
-        }
-        std::erase_if(written, [&](const auto& row) {
-            return row.empty() || row.front() >= static_cast<double>(last);
-        });
-        EXPECT_EQ(written, shown) << table;
-        return shown.size();
-    }
-
-    static std::vector<double> numbers(const std::string& line, char between) {
-        std::vector<double> found;
-        std::istringstream words(line);
-        std::string word;
-        while (std::getline(words, word, between))
-            found.push_back(std::stod(word));
-        return found;
-    }
-
-    Folder folder_;
 };
 
-TEST_F(Live, WhatSensorsMeasureIsWhatTheTraceGivesAfterwards) {
-    crash("measured", std::string(measuring_rig) + "driver = 'external' ");
-    run("measured", measuring + make_folder("frames"));
-    expect_measured_again("measured", "frames");
-}
-
-/// Through a port points go along in the message; a late driver is shown those of its own ticks.
-TEST_F(Live, PointsAreTheSameThroughAPortInCppAndForALateDriver) {
-    const std::string said = std::string(measuring_rig) + "driver = 'external', ";
-    crash("near", said);
-    run("near", compiled + make_folder("near"));
-    crash("late", said + "latency = 3 ");
-    run("late", compiled + make_folder("late"));
-    crash("near", said);
-    make_folder("port");
-    const Result result = typed(
-        "reprise run near.lua --driver ego=tcp:0 -o port.mcap 2>said & run=$!; until "
-        "port=$(sed -n 's/.*may come to 127.0.0.1://p' said 2>/dev/null | grep .); do kill "
-        "-0 $run || exit 9; done; REPRISE_DRIVER=127.0.0.1:$port " REPRISE_LOOKING_DRIVER
-        " port; wait $run",
-        folder_);
-    EXPECT_EQ(result.code, 0) << result.out;
-    EXPECT_TRUE(read_file(folder_ / "near.mcap") == read_file(folder_ / "port.mcap"));
-    const std::vector<std::string> names = kept("near");
-    EXPECT_EQ(names, kept("port"));
-    for (const std::string& name : names)
-        EXPECT_TRUE(read_file(folder_ / ("near/" + name + ".raw")) ==
-                    read_file(folder_ / ("port/" + name + ".raw")))
-            << name;
-    const Result rendered = reprise({"render", "late.mcap", "-o", "late_again"}, folder_.path());
-    EXPECT_EQ(rendered.code, 0) << rendered.out;
-    for (std::uint64_t tick = 3; tick < 20; ++tick) {
-        const std::string file =
-            read_file(folder_ / fmt::format("late_again/roof/{:06}.ply", tick));
-        EXPECT_TRUE(file.substr(file.find("end_header\n") + 11) ==
-                    read_file(folder_ / fmt::format("late/roof_{}.raw", tick)))
-            << tick;
-    }
-}
-
-/// Some look at the tick before: who takes over in the middle has seen it.
-TEST_F(Live, WhoTakesOverMeasuresWhatTheNewTraceGives) {
-    crash("first", std::string(measuring_rig) + "driver = 'external' ");
-    run("first", compiled + make_folder("ignored"));
-    const Result branched = reprise({"branch",
-                                     "first.mcap",
-                                     "--at",
-                                     "10t",
-                                     "--driver",
-                                     "ego=" + (measuring + make_folder("other")),
-                                     "-o",
-                                     "other.mcap"},
-                                    folder_.path());
-    ASSERT_EQ(branched.code, 0) << branched.out;
-    const Result rendered = reprise({"render", "other.mcap", "-o", "again"}, folder_.path());
-    ASSERT_EQ(rendered.code, 0) << rendered.out;
-    for (const std::string sensor : {"imu", "lines", "gnss"}) {
-        std::istringstream lines(read_file(folder_ / ("again/" + sensor + ".csv")));
-        std::map<std::uint64_t, std::vector<double>> written;
-        for (std::string line; std::getline(lines, line);)
-            if (line[0] != 't')
-                written[std::stoul(line)] = numbers(line, ',');
-        for (std::uint64_t tick = 10; tick < 14; ++tick) {
-            std::istringstream rows(
-                read_file(folder_ / fmt::format("other/{}_{}.txt", sensor, tick)));
-            std::string line;
-            std::getline(rows, line);
-            while (std::getline(rows, line)) {
-                ASSERT_EQ(written.count(tick), 1U);
-                const std::vector<double> row(written[tick].begin() + 2, written[tick].end());
-                EXPECT_EQ(row, numbers(line, ' ')) << sensor << " at " << tick;
-            }
-        }
-    }
-}
-
-TEST_F(Live, FramesThatCameThroughAPortAreThoseOfTheTrace) {
+TEST_F(LiveFrames, FramesThatCameThroughAPortAreThoseOfTheTrace) {
     scenario("port", std::string("driver = 'external', ") + rig);
     make_folder("frames");
     const Result result = typed(
@@ -341,7 +117,7 @@ TEST_F(Live, FramesThatCameThroughAPortAreThoseOfTheTrace) {
     expect_frames_of_trace("port", "frames");
 }
 
-TEST_F(Live, ASliceBehindTheSpawnGivesTheFramesOfTheWholeTrace) {
+TEST_F(LiveFrames, ASliceBehindTheSpawnGivesTheFramesOfTheWholeTrace) {
     scenario("seen", std::string(rig) + "driver = 'external' ");
     run("seen", compiled + make_folder("cpp"));
     reprise({"slice", "seen.mcap", "--ticks", "3..9", "-o", "middle.mcap"}, folder_.path());
@@ -365,7 +141,7 @@ TEST_F(Live, ASliceBehindTheSpawnGivesTheFramesOfTheWholeTrace) {
     EXPECT_GE(frames, 8U) << "of several sensors, some not in every tick";
 }
 
-TEST_F(Live, FramesSeenAreThoseThatTheTraceGivesAfterwards) {
+TEST_F(LiveFrames, FramesSeenAreThoseThatTheTraceGivesAfterwards) {
     scenario("seen", std::string(rig) + "driver = 'external' ");
     run("seen", compiled + make_folder("cpp"));
     expect_frames_of_trace("seen", "cpp");
@@ -377,7 +153,7 @@ TEST_F(Live, FramesSeenAreThoseThatTheTraceGivesAfterwards) {
         << "every third tick";
 }
 
-TEST_F(Live, PythonSeesTheSameAsCpp) {
+TEST_F(LiveFrames, PythonSeesTheSameAsCpp) {
     scenario("seen", std::string(rig) + "driver = 'external' ");
     run("seen", compiled + make_folder("cpp"));
     const std::string trace = read_file(folder_ / "seen.mcap");
@@ -391,13 +167,13 @@ TEST_F(Live, PythonSeesTheSameAsCpp) {
             << name;
 }
 
-TEST_F(Live, ALateDriverSeesTheFramesOfItsTicks) {
+TEST_F(LiveFrames, ALateDriverSeesTheFramesOfItsTicks) {
     scenario("late", std::string(rig) + "driver = 'external', latency = 3 ");
     run("late", compiled + make_folder("frames"));
     expect_frames_of_trace("late", "frames", 3);
 }
 
-TEST_F(Live, WhoSeesSensorsOnlyIsShownNothingOfOthers) {
+TEST_F(LiveFrames, WhoSeesSensorsOnlyIsShownNothingOfOthers) {
     scenario("blind", std::string(rig) + "driver = 'external', sees = 'sensors' ");
     run("blind", python + make_folder("frames") + " sensors");
     expect_frames_of_trace("blind", "frames");
@@ -429,7 +205,7 @@ world::TrafficT traffic(const world::TickView& view) {
     return traffic;
 }
 
-TEST_F(Live, SensorsNeverChangeWhatHappens) {
+TEST_F(LiveFrames, SensorsNeverChangeWhatHappens) {
     const std::string driver = compiled + make_folder("frames");
     for (const Pair& pair :
          {Pair{"driver = 'external' ", "", driver},
@@ -456,7 +232,7 @@ TEST_F(Live, SensorsNeverChangeWhatHappens) {
     }
 }
 
-TEST_F(Live, ARendererThatDiesIsOurFaultAndTheTraceIsWhole) {
+TEST_F(LiveFrames, ARendererThatDiesIsOurFaultAndTheTraceIsWhole) {
     scenario("killed", std::string(rig) + "driver = 'external' ");
     const std::string told = run("killed", compiled + make_folder("frames") + " kill", 70);
     EXPECT_THAT(told,
@@ -468,7 +244,7 @@ TEST_F(Live, ARendererThatDiesIsOurFaultAndTheTraceIsWhole) {
     EXPECT_EQ(replay::TraceReader(folder_ / "killed.mcap").ticks(), 7U);
 }
 
-TEST_F(Live, ARendererEndsWithItsRunHoweverThatEnds) {
+TEST_F(LiveFrames, ARendererEndsWithItsRunHoweverThatEnds) {
     scenario("ended", std::string(rig) + "driver = 'external' ");
     reprise(
         {"run", "ended.lua", "--driver", "ego=" + (compiled + make_folder("frames")) + " kill_run"},
@@ -483,13 +259,13 @@ TEST_F(Live, ARendererEndsWithItsRunHoweverThatEnds) {
     close(descriptor);
 }
 
-TEST_F(Live, ADriverThatNeverComesIsAllThatIsTold) {
+TEST_F(LiveFrames, ADriverThatNeverComesIsAllThatIsTold) {
     scenario("alone", std::string(rig) + "driver = 'external' ");
     EXPECT_THAT(run("alone", compiled + make_folder("frames") + " leave", 1),
                 testing::StartsWith("reprise: the driver of 'ego' ended with exit code 5\n"));
 }
 
-TEST_F(Live, EachOfSeveralSeesItsOwn) {
+TEST_F(LiveFrames, EachOfSeveralSeesItsOwn) {
     const std::string other =
         "driver = 'external' } spawn{ name = 'other', model = 'van', driver = "
         "'external', rig = { { name = 'rgb', width = 40, height = 30 } } ";
@@ -521,7 +297,7 @@ TEST_F(Live, EachOfSeveralSeesItsOwn) {
     }
 }
 
-TEST_F(Live, OtherCamerasAreRenderedWhereTheyAreAskedFor) {
+TEST_F(LiveFrames, OtherCamerasAreRenderedWhereTheyAreAskedFor) {
     scenario("other", std::string(rig) + "driver = 'autopilot' ");
     run("other", "");
     const auto files = [&](const std::vector<std::string>& more) {
