@@ -57,6 +57,18 @@ bool is_driven(const Eigen::Vector2d& moved, const Eigen::Vector2d& ahead, doubl
            across < std::min(0.7 * driven, sideways) + rounding;
 }
 
+/// SUMO lets one who stands behind somebody inch on every other second: who has waited for minutes
+/// would begin anew with each of these millimetres.
+void count_standing(Car& car) {
+    constexpr double creeping = 0.25;  // [m]
+    car.standing_ticks = car.speed < 0.1 ? car.standing_ticks + 1 : 0;
+    const double way = std::abs(car.trail.travelled() - car.stuck_from);  // it may begin anew
+    const bool stuck = car.speed < 0.1 || (car.stuck_ticks > 0 && way < creeping);
+    car.stuck_ticks = stuck ? car.stuck_ticks + 1 : 0;
+    if (!stuck)
+        car.stuck_from = car.trail.travelled();
+}
+
 }  // namespace
 
 CarReader::CarReader(const world::TownT& town,
@@ -235,7 +247,7 @@ void CarReader::read_car(Car& car, std::uint64_t tick) const {
     car.lane_position = position;
     car.acceleration = (speed - car.speed) / step_;
     car.speed = speed;
-    car.standing_ticks = speed < 0.1 ? car.standing_ticks + 1 : 0;
+    count_standing(car);
     // Indicators can wait: a quarter of the cars is asked in each tick, so they are at most 0.2 s
     // old.
     std::uint16_t lamps = car.lamps & (world::lamp_left | world::lamp_right);

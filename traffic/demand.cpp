@@ -17,6 +17,8 @@ constexpr double out_of_sight = 80;  // [m] from every physics vehicle
 // Two that wait for each other within its sight would do so for ever, and others behind them.
 constexpr double far_too_long = 150;  // [s] of standing
 constexpr double not_beside = 30;     // [m]
+// Nobody waits so long inside of a junction but for one who waits for him, or who never moves.
+constexpr double far_too_long_in_junction = 180;  // [s] of standing, whoever sees it
 
 /// A speed at which a car may appear there without anybody braking hard; `room` [m] ahead. [m/s]
 double entry_speed(const world::LaneT& lane, const InsertionPoint& point, double room) {
@@ -127,6 +129,14 @@ bool Demand::is_seen(const Eigen::Vector3d& p, const world::TickView& last, doub
     });
 }
 
+bool Demand::is_stuck(const Car& car, const world::TickView& last) const {
+    const double stood = car.stuck_ticks * step_;
+    return (stood > too_long && !is_seen(car.rear, last, out_of_sight)) ||
+           (stood > far_too_long && !is_seen(car.rear, last, not_beside)) ||
+           (stood > far_too_long_in_junction &&
+            town_->lanes[car.lane].kind == world::LaneKind::internal);
+}
+
 void Demand::remove_leaving(Cars& cars, const world::TickView& last, world::TickDraft& next) {
     hear_of_wrecks(last);
     for (std::size_t i = cars.size(); i-- > 0;) {
@@ -138,10 +148,7 @@ void Demand::remove_leaving(Cars& cars, const world::TickView& last, world::Tick
         const bool arrives = car.dead_end && car.route.size() == 1 &&
                              car.route.front() == graph_->edge_of(car.lane) &&
                              left < 2 * step_ * (car.speed + 1) + 1;
-        const double stood = car.standing_ticks * step_;
-        const bool stuck = (stood > too_long && !is_seen(car.rear, last, out_of_sight)) ||
-                           (stood > far_too_long && !is_seen(car.rear, last, not_beside));
-        if (arrives || stuck)
+        if (arrives || is_stuck(car, last))
             cars.remove_from_sumo(i, next);
     }
 }

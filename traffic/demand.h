@@ -37,6 +37,10 @@ class Demand {
   private:
     void hear_of_wrecks(const world::TickView& last);
     bool is_seen(const Eigen::Vector3d& p, const world::TickView& last, double sight) const;
+
+    /// For so long that it counts for more than who sees it go.
+    bool is_stuck(const Car& car, const world::TickView& last) const;
+
     bool add_car(Cars& cars,
                  std::span<const OccupiedBox> occupied,
                  double& scanned,

@@ -93,6 +93,31 @@ TEST(Flow, WhoIsStuckInSightOfTheEgoIsTakenOutInTheEnd) {
     EXPECT_LT(longest, 3 * minute);
 }
 
+/// Behind a vehicle with mass that stands at the end of a way through a junction for ever. In the
+/// second one SUMO lets who waits inch on, some millimetres every few seconds.
+TEST(Flow, WhoIsStuckInAJunctionIsTakenOutInTheEndWhoeverIsBeside) {
+    const test::Loaded& town2 = own_town("town2");
+    const auto& lanes = town2.town.lanes;
+    for (const char* blocked : {":l2_0_0", ":a1_1_0"}) {
+        const world::LaneT& way = lanes[test::lane(town2.town, blocked)];
+        const world::LanePoint end = world::point_at(way, way.length);
+        const auto ego = test::vehicle_at(2, end.position.x(), end.position.y(), end.yaw);
+        Stage stage(town2, 60, 3);
+        std::map<std::uint32_t, int> halted;
+        int longest = 0;
+        for (int tick = 0; tick < 8 * minute; ++tick)
+            for (const world::CarState& car : stage.step({}, {ego}).traffic.cars) {
+                int& ticks = halted[car.id()];
+                const bool inside = car.lane() != world::none &&
+                                    lanes[car.lane()].kind == world::LaneKind::internal;
+                ticks = inside && car.speed() < 0.1F ? ticks + 1 : 0;
+                longest = std::max(longest, ticks);
+            }
+        EXPECT_GT(longest, 2.4 * minute) << blocked << ": nobody was stuck, nothing is shown";
+        EXPECT_LT(longest, 3.1 * minute) << blocked;
+    }
+}
+
 TEST(Flow, AsManyCarsAsATownCarriesAreThereInTheFirstTick) {
     for (const char* town : {"town1", "town2", "straight", "curves", "junctions"}) {
         const std::uint32_t carried = world::cars_carried(own_town(town).town);

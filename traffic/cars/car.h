@@ -71,6 +71,8 @@ struct Car {
     Eigen::Vector2d ahead = Eigen::Vector2d::UnitX();  ///< of that yaw
     double pitch = 0;
     std::uint32_t standing_ticks = 0;
+    std::uint32_t stuck_ticks = 0;  ///< as those, but creeping by a hand's breadth is no way out
+    double stuck_from = 0;          ///< [m] of its trail, where it got stuck
 
     // What SUMO was told last of how it may drive.
     double aside_wanted = 0;    ///< [m/s] sideways, by its last ordered change of lanes; 0: none

@@ -49,12 +49,12 @@ void add_offset(world::Hasher& hasher, const OffsetOrder& order, double offset) 
 /// What every car keeps. Left out is what nothing is computed from (acceleration, pitch) or what
 /// follows (SUMO's name of a car).
 struct CarDigest {
-    std::array<double, 15> numbers;
+    std::array<double, 16> numbers;
     std::uint64_t trail;
-    std::array<std::uint32_t, 8> indices;
+    std::array<std::uint32_t, 10> indices;
 };
 
-static_assert(sizeof(CarDigest) == 160, "no padding");
+static_assert(sizeof(CarDigest) == 176, "no padding");
 
 CarDigest kept_of(const Car& car) {
     return {{car.rear.x(),
@@ -71,16 +71,19 @@ CarDigest kept_of(const Car& car) {
              car.aside_wanted,
              car.aside_limit,
              car.bend_limit,
-             car.trail.travelled()},
+             car.trail.travelled(),
+             car.stuck_from},
             car.trail.points_digest(),
             {car.id,
              car.lane,
              flags_of(car),
              car.draws,
              car.standing_ticks,
+             car.stuck_ticks,
              car.last_lane,
              static_cast<std::uint32_t>(car.route.size()),
-             std::uint32_t{car.held_back}}};
+             std::uint32_t{car.held_back},
+             0}};
 }
 
 }  // namespace
