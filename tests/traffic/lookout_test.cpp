@@ -76,10 +76,10 @@ world::WalkerState walker_on(const world::LaneT& lane, double s, double offset, 
 /// What stands in the way, and what is seen around it.
 class Scene {
   public:
-    Scene(const char* town, const char* lane_name, std::uint32_t cars = 100)
+    Scene(const char* town, const char* lane_name, std::uint32_t cars = 100, std::uint64_t seed = 7)
         : town_(own_town(town).town),
           road_(lane(town_, lane_name)),
-          stage(own_town(town), cars) {
+          stage(own_town(town), cars, seed) {
         stage.steps(200);
     }
 
@@ -228,6 +228,15 @@ TEST_P(LookoutIn, NobodyTouchesWhatStandsInTheLaneForTwoMinutes) {
     scene.watch(two_minutes);
     EXPECT_TRUE(scene.touched.empty()) << scene.touched.size() << " cars";
     EXPECT_GE(scene.passed.size(), place.pass);
+}
+
+/// With this seed a bus comes to stand behind the van, whose corner its side would cut if it swung
+/// out as cars do.
+TEST(Lookout, ABusDoesNotSwingOutPastWhatStandsCloseBeforeIt) {
+    Scene scene(one_lane.town, one_lane.lane, 100, 9);
+    scene.park("van", scene.free_place(one_lane.s, one_lane.before), 0);
+    scene.watch(two_minutes);
+    EXPECT_TRUE(scene.touched.empty());
 }
 
 /// One on every sidewalk that is long enough, in its middle, walking along it.

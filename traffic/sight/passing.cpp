@@ -20,6 +20,7 @@ constexpr double room_to_return = 14;    // [m] of the lane, beside the car's ow
 constexpr double slow_pass = 3.5;        // [m/s] on average
 constexpr double pull_out_time = 2.5;    // [s]
 constexpr double beside_oncoming = 2.4;  // [m] from middle to middle
+constexpr double longest_to_swing = 7;   // [m] the side of a longer one would cut the corner
 
 }  // namespace
 
@@ -131,6 +132,8 @@ void Passing::begin(Car& car,
     const world::LaneProjection at = world::project(lane, front);
     const auto end = end_of_row(car, at.s, aside);
     const world::VehicleModel& model = world::vehicle_models()[car.model];
+    if (model.length > longest_to_swing)
+        return;
     if (!end || *end + model.length + room_to_return > lane.length)
         return;
     Stretch stretch;
