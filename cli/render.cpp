@@ -125,6 +125,9 @@ int render(const RenderOptions& options) {
     Measurements measurements(options, trace, ticks);
     const Cameras cameras(options, trace, ticks);
     const bool film = !film_ending(options.output).empty();
+    if (film && cameras.sensors().empty())
+        throw world::Error(options.output + ": a film shows a camera, and there is none in " +
+                           (options.rig.empty() ? options.trace : options.rig));
     WrittenFiles files;
     // The town takes seconds to build, and sensors without rays do not look at it.
     std::optional<render::Sensors> made;

@@ -42,19 +42,6 @@ world::SensorRig make_rig(const RenderOptions& options) {
     return rig;
 }
 
-/// The others are measured, see measurements.h.
-world::Rig only_cameras(const world::Rig& rig) {
-    world::Rig cameras;
-    cameras.since = rig.since;
-    for (std::size_t i = 0; i < rig.sensors.size(); ++i) {
-        if (!world::is_camera(rig.sensors[i].kind))
-            continue;
-        cameras.sensors.push_back(rig.sensors[i]);
-        cameras.every.push_back(rig.every[i]);
-    }
-    return cameras;
-}
-
 /// Of an imported trace, which has cars only: the one that it was recorded for.
 std::optional<std::uint32_t> hero_of(const world::EpisodeT& episode) {
     for (const world::ParameterT& parameter : episode.parameters) {
@@ -102,7 +89,7 @@ Cameras::Cameras(const RenderOptions& options, replay::TraceReader& trace, const
     if (options.recorded_rig)
         recorded_ = recorded_rig(trace, named_.value_or(0), ticks.to);
     if (recorded_)
-        recorded_ = only_cameras(*recorded_);
+        recorded_ = only({std::move(*recorded_), {}, {}}, /*cameras=*/true).rig;
     if (!options.rig.empty())
         read_rig(trace);
     sensors_ = recorded_ ? recorded_->sensors : make_rig(options);
@@ -117,15 +104,9 @@ Cameras::Cameras(const RenderOptions& options, replay::TraceReader& trace, const
 }
 
 void Cameras::read_rig(replay::TraceReader& trace) {
-    RigFile file = read_rig_file(options_.rig, trace.episode().step_ns);
-    for (const std::string& carrier : file.carriers) {
-        std::optional<std::uint32_t>& id = carrier_ids_.emplace_back();
-        if (carrier == "world")
-            id = 0;
-        else if (!carrier.empty())
-            id = replay::find_actor(trace, carrier);
-    }
+    RigFile file = only(read_rig_file(options_.rig, trace), /*cameras=*/true);
     carriers_ = std::move(file.carriers);
+    carrier_ids_ = std::move(file.carrier_ids);
     recorded_ = std::move(file.rig);
 }
 

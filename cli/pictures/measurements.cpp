@@ -14,6 +14,7 @@
 #include "cli/pictures/chosen_weather.h"
 #include "cli/pictures/reading_file.h"
 #include "cli/pictures/recorded_rig.h"
+#include "cli/pictures/rig_file.h"
 #include "cli/pictures/tick_readings.h"
 #include "cli/pictures/told.h"
 #include "cli/process/new_folder.h"
@@ -222,19 +223,6 @@ class Reader {
     Kept last_;
 };
 
-/// Without cameras, which are rendered.
-world::Rig without_cameras(const world::Rig& rig) {
-    world::Rig rest;
-    rest.since = rig.since;
-    for (std::size_t i = 0; i < rig.sensors.size(); ++i) {
-        if (world::is_camera(rig.sensors[i].kind))
-            continue;
-        rest.sensors.push_back(rig.sensors[i]);
-        rest.every.push_back(rig.every[i]);
-    }
-    return rest;
-}
-
 }  // namespace
 
 Measurements::Measurements(const RenderOptions& options,
@@ -243,17 +231,10 @@ Measurements::Measurements(const RenderOptions& options,
     : options_(options),
       trace_(trace),
       ticks_(ticks) {
-    if (!options.actor.empty())
-        named_ = replay::find_actor(trace, options.actor);
-    if (options.recorded_rig) {
-        if (const auto recorded = recorded_rig(trace, named_.value_or(0), ticks.to))
-            rig_ = without_cameras(*recorded);
-    } else {
-        rig_.sensors = named_rig(options);
-        rig_.since = ticks.from;
-    }
+    look_up_rig();
     const auto every = static_cast<std::uint32_t>(ticks.every);
-    if (!options.recorded_rig || !options.every.empty()) {
+    const bool has_periods = options.recorded_rig || !options.rig.empty();
+    if (!has_periods || !options.every.empty()) {
         rig_.every.clear();
         for (const world::SensorSpec& sensor : rig_.sensors)
             // Pictures a second apart are usual, but tables have a row for each tick.
@@ -267,6 +248,20 @@ Measurements::Measurements(const RenderOptions& options,
     }
 }
 
+void Measurements::look_up_rig() {
+    if (!options_.actor.empty())
+        named_ = replay::find_actor(trace_, options_.actor);
+    if (!options_.rig.empty()) {
+        RigFile file = only(read_rig_file(options_.rig, trace_), /*cameras=*/false);
+        rig_ = std::move(file.rig);
+        carrier_ids_ = std::move(file.carrier_ids);
+    } else if (!options_.recorded_rig) {
+        rig_.sensors = named_rig(options_);
+    } else if (auto recorded = recorded_rig(trace_, named_.value_or(0), ticks_.to)) {
+        rig_ = only({std::move(*recorded), {}, {}}, /*cameras=*/false).rig;
+    }
+}
+
 std::string Measurements::names() const {
     std::vector<std::string> names;
     for (const world::SensorSpec& sensor : rig_.sensors)
@@ -274,14 +269,29 @@ std::string Measurements::names() const {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Of a recorded rig who carried it, else who was named, or the first vehicle with mass.
-std::optional<std::uint32_t> Measurements::carrier(const world::TickView& tick) const {
+/// Whom a rig file says, 0 for the world; of a recorded rig who carried it; else who was named, or
+/// the first vehicle with mass.
+std::optional<std::uint32_t> Measurements::carrier(std::size_t sensor,
+                                                   const world::TickView& tick) const {
     std::uint32_t actor = named_.value_or(0);
-    if (options_.recorded_rig)
+    if (!carrier_ids_.empty() && carrier_ids_[sensor]) {
+        actor = *carrier_ids_[sensor];
+        if (actor == 0)
+            return actor;
+    } else if (options_.recorded_rig) {
         actor = rig_.sensors.front().actor;
-    else if (!named_ && !tick.vehicles().empty())
+    } else if (!named_ && !tick.vehicles().empty()) {
         actor = tick.vehicles().front().id();
+    }
     return actor != 0 && world::find_pose(tick, actor) ? std::optional(actor) : std::nullopt;
+}
+
+std::map<std::size_t, std::uint32_t> Measurements::carriers(const world::TickView& tick) const {
+    std::map<std::size_t, std::uint32_t> found;
+    for (std::size_t i = 0; i < rig_.sensors.size(); ++i)
+        if (const auto actor = carrier(i, tick))
+            found.emplace(i, *actor);
+    return found;
 }
 
 std::size_t Measurements::write(const std::function<render::Sensors&()>& sensors,
@@ -300,15 +310,12 @@ std::size_t Measurements::write(const std::function<render::Sensors&()>& sensors
         sensor.actor = actor;
         return sensor;
     };
-    for (std::uint64_t index = ticks_.from; index <= ticks_.to; ++index) {
-        const auto actor = carrier(trace_.tick(index).view);
-        if (!actor)
-            continue;
-        carried = true;
-        for (std::size_t i = 0; i < rig_.sensors.size(); ++i)
+    for (std::uint64_t index = ticks_.from; index <= ticks_.to; ++index)
+        for (const auto& [i, actor] : carriers(trace_.tick(index).view)) {
+            carried = true;
             if (world::is_reading(rig_.sensors[i].kind))
-                reader.read(i, placed(i, *actor), index, rig_.is_due(i, index));
-    }
+                reader.read(i, placed(i, actor), index, rig_.is_due(i, index));
+        }
     if (!carried)
         throw world::Error("no vehicle to mount the sensors on in these ticks of " +
                            options_.trace);
@@ -318,12 +325,9 @@ std::size_t Measurements::write(const std::function<render::Sensors&()>& sensors
         sensors().observe_each([&]() -> std::unique_ptr<render::Observation> {
             for (; index <= ticks_.to; ++index) {
                 auto look = std::make_unique<Look>(trace_.tick(index), files);
-                const auto actor = carrier(look->tick());
-                if (!actor)
-                    continue;
-                for (std::size_t i = 0; i < rig_.sensors.size(); ++i)
+                for (const auto& [i, actor] : carriers(look->tick()))
                     if (world::is_ranging(rig_.sensors[i].kind) && rig_.is_due(i, index))
-                        look->add(i, placed(i, *actor));
+                        look->add(i, placed(i, actor));
                 if (look->rig().empty())
                     continue;
                 look->set(weather.at(look->tick()));

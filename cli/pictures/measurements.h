@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
+#include <vector>
 
 #include "cli/options/render_options.h"
 #include "cli/pictures/cameras.h"
@@ -15,7 +17,7 @@ namespace reprise::cli {
 /// The sensors of a vehicle that are no cameras, and when each of them looks.
 class Measurements {
   public:
-    /// Of the recorded rig, or as options name them. Throws world::Error.
+    /// Of the recorded rig, of a rig file, or as options name them. Throws world::Error.
     Measurements(const RenderOptions& options, replay::TraceReader& trace, const Ticks& ticks);
 
     bool empty() const { return rig_.sensors.empty(); }
@@ -30,12 +32,17 @@ class Measurements {
     const world::SensorRig& sensors() const { return rig_.sensors; }
 
   private:
-    std::optional<std::uint32_t> carrier(const world::TickView& tick) const;
+    void look_up_rig();
+    std::optional<std::uint32_t> carrier(std::size_t sensor, const world::TickView& tick) const;
+
+    /// Of those that are there, by their sensors' index in the rig.
+    std::map<std::size_t, std::uint32_t> carriers(const world::TickView& tick) const;
 
     const RenderOptions& options_;
     replay::TraceReader& trace_;
     Ticks ticks_;
     world::Rig rig_;
+    std::vector<std::optional<std::uint32_t>> carrier_ids_;  ///< of a rig file's; else empty
     std::optional<std::uint32_t> named_;
 };
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "replay/table/actor_search.h"
 #include "world/check.h"
 #include "world/external/sensor_attributes.h"
 #include "world/units.h"
@@ -148,6 +149,25 @@ void read_attributes(const Json& json, const std::string& where, world::SensorSp
     }
 }
 
+/// What only cameras have.
+void read_view(const Table& table, const std::string& type, world::SensorSpec& sensor) {
+    if (!world::is_camera(sensor.kind)) {
+        for (const char* key : {"fov_deg", "size"})
+            if (table.find(key) != nullptr)
+                table.refuse(fmt::format(
+                    "'{}' is of cameras; what a {} sees, its 'attributes' say", key, type));
+        return;
+    }
+    sensor.fov = table.number("fov_deg", 90, world::narrowest_view_deg, world::widest_fisheye_deg) *
+                 world::degree;
+    if (const Json* size = table.list("size", 2)) {
+        sensor.width =
+            static_cast<int>(table.whole("size", (*size)[0], world::largest_picture_side));
+        sensor.height =
+            static_cast<int>(table.whole("size", (*size)[1], world::largest_picture_side));
+    }
+}
+
 void read_sensor(const Json& json, const std::string& where, std::uint64_t step_ns, RigFile& file) {
     const Table table(json,
                       where,
@@ -171,14 +191,17 @@ void read_sensor(const Json& json, const std::string& where, std::uint64_t step_
                         "folder",
                         world::longest_sensor_name));
     const std::string type = table.text("type").value_or("rgb");
-    const auto kind = world::find_camera_kind(type);
+    const auto kind = world::find_sensor_kind(type);
     if (!kind)
         table.refuse(fmt::format("no type '{}'{}; there are {}",
                                  type,
-                                 world::did_you_mean(type, world::camera_kinds()),
-                                 fmt::join(world::camera_kinds(), ", ")));
+                                 world::did_you_mean(type, world::sensor_kinds()),
+                                 fmt::join(world::sensor_kinds(), ", ")));
     sensor.kind = *kind;
     const std::string& carrier = file.carriers.emplace_back(table.text("actor").value_or(""));
+    if (carrier == "world" && world::tells_what_happens(sensor.kind))
+        table.refuse(
+            fmt::format("a {} tells what its 'actor' does, who cannot be the world", type));
     const double reach = carrier == "world" ? farthest_place : world::farthest_mount;
     if (const Json* place = table.list("position", 3))
         for (int axis = 0; axis < 3; ++axis)
@@ -187,14 +210,7 @@ void read_sensor(const Json& json, const std::string& where, std::uint64_t step_
     sensor.roll = table.number("roll_deg", 0, -360, 360) * world::degree;
     sensor.pitch = table.number("pitch_deg", 0, -90, 90) * world::degree;
     sensor.yaw = table.number("yaw_deg", 0, -360, 360) * world::degree;
-    sensor.fov = table.number("fov_deg", 90, world::narrowest_view_deg, world::widest_fisheye_deg) *
-                 world::degree;
-    if (const Json* size = table.list("size", 2)) {
-        sensor.width =
-            static_cast<int>(table.whole("size", (*size)[0], world::largest_picture_side));
-        sensor.height =
-            static_cast<int>(table.whole("size", (*size)[1], world::largest_picture_side));
-    }
+    read_view(table, type, sensor);
     if (const Json* attributes = table.find("attributes"))
         read_attributes(*attributes, where, sensor);
     if (const std::string why = world::contradiction(sensor); !why.empty())
@@ -208,7 +224,7 @@ void read_sensor(const Json& json, const std::string& where, std::uint64_t step_
 
 }  // namespace
 
-RigFile read_rig_file(const std::filesystem::path& path, std::uint64_t step_ns) {
+RigFile read_rig_file(const std::filesystem::path& path, replay::TraceReader& trace) {
     const Json json = parse(path);
     const Table table(json, path.string(), {"sensors"});
     const Json* sensors = table.find("sensors");
@@ -227,10 +243,34 @@ RigFile read_rig_file(const std::filesystem::path& path, std::uint64_t step_ns) 
                                 path.string(),
                                 i + 1,
                                 named ? " '" + one["name"].get<std::string>() + "'" : ""),
-                    step_ns,
+                    trace.episode().step_ns,
                     file);
     }
+    for (const std::string& carrier : file.carriers) {
+        std::optional<std::uint32_t>& id = file.carrier_ids.emplace_back();
+        if (carrier == "world")
+            id = 0;
+        else if (!carrier.empty())
+            id = replay::find_actor(trace, carrier);
+    }
     return file;
+}
+
+RigFile only(RigFile file, bool cameras) {
+    RigFile part;
+    part.rig.since = file.rig.since;
+    for (std::size_t i = 0; i < file.rig.sensors.size(); ++i) {
+        if (world::is_camera(file.rig.sensors[i].kind) != cameras)
+            continue;
+        part.rig.sensors.push_back(std::move(file.rig.sensors[i]));
+        part.rig.every.push_back(file.rig.every[i]);
+        // Of a recorded rig all have one carrier.
+        if (!file.carriers.empty()) {
+            part.carriers.push_back(std::move(file.carriers[i]));
+            part.carrier_ids.push_back(file.carrier_ids[i]);
+        }
+    }
+    return part;
 }
 
 }  // namespace reprise::cli

@@ -213,6 +213,61 @@ TEST_F(Rendering, ARigFileSaysWhatLooksWhenAndWithWhatBesideIt) {
     EXPECT_EQ(read_file(out / "front/000020.npy").size(), 128U + 32 * 24 * 4);
 }
 
+TEST_F(Rendering, ARigFilesLidarSeesWhatOneOfTheOptionsSees) {
+    write_file(folder_ / "rig.json",
+               R"({ "sensors": [
+                 { "name": "front", "type": "depth", "size": [32, 24], "every": 20 },
+                 { "name": "lidar", "type": "lidar", "position": [1.2, 0, 1.8], "every": 20,
+                   "attributes": { "channels": 4, "range": 40 } },
+                 { "name": "motion", "type": "imu", "position": [1.2, 0, 1.8] },
+                 { "name": "gate", "type": "radar", "actor": "world", "position": [5, 5, 4],
+                   "every": 40 } ] })");
+    const auto run = [&](const Folder& out, const std::vector<std::string>& more) {
+        std::vector<std::string> words{
+            "render", folder_ / "t.mcap", "-o", out.path().string(), "--ticks", "20..40"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Result result = reprise(words);
+        EXPECT_EQ(result.code, 0) << result.out;
+    };
+    const Folder rigged;
+    run(rigged, {"--rig", folder_ / "rig.json", "--no-view"});
+    EXPECT_THAT(rigged.files(),
+                testing::ElementsAre("front/000020.png",
+                                     "front/000040.png",
+                                     "front/calib.txt",
+                                     "front/camera.json",
+                                     "gate/000040.ply",
+                                     "lidar/000020.ply",
+                                     "lidar/000040.ply",
+                                     "manifest.json",
+                                     "motion.csv"));
+    const Folder readings;
+    run(readings, {"--sensor", "imu", "--mount", "1.2,0,1.8"});
+    EXPECT_EQ(read_file(rigged / "motion.csv"), read_file(readings / "imu.csv"));
+    const Folder scans;
+    run(scans,
+        {"--sensor",
+         "lidar",
+         "--mount",
+         "1.2,0,1.8",
+         "--attribute",
+         "channels=4,range=40",
+         "--every",
+         "20"});
+    const std::string scan = read_file(scans / "000040.ply");
+    EXPECT_GT(scan.size(), 1000U);
+    EXPECT_TRUE(read_file(rigged / "lidar/000040.ply") == scan);
+}
+
+TEST_F(Rendering, AFilmOfARigWithoutACameraIsRefused) {
+    write_file(folder_ / "rig.json", R"({ "sensors": [ { "name": "roof", "type": "lidar" } ] })");
+    const Result film = reprise(
+        {"render", folder_ / "t.mcap", "-o", folder_ / "run.mp4", "--rig", folder_ / "rig.json"});
+    EXPECT_EQ(film.code, 2);
+    EXPECT_THAT(film.out, testing::HasSubstr("a film shows a camera, and there is none in"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "run.mp4"));
+}
+
 TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     const std::string file = folder_ / "rig.json";
     const auto mistake = [&](const std::string& text) {
@@ -240,6 +295,10 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     EXPECT_THAT(of_sensor("\"postion\": [1, 2, 3]"), HasSubstr("(did you mean 'position'?)"));
     EXPECT_THAT(of_sensor("\"actor\": \"ega\""), HasSubstr("(did you mean 'ego'?)"));
     EXPECT_THAT(of_sensor("\"rate_hz\": 3"), HasSubstr("20 over a whole number"));
+    EXPECT_THAT(of_sensor("\"type\": \"lidar\", \"size\": [64, 64]"),
+                HasSubstr("'size' is of cameras; what a lidar sees, its 'attributes' say"));
+    EXPECT_THAT(of_sensor("\"type\": \"collision\", \"actor\": \"world\""),
+                HasSubstr("a collision tells what its 'actor' does, who cannot be the world"));
     EXPECT_THAT(of_sensor("\"attributes\": { \"own_cat\": 1 }"),
                 HasSubstr("(did you mean 'own_car'?)"));
     EXPECT_THAT(
