@@ -25,7 +25,7 @@ constexpr const char* ignored = "junctionModel.ignoreIDs";
 /// At the front of its lane, or in a junction; not at a light.
 bool Standoffs::waits(const Car& car) const {
     if (car.origin != Origin::demand || car.sumo.empty() || car.lane == world::none ||
-        car.standing_ticks * step_ < patience)
+        car.stuck_ticks * step_ < patience)
         return false;
     const world::LaneT& lane = town_->lanes[car.lane];
     if (lane.kind == world::LaneKind::internal)
@@ -58,7 +58,7 @@ std::string Standoffs::standing_near(const Car& car,
     std::string names;
     for (const Car& other : cars.all())
         if (other.id != car.id && !other.sumo.empty() && !is_ahead(other, car) &&
-            other.standing_ticks * step_ > has_stopped &&
+            other.stuck_ticks * step_ > has_stopped &&
             (other.rear - car.rear).head<2>().norm() < place)
             names += other.sumo + ' ';
     for (const world::VehicleState& vehicle : last.vehicles())
@@ -84,14 +84,14 @@ void Standoffs::advance(const world::TickView& last, Cars& cars, std::uint64_t t
             waiting.push_back(&car);
     }
     std::stable_sort(waiting.begin(), waiting.end(), [](const Car* one, const Car* other) {
-        return one->standing_ticks > other->standing_ticks;
+        return one->stuck_ticks > other->stuck_ticks;
     });
     for (std::size_t i = 0; i < waiting.size(); ++i) {
         const auto before = std::count_if(
             waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(i), [&](const Car* one) {
                 return (one->rear - waiting[i]->rear).head<2>().norm() < place;
             });
-        if (waiting[i]->standing_ticks * step_ < patience * static_cast<double>(before + 1))
+        if (waiting[i]->stuck_ticks * step_ < patience * static_cast<double>(before + 1))
             continue;
         libsumo::Vehicle::setParameter(
             waiting[i]->sumo, ignored, standing_near(*waiting[i], last, cars));
