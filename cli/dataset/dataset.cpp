@@ -21,6 +21,7 @@
 #include "cli/options/tick_range.h"
 #include "cli/pictures/manifest.h"
 #include "cli/pictures/renderer.h"
+#include "cli/pictures/rig_file.h"
 #include "cli/process/guard.h"
 #include "cli/process/say.h"
 #include "files/output_file.h"
@@ -79,6 +80,16 @@ Source open_source(const DatasetOptions& dataset, const std::string& path) {
 }
 
 void look_through(Source& source) {
+    const std::string& rig = source.options.rig;
+    if (!rig.empty())
+        for (const world::SensorSpec& sensor : read_rig_file(rig, *source.trace).rig.sensors)
+            if (!world::is_camera(sensor.kind))
+                throw world::Error(fmt::format(
+                    "{}: sensor '{}': a data set holds what cameras see; reprise render --rig "
+                    "writes what a {} measures",
+                    rig,
+                    sensor.name,
+                    world::EnumNameSensorKind(sensor.kind)));
     source.cameras = std::make_unique<Cameras>(source.options, *source.trace, source.ticks);
 }
 
