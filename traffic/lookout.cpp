@@ -179,9 +179,10 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     return corridor.allowed;
 }
 
-/// [m/s] of a long vehicle, whose tail swings out and whose middle cuts in where it turns: to stop
-/// before its body would sweep over somebody who stands or lies beside its lane. Not for ever:
-/// who stands there for long may never go away, and then brushing past is the driver's business.
+/// [m/s] to stop before the body would sweep over somebody beside its lane, as a tail swings out
+/// and a middle cuts in where one turns. A long vehicle looks at all who stand or lie there, and
+/// not for ever: who stands there for long may never go away, and then brushing past is the
+/// driver's business. A short one does so beside vehicles with mass, and brushes past none.
 double Lookout::before_swept(Car& car, std::uint64_t tick) const {
     constexpr double looked_at = 14;            // [m] of way
     constexpr double spacing = 0.5;             // [m]
@@ -190,11 +191,13 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
     constexpr double waits = 40;                // [s]
     constexpr std::uint64_t goes_on_for = 200;  // [ticks]
     const world::VehicleModel& model = world::vehicle_models()[car.model];
-    if (model.length <= longest_short_car || car.pushes_until > tick || car.pass)
+    const bool is_long = model.length > longest_short_car;
+    if (car.pass || (is_long && car.pushes_until > tick))
         return world::infinity;
     const double around = looked_at + 2 * model.length;
     std::vector<BodyBox> others;
-    for (const Footprint& one : obstructions_.footprints())
+    const std::span<const Footprint> seen = is_long ? obstructions_.footprints() : driving_;
+    for (const Footprint& one : seen)
         if (one.id != car.id && one.velocity.norm() < slow &&
             (one.centre - car.rear.head<2>()).squaredNorm() < around * around &&
             std::abs(one.z - car.rear.z()) < world::level_clearance)
@@ -214,7 +217,7 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
         car.speed, comfortable_braking(car.model), emergency_braking(car.model), step_};
     for (double driven = spacing; driven <= std::min(looked_at, way.length()); driven += spacing)
         if (touches(driven)) {
-            if (car.standing_ticks * step_ > waits && driven <= 2 * spacing)
+            if (is_long && car.standing_ticks * step_ > waits && driven <= 2 * spacing)
                 car.pushes_until = tick + goes_on_for;
             return braking.speed_before(driven - spacing, 0, 0);
         }
@@ -233,6 +236,10 @@ void Lookout::hold_back(Car& car, double speed, std::uint64_t tick) const {
 
 void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tick) {
     obstructions_.look(last, cars.all());
+    driving_.clear();
+    for (const Footprint& one : obstructions_.footprints())
+        if (one.drives)
+            driving_.push_back(one);
     stand_ins_.advance(obstructions_.all(), cars, tick);
     meetings_.look(cars, tick);
     for (std::size_t i = 0; i < cars.size(); ++i) {

@@ -72,6 +72,7 @@ class Lookout {
     const Orders* orders_;
     double step_;  ///< [s]
     Obstructions obstructions_;
+    std::vector<Footprint> driving_;  ///< of those, vehicles with mass or on a trajectory
     StandIns stand_ins_;
     Passing passing_;
     Meetings meetings_;

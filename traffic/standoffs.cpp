@@ -45,11 +45,19 @@ bool Standoffs::is_through(const Car& car) const {
             car.speed > 2);
 }
 
-/// On its route: nobody drives into who stands before him.
+/// On its way through this place: nobody drives into who stands before him. Routes are long and
+/// come by again: who comes from a road that is one for later stands beside.
 bool Standoffs::is_ahead(const Car& other, const Car& car) const {
-    return other.lane != world::none &&
-           std::find(car.route.begin(), car.route.end(), graph_->edge_of(other.lane)) !=
-               car.route.end();
+    if (other.lane == world::none)
+        return false;
+    const std::uint32_t edge = graph_->edge_of(other.lane);
+    double driven = 0;  // [m] behind the current edge
+    for (std::size_t i = 0; i < car.route.size() && driven < place; ++i) {
+        if (car.route[i] == edge)
+            return true;
+        driven += i > 0 ? graph_->edge(car.route[i]).length : 0;
+    }
+    return false;
 }
 
 std::string Standoffs::standing_near(const Car& car,
