@@ -112,7 +112,9 @@ std::string kitti_calibration(const world::SensorSpec& sensor) {
     std::string kitti;
     for (const char* name : {"P0", "P1", "P2", "P3"})
         kitti += line_of(name, projection(camera));
-    kitti += line_of("R0_rect", upright) + line_of("Tr_velo_to_cam", into_camera(camera));
+    // Without a velodyne its frame is the carrier's, as the IMU's is; readers want both lines.
+    kitti += line_of("R0_rect", upright) + line_of("Tr_velo_to_cam", into_camera(camera)) +
+             line_of("Tr_imu_to_velo", Rows::Identity());
     if (!camera.lens().is_plain())
         kitti += lens_lines(camera);
     return kitti;
