@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstring>
 #include <future>
 #include <system_error>
@@ -22,9 +23,9 @@ namespace reprise::walkers {
 
 namespace {
 
-constexpr int most_polygons = 4096;         ///< of a way
-constexpr int most_polygons_a_tile = 4096;  ///< 12 of a reference's 22 bits
-constexpr int most_nodes = 65535;           ///< looked at for one way: Detour's limit
+constexpr int most_polygons = 4096;  ///< of a way
+constexpr int reference_bits = 22;   ///< of a Detour reference: for the tile and its polygon
+constexpr int most_nodes = 65535;    ///< looked at for one way: Detour's limit
 
 using Point = std::array<float, 3>;
 
@@ -63,6 +64,24 @@ std::vector<WalkTile> build_all(const WalkTiles& source) {
     return tiles;
 }
 
+/// How many tiles there are where somebody can walk, and polygons in the fullest of them.
+struct Extent {
+    std::size_t tiles = 0;
+    std::size_t polygons = 0;
+
+    explicit Extent(const std::vector<WalkTile>& all) {
+        for (const WalkTile& tile : all) {
+            tiles += tile.bytes.empty() ? 0 : 1;
+            polygons = std::max(polygons, tile.polygons);
+        }
+    }
+
+    bool fits_references() const {
+        const auto bits = [](std::size_t n) { return std::bit_width(std::bit_ceil(n)) - 1; };
+        return bits(tiles) + bits(polygons) <= reference_bits;
+    }
+};
+
 }  // namespace
 
 struct WalkMap::Mesh {
@@ -74,7 +93,7 @@ struct WalkMap::Mesh {
     std::size_t polygons = 0;
     std::size_t bytes = 0;
 
-    void start(const WalkTiles& source);
+    void start(const WalkTiles& source, const Extent& extent);
     void add(const WalkTile& tile);
 
     /// The polygon at a place, and the place on it; 0: none within reach.
@@ -84,12 +103,12 @@ struct WalkMap::Mesh {
                               const Point& to) const;
 };
 
-void WalkMap::Mesh::start(const WalkTiles& source) {
+void WalkMap::Mesh::start(const WalkTiles& source, const Extent& extent) {
     origin = source.origin();
     dtNavMeshParams params{};
     params.tileWidth = params.tileHeight = static_cast<float>(source.edge());
-    params.maxTiles = source.columns() * source.rows();
-    params.maxPolys = most_polygons_a_tile;
+    params.maxTiles = std::max(1, static_cast<int>(extent.tiles));
+    params.maxPolys = std::max(1, static_cast<int>(extent.polygons));
     REPRISE_CHECK(dtStatusSucceed(tiles->init(&params)), "walk map: too many tiles");
     REPRISE_CHECK(dtStatusSucceed(query->init(tiles.get(), most_nodes)), "walk map: query");
 }
@@ -152,12 +171,19 @@ WalkMap::WalkMap(const ground::GroundMesh& ground,
                  std::span<const world::Obstacle> obstacles,
                  std::span<const world::Loop> crossings)
     : mesh_(std::make_unique<Mesh>()) {
-    const WalkTiles source(ground, rules, obstacles, crossings);
-    if (source.columns() == 0)
-        return;
-    mesh_->start(source);
-    for (const WalkTile& tile : build_all(source))
-        mesh_->add(tile);
+    // Small tiles first: Recast joins the triangles of an outline in the third power of their
+    // number.
+    for (WalkTiles source(ground, rules, obstacles, crossings); source.columns() > 0;) {
+        const std::vector<WalkTile> tiles = build_all(source);
+        const Extent extent(tiles);
+        if (extent.fits_references()) {
+            mesh_->start(source, extent);
+            for (const WalkTile& tile : tiles)
+                mesh_->add(tile);
+            return;
+        }
+        source = WalkTiles(ground, rules, obstacles, crossings, source.edge_in_cells() * 3 / 2);
+    }
 }
 
 WalkMap::~WalkMap() = default;

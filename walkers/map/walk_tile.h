@@ -16,11 +16,12 @@ inline constexpr double walker_climb = 0.3;   ///< [m] more than a kerb
 
 /// How finely a map is made, and what counts as walkable.
 struct TileRules {
-    float cell = 0.3F;         ///< [m] of Recast's cells; 0.15 m gave the same ways
-    int radius = 1;            ///< [cells] taken off along every edge
-    float simplification = 1;  ///< [cells] by which an outline may be off
-    bool roads = true;         ///< else only sidewalks and crossings
-    bool heights = true;       ///< inside of polygons as well
+    float cell = 0.3F;  ///< [m] of Recast's cells; 0.15 m gave the same ways
+    int radius = 1;     ///< [cells] taken off along every edge
+    float simplification =
+        1;  ///< [cells] by which an outline may be off; below 1 oblique ones keep every step
+    bool roads = true;    ///< else only sidewalks and crossings
+    bool heights = true;  ///< inside of polygons as well
 
     int margin() const { return radius + 4; }  ///< [cells] around a tile: room for erosion
 };

@@ -13,8 +13,8 @@ namespace {
 
 using ground::Surface;
 
-constexpr int smallest_tile = 256;  ///< [cells]
-constexpr double most_tiles = 900;  ///< a reference of Detour has 22 bits for tile and polygon
+/// Beyond that no map fits into Detour's references, whatever its polygons: not even tried.
+constexpr double most_tiles = 16384;
 
 /// 0: nobody walks there.
 unsigned char area_of(Surface surface) {
@@ -106,7 +106,8 @@ void WalkTiles::add_shapes(const world::Box& box, TileTriangles& triangles) cons
 WalkTiles::WalkTiles(const ground::GroundMesh& ground,
                      const TileRules& rules,
                      std::span<const world::Obstacle> holes,
-                     std::span<const world::Loop> crossings)
+                     std::span<const world::Loop> crossings,
+                     int smallest_edge)
     : ground_(&ground),
       rules_(rules) {
     for (const world::Obstacle& obstacle : holes)
@@ -141,9 +142,9 @@ WalkTiles::WalkTiles(const ground::GroundMesh& ground,
     // North-west corner: rows run south.
     origin_ = {all.low.x(), all.high.y(), lowest};
     const double least_edge = std::sqrt(size.prod() / most_tiles);
-    const int cells = std::max(
-        smallest_tile, static_cast<int>(std::ceil(least_edge / static_cast<double>(rules_.cell))));
-    edge_ = cells * static_cast<double>(rules_.cell);
+    cells_ = std::max(smallest_edge,
+                      static_cast<int>(std::ceil(least_edge / static_cast<double>(rules_.cell))));
+    edge_ = cells_ * static_cast<double>(rules_.cell);
     columns_ = 1 + static_cast<int>(size.x() / edge_);
     rows_ = 1 + static_cast<int>(size.y() / edge_);
 }
@@ -161,7 +162,7 @@ WalkTile WalkTiles::build(int column, int row) const {
     TilePlace place;
     place.column = column;
     place.row = row;
-    place.cells = static_cast<int>(std::lround(edge_ / static_cast<double>(rules_.cell)));
+    place.cells = cells_;
     place.low = to_recast({box.low.x(), box.high.y(), 0}, origin_);
     place.high = to_recast({box.high.x(), box.low.y(), 0}, origin_);
     place.low[1] = place.high[1] = triangles.vertices[1];

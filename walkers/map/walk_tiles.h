@@ -20,15 +20,19 @@ Eigen::Vector3d from_recast(const float* p, const Eigen::Vector3d& origin);
 class WalkTiles {
   public:
     /// Looks into `ground`, which must outlive it. `holes`: what stands there; `crossings`: where
-    /// the road is for walkers, as convex outlines.
+    /// the road is for walkers, as convex outlines. A square has at least `smallest_edge` cells
+    /// along its sides.
     WalkTiles(const ground::GroundMesh& ground,
               const TileRules& rules,
               std::span<const world::Obstacle> holes = {},
-              std::span<const world::Loop> crossings = {});
+              std::span<const world::Loop> crossings = {},
+              int smallest_edge = 256);
 
     const Eigen::Vector3d& origin() const { return origin_; }  ///< least corner of all ground
 
     double edge() const { return edge_; }  ///< [m] of a square
+
+    int edge_in_cells() const { return cells_; }
 
     int columns() const { return columns_; }
 
@@ -57,6 +61,7 @@ class WalkTiles {
     world::BoxGrid by_place_;
     Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
     double edge_ = 0;
+    int cells_ = 0;  ///< along the sides of a square
     int columns_ = 0;
     int rows_ = 0;
 };

@@ -1,8 +1,11 @@
 #include "walkers/map/walk_map.h"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "ground/mesh/build_ground.h"
+#include "walkers/walking_ground.h"
 
 namespace reprise::walkers {
 namespace {
@@ -93,6 +96,33 @@ TEST(WalkMap, NobodyWalksOnTerrain) {
     GroundMesh mesh;
     add_rectangle(mesh, 0, 0, 50, 50, 0, Surface::terrain);
     EXPECT_EQ(WalkMap(mesh).polygons(), 0U);
+}
+
+/// Two sidewalks that cross in the far corner of a town of 8 by 8 km.
+TEST(WalkMap, HoldsATownOfManySquares) {
+    GroundMesh mesh;
+    add_rectangle(mesh, 0, 0, 8000, 3, 0.15, Surface::sidewalk);
+    add_rectangle(mesh, 7997, 3, 8000, 8000, 0.15, Surface::sidewalk);
+    const WalkMap map(mesh);
+    const auto way = map.path({7600, 1.5, 0.15}, {7998.5, 400, 0.15});
+    ASSERT_TRUE(way);
+    EXPECT_NEAR(metres_on(*way, Surface::sidewalk), 398.5 + 398.5, 5);
+}
+
+/// As people on foot get it. Where every step of an oblique kerb stays a corner, it is twenty times
+/// as many.
+TEST(WalkMap, AStreetAskewHasFewPolygonsToo) {
+    const world::TownT town;
+    const GroundMesh straight = street(true);
+    for (const double degrees : {8., 27., 45., 63.}) {
+        GroundMesh askew = straight;
+        const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, Vector3d::UnitZ());
+        for (Vector3d& vertex : askew.vertices)
+            vertex = turn * vertex;
+        EXPECT_LT(WalkingGround(town, &askew).streets().polygons(),
+                  5 * WalkingGround(town, &straight).streets().polygons())
+            << degrees << " degrees";
+    }
 }
 
 TEST(WalkMap, IsTheSameBytesEveryTime) {
