@@ -164,9 +164,9 @@ TaskScenario scenario_of(const remote::Task& task, const world::TownT& town) {
         throw world::Error(fmt::format("the task's weather: {}", error.what()));
     }
     if (task.cars() > most_cars)
-        throw world::Error(fmt::format("the task's cars: at most {}", most_cars));
+        throw world::Error(fmt::format("the task's cars: expected 0 to {}", most_cars));
     if (task.walkers() > most_walkers)
-        throw world::Error(fmt::format("the task's walkers: at most {}", most_walkers));
+        throw world::Error(fmt::format("the task's walkers: expected 0 to {}", most_walkers));
     if (task.walker_seed() > most_seed)
         throw world::Error(fmt::format("the task's walker_seed: at most {}", most_seed));
     TaskScenario scenario;
