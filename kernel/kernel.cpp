@@ -121,6 +121,7 @@ const world::SealedTick& Kernel::step(std::span<const world::Control> controls) 
     parts.doors.swing(world::seconds(1, parts.episode.step_ns), next);
     parts.physics.advance(last, next);
     parts.roster.take_over(parts.physics.wrecks(), next);
+    parts.roster.end_trajectories(parts.physics.derailed());
     parts.lamps.light_vehicles(next);
     close(Stage::physics, next);
 

@@ -167,6 +167,11 @@ void Roster::take_over(std::span<const Wreck> wrecks, world::TickDraft& next) {
     }
 }
 
+void Roster::end_trajectories(std::span<const std::uint32_t> derailed) {
+    for (const std::uint32_t id : derailed)
+        entries_.at(id).follows_until = 0;
+}
+
 /// Nobody drives a wreck.
 void Roster::refuse(const world::CommandT& command, Entry& entry, world::TickDraft& next) const {
     const std::uint32_t bit = 1U << static_cast<std::uint32_t>(command.kind);

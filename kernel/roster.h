@@ -41,6 +41,9 @@ class Roster {
     /// lamps and doors is answered by a printed line, once for each word.
     void take_over(std::span<const Wreck> wrecks, world::TickDraft& next);
 
+    /// Likewise: those whom a crash took from their trajectory. Their drivers go on.
+    void end_trajectories(std::span<const std::uint32_t> derailed);
+
     /// Does the driver of this vehicle want to get on? The autopilot until its road ends or it
     /// is told to stand. A scenario that drives by itself: while it gives throttle. Whoever else
     /// drives: once the vehicle has moved or is given throttle. Never with the hand brake on.

@@ -321,6 +321,8 @@ void Physics::World::make_substep(int index, double road_friction) {
         hit->set_control(wreck_control(hit->id(), hit->body().getLinearVelocity().length()));
         hit->drive(road_friction, substep);
     }
+    for (Vehicle* loose : wrecks.break_loose(share_before, vehicles))
+        loose->drive(road_friction, substep);
     break_off(obstacles, vehicles, substep, props, collisions, broken);
     walkers.test(share, vehicles, collisions);
     cars.move(share);
@@ -381,6 +383,10 @@ void Physics::World::hand_over(world::TickDraft& next) const {
 
 std::span<const Wreck> Physics::wrecks() const {
     return world_->wrecks.made();
+}
+
+std::span<const std::uint32_t> Physics::derailed() const {
+    return world_->wrecks.derailed();
 }
 
 void Physics::nudge(std::uint32_t id, std::string_view field, std::int64_t units) {

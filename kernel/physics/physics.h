@@ -77,6 +77,10 @@ class Physics {
     /// kernel/physics/wrecks.h.
     std::span<const Wreck> wrecks() const;
 
+    /// Ids of the vehicles that left their trajectory in the last advance(), as they crashed; in
+    /// order.
+    std::span<const std::uint32_t> derailed() const;
+
     /// What hit whom in the tick of the last advance(); sorted by (actor, other).
     std::span<const Impact> impacts() const;
 

@@ -331,7 +331,7 @@ void Vehicle::be_guided(double share) {
     body().setWorldTransform(to_bullet(pose_world_body));
 }
 
-void Vehicle::settle(double step) {
+void Vehicle::move_as_guided() {
     btRigidBody& held = body();
     const btVector3 to_middle = held.getCenterOfMassTransform().getBasis() *
                                 btVector3(model_.com_ahead, 0, model_.com_height);
@@ -340,9 +340,26 @@ void Vehicle::settle(double step) {
     held.setAngularVelocity(spin);
     held.setInterpolationWorldTransform(held.getCenterOfMassTransform());
     held.updateInertiaTensor();
+}
+
+void Vehicle::settle(double step) {
+    move_as_guided();
+    const btRigidBody& held = body();
     driveline_.settle(
         held.getCenterOfMassTransform().getBasis().getColumn(0).dot(held.getLinearVelocity()));
     roll_wheels(step);
+}
+
+void Vehicle::break_loose(double share) {
+    be_guided(share);
+    move_as_guided();
+    hold(false);
+}
+
+void Vehicle::fall_in(double step) {
+    hold(true);
+    be_guided(1);
+    settle(step);
 }
 
 /// As wheels that neither slip nor hang in the air.

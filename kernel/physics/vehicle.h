@@ -86,8 +86,8 @@ class Vehicle {
     /// Holds until the next one.
     void set_control(const world::Control& control);
 
-    /// From the next tick on it is where the trajectory says, and nothing moves it: to others it is
-    /// a wall that moves. Its time 0 is tick `start`.
+    /// From the next tick on it is where the trajectory says, and nothing moves it until it is let
+    /// go. Its time 0 is tick `start`.
     void follow(world::Trajectory trajectory, std::uint64_t start);
 
     /// Moved by forces again.
@@ -118,6 +118,13 @@ class Vehicle {
     /// Behind the substeps: motion and wheels as they are on the trajectory.
     void settle(double step);
 
+    /// One that follows is moved by forces for the rest of the tick, from where it is after `share`
+    /// of it: somebody is so near that they may hit each other.
+    void break_loose(double share);
+
+    /// They did not: behind the substeps it is where the trajectory says.
+    void fall_in(double step);
+
     /// Changes the body's velocity by all that acts within `step` seconds: weight, engine, brakes,
     /// air, suspension, tyres. Called before each Bullet substep.
     void drive(double road_friction, double step);
@@ -141,6 +148,7 @@ class Vehicle {
                   double speed);
     Eigen::Isometry3d pose() const;
     void hold(bool guided);
+    void move_as_guided();
     void roll_wheels(double step);
     void nudge_wheel(int index, std::string_view field, std::int64_t units);
 

@@ -10,6 +10,12 @@ namespace {
 /// [m] What may come between where somebody is expected and where he is: a push within the tick.
 constexpr double push_room = 2;
 
+bool is_one_of(const Vehicles& vehicles, std::uint32_t id) {
+    return std::any_of(vehicles.begin(), vehicles.end(), [id](const auto& vehicle) {
+        return vehicle->id() == id;
+    });
+}
+
 }  // namespace
 
 std::vector<Wrecks::Pusher> Wrecks::pushers(const Vehicles& vehicles, const Props& props) const {
@@ -47,6 +53,8 @@ void Wrecks::begin(const NearCars& cars,
     crashes_ = std::move(crashes);
     trials_.clear();
     made_.clear();
+    loose_.clear();
+    derailed_.clear();
     heavy_props_.clear();
     for (const Props::Heavy& prop : props.heavy())
         heavy_props_.push_back(prop.id);
@@ -131,9 +139,7 @@ std::uint32_t Wrecks::hit_by(const Trial& trial,
         const bool was_hit = stands_in != trials_.end() && stands_in->by != 0;
         const bool had_mass =
             stands_in == trials_.end() &&
-            (std::any_of(vehicles.begin(),
-                         vehicles.end(),
-                         [&](const auto& vehicle) { return vehicle->id() == pusher; }) ||
+            (is_one_of(vehicles, pusher) ||
              std::binary_search(heavy_props_.begin(), heavy_props_.end(), pusher));
         if (was_hit || had_mass || drove_into(trial.id, pusher))
             return pusher;
@@ -141,7 +147,51 @@ std::uint32_t Wrecks::hit_by(const Trial& trial,
     return 0;
 }
 
+std::vector<Vehicle*> Wrecks::break_loose(double before, Vehicles& vehicles) {
+    std::vector<Vehicle*> loose;
+    const auto may_hit = [](const Vehicle& one, const Vehicle& other) {
+        const PlacedBox box = one.box();
+        const PlacedBox beside = other.box();
+        const double room = box.half.length() + beside.half.length() + reach;
+        return &one != &other &&
+               beside.pose.getOrigin().distance2(box.pose.getOrigin()) < room * room &&
+               gap_between(box, beside) < reach;
+    };
+    for (const auto& vehicle : vehicles)
+        if (vehicle->is_guided() &&
+            std::any_of(vehicles.begin(), vehicles.end(), [&](const auto& other) {
+                return may_hit(*vehicle, *other);
+            }))
+            loose.push_back(vehicle.get());
+    for (Vehicle* vehicle : loose) {
+        vehicle->break_loose(before);
+        loose_.insert(std::lower_bound(loose_.begin(), loose_.end(), vehicle->id()), vehicle->id());
+    }
+    return loose;
+}
+
+/// Those who touched no other one are where their trajectory says.
+void Wrecks::decide_loose(const Collisions& collisions, Vehicles& vehicles) {
+    if (loose_.empty())
+        return;
+    const Touching touching = collisions.touching();
+    for (const auto& vehicle : vehicles) {
+        if (!std::binary_search(loose_.begin(), loose_.end(), vehicle->id()))
+            continue;
+        const bool crashed = std::any_of(touching.begin(), touching.end(), [&](const auto& pair) {
+            return pair.first == vehicle->id() && is_one_of(vehicles, pair.second);
+        });
+        if (crashed) {
+            vehicle->let_go();
+            derailed_.push_back(vehicle->id());
+        } else {
+            vehicle->fall_in(step_);
+        }
+    }
+}
+
 void Wrecks::decide(Collisions& collisions, NearCars& cars, Vehicles& vehicles) {
+    decide_loose(collisions, vehicles);
     if (trials_.empty())
         return;
     const Touching touching = collisions.touching();

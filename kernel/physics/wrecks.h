@@ -32,6 +32,8 @@ using Vehicles = std::vector<std::unique_ptr<Vehicle>>;  ///< sorted by id
 ///         into each other in this tick are vehicles from its start on. At the end of
 ///         the tick those are wrecks that were touched (see Collisions) by what had mass before, by
 ///         another wreck, or by whom they drove into; for the others it is as if nothing had been.
+///         Likewise a vehicle on a trajectory breaks loose where it comes within `reach` of another
+///         one, and leaves the trajectory for good where they touched.
 /// KEEPS   nothing from one tick to the next.
 class Wrecks {
   public:
@@ -55,11 +57,17 @@ class Wrecks {
     std::vector<Vehicle*> stand_in(
         double before, double after, NearCars& cars, Vehicles& vehicles, const Props& props);
 
+    /// Then: returns those who break loose from their trajectory in this substep.
+    std::vector<Vehicle*> break_loose(double before, Vehicles& vehicles);
+
     /// End of the tick, before collisions are written.
     void decide(Collisions& collisions, NearCars& cars, Vehicles& vehicles);
 
     /// Of the last tick, sorted by id.
     std::span<const Wreck> made() const { return made_; }
+
+    /// Who left his trajectory in the last tick, ids in order.
+    std::span<const std::uint32_t> derailed() const { return derailed_; }
 
   private:
     /// Something with mass that may push.
@@ -79,6 +87,7 @@ class Wrecks {
     void find_near(const NearCars& cars, std::span<const Pusher> pushers);
     bool drives_into_one(std::uint32_t id) const;
     bool drove_into(std::uint32_t one, std::uint32_t other) const;
+    void decide_loose(const Collisions& collisions, Vehicles& vehicles);
     Vehicle& replace(std::size_t index, double share, NearCars& cars, Vehicles& vehicles);
     using Touching = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -94,6 +103,8 @@ class Wrecks {
     CarCrashes crashes_;
     std::vector<Trial> trials_;  ///< sorted by id
     std::vector<Wreck> made_;
+    std::vector<std::uint32_t> loose_;  ///< who broke loose in this tick, ids in order
+    std::vector<std::uint32_t> derailed_;
 };
 
 }  // namespace reprise::kernel

@@ -214,6 +214,8 @@ void Actors::touch(const world::TickView& tick, std::uint32_t actor, std::uint32
                                                 : world::find(tick.walkers(), other) != nullptr;
     const bool prop = other <= actors_.size() && at(other).is_prop();
     (walker ? contacts.walker : prop ? contacts.prop : contacts.vehicle) = true;
+    if (!walker && !prop && !at(actor).is_walker())
+        at(actor).follows_until = 0;  // a crash takes it from its trajectory
     contacts.others.insert(other);
 }
 

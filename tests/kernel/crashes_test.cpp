@@ -184,6 +184,38 @@ TEST(Crashes, CarsThatDriveIntoEachOtherAreWreckedAndKeepTheirMomentum) {
     }
 }
 
+/// Who hits and who is hit, on a trajectory or not, whatever it is.
+TEST(Crashes, VehiclesOnTrajectoriesKeepTheMomentumOfBoth) {
+    const std::string led = "a:follow{ { t = 4, lane = 'main_1', s = 160 } }\n";
+    const std::vector<std::pair<std::string, std::string>> stories = {
+        {"who is led hits", "'lorry', driver = 'manual', lane = 'main_1', s = 120 }\n" + led},
+        {"who is led hits a parked car",
+         "'van', driver = 'parked', lane = 'main_1', s = 120 }\n" + led},
+        {"who is led is hit",
+         "'van', driver = 'manual', lane = 'main_1', s = 80, speed = 25 } b:control{}\n" + led},
+        {"both are led",
+         "'van', driver = 'manual', lane = 'main_1', s = 140 }\n"
+         "b:follow{ { t = 4, lane = 'main_1', s = 120 } }\n" +
+             led}};
+    for (const auto& [name, story] : stories) {
+        const auto ticks = run(on_ice(
+            "local a = spawn{ model = 'sedan', driver = 'manual', lane = 'main_1', s = 100, speed "
+            "= 15 }\na:control{}\nlocal b = spawn{ model = " +
+                story + "wait(60)",
+            6));
+        const std::size_t hit = tick_of(ticks, world::EventKind::collision, 1);
+        ASSERT_LT(hit, ticks.size()) << name;
+        ASSERT_GT(hit, 2U) << name;
+        const Eigen::Vector2d before_1 = momentum(ticks[hit - 1], 1);
+        const Eigen::Vector2d before_2 = momentum(ticks[hit - 1], 2);
+        const Eigen::Vector2d after = momentum(ticks[hit + 1], 1) + momentum(ticks[hit + 1], 2);
+        EXPECT_LT((after - before_1 - before_2).norm(),
+                  0.05 * std::max(before_1.norm(), before_2.norm()))
+            << name << ": " << (before_1 + before_2).transpose() << " before, " << after.transpose()
+            << " behind";
+    }
+}
+
 TEST(Crashes, CarsThatPassOrFollowCloselyAreLeftAlone) {
     const auto ticks = run(on_straight_lanes(
         "local a = spawn{ model = 'sedan', driver = 'traffic', lane = 'main_1', s = 100, speed = "

@@ -176,20 +176,36 @@ TEST(Trajectory, TurnsTheWheels) {
     EXPECT_NEAR(turned * radius, 39.5 / 4 * 2, 0.01);  // from 100.5 on
 }
 
-/// One that is led is moved by nobody, and moves others.
-TEST(Trajectory, GoesThroughWhoeverStandsInItsWay) {
+/// One that is led at 10 m/s has no more than its momentum, which tests of crashes measure.
+TEST(Trajectory, EndsInACrash) {
     const std::string body =
         "local ego = spawn{ model = 'sedan', driver = 'manual', lane = 'main_1', s = 100 }\n"
         "local other = spawn{ model = 'sedan', driver = 'manual', lane = 'main_1', s = 120 }\n"
-        "ego:follow{ { t = 4, x = 140, y = -4.8 } } wait(100)";
+        "ego:follow{ { t = 4, x = 140, y = -4.8 } }\n"
+        "wait_until(function() return ego:collided() end)\n"
+        "if ego:following() then error('it follows still') end wait(100)";
     const auto ticks = run(on_straight_lanes(body, 5));
-    EXPECT_NEAR(look(ticks[80], 1)->position.x(), 140, 1e-3);
-    EXPECT_GT(look(ticks[80], 2)->position.x(), 140 + 4) << "it was pushed";
     EXPECT_GT(count_collisions(ticks, 1, 2), 0U);
     EXPECT_EQ(count_collisions(ticks, 2, 1), 0U) << "told under the lower id";
+    EXPECT_LT(look(ticks[80], 1)->position.x(), 125) << "both stand";
+    EXPECT_LT(look(ticks[80], 2)->speed, 0.1);
 }
 
-/// Neither gives way to the other; it is a collision nevertheless.
+/// 1 cm beside one of 1.82 m it is where it is to be.
+TEST(Trajectory, IsKeptWhereOthersArePassedClosely) {
+    const std::string body =
+        "local ego = spawn{ model = 'sedan', driver = 'manual', lane = 'main_1', s = 100 }\n"
+        "local other = spawn{ model = 'sedan', driver = 'manual', x = 120, y = -2.97, "
+        "heading_deg = 0 }\n"
+        "ego:follow{ { t = 4, x = 140, y = -4.8 } } wait(100)";
+    const auto ticks = run(on_straight_lanes(body, 5));
+    EXPECT_EQ(count_collisions(ticks, 1, 2), 0U);
+    for (std::size_t tick = 21; tick < 80; ++tick)
+        EXPECT_NEAR(look(ticks[tick], 1)->position.x(), 100 + 0.5 * static_cast<double>(tick), 1e-3)
+            << tick;
+}
+
+/// Both are led.
 TEST(Trajectory, OfTwoThatMeetIsACollision) {
     for (const char* driver : {"manual", "traffic", "parked"}) {
         const std::string other =
