@@ -229,7 +229,7 @@ double DriverState::careful_acceleration(const world::TickView& last, Ego& ego) 
     take_jump(ego);
     plan_wide_turns(ego);
     passing.follow(last, ego, way());
-    hazards.look(last, ego, way().path(), style, corridor(ego));
+    acceleration = std::min(acceleration, look_around(last, ego));
     pass(last, ego);
     acceleration =
         std::min({acceleration, past_junction_things(last, ego), last_resort(last, ego)});
@@ -237,6 +237,37 @@ double DriverState::careful_acceleration(const world::TickView& last, Ego& ego) 
         std::min({acceleration, hazards.acceleration(), passing.acceleration(ego, style)});
     return std::min(acceleration,
                     gatekeeper.decide(last, ego, way(), hazards.overlaps(), style, step));
+}
+
+/// Who stands a hand's breadth too near beside the way, as two do who meet in a junction, may wait
+/// for us as we for him: after a while we creep past him, with less room than one would like.
+/// [m/s^2] for that
+double DriverState::look_around(const world::TickView& last, const Ego& ego) {
+    constexpr double near = 7;      // [m] before the bumper
+    constexpr double slow = 2;      // [m/s]
+    constexpr double creeping = 1;  // [m/s]
+    constexpr double patience = 4;  // [s]
+    constexpr double gain = 2;      // [1/s]
+    const auto is_held = [&] {
+        const auto overlaps = hazards.overlaps();
+        return std::any_of(overlaps.begin(), overlaps.end(), [&](const Overlap& one) {
+            return one.s - ego.front_s() < near;
+        });
+    };
+    const auto look = [&](Hazards::Room room) {
+        hazards.look(last, ego, way().path(), style, corridor(ego), room);
+    };
+    look(Hazards::Room::ample);
+    if (std::abs(ego.speed) > slow || !is_held()) {
+        wedged_ticks = 0;
+        return world::infinity;
+    }
+    look(Hazards::Room::bare);
+    wedged_ticks = is_held() ? 0 : wedged_ticks + 1;
+    if (wedged_ticks * step > patience)
+        return gain * (creeping - ego.speed);
+    look(Hazards::Room::ample);
+    return world::infinity;
 }
 
 /// Over a junction a line past something may bend more than the car follows: hazards see what is on
@@ -380,6 +411,8 @@ std::uint64_t Autopilot::digest() const {
         hasher.add(state.standoffs);
     if (state.held_ticks > 0)
         hasher.add(state.held_ticks);
+    if (state.wedged_ticks > 0)
+        hasher.add(state.wedged_ticks);
     hasher.add(state.has_wide_turn);
     if (state.has_wide_turn)
         state.wide_turn->add_to(hasher);

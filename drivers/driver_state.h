@@ -44,6 +44,7 @@ struct DriverState {
     double ordered_acceleration(const Ego& ego) const;
     double obedient_acceleration(const world::TickView& last, Ego& ego);
     double past_junction_things(const world::TickView& last, const Ego& ego);
+    double look_around(const world::TickView& last, const Ego& ego);
     double last_resort(const world::TickView& last, const Ego& ego);
     double careful_acceleration(const world::TickView& last, Ego& ego);
     double ended_acceleration(const Ego& ego) const;
@@ -91,6 +92,7 @@ struct DriverState {
     std::uint32_t standoff_ticks = 0;      ///< before somebody who cannot go on before we do
     std::uint32_t standoffs = 0;           ///< in which it made room, since it drove on
     std::uint32_t held_ticks = 0;          ///< before what its wheels lead into
+    std::uint32_t wedged_ticks = 0;        ///< beside somebody whom it could creep past
     bool at_end = false;                   ///< follows from the last tick and the way: not digested
 };
 

@@ -13,7 +13,9 @@ namespace reprise::drivers {
 
 namespace {
 
-constexpr double side_margin = 0.3;     // [m] between our side and theirs
+constexpr double ample_room = 0.3;      // [m] between our side and theirs
+constexpr double bare_room = 0.1;       // [m]
+constexpr double stands = 0.1;          // [m/s]
 constexpr double horizon = 1.5;         // [s] of foresight
 constexpr double look_step = 0.25;      // [s]
 constexpr double side_by_side = 0.9;    // cosine of the angle to us: drives as we do
@@ -75,7 +77,7 @@ Hazards::Hazards(const world::TownT& town) : town_(&town) {
 
 void Hazards::make_corridor(const Ego& ego, const Path& path) {
     const double sight = std::clamp(20 + 4 * ego.speed, 30.0, 150.0);
-    half_width_ = ego.model->width / 2 + side_margin;
+    half_width_ = ego.model->width / 2 + side_margin_;
     sight_start_ = ego.front_s() - 1;
     coarse_.clear();
     coarse_index_.clear();
@@ -101,10 +103,10 @@ void Hazards::make_corridor(const Ego& ego, const Path& path) {
 /// With the margin beside it. In a bend the front's outer corner leaves the path of the axles.
 SweptWidth Hazards::corridor_at(const Path& path, std::size_t sample) const {
     constexpr double gentle = 0.03;  // [1/m] what the corner does then, the margin holds
-    const double half = model_->width / 2 + side_margin;
+    const double half = model_->width / 2 + side_margin_;
     SweptWidth width{half, half};
     if (!swept_.empty())
-        width = {swept_[sample].left + side_margin, swept_[sample].right + side_margin};
+        width = {swept_[sample].left + side_margin_, swept_[sample].right + side_margin_};
     const double curvature = path.points()[sample].curvature;
     if (!swept_.empty() || std::abs(curvature) < gentle)
         return width;
@@ -117,8 +119,10 @@ void Hazards::look(const world::TickView& last,
                    const Ego& ego,
                    const Path& path,
                    const DrivingStyle& style,
-                   std::span<const SweptWidth> swept) {
+                   std::span<const SweptWidth> swept,
+                   Room room) {
     swept_ = swept;
+    side_margin_ = room == Room::bare ? bare_room : ample_room;
     overlaps_.clear();
     acceleration_ = world::infinity;
     if (path.points().size() < 2)
@@ -129,6 +133,10 @@ void Hazards::look(const world::TickView& last,
     for (Body& body : bodies_) {
         if (swings_out(body))
             body.half_width += swing;
+        if (body.kind == BodyKind::walker || body.speed > stands) {
+            body.half_width += ample_room - side_margin_;
+            body.half_length += ample_room - side_margin_;
+        }
         consider(body, scene);
     }
 }

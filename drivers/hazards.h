@@ -35,13 +35,20 @@ class Hazards {
   public:
     explicit Hazards(const world::TownT& town);
 
+    /// [m] Left between our side and theirs.
+    enum class Room : std::uint8_t {
+        ample,  ///< 0.3
+        bare,   ///< 0.1 beside what has wheels and stands: of one who creeps
+    };
+
     /// About 5 us with 100 cars. The path must reach as far as the sight. `swept`: what a long
     /// vehicle sweeps, for each sample of the path; empty: the car's width everywhere.
     void look(const world::TickView& last,
               const Ego& ego,
               const Path& path,
               const DrivingStyle& style,
-              std::span<const SweptWidth> swept = {});
+              std::span<const SweptWidth> swept = {},
+              Room room = Room::ample);
 
     /// [m/s^2] the least of what all of them allow; infinity on an empty road.
     double acceleration() const { return acceleration_; }
@@ -70,6 +77,7 @@ class Hazards {
     double half_width_ = 0;                       ///< of the corridor, where it is widest
     const world::VehicleModel* model_ = nullptr;  ///< of ours, while looking
     std::span<const SweptWidth> swept_;           ///< while looking
+    double side_margin_ = 0;                      ///< [m] while looking
     std::vector<Overlap> overlaps_;
     double acceleration_ = std::numeric_limits<double>::infinity();
 };
