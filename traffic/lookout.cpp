@@ -21,6 +21,7 @@ using world::none;
 constexpr double steepest_way = 0.45;  // [m] aside for each metre driven, of one who pulls out
 constexpr double steepest_pass = 0.9;  // of one who has stood behind what it passes,
 constexpr double corner_reach = 0.25;  // [m] and how far its bumper's corner reaches out then
+constexpr double walking_pace = 1.4;   // [m/s]
 constexpr double starting = 3;         // [m/s^2] no car of the fleet starts quicker
 
 }  // namespace
@@ -49,8 +50,10 @@ struct Lookout::Corridor {
         const double middle = aside_at(distance);
         if (left < middle - half_width || right > middle + half_width)
             return;
-        const double wanted =
-            braking.speed_before(distance, std::min(other.gap, most_gap), other.speed);
+        double wanted = braking.speed_before(distance, std::min(other.gap, most_gap), other.speed);
+        // People who stand at the kerb, waiting for it to pass, are passed at their own pace.
+        if (left - other.spare < middle - half_width || right + other.spare > middle + half_width)
+            wanted = std::max(wanted, walking_pace);
         allowed = std::min(allowed, wanted);
     }
 };
@@ -182,12 +185,16 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
 /// [m/s] to stop before the body would sweep over somebody beside its lane, as a tail swings out
 /// and a middle cuts in where one turns. A long vehicle looks at all who stand or lie there, and
 /// not for ever: who stands there for long may never go away, and then brushing past is the
-/// driver's business. A short one does so beside vehicles with mass, and brushes past none.
+/// driver's business. A short one does so beside vehicles with mass, and brushes past none; it
+/// would stand before one that stands for ever if it wanted more than it needs.
 double Lookout::before_swept(Car& car, std::uint64_t tick) const {
     constexpr double looked_at = 14;            // [m] of way
     constexpr double spacing = 0.5;             // [m]
-    constexpr double hair = 0.1;                // [m] left beside it
-    constexpr double slow = 1.5;                // [m/s] of who stays about where he is
+    constexpr double hair = 0.1;                // [m] left beside it,
+    constexpr double finest_hair = 0.03;        // and by a short one where the other one stands
+    constexpr double stands = 0.1;              // [m/s]
+    constexpr double slow = 1.5;                // [m/s] of who stays about where he is,
+    constexpr double hardly_faster = 5;         // and of one with mass that drives past
     constexpr double waits = 40;                // [s]
     constexpr std::uint64_t goes_on_for = 200;  // [ticks]
     const world::VehicleModel& model = world::vehicle_models()[car.model];
@@ -197,16 +204,20 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
     const double around = looked_at + 2 * model.length;
     std::vector<BodyBox> others;
     const std::span<const Footprint> seen = is_long ? obstructions_.footprints() : driving_;
-    for (const Footprint& one : seen)
-        if (one.id != car.id && one.velocity.norm() < slow &&
-            (one.centre - car.rear.head<2>()).squaredNorm() < around * around &&
-            std::abs(one.z - car.rear.z()) < world::level_clearance)
-            others.push_back({one.centre, one.direction, one.half_length, one.half_width});
+    for (const Footprint& one : seen) {
+        const double speed = one.velocity.norm();
+        if (one.id == car.id || speed > (one.drives ? hardly_faster : slow) ||
+            (one.centre - car.rear.head<2>()).squaredNorm() > around * around ||
+            std::abs(one.z - car.rear.z()) > world::level_clearance)
+            continue;
+        const BodyBox box{one.centre, one.direction, one.half_length, one.half_width};
+        others.push_back(box.widened(is_long || speed > stands ? hair : finest_hair));
+    }
     if (others.empty())
         return world::infinity;
     const WayAhead way(car, meetings_.lines(), *graph_, looked_at);
     const auto touches = [&](double driven) {
-        const BodyBox body = way.at(driven).widened(hair);
+        const BodyBox body = way.at(driven);
         return std::any_of(others.begin(), others.end(), [&](const BodyBox& other) {
             return overlap(body, other);
         });

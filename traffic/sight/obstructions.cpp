@@ -15,6 +15,7 @@ namespace {
 constexpr double beside_the_lane = 0.2;  // [m] beyond its edge it takes no room of it
 constexpr double foresight = 0.7;        // [s] of a walker's way
 constexpr double least_walk = 0.3;       // [m/s] slower ones stand
+constexpr double least_clearance = 0.1;  // [m] beside who stands
 constexpr double along_its_lane = 0.8;   // cosine: who stands across a lane is not on its way
 constexpr double halts_shortly = 5;      // [s] as everybody does
 constexpr double halts_at_most = 30;     // [s] on its way; who stands for longer stays
@@ -176,6 +177,9 @@ void Obstructions::add(const Footprint& footprint) {
         const bool askew = std::abs(footprint.direction.dot(ahead)) < along_its_lane;
         one.lasts = footprint.velocity.norm() < least_walk &&
                     (!footprint.drives || askew || stood(footprint.id) > halts_at_most);
+        one.spare = one.speed == 0 && footprint.velocity.norm() < least_walk
+                        ? std::max(footprint.clearance - least_clearance, 0.0)
+                        : 0;
         one.gap = gap_behind(footprint, one.lasts);
         one.id = footprint.id;
         all_.push_back(one);

@@ -25,6 +25,8 @@ struct Obstruction {
     double z = 0;
     bool lasts = false;  ///< stands or lies still, and is not somebody who waits to drive on
     double gap = 0;      ///< [m] that one who stops behind it leaves
+    double spare =
+        0;  ///< [m] on both sides, of what is left beside it, that one who creeps needs not
     std::uint32_t id = 0;
 
     /// [m] along the lane where the body begins that lies between two lines along it, each left of
