@@ -18,7 +18,7 @@ constexpr double out_of_sight = 80;  // [m] from every physics vehicle
 constexpr double far_too_long = 150;  // [s] of standing
 constexpr double not_beside = 30;     // [m]
 // Nobody waits so long inside of a junction but for one who waits for him, or who never moves.
-constexpr double far_too_long_in_junction = 180;  // [s] of standing, whoever sees it
+constexpr double far_too_long_in_junction = 50;  // [s] of standing, whoever sees it
 
 /// A speed at which a car may appear there without anybody braking hard; `room` [m] ahead. [m/s]
 double entry_speed(const world::LaneT& lane, const InsertionPoint& point, double room) {
