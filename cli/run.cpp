@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -26,6 +27,7 @@
 #include "replay/trace_writer.h"
 #include "scripting/scenario.h"
 #include "towns/town_reader.h"
+#include "world/blockage.h"
 #include "world/check.h"
 #include "world/check_result.h"
 #include "world/digest.h"
@@ -142,15 +144,39 @@ class Commentary {
                 hear(*command);
         for (const world::Event* event : *tick.tick->events())
             hear(*event, tick.index());
+        for (auto& [actor, stand] : stands_)
+            if (const world::Measurement* measured = world::find(tick.measurements(), actor)) {
+                ++stand.seen;
+                stand.stood += std::abs(measured->speed()) < world::halted_speed ? 1 : 0;
+            }
+        last_ = tick.index();
     }
 
     /// The run has ended before it knew that it would.
     void end() {
         for (const world::Crash& crash : crashes_.open())
             tell(crash.tick, to_line(crash));
+        tell_who_stood();
     }
 
   private:
+    /// Of one who drives by itself. [ticks]
+    struct Stand {
+        std::uint64_t seen = 0;
+        std::uint64_t stood = 0;
+    };
+
+    /// Whatever was checked: a drive that was none is said to be none, as where a road ends.
+    void tell_who_stood() {
+        for (const auto& [actor, stand] : stands_)
+            if (2 * stand.stood > stand.seen && stand.stood * step_ns_ >= world::blocked_after_ns)
+                tell(last_,
+                     fmt::format("{} stood for {:.0f} s of its {:.0f} s",
+                                 crashes_.names().name_of(actor),
+                                 world::seconds(stand.stood, step_ns_),
+                                 world::seconds(stand.seen, step_ns_)));
+    }
+
     /// Who drives by itself and was not told that it may overtake?
     void hear(const world::Command& command) {
         const bool spawns = command.kind() == world::CommandKind::spawn &&
@@ -158,6 +184,10 @@ class Commentary {
                             command.pilot() == world::Pilot::idm;
         if (spawns)
             patient_.insert(command.actor());
+        if (command.kind() == world::CommandKind::spawn &&
+            (command.driver() == world::Driver::autopilot ||
+             command.driver() == world::Driver::external))
+            stands_.try_emplace(command.actor());
         if (command.kind() == world::CommandKind::may_overtake && command.on())
             patient_.erase(command.actor());
     }
@@ -210,6 +240,8 @@ class Commentary {
     Progress* progress_;
     world::CrashStory crashes_;
     std::set<std::uint32_t> patient_;  ///< ids
+    std::map<std::uint32_t, Stand> stands_;
+    std::uint64_t last_ = 0;  ///< tick
 };
 
 const char* word(Check::Status status) {

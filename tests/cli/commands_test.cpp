@@ -340,6 +340,7 @@ TEST(Run, SaysWhoIsBlockedAndDoesNotPass) {
     EXPECT_THAT(run.out, HasSubstr(": vehicle 1 is "));
     EXPECT_THAT(run.out, HasSubstr("; it would look for a way around with may_overtake = true"));
     EXPECT_THAT(run.out, HasSubstr("check failed: blocked: actor 2 since "));
+    EXPECT_THAT(run.out, testing::ContainsRegex("ego stood for [67].* s of its 7. s"));
     const Result info = reprise({"info", folder / "t.mcap"});
     EXPECT_THAT(info.out, HasSubstr("blocked"));
     EXPECT_THAT(info.out, HasSubstr("ego since "));
