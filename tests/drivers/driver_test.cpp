@@ -122,6 +122,30 @@ TEST(Autopilot, ObeysTheCapUntilItIsLifted) {
     EXPECT_GT(drive.car.speed, 0.9 * 13.89);
 }
 
+/// 20 cm, where it likes 30: it waits for him, and he for it. Beside people it keeps what it likes.
+TEST(Autopilot, CreepsPastWhoStandsAHandsBreadthTooNear) {
+    constexpr double gap = 0.2;  // [m]
+    const double half = world::vehicle_models()[0].width / 2;
+    const auto driven = [&](bool is_walker) {
+        Drive drive(one_lane(Turtle(0, 0, 0).ahead(300)));
+        drive.place(0, 5, 0);
+        if (is_walker)
+            drive.walkers = {walker_at(40, half + gap + 0.25, 0, 0)};
+        else
+            drive.cars = {car_at(1'000'000, 40, 2 * half + gap, std::acos(-1.0), 0)};
+        double fastest_beside = 0;
+        while (drive.seconds() < 40) {
+            drive.step();
+            if (drive.car.x + drive.car.front() > 37 && drive.car.x < 40)
+                fastest_beside = std::max(fastest_beside, drive.car.speed);
+        }
+        EXPECT_LT(fastest_beside, 2);
+        return drive.car.x;
+    };
+    EXPECT_GT(driven(false), 100);
+    EXPECT_LT(driven(true), 40);
+}
+
 TEST(Autopilot, StopsWhereTheRoadEndsAndStays) {
     Drive drive(straight_road(200));
     drive.place(1, 5, 10);

@@ -272,6 +272,30 @@ TEST(Lookout, WalkersOnSidewalksChangeNothing) {
     EXPECT_EQ(digest(walkers_on_sidewalks(loaded.town, 100)), digest({}));
 }
 
+/// 30 cm beside a lorry's way, where 40 are left beside people: it goes past at their pace.
+TEST(Lookout, WhoStandsAtTheKerbHoldsNobodyUp) {
+    const auto& loaded = own_town("town1");
+    const std::uint32_t road = lane(loaded.town, "m1_b2_1");
+    const std::uint16_t lorry = world::find_vehicle_model("lorry").value();
+    Stage stage(loaded, 0);
+    world::CommandT command = spawn(1, road, 10);
+    command.model = lorry;
+    stage.step({command});
+    const double half = world::vehicle_models()[lorry].width / 2;
+    stage.walkers = {walker_on(loaded.town.lanes[road], 35, -half - 0.3 - 0.2)};
+    double s = 0;
+    double slowest = 10;
+    for (int i = 0; i < 400 && s < 44; ++i) {
+        stage.step();
+        s = static_cast<double>(stage.car(1)->lane_s());
+        if (s > 28)
+            slowest = std::min(slowest, static_cast<double>(stage.car(1)->speed()));
+    }
+    EXPECT_GE(s, 44) << "it stands";
+    EXPECT_GT(slowest, 1);
+    EXPECT_LT(slowest, 2);
+}
+
 /// As one stands who turns around: its tail's corner in front of the car, its middle beside that.
 world::VehicleState askew_before(const world::LaneT& lane, double front) {
     constexpr double turned = 2.64;  // [rad]
