@@ -99,9 +99,10 @@ std::vector<std::uint8_t> develop(const world::SensorSpec& spec,
         for (int x = 0; x < frame.width; ++x) {
             const std::size_t index = frame.index(x, y);
             Color light = (frame.colors[index] * gain).max(0.0F).min(1e6F);
-            for (int channel = 0; channel < 3 && noisy; ++channel)
-                light[channel] =
-                    noise.measured(light[channel], 3 * index + static_cast<std::size_t>(channel));
+            if (noisy)
+                light = {noise.measured(light.x(), 3 * index),
+                         noise.measured(light.y(), 3 * index + 1),
+                         noise.measured(light.z(), 3 * index + 2)};
             light = linear ? Color(light.min(1.0F)) : film(light);
             const auto grain = static_cast<float>(world::draw(
                 0, tick, world::Purpose::camera_noise, static_cast<std::uint64_t>(index)));

@@ -5,12 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include <Eigen/Core>
+#include "render/shapes/color.h"
 
 namespace reprise::render {
-
-/// Linear light or an albedo: red, green, blue.
-using Color = Eigen::Array3f;
 
 inline constexpr float pi = 3.14159265F;
 
@@ -22,10 +19,6 @@ inline float clamp01(float x) {
 }
 
 inline float mix(float from, float to, float share) {
-    return from + (to - from) * share;
-}
-
-inline Color mix(const Color& from, const Color& to, float share) {
     return from + (to - from) * share;
 }
 
@@ -59,10 +52,6 @@ inline float fast_exp(float x) {
 
 inline Color fast_exp(const Color& x) {
     return {fast_exp(x.x()), fast_exp(x.y()), fast_exp(x.z())};
-}
-
-inline float luminance(const Color& color) {
-    return 0.2126F * color.x() + 0.7152F * color.y() + 0.0722F * color.z();
 }
 
 /// Schlick's approximation of how much a smooth surface mirrors, f0 looking straight at it.

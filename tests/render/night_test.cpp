@@ -29,7 +29,7 @@ std::vector<float> altitudes_deg() {
 }
 
 bool is_light(const render::Color& color) {
-    return color.isFinite().all() && (color >= 0).all() && (color < 1e4F).all();
+    return color.is_finite() && color.minCoeff() >= 0 && color.maxCoeff() < 1e4F;
 }
 
 world::SensorFrame look(const world::TownT& town,

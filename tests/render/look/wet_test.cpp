@@ -50,7 +50,9 @@ TEST(WetAlbedo, IsThatOfLightKeptInAFilmOfWater) {
 TEST(WetAlbedo, IsDarkerByTheShareThatIsSoaked) {
     const Color dry(0.1F, 0.3F, 0.8F);
     const Color wanted = 0.75F * dry + 0.25F * wet_albedo(dry);
-    EXPECT_TRUE(soaked(dry, 0.25F).isApprox(wanted, 1e-5F));
+    const Color found = soaked(dry, 0.25F);
+    for (int channel = 0; channel < 3; ++channel)
+        EXPECT_NEAR(found[channel], wanted[channel], 1e-6F) << channel;
 }
 
 }  // namespace
