@@ -17,16 +17,11 @@ Echo echo_of(const Scene& scene, const Hit& hit, const Beam& beam) {
     Echo echo;
     echo.hit = hit;
     echo.instance = &scene.instance(hit.instance);
-    const Mesh& mesh = echo.instance->prototype->mesh;
-    const std::array<std::uint32_t, 3>& corners = mesh.triangles[hit.triangle];
-    const Eigen::Vector3d a = mesh.vertices[corners[0]].cast<double>();
-    const Eigen::Matrix3d turn = echo.instance->pose.linear();
-    const Eigen::Vector3d normal =
-        (turn * (mesh.vertices[corners[1]].cast<double>() - a))
-            .cross(turn * (mesh.vertices[corners[2]].cast<double>() - a));
+    const PlacedTriangle placed(*echo.instance, hit.triangle);
+    const Eigen::Vector3d normal = placed.to_b.cross(placed.to_c);
     const double along = normal.dot(beam.direction);
     const auto found = static_cast<double>(hit.distance);
-    const double distance = normal.dot(echo.instance->pose * a - beam.origin) / along;
+    const double distance = normal.dot(placed.a - beam.origin) / along;
     // At grazing angles the plane's equation is ill-conditioned: the tracer's distance is kept.
     echo.distance = std::abs(distance - found) <= 1e-3 + 1e-2 * found ? distance : found;
     const double length = normal.norm();

@@ -148,6 +148,7 @@ void Scene::move_back(const world::TickView& tick, double ago) {
                           : Eigen::Affine3d::Identity();
         }
         instance.pose = moved * instance.pose;
+        instance.moved = true;
         instance.normal_to_scene = moved.linear().cast<float>() * instance.normal_to_scene;
     }
 }
@@ -173,6 +174,7 @@ void Scene::place_along(const world::TickView& tick,
             continue;
         const Eigen::Affine3d moved = motions[i].at(share);
         moving_[i].pose = moved * moving_[i].pose;
+        moving_[i].moved = true;
         moving_[i].normal_to_scene = moved.linear().cast<float>() * moving_[i].normal_to_scene;
     }
     hide_mounts();

@@ -124,6 +124,7 @@ void TownScene::add_instance(std::vector<Instance>& instances,
                              const Eigen::Affine3d& pose_world) const {
     instance.pose = pose_world;
     instance.pose.translation() -= origin_;
+    instance.moved = instance.pose.matrix() != Eigen::Matrix4d::Identity();
     instance.normal_to_scene = pose_world.linear().inverse().transpose().cast<float>();
     instances.push_back(instance);
 }

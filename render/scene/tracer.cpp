@@ -147,19 +147,27 @@ void trace_visibility(const Scene& scene,
     }
 }
 
+PlacedTriangle::PlacedTriangle(const Instance& instance, std::uint32_t triangle) {
+    const Mesh& mesh = instance.prototype->mesh;
+    const std::array<std::uint32_t, 3>& corners = mesh.triangles[triangle];
+    a = mesh.vertices[corners[0]].cast<double>();
+    to_b = mesh.vertices[corners[1]].cast<double>() - a;
+    to_c = mesh.vertices[corners[2]].cast<double>() - a;
+    if (!instance.moved)
+        return;
+    a = instance.pose * a;
+    to_b = instance.pose.linear() * to_b;
+    to_c = instance.pose.linear() * to_c;
+}
+
 double refined_distance(const Instance& instance,
                         std::uint32_t triangle,
                         const Eigen::Vector3d& origin,
                         const Eigen::Vector3d& direction,
                         double found) {
-    const Mesh& mesh = instance.prototype->mesh;
-    const std::array<std::uint32_t, 3>& corners = mesh.triangles[triangle];
-    const Eigen::Vector3d a = mesh.vertices[corners[0]].cast<double>();
-    const Eigen::Vector3d to_b = mesh.vertices[corners[1]].cast<double>() - a;
-    const Eigen::Vector3d to_c = mesh.vertices[corners[2]].cast<double>() - a;
-    const Eigen::Vector3d normal =
-        (instance.pose.linear() * to_b).cross(instance.pose.linear() * to_c);
-    const double distance = normal.dot(instance.pose * a - origin) / normal.dot(direction);
+    const PlacedTriangle placed(instance, triangle);
+    const Eigen::Vector3d normal = placed.to_b.cross(placed.to_c);
+    const double distance = normal.dot(placed.a - origin) / normal.dot(direction);
     // At grazing angles the plane's equation is ill-conditioned: Embree's distance is kept.
     return std::abs(distance - found) <= 1e-3 + 1e-2 * found ? distance : found;
 }

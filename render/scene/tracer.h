@@ -26,6 +26,13 @@ void trace_visibility(const Scene& scene,
                       bool coherent,
                       std::span<std::uint8_t> visible);
 
+/// A triangle of an instance in the scene's frame: a corner, and the sides from there.
+struct PlacedTriangle {
+    PlacedTriangle(const Instance& instance, std::uint32_t triangle);
+
+    Eigen::Vector3d a, to_b, to_c;
+};
+
 /// The same hit in double precision from the triangle's own corners: equal ids give equal bits,
 /// whatever Embree's arithmetic was. Distances count in lengths of `direction`.
 double refined_distance(const Instance& instance,

@@ -50,6 +50,7 @@ struct Instance {
     std::uint32_t actor = 0;             ///< 0: part of the town
     std::uint32_t thing = 0;             ///< of the town: 1 + its number in world::TownThings, or 0
     std::uint32_t mask = 1;              ///< rays with a common bit see it
+    bool moved = false;                  ///< by its pose: else the mesh is in the scene's frame
     Eigen::Affine3d pose = Eigen::Affine3d::Identity();  ///< to the scene's frame
     Eigen::Matrix3f normal_to_scene = Eigen::Matrix3f::Identity();
 };
