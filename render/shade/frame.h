@@ -12,18 +12,14 @@ namespace reprise::render {
 /// A pixel's surface, in two parts: what it is like, and the light that was found there.
 struct Sample {
     Look look;
-    Light light;               ///< filtered
-    Eigen::Vector3f position;  ///< scene
-    float distance = 0;        ///< [m] from the eye
+    Light light;  ///< filtered
 };
 
-/// What the filter between neighbouring pixels looks at.
+/// What the filter between neighbouring pixels looks at, beside which triangle was hit: 64 bytes.
 struct RawLight {
-    Eigen::Vector3f position;
-    Eigen::Vector3f flat;  ///< the triangle's normal
-    float tolerance = 0;   ///< [m] off the plane that still counts as the same surface
-    std::uint32_t instance = no_instance;
-    std::uint32_t triangle = 0;
+    Eigen::Vector3f position;  ///< scene
+    float tolerance = 0;       ///< [m] off the plane that still counts as the same surface
+    Eigen::Vector3f flat;      ///< the triangle's normal
     Light light;
 };
 

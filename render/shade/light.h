@@ -6,9 +6,9 @@ namespace reprise::render {
 
 /// What arrives at a place.
 struct Light {
+    Color reflected = Color::Zero();  ///< radiance from where a mirror would show
     float sun_visibility = 1;         ///< share of the sun's disc that is seen
     float sky_visibility = 1;         ///< share of the sky that is not hidden by things near
-    Color reflected = Color::Zero();  ///< radiance from where a mirror would show
     float lamp_visibility = 0;        ///< share of what lamps and the moon give that arrives
 };
 

@@ -31,7 +31,7 @@ Color mirrored_radiance(const ShadingJob& job,
     Surface at = surface_at(input.scene, hit, ray.origin, ray.direction, footprint_scale);
     expose(input, at);
     const Look look = shade_surface(input, at);
-    Light light{job.sun_matters ? 0.6F : 1.0F, 0.75F, Color::Zero(), 0.75F};
+    Light light{Color::Zero(), job.sun_matters ? 0.6F : 1.0F, 0.75F, 0.75F};
     if (look.gloss > 0)
         light.reflected =
             input.sky.radiance(mirror_direction(at.view, look.normal, at.flat), false) * 0.8F;
@@ -97,8 +97,6 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         const std::size_t index = job.frame.index(pixel.x(), pixel.y());
         RawLight& raw = job.frame.lights[index];
         const Hit& hit = job.hits[index];
-        raw.instance = hit.instance;
-        raw.triangle = hit.triangle;
         if (hit.instance == no_instance)
             continue;
         const Vector3f direction = job.camera.ray(pixel.x() + 0.5, pixel.y() + 0.5).cast<float>();
@@ -106,12 +104,10 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         expose(job.input, at);
         Sample& sample = job.frame.samples[index];
         sample.look = shade_surface(job.input, at);
-        sample.position = at.position;
-        sample.distance = at.distance;
         raw.position = at.position;
         raw.flat = at.flat;
         raw.tolerance = 0.01F + 4 * at.distance * job.pixel;
-        raw.light = {job.sun_matters ? 0.0F : 1.0F, 0.0F, Color::Zero(), 1.0F};
+        raw.light = {Color::Zero(), job.sun_matters ? 0.0F : 1.0F, 0.0F, 1.0F};
         if (!asks_for_sky(at))
             raw.light.sky_visibility = at.material == Material::leaf ? 0.7F : 0.95F;
         request_light(job, at, sample.look, pattern(pixel.x(), pixel.y()), index, rays);

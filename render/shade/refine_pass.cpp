@@ -18,9 +18,10 @@ constexpr std::array<std::array<double, 2>, 4> subpixel_offsets{
 constexpr std::size_t pair = 2;
 constexpr float even = 0.045F;  ///< [tone] steps that nobody sees as stairs
 
-bool is_edge(const Frame& frame, int x, int y) {
+bool is_edge(const ShadingJob& job, int x, int y) {
+    const Frame& frame = job.frame;
     const std::size_t index = frame.index(x, y);
-    const RawLight& own = frame.lights[index];
+    const std::uint32_t own = job.hits[index].instance;
     const float tone = frame.tones[index];
     constexpr std::array<std::array<int, 2>, 4> sides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
     for (const auto& side : sides) {
@@ -28,10 +29,10 @@ bool is_edge(const Frame& frame, int x, int y) {
         const int j = std::clamp(y + side[1], 0, frame.height - 1);
         const std::size_t next = frame.index(i, j);
         const float step = std::abs(frame.tones[next] - tone);
-        const bool same = own.instance == frame.lights[next].instance;
+        const bool same = own == job.hits[next].instance;
         if (step > (same ? 2 * even : even))
             return true;
-        if (step > 0.01F && own.instance != no_instance && !same)
+        if (step > 0.01F && own != no_instance && !same)
             return true;
     }
     return false;
@@ -40,15 +41,19 @@ bool is_edge(const Frame& frame, int x, int y) {
 /// The neighbour that lies on the same thing, closest to the place: for the light that arrived
 /// there.
 struct Neighbour {
-    Neighbour(const Frame& frame, const Eigen::Vector2i& pixel, const Hit& hit, const Surface& at) {
+    Neighbour(const ShadingJob& job,
+              const Eigen::Vector2i& pixel,
+              const Hit& hit,
+              const Surface& at) {
+        const Frame& frame = job.frame;
         float least = infinite;
         for (int i = 0; i < 9; ++i) {
             const int x = std::clamp(pixel.x() + i % 3 - 1, 0, frame.width - 1);
             const int y = std::clamp(pixel.y() + i / 3 - 1, 0, frame.height - 1);
             const std::size_t next = frame.index(x, y);
-            const RawLight& raw = frame.lights[next];
-            if (raw.instance != hit.instance)
+            if (job.hits[next].instance != hit.instance)
                 continue;
+            const RawLight& raw = frame.lights[next];
             const float turned = 1 - raw.flat.dot(at.flat);
             const float away = (raw.position - at.position).norm() + turned * at.distance * 0.01F;
             if (away < least) {
@@ -88,17 +93,14 @@ struct Refined {
     }
 };
 
-std::vector<Refined> edges_of(const ShadingJob& job,
-                              const Eigen::Vector2i& corner,
-                              const std::vector<std::uint8_t>& edges) {
+std::vector<Refined> edges_of(const ShadingJob& job, const Eigen::Vector2i& corner) {
     std::vector<Refined> found;
     for (int i = 0; i < tile * tile; ++i) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
         if (!job.contains(pixel))
             continue;
-        const std::size_t index = job.frame.index(pixel.x(), pixel.y());
-        if (edges[index] != 0)
-            found.push_back({index});
+        if (is_edge(job, pixel.x(), pixel.y()))
+            found.push_back({job.frame.index(pixel.x(), pixel.y())});
     }
     return found;
 }
@@ -125,9 +127,9 @@ RayBatch subpixel_rays(const ShadingJob& job,
 
 void light_subpixel(const ShadingJob& job, const Eigen::Vector2i& pixel, SubpixelSample& sample) {
     const Surface& at = sample.surface;
-    const Neighbour neighbour(job.frame, pixel, sample.hit, at);
+    const Neighbour neighbour(job, pixel, sample.hit, at);
     sample.light = neighbour.found ? job.frame.samples[neighbour.index].light
-                                   : Light{0, 0.8F, Color::Zero(), 0.8F};
+                                   : Light{Color::Zero(), 0, 0.8F, 0.8F};
     if (!job.lamps_matter)
         return;
     sample.lamps = neighbour.flush
@@ -146,21 +148,6 @@ Color color_of(const ShadingJob& job, const Ray& ray, const SubpixelSample& samp
     }
     return color * job.input.sky.exposure();
 }
-
-}  // namespace
-
-void mark_edges(const ShadingJob& job,
-                const Eigen::Vector2i& corner,
-                std::vector<std::uint8_t>& edges) {
-    for (int i = 0; i < tile * tile; ++i) {
-        const Eigen::Vector2i pixel = corner + tile_pixel(i);
-        if (job.contains(pixel))
-            edges[job.frame.index(pixel.x(), pixel.y())] =
-                static_cast<std::uint8_t>(is_edge(job.frame, pixel.x(), pixel.y()));
-    }
-}
-
-namespace {
 
 /// Adds two places of each pixel; of `pixels` those stay of which the two differ.
 void add_pair(ShadingJob& job, std::size_t first, std::vector<Refined>& pixels) {
@@ -215,10 +202,8 @@ void add_pair(ShadingJob& job, std::size_t first, std::vector<Refined>& pixels) 
 
 }  // namespace
 
-void refine_tile(ShadingJob& job,
-                 const Eigen::Vector2i& corner,
-                 const std::vector<std::uint8_t>& edges) {
-    std::vector<Refined> pixels = edges_of(job, corner, edges);
+void refine_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
+    std::vector<Refined> pixels = edges_of(job, corner);
     if (pixels.empty())
         return;
     add_pair(job, 0, pixels);

@@ -54,6 +54,20 @@ void for_tiles(const Camera& camera,
     });
 }
 
+TileStage::TileStage(const Camera& camera)
+    : columns_((camera.width() + tile - 1) / tile),
+      rows_((camera.height() + tile - 1) / tile),
+      waited_for_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
+    // Of itself and its neighbours along one way, at the picture's edge fewer.
+    const auto near = [](int place, int count) {
+        return 1 + static_cast<int>(place > 0) + static_cast<int>(place + 1 < count);
+    };
+    for (int y = 0; y < rows_; ++y)
+        for (int x = 0; x < columns_; ++x)
+            waited_for_[static_cast<std::size_t>(y * columns_ + x)] =
+                near(x, columns_) * near(y, rows_);
+}
+
 const Vector2f& disc_point(int place) {
     return tables.disc[static_cast<std::size_t>(place)];
 }

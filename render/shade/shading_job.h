@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <functional>
 #include <vector>
 
@@ -44,6 +46,29 @@ struct ShadingJob {
 /// Runs `work(upper left pixel)` for each tile, in parallel.
 void for_tiles(const Camera& camera,
                const std::function<void(const Eigen::Vector2i& corner)>& work);
+
+/// Knows which tiles have finished a stage, so that the next one can follow tile by tile.
+class TileStage {
+  public:
+    explicit TileStage(const Camera& camera);
+
+    /// Says that the tile at `corner` is finished; calls `next(corner)` for each tile of which it
+    /// was the last one among itself and its eight neighbours. From any thread.
+    template <typename Next>
+    void finish(const Eigen::Vector2i& corner, const Next& next) {
+        const int column = corner.x() / tile;
+        const int row = corner.y() / tile;
+        for (int y = std::max(0, row - 1); y <= std::min(rows_ - 1, row + 1); ++y)
+            for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x)
+                if (--waited_for_[static_cast<std::size_t>(y * columns_ + x)] == 0)
+                    next({x * tile, y * tile});
+    }
+
+  private:
+    int columns_;
+    int rows_;
+    std::vector<std::atomic<int>> waited_for_;
+};
 
 /// Rays that are traced together; `owners` says which pixel or sample each result belongs to.
 struct RayBatch {
@@ -109,11 +134,6 @@ Color sky_color(const ShadingJob& job, const Eigen::Vector3f& direction);
 // The stages, for the tile at `corner`.
 void light_tile(ShadingJob& job, const Eigen::Vector2i& corner);
 void combine_tile(ShadingJob& job, const Eigen::Vector2i& corner);
-void mark_edges(const ShadingJob& job,
-                const Eigen::Vector2i& corner,
-                std::vector<std::uint8_t>& edges);
-void refine_tile(ShadingJob& job,
-                 const Eigen::Vector2i& corner,
-                 const std::vector<std::uint8_t>& edges);
+void refine_tile(ShadingJob& job, const Eigen::Vector2i& corner);
 
 }  // namespace reprise::render
