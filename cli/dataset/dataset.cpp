@@ -17,6 +17,7 @@
 #include "cli/dataset/dataset_output.h"
 #include "cli/dataset/frame_list.h"
 #include "cli/dataset/labels.h"
+#include "cli/options/option_checks.h"
 #include "cli/options/tick_option.h"
 #include "cli/options/tick_range.h"
 #include "cli/pictures/manifest.h"
@@ -57,13 +58,13 @@ RenderOptions options_for(const DatasetOptions& dataset, const std::string& trac
     options.fov_deg = dataset.fov_deg;
     options.threads = dataset.threads;
     options.portable = dataset.portable;
-    int used = 0;
-    const int found =
-        std::sscanf(dataset.size.c_str(), "%dx%d%n", &options.width, &options.height, &used);
-    if (found != 2 || used != static_cast<int>(dataset.size.size()) || options.width < 1 ||
-        options.height < 1 || options.width > 16384 || options.height > 16384)
-        throw world::Error("--size: expected WIDTHxHEIGHT such as 1242x375, got '" + dataset.size +
-                           "'");
+    try {
+        const PictureSize size = read_picture_size(dataset.size, "1242x375");
+        options.width = size.width;
+        options.height = size.height;
+    } catch (const world::Error& error) {
+        throw world::Error(std::string("--size: ") + error.what());
+    }
     return options;
 }
 

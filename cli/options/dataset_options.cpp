@@ -50,7 +50,7 @@ void add_dataset(CLI::App& app, DatasetOptions& dataset) {
         .add_option(
             "--fov", dataset.fov_deg, "Without a rig: horizontal field of view (default 82)")
         ->type_name("DEGREES")
-        ->check(CLI::Range(1.0, 170.0));
+        ->check(a_number_in(1, 170));
     command
         .add_option("--threads", dataset.threads, "How many work on pictures (default: all cores)")
         ->type_name("N")

@@ -61,7 +61,7 @@ void add_wheel(CLI::App& command, WheelOptions& wheel) {
                     "Simulated over real time, at most: 1 is real time, 0.5 slow motion, 0 as fast "
                     "as it goes")
         ->type_name("FACTOR")
-        ->check(CLI::Range(0.0, 100.0))
+        ->check(a_number_in(0, 100))
         ->capture_default_str();
 }
 
@@ -96,7 +96,7 @@ void add_drive(CLI::App& app, DriveOptions& drive, std::string& size) {
     command.add_flag("--goal", drive.goal, "A place to go to, drawn by the seed; it ends there");
     command.add_option("--for", drive.seconds, "End after this much simulated time")
         ->type_name("SECONDS")
-        ->check(CLI::Range(1.0, 86'400.0))
+        ->check(a_number_in(1, 86'400))
         ->capture_default_str();
     command.add_option("-o,--output", drive.output, "Where the trace goes")
         ->type_name("T.mcap")

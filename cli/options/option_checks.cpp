@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <cstdio>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "world/check.h"
 #include "world/lanes/density.h"
@@ -67,6 +70,41 @@ void add_ticks(CLI::App& command, std::string& ticks) {
 void add_actor(CLI::App& command, std::string& actor) {
     command.add_option("--actor", actor, "Only what belongs to this actor: its name or its id")
         ->type_name("NAME");
+}
+
+PictureSize read_picture_size(const std::string& text, const std::string& such_as) {
+    constexpr int longest_side = 16384;
+    constexpr std::int64_t most = std::int64_t{4096} * 4096;
+    PictureSize size;
+    int used = 0;
+    // Nine digits: more do not fit, and are too many.
+    const int found = std::sscanf(text.c_str(), "%9dx%9d%n", &size.width, &size.height, &used);
+    if (found != 2 || used != static_cast<int>(text.size()) || size.width < 1 || size.height < 1)
+        throw world::Error(
+            fmt::format("expected WIDTHxHEIGHT such as {}, got '{}'", such_as, text));
+    if (std::max(size.width, size.height) > longest_side ||
+        std::int64_t{size.width} * size.height > most)
+        throw world::Error(
+            fmt::format("{} is too large: at most {} pixels a side, and {}x{} in all",
+                        text,
+                        longest_side,
+                        4096,
+                        4096));
+    return size;
+}
+
+CLI::Validator a_number_in(double low, double high) {
+    return CLI::Validator(
+        [low, high](std::string& text) -> std::string {
+            double value = std::nan("");
+            const char* end = text.data() + text.size();
+            const auto [stop, error] = std::from_chars(text.data(), end, value);
+            if (error != std::errc() || stop != end || !(value >= low && value <= high))
+                return fmt::format(
+                    "expected a number from {:g} to {:g}, got '{}'", low, high, text);
+            return "";
+        },
+        "");
 }
 
 CLI::Validator whole_number() {

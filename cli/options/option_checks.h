@@ -26,6 +26,19 @@ CLI::Validator a_weather_course();
 void add_ticks(CLI::App& command, std::string& ticks);
 void add_actor(CLI::App& command, std::string& actor);
 
+/// Width and height [px].
+struct PictureSize {
+    int width = 0;
+    int height = 0;
+};
+
+/// Of "800x600". A picture is worked on whole, with about 200 bytes of memory a pixel: so its sides
+/// and its area have an end. Throws world::Error; `such_as` is an example for its line.
+PictureSize read_picture_size(const std::string& text, const std::string& such_as);
+
+/// A number within; CLI::Range takes what is none, "nan".
+CLI::Validator a_number_in(double low, double high);
+
 /// Decimal digits only: what CLI11 reads as a number may also be octal, negative or too large.
 CLI::Validator whole_number();
 

@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/options/option_checks.h"
+#include "world/check.h"
 #include "world/external/sensor.h"
 #include "world/external/sensor_attributes.h"
 #include "world/words.h"
@@ -20,12 +21,13 @@ namespace reprise::cli {
 namespace {
 
 void read_size(const std::string& text, RenderOptions& render) {
-    int used = 0;
-    const int found = std::sscanf(text.c_str(), "%dx%d%n", &render.width, &render.height, &used);
-    if (found != 2 || used != static_cast<int>(text.size()) || render.width < 1 ||
-        render.height < 1 || render.width > 16384 || render.height > 16384)
-        throw CLI::ValidationError("--size",
-                                   "expected WIDTHxHEIGHT such as 800x600, got '" + text + "'");
+    try {
+        const PictureSize size = read_picture_size(text, "800x600");
+        render.width = size.width;
+        render.height = size.height;
+    } catch (const world::Error& error) {
+        throw CLI::ValidationError("--size", error.what());
+    }
 }
 
 void read_threads(const std::string& text, RenderOptions& render) {
@@ -190,7 +192,7 @@ void add_views(CLI::App& command, RenderOptions& render, RenderWords& words) {
                     "Of the camera of chase, top or orbit (default: 5.5 behind; 55 above; by the "
                     "actor's size)")
         ->type_name("METRES")
-        ->check(CLI::Range(1.0, 1000.0));
+        ->check(a_number_in(1, 1000));
     command.add_option("--up", words.up, "What is up in pictures from above (default north)")
         ->type_name("north|heading")
         ->check(one_of({"north", "heading"}, "direction"));
@@ -376,7 +378,7 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
                     "Horizontal field of view, to 170, of a fisheye to 200 (default 90; of a "
                     "preset its own)")
         ->type_name("DEGREES")
-        ->check(CLI::Range(1.0, 200.0));
+        ->check(a_number_in(1, 200));
     add_ticks(command, render.ticks);
     // As ticks were chosen before: they go on working, and nobody is told of them.
     command.add_option("--from", render.from)->group("");
@@ -393,9 +395,11 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
                     "Place on it: ahead of the rear axle, left, up (default 1,0,1.4)")
         ->type_name("X,Y,Z");
     command.add_option("--pitch", render.pitch_deg, "Camera up by this (default 0)")
-        ->type_name("DEGREES");
+        ->type_name("DEGREES")
+        ->check(a_number_in(-360, 360));
     command.add_option("--yaw", render.yaw_deg, "Camera left by this (default 0)")
-        ->type_name("DEGREES");
+        ->type_name("DEGREES")
+        ->check(a_number_in(-360, 360));
     command
         .add_option("--threads",
                     words.threads,

@@ -140,7 +140,7 @@ void add_run(CLI::App& app, RunOptions& run, std::vector<std::string>& assignmen
                     "Of the road at the start, as a factor on dry asphalt's grip, instead of the "
                     "weather's")
         ->type_name("FACTOR")
-        ->check(CLI::Range(0.05, 2.0));
+        ->check(a_number_in(0.05, 2));
     command
         .add_option("--cars",
                     run.cars,

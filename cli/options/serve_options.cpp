@@ -51,7 +51,7 @@ void add_serve(CLI::App& app, ServeOptions& serve) {
         ->type_name("NAME");
     command.add_option("--memory", serve.memory_gb, "What an episode may use at most, in GB")
         ->type_name("GB")
-        ->check(CLI::Range(0.5, 1024.0))
+        ->check(a_number_in(0.5, 1024))
         ->capture_default_str();
     command.footer(
         "Ends with Ctrl-C or SIGTERM; episodes that run end with it, their traces are whole.\n"

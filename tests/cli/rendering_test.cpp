@@ -156,6 +156,14 @@ TEST(RenderingMistakes, AreOneClearLineAndMakeNoFolder) {
         {{"--threads", ""}, threads + "'"},
         {{"--threads", "99999999999"}, threads + "99999999999'"},
         {{"--camera", "rgb,rgb"}, "--camera: 'rgb' is there twice"},
+        {{"--size", "0x9"}, "--size: expected WIDTHxHEIGHT such as 800x600, got '0x9'"},
+        {{"--size", "100000x100000"},
+         "--size: 100000x100000 is too large: at most 16384 pixels a side, and 4096x4096 in all"},
+        {{"--size", "16384x16384"},
+         "--size: 16384x16384 is too large: at most 16384 pixels a side, and 4096x4096 in all"},
+        {{"--fov", "nan"}, "--fov: expected a number from 1 to 200, got 'nan'"},
+        {{"--yaw", "nan"}, "--yaw: expected a number from -360 to 360, got 'nan'"},
+        {{"--pitch", "inf"}, "--pitch: expected a number from -360 to 360, got 'inf'"},
         {{"--camera", "depth", "--camera", "rgb,depth"}, "--camera: 'depth' is there twice"},
     };
     for (const auto& [words, message] : mistakes) {
