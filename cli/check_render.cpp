@@ -23,10 +23,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A manifest that somebody names; a folder stands for the one in it. Throws world::Error when it
-/// is none.
-Json read_manifest(const fs::path& path) {
-    const fs::path file = fs::is_directory(path) ? path / manifest_name : path;
+/// A manifest that somebody names; a folder or a film stands for its own.
+fs::path named_manifest(const fs::path& named) {
+    const bool stands_for_it = fs::is_directory(named) || !film_ending(named).empty();
+    return stands_for_it ? manifest_of(named) : named;
+}
+
+/// Throws world::Error when it is none.
+Json read_manifest(const fs::path& file) {
     const auto refuse = [&] {
         throw world::Error(file.string() + ": this is no manifest that reprise render wrote");
     };
@@ -55,11 +59,27 @@ Json read_manifest(const fs::path& path) {
     return json;
 }
 
-std::map<std::string, std::string> digests(const Json& manifest) {
-    std::map<std::string, std::string> all;
-    for (const Json& file : manifest["files"])
-        all[file["path"].get<std::string>()] = file["xxh3"].get<std::string>();
+/// Of a file: its own bytes', and what is to come out again: the same, of a film its pictures'.
+struct FileDigests {
+    std::string file;
+    std::string made;
+};
+
+std::map<std::string, FileDigests> digests(const Json& manifest) {
+    std::map<std::string, FileDigests> all;
+    for (const Json& file : manifest["files"]) {
+        const auto whole = file["xxh3"].get<std::string>();
+        all[file["path"].get<std::string>()] = {whole, file.value("pictures_xxh3", whole)};
+    }
     return all;
+}
+
+/// Where the same is made again: of the same name, as a film is known by its ending.
+fs::path output_again(const Json& manifest, const TemporaryFolder& folder) {
+    const Json& files = manifest["files"];
+    const bool film = files.size() == 1 && files[0].contains("pictures_xxh3");
+    return film ? folder / fs::path(files[0]["path"].get<std::string>()).filename()
+                : folder / "made";
 }
 
 /// The same words as then, into another folder.
@@ -68,7 +88,7 @@ RenderOptions options_again(const RenderOptions& options,
                             const fs::path& trace,
                             const TemporaryFolder& folder) {
     std::vector<std::string> words{
-        "reprise", "render", trace.string(), "--output=" + (folder / "made").string()};
+        "reprise", "render", trace.string(), "--output=" + output_again(manifest, folder).string()};
     for (const auto& [name, value] : manifest["options"].items())
         words.push_back(name + "=" + value.get<std::string>());
     if (manifest.contains("rig")) {
@@ -98,25 +118,25 @@ bool same_program(const Json& manifest) {
 /// What became of a file; nothing where it is as it was.
 std::string trouble_with(const fs::path& folder,
                          const std::string& name,
-                         const std::string& then,
-                         const std::map<std::string, std::string>& now) {
+                         const FileDigests& then,
+                         const std::map<std::string, FileDigests>& now) {
     const auto made = now.find(name);
     if (made == now.end())
         return "was not made again";
-    if (made->second != then)
+    if (made->second.made != then.made)
         return "made again it has other bytes";
     if (!fs::exists(folder / name))
         return "is no longer there";
-    return file_digest(folder / name) == then ? "" : "was changed since it was made";
+    return file_digest(folder / name) == then.file ? "" : "was changed since it was made";
 }
 
 }  // namespace
 
 int check_render(const RenderOptions& options,
                  const std::function<int(const RenderOptions&)>& render) {
-    const Json manifest = read_manifest(options.check);
-    const fs::path named = options.check;
-    const fs::path root = fs::is_directory(named) ? named : named.parent_path();
+    const fs::path path = named_manifest(options.check);
+    const Json manifest = read_manifest(path);
+    const fs::path root = path.parent_path();
     const fs::path trace =
         options.trace.empty() ? manifest["trace"]["path"].get<std::string>() : options.trace;
     {
@@ -132,7 +152,7 @@ int check_render(const RenderOptions& options,
     if (const int code = render(options_again(options, manifest, trace, folder)))
         return code;
     const auto then = digests(manifest);
-    const auto now = digests(read_manifest(folder / "made"));
+    const auto now = digests(read_manifest(manifest_of(output_again(manifest, folder))));
     std::size_t different = 0;
     const auto tell = [&](const std::string& name, const std::string& trouble) {
         if (!trouble.empty() && ++different == 1)

@@ -86,7 +86,8 @@ std::unique_ptr<PictureOutput> open_output(const RenderOptions& options,
                                   ending,
                                   cameras,
                                   1e9 / static_cast<double>(step_ns * every),
-                                  std::max<std::size_t>(1, side_by_side(options).size()));
+                                  std::max<std::size_t>(1, side_by_side(options).size()),
+                                  files);
 }
 
 void render_pictures(const RenderOptions& options,
@@ -143,11 +144,10 @@ int render(const RenderOptions& options) {
     }
     if (!cameras.sensors().empty())
         render_pictures(options, trace, ticks, cameras, sensors(), files);
-    if (!film) {
-        world::SensorRig all = cameras.sensors();
+    world::SensorRig all = cameras.sensors();
+    if (!film)
         all.insert(all.end(), measurements.sensors().begin(), measurements.sensors().end());
-        write_manifest(options, trace, ticks, all, files);
-    }
+    write_manifest(options, trace, ticks, all, files);
     return exit_good;
 }
 

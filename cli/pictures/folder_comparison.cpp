@@ -26,7 +26,8 @@ std::map<std::string, std::set<std::string>> files_by_folder(const fs::path& roo
     std::map<std::string, std::set<std::string>> all;
     for (const auto& entry : fs::recursive_directory_iterator(root)) {
         const fs::path path = entry.path().lexically_relative(root);
-        if (entry.is_regular_file() && path != manifest_name)
+        const std::string name = path.string();
+        if (entry.is_regular_file() && name != "manifest.json" && !name.ends_with(".manifest.json"))
             all[path.parent_path().string()].insert(path.filename().string());
     }
     return all;

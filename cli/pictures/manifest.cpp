@@ -55,6 +55,11 @@ Json weather_of(const RenderOptions& options) {
 
 }  // namespace
 
+fs::path manifest_of(const fs::path& output) {
+    return film_ending(output).empty() ? output / "manifest.json"
+                                       : fs::path(output.string() + ".manifest.json");
+}
+
 std::string sensor_text(const world::SensorSpec& sensor) {
     Json json{{"name", sensor.name}, {"type", world::EnumNameSensorKind(sensor.kind)}};
     if (world::is_camera(sensor.kind)) {
@@ -83,7 +88,7 @@ void write_manifest(const RenderOptions& options,
                     const Ticks& ticks,
                     const world::SensorRig& sensors,
                     const WrittenFiles& files) {
-    const fs::path folder = options.output;
+    const fs::path manifest = manifest_of(options.output);
     Json json;
     json["manifest"] = manifest_version;
     for (const auto& [key, value] : world::build_fingerprint())
@@ -100,14 +105,20 @@ void write_manifest(const RenderOptions& options,
         json["options"][name] = value;
     if (!options.rig.empty())
         json["rig"] = Json::parse(read_all(options.rig));
-    std::vector<fs::path> paths = files.paths();
-    std::sort(paths.begin(), paths.end());
+    std::vector<WrittenFile> all = files.all();
+    std::sort(all.begin(), all.end(), [](const WrittenFile& one, const WrittenFile& other) {
+        return one.path < other.path;
+    });
     json["files"] = Json::array();
-    for (const fs::path& path : paths)
-        json["files"].push_back({{"path", path.lexically_relative(folder).string()},
-                                 {"bytes", fs::file_size(path)},
-                                 {"xxh3", file_digest(path)}});
-    files::write_file(folder / manifest_name, "the manifest", json.dump(1) + "\n");
+    for (const WrittenFile& file : all) {
+        Json& one = json["files"].emplace_back();
+        one["path"] = file.path.lexically_relative(manifest.parent_path()).string();
+        one["bytes"] = fs::file_size(file.path);
+        one["xxh3"] = file_digest(file.path);
+        if (!file.pictures.empty())
+            one["pictures_xxh3"] = file.pictures;
+    }
+    files::write_file(manifest, "the manifest", json.dump(1) + "\n");
 }
 
 }  // namespace reprise::cli

@@ -11,14 +11,14 @@
 
 namespace reprise::cli {
 
-/// Its name, in the folder that it is about.
-inline constexpr const char* manifest_name = "manifest.json";
+/// Where it lies: in the folder that it is about; beside a film, run.mp4.manifest.json.
+std::filesystem::path manifest_of(const std::filesystem::path& output);
 
 inline constexpr int manifest_version = 1;
 
-/// Writes what a folder's files were made from, and what they are: trace, ticks, weather, sensors,
-/// options, the program, and XXH3 of each file. Depends on nothing else: neither on the folder's
-/// name, nor on threads.
+/// Writes what a folder's files, or a film, were made from, and what they are: trace, ticks,
+/// weather, sensors, options, the program, and XXH3 of each file. Depends on nothing else: neither
+/// on the folder's name, nor on threads.
 void write_manifest(const RenderOptions& options,
                     replay::TraceReader& trace,
                     const Ticks& ticks,

@@ -103,8 +103,11 @@ Film::Film(const std::filesystem::path& path,
            const std::string& ending,
            const Cameras& cameras,
            double rate,
-           std::size_t strips)
-    : strips_(strips) {
+           std::size_t strips,
+           WrittenFiles& files)
+    : path_(path),
+      files_(files),
+      strips_(strips) {
     const world::SensorRig& sensors = cameras.sensors();
     if (sensors.size() != 1) {
         std::vector<std::string> names;
@@ -124,7 +127,7 @@ void Film::take(std::size_t /*sensor*/,
                 const world::SensorFrame& /*frame*/,
                 const world::SensorFrame& shown) {
     if (strips_ == 1)
-        return pipe_->add(shown.data);
+        return add(shown.data);
     // Rows of pixels, three bytes each.
     const auto width = static_cast<std::size_t>(shown.width);
     const std::size_t from = width * taken_ / strips_;
@@ -143,11 +146,17 @@ void Film::take(std::size_t /*sensor*/,
     if (++taken_ < strips_)
         return;
     taken_ = 0;
-    pipe_->add(composed_);
+    add(composed_);
+}
+
+void Film::add(const std::vector<std::uint8_t>& rgb) {
+    pictures_.add_bytes(rgb.data(), rgb.size());
+    pipe_->add(rgb);
 }
 
 void Film::finish() {
     pipe_->finish();
+    files_.add(path_, world::to_hex(pictures_.digest128()));
 }
 
 }  // namespace reprise::cli

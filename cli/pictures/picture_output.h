@@ -13,6 +13,7 @@
 #include "cli/pictures/written_files.h"
 #include "cli/process/new_folder.h"
 #include "render/picture.h"
+#include "world/digest.h"
 
 namespace reprise::cli {
 
@@ -93,7 +94,8 @@ class Film : public PictureOutput {
          const std::string& ending,
          const Cameras& cameras,
          double rate,
-         std::size_t strips);
+         std::size_t strips,
+         WrittenFiles& files);
 
     bool in_order() const override { return true; }
 
@@ -105,7 +107,12 @@ class Film : public PictureOutput {
     void finish() override;
 
   private:
+    void add(const std::vector<std::uint8_t>& rgb);
+
+    std::filesystem::path path_;
+    WrittenFiles& files_;
     std::optional<FilmPipe> pipe_;
+    world::Hasher pictures_;
     std::size_t strips_;
     std::size_t taken_ = 0;               ///< of the picture in the making
     std::vector<std::uint8_t> composed_;  ///< that picture

@@ -97,9 +97,33 @@ TEST_F(Films, HaveAPictureForEachTickThatIsShownAtTheRunsOwnPace) {
         EXPECT_GT(difference(film.pictures.front(), film.pictures.back()), 8)
             << "the test would not see other pictures";
         fs::remove(folder_ / name);
+        fs::remove(folder_ / (name + ".manifest.json"));
     }
     fs::remove_all(folder_ / "pictures");
     EXPECT_THAT(folder_.files(), ElementsAre("drive.mcap"));
+}
+
+TEST_F(Films, AreCheckedByTheirManifestPictureByPicture) {
+    ASSERT_EQ(render("run.mp4", {"--ticks", "11..14", "--weather", "clear_noon"}).code, 0);
+    for (const char* named : {"run.mp4", "run.mp4.manifest.json"}) {
+        const Result same = reprise({"render", "--check", named}, folder_.path());
+        EXPECT_EQ(same.code, 0) << same.out;
+        EXPECT_THAT(same.out, HasSubstr("all 1 files were made again"));
+    }
+    const std::string film = read_file(folder_ / "run.mp4");
+    write_file(folder_ / "run.mp4", film + "x");
+    const Result changed = reprise({"render", "--check", "run.mp4"}, folder_.path());
+    EXPECT_EQ(changed.code, 1);
+    EXPECT_THAT(changed.out, HasSubstr("run.mp4: was changed since it was made"));
+    write_file(folder_ / "run.mp4", film);
+    std::string manifest = read_file(folder_ / "run.mp4.manifest.json");
+    const std::string weather = "\"--weather\": \"clear_noon\"";
+    ASSERT_NE(manifest.find(weather), std::string::npos);
+    manifest.replace(manifest.find(weather), weather.size(), "\"--weather\": \"wet_noon\"");
+    write_file(folder_ / "run.mp4.manifest.json", manifest);
+    const Result other = reprise({"render", "--check", "run.mp4"}, folder_.path());
+    EXPECT_EQ(other.code, 1);
+    EXPECT_THAT(other.out, HasSubstr("run.mp4: made again it has other bytes"));
 }
 
 TEST_F(Films, ShowEveryTickUnlessTold) {
@@ -197,10 +221,15 @@ TEST_F(Films, NothingOfThemIsLeftWhenASignalEndsTheirMaking) {
                                                 fmt::format("RAISE_SIGNAL={}", signal)}});
         const bool ended = result.signal == signal || result.code == 128 + signal;
         signals += ended ? 1 : 0;
+        // A film that is whole stays, also when its manifest is not written any more.
+        const bool whole = read_film(folder_ / "run.mp4").pictures.size() == 4;
+        EXPECT_TRUE(whole || ended || result.code != 0) << call;
         for (const std::string& file : folder_.files())
-            EXPECT_TRUE(file == "drive.mcap" || (file == "run.mp4" && result.code == 0))
+            EXPECT_TRUE(file == "drive.mcap" ||
+                        (whole && (file == "run.mp4" || file == "run.mp4.manifest.json")))
                 << file << " at call " << call << ": " << result.said;
         fs::remove(folder_ / "run.mp4");
+        fs::remove(folder_ / "run.mp4.manifest.json");
     }
     EXPECT_GT(signals, 0);
 }
