@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "traffic/cars/fleet.h"
+#include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/models/prop_models.h"
 #include "world/models/vehicle_classes.h"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double free_at_start = 1;  // [m] kept free at the start of a lane
 constexpr double free_at_end = 4;    // [m] and before its end
+constexpr double person = 0.6;       // [m] through somebody on his feet
 constexpr double least_margin = 3;   // [m] between cars that stand in line
 
 Eigen::Vector2d direction(double yaw) {
@@ -129,6 +131,35 @@ bool InsertionPoints::is_free(const InsertionPoint& point,
     });
 }
 
+std::optional<OccupiedBox> InsertionPoints::coming(const world::CommandT& command) const {
+    using world::Driver;
+    constexpr double reaction = 20;  // [m] drivers need time to look around, its own and others
+    if (command.kind != world::CommandKind::spawn)
+        return std::nullopt;
+    const bool has_wheels = command.driver != Driver::walker && command.driver != Driver::prop;
+    double length = person;
+    if (command.driver == Driver::prop)
+        length = world::prop_models()[command.model].length;
+    if (has_wheels)
+        length = world::vehicle_models()[command.model].length;
+    // Of who stands on his feet, and of things, the place is that of their middle.
+    const double to_front = has_wheels ? origin_to_front(command.model) : length / 2;
+    if (command.has_pose) {
+        const Eigen::Vector2d origin(command.target.x(), command.target.y());
+        return OccupiedBox{origin + (to_front - length / 2) * direction(command.heading),
+                           command.heading,
+                           length + reaction,
+                           false};
+    }
+    if (command.lane >= town_->lanes.size())
+        return std::nullopt;
+    OccupiedBox box = box_at({command.lane, command.s + to_front}, length);
+    if (!has_wheels)
+        box.centre += command.offset * world::turned_left(direction(box.yaw));
+    box.length += reaction;
+    return box;
+}
+
 std::vector<OccupiedBox> InsertionPoints::occupied(std::span<const Car> cars,
                                                    const world::TickView& last,
                                                    const world::TickDraft& next) const {
@@ -142,7 +173,6 @@ std::vector<OccupiedBox> InsertionPoints::occupied(std::span<const Car> cars,
                          models[vehicle.model()].length,
                          true});
     // Nobody appears on top of people and things.
-    constexpr double person = 0.6;
     for (const world::WalkerState& walker : last.walkers())
         boxes.push_back({{walker.position().x(), walker.position().y()},
                          static_cast<double>(walker.yaw()),
@@ -153,19 +183,9 @@ std::vector<OccupiedBox> InsertionPoints::occupied(std::span<const Car> cars,
                          0,
                          world::prop_models()[prop.model()].length,
                          false});
-    // Those that come in this very tick.
-    for (const world::CommandT& command : next.tick.commands) {
-        const bool comes = command.kind == world::CommandKind::spawn &&
-                           command.driver != world::Driver::walker &&
-                           command.lane < town_->lanes.size();
-        if (!comes || command.model >= models.size())
-            continue;
-        const double length = models[command.model].length;
-        OccupiedBox box =
-            box_at({command.lane, command.s + origin_to_front(command.model)}, length);
-        box.length += 20;  // its driver needs time to look around
-        boxes.push_back(box);
-    }
+    for (const world::CommandT& command : next.tick.commands)
+        if (const auto box = coming(command))
+            boxes.push_back(*box);
     return boxes;
 }
 

@@ -78,6 +78,9 @@ class InsertionPoints {
                                       const world::TickDraft& next) const;
 
   private:
+    /// Where somebody or something comes in this very tick, with the way that a driver needs to see
+    /// it and stop; nothing for commands that bring nobody.
+    std::optional<OccupiedBox> coming(const world::CommandT& command) const;
     std::optional<InsertionPoint> scan(std::span<const OccupiedBox> occupied,
                                        InsertionSearch& search) const;
     std::optional<InsertionPoint> at(double drawn, double car_length, world::ClassSet car) const;

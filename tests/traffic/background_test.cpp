@@ -13,6 +13,7 @@
 #include "tests/traffic/stage.h"
 #include "traffic/sumo.h"
 #include "world/check.h"
+#include "world/frames.h"
 #include "world/models/catalogue.h"
 
 namespace reprise::traffic {
@@ -246,14 +247,24 @@ TEST(Background, EverySignalHasItsColourAndConflictsAreNeverGreenTogether) {
 TEST(Background, LeavesTheScenariosPlacesFree) {
     const auto& loaded = own_town("town1");
     const std::uint32_t place = test::lane(loaded.town, "b3_r1_1");
-    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-        Stage stage(loaded, 150, seed);
-        stage.step({test::spawn(1, place, 40, 0, world::Driver::autopilot)});
-        const world::LanePoint at = world::point_at(loaded.town.lanes[place], 40);
-        for (const world::CarState& car : stage.draft().traffic.cars)
-            EXPECT_GT(std::hypot(car.position().x() - at.position.x(),
-                                 car.position().y() - at.position.y()),
-                      car.lane() == place ? 10 : 2);
+    const world::LanePoint at = world::point_at(loaded.town.lanes[place], 40);
+    const world::CommandT vehicle = test::spawn(1, place, 40, 0, world::Driver::autopilot);
+    world::CommandT by_pose = test::spawn(1, world::none, 0, 0, world::Driver::autopilot);
+    by_pose.has_pose = true;
+    by_pose.target = world::to_vec3(at.position);
+    by_pose.heading = at.yaw;
+    const world::CommandT walker = test::spawn(1, place, 40, 0, world::Driver::walker, 0.5);
+    const world::CommandT prop = test::spawn(1, place, 40, 0, world::Driver::prop, 0.5);
+    for (const world::CommandT& command : {vehicle, by_pose, walker, prop}) {
+        for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+            Stage stage(loaded, 150, seed);
+            stage.step({command});
+            for (const world::CarState& car : stage.draft().traffic.cars)
+                EXPECT_GT(std::hypot(car.position().x() - at.position.x(),
+                                     car.position().y() - at.position.y()),
+                          car.lane() == place ? 10 : 2)
+                    << EnumNameDriver(command.driver) << (command.has_pose ? " by its pose" : "");
+        }
     }
 }
 
