@@ -353,7 +353,7 @@ class Episodes(Case):
             self.assertEqual(same, places(sim.reset(walker_seed=None, seed=3)))
             self.assertNotEqual(same, other)
             self.assertEqual(len(sim.reset(walkers=0).walkers), 0)
-            with self.assertRaisesRegex(reprise.Fault, "^the task's walkers: at most 2000$"):
+            with self.assertRaisesRegex(reprise.Fault, "^the task's walkers: expected 0 to 2000$"):
                 sim.reset(walkers=2001)
         with self.assertRaisesRegex(ValueError, "^walkers: a scenario says itself how many people walk"):
             reprise.Simulation(scenario="a.lua", walkers=3)
