@@ -27,13 +27,42 @@ void make_link(const fs::path& target, const fs::path& link) {
 
 }  // namespace
 
-DatasetLayout::DatasetLayout(fs::path root, bool coco, world::SensorRig cameras)
+DatasetLayout::DatasetLayout(fs::path root,
+                             DatasetFormat format,
+                             world::SensorRig cameras,
+                             world::SensorRig rays)
     : root_(std::move(root)),
-      coco_(coco),
-      cameras_(std::move(cameras)) {}
+      format_(format),
+      cameras_(std::move(cameras)),
+      rays_(std::move(rays)) {}
 
 bool DatasetLayout::is_rgb(std::size_t camera) const {
     return cameras_[camera].kind == world::SensorKind::rgb;
+}
+
+bool DatasetLayout::is_weathered(std::size_t sensor) const {
+    return rays_[sensor].kind != world::SensorKind::semantic_lidar;
+}
+
+std::optional<std::size_t> DatasetLayout::velodyne() const {
+    for (std::size_t i = 0; i < rays_.size(); ++i)
+        if (rays_[i].kind == world::SensorKind::lidar)
+            return i;
+    return std::nullopt;
+}
+
+fs::path DatasetLayout::points(std::size_t sensor,
+                               const std::string& weather,
+                               std::size_t id) const {
+    const std::string& name = rays_[sensor].name;
+    if (!is_weathered(sensor))
+        return root_ / "labels" / name / numbered_file(id, "npy");
+    const std::string folder = folder_of(weather);
+    if (format_ == DatasetFormat::coco)
+        return root_ / "points" / folder / name / numbered_file(id, "npy");
+    const fs::path training = root_ / folder / "training";
+    return sensor == velodyne() ? training / "velodyne" / numbered_file(id, "bin")
+                                : training / name / numbered_file(id, "npy");
 }
 
 /// KITTI's colour cameras are 2 and 3; more of them count on.
@@ -54,7 +83,7 @@ fs::path DatasetLayout::picture(std::size_t camera,
     if (!is_rgb(camera))
         return root_ / "labels" / file_name(camera, id);
     const std::string folder = folder_of(weather);
-    return coco_
+    return format_ == DatasetFormat::coco
                ? root_ / "images" / folder / file_name(camera, id)
                : root_ / folder / "training" / numbered("image", camera) / numbered_file(id, "png");
 }
@@ -64,8 +93,9 @@ fs::path DatasetLayout::boxes(std::size_t camera, std::size_t id) const {
 }
 
 fs::path DatasetLayout::label(std::size_t camera, std::size_t id) const {
-    return coco_ ? root_ / "labels" / ("coco_" + cameras_[camera].name) / numbered_file(id, "json")
-                 : root_ / "labels" / numbered("label", camera) / numbered_file(id, "txt");
+    return format_ == DatasetFormat::coco
+               ? root_ / "labels" / ("coco_" + cameras_[camera].name) / numbered_file(id, "json")
+               : root_ / "labels" / numbered("label", camera) / numbered_file(id, "txt");
 }
 
 fs::path DatasetLayout::calibration(std::size_t camera, std::size_t id) const {
@@ -75,7 +105,7 @@ fs::path DatasetLayout::calibration(std::size_t camera, std::size_t id) const {
 }
 
 std::vector<fs::path> DatasetLayout::folders(const std::vector<std::string>& weathers) const {
-    std::set<fs::path> all{root_ / (coco_ ? "annotations" : "ImageSets")};
+    std::set<fs::path> all{root_ / (format_ == DatasetFormat::coco ? "annotations" : "ImageSets")};
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
         for (const std::string& weather : weathers)
             all.insert(picture(i, weather, 0).parent_path());
@@ -84,11 +114,14 @@ std::vector<fs::path> DatasetLayout::folders(const std::vector<std::string>& wea
         for (const fs::path& file : {boxes(i, 0), label(i, 0), calibration(i, 0)})
             all.insert(file.parent_path());
     }
+    for (std::size_t i = 0; i < rays_.size(); ++i)
+        for (const std::string& weather : weathers)
+            all.insert(points(i, weather, 0).parent_path());
     return {all.begin(), all.end()};
 }
 
 void DatasetLayout::link(const std::vector<std::string>& weathers) const {
-    if (coco_)
+    if (format_ != DatasetFormat::kitti)
         return;
     for (const std::string& weather : weathers) {
         const fs::path folder = root_ / folder_of(weather);

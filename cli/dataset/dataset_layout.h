@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,12 +10,27 @@
 
 namespace reprise::cli {
 
-/// Where the files of a data set lie: see docs/datasets.md. Under each weather pictures of rgb
-/// alone; all else is the same under all weathers and lies in labels/, once.
+enum class DatasetFormat : std::uint8_t { kitti, coco };
+
+/// Where the files of a data set lie: see docs/datasets.md. Under each weather there is what the
+/// weather changes, pictures of rgb and points of LiDARs and radars; all else is the same under all
+/// weathers and lies in labels/, once.
 class DatasetLayout {
   public:
-    /// `cameras`: by their order; of those of kind rgb KITTI has numbers, from 2.
-    DatasetLayout(std::filesystem::path root, bool coco, world::SensorRig cameras);
+    /// `cameras`: by their order; of those of kind rgb KITTI has numbers, from 2. `rays`: what
+    /// measures by rays.
+    DatasetLayout(std::filesystem::path root,
+                  DatasetFormat format,
+                  world::SensorRig cameras,
+                  world::SensorRig rays);
+
+    DatasetFormat format() const { return format_; }
+
+    const std::filesystem::path& root() const { return root_; }
+
+    const world::SensorRig& cameras() const { return cameras_; }
+
+    const world::SensorRig& rays() const { return rays_; }
 
     std::filesystem::path picture(std::size_t camera,
                                   const std::string& weather,
@@ -24,7 +41,18 @@ class DatasetLayout {
     std::filesystem::path label(std::size_t camera, std::size_t id) const;
     std::filesystem::path calibration(std::size_t camera, std::size_t id) const;
 
+    /// Of rays.
+    std::filesystem::path points(std::size_t sensor,
+                                 const std::string& weather,
+                                 std::size_t id) const;
+
     bool is_rgb(std::size_t camera) const;
+
+    /// Whether a weather changes what it measures.
+    bool is_weathered(std::size_t sensor) const;
+
+    /// The LiDAR whose points are KITTI's velodyne: the first.
+    std::optional<std::size_t> velodyne() const;
 
     /// As COCO's "file_name": below images/WEATHER.
     std::string file_name(std::size_t camera, std::size_t id) const;
@@ -40,8 +68,9 @@ class DatasetLayout {
     std::string numbered(const char* name, std::size_t camera) const;
 
     std::filesystem::path root_;
-    bool coco_;
+    DatasetFormat format_;
     world::SensorRig cameras_;
+    world::SensorRig rays_;
 };
 
 }  // namespace reprise::cli

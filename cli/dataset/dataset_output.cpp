@@ -7,16 +7,12 @@
 namespace reprise::cli {
 
 DatasetOutput::DatasetOutput(const DatasetLayout& layout,
-                             const world::SensorRig& cameras,
                              std::string weather,
                              std::map<std::uint64_t, std::size_t> ids,
-                             bool coco,
                              bool labels)
     : layout_(layout),
-      cameras_(cameras),
       weather_(std::move(weather)),
       ids_(std::move(ids)),
-      coco_(coco),
       labels_(labels) {}
 
 /// Files appear whole, so that what is there is done.
@@ -29,6 +25,14 @@ bool DatasetOutput::wants(std::size_t sensor, std::uint64_t tick) const {
     return !std::filesystem::exists(layout_.picture(sensor, weather_, id)) ||
            (labels_ && layout_.is_rgb(sensor) &&
             !std::filesystem::exists(layout_.label(sensor, id)));
+}
+
+bool DatasetOutput::wants_any() const {
+    for (std::size_t i = 0; i < layout_.cameras().size(); ++i)
+        for (const auto& [tick, id] : ids_)
+            if (wants(i, tick))
+                return true;
+    return false;
 }
 
 void DatasetOutput::take(std::size_t sensor,
@@ -48,13 +52,16 @@ void DatasetOutput::take_boxes(std::size_t sensor,
     if (!layout_.is_rgb(sensor))
         return;
     const std::size_t id = ids_.at(tick);
+    const world::SensorSpec& camera = layout_.cameras()[sensor];
+    const auto velodyne = layout_.velodyne();
     files::write_file(layout_.boxes(sensor, id), "the boxes", text);
-    files::write_file(
-        layout_.calibration(sensor, id), "the calibration", kitti_calibration(cameras_[sensor]));
-    files::write_file(
-        layout_.label(sensor, id),
-        "the label",
-        coco_ ? coco_annotations(text, instances) : kitti_labels(text, cameras_[sensor]));
+    files::write_file(layout_.calibration(sensor, id),
+                      "the calibration",
+                      kitti_calibration(camera, velodyne ? &layout_.rays()[*velodyne] : nullptr));
+    files::write_file(layout_.label(sensor, id),
+                      "the label",
+                      layout_.format() == DatasetFormat::coco ? coco_annotations(text, instances)
+                                                              : kitti_labels(text, camera));
 }
 
 }  // namespace reprise::cli

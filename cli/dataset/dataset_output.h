@@ -16,10 +16,8 @@ class DatasetOutput : public PictureOutput {
   public:
     /// `ids` of the trace's ticks. `labels`: those are made as well.
     DatasetOutput(const DatasetLayout& layout,
-                  const world::SensorRig& cameras,
                   std::string weather,
                   std::map<std::uint64_t, std::size_t> ids,
-                  bool coco,
                   bool labels);
 
     bool in_order() const override { return false; }
@@ -27,6 +25,10 @@ class DatasetOutput : public PictureOutput {
     bool shows(std::size_t sensor) const override { return layout_.is_rgb(sensor); }
 
     bool wants(std::size_t sensor, std::uint64_t tick) const override;
+
+    /// Whether anything is.
+    bool wants_any() const;
+
     void take(std::size_t sensor,
               const world::SensorFrame& frame,
               const world::SensorFrame& shown) override;
@@ -39,10 +41,8 @@ class DatasetOutput : public PictureOutput {
 
   private:
     const DatasetLayout& layout_;
-    const world::SensorRig& cameras_;
     std::string weather_;
     std::map<std::uint64_t, std::size_t> ids_;
-    bool coco_;
     bool labels_;
     std::atomic<std::size_t> pictures_ = 0;
 };

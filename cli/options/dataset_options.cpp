@@ -26,10 +26,11 @@ void add_dataset(CLI::App& app, DatasetOptions& dataset) {
                     "paper's; recorded (default)")
         ->type_name("WEATHER,...");
     command
-        .add_option("--rig",
-                    dataset.rig,
-                    "Cameras of a file, see docs/rendering.md: of those of kind rgb there is a "
-                    "picture under each weather, of others one")
+        .add_option(
+            "--rig",
+            dataset.rig,
+            "Sensors of a file, see docs/rendering.md: under each weather there are pictures "
+            "of rgb and points of LiDARs and radars, of all else one")
         ->type_name("RIG.json");
     command
         .add_option("--format", dataset.format, "The layout (default kitti): see docs/datasets.md")

@@ -8,6 +8,7 @@
 
 #include "files/output_file.h"
 #include "render/trace/camera.h"
+#include "world/external/mounting.h"
 #include "world/external/sensor_attributes.h"
 
 namespace reprise::cli {
@@ -106,15 +107,22 @@ void write_calibration(const std::filesystem::path& folder,
     files::write_file(folder / "calib.txt", "the calibration", kitti_calibration(sensor));
 }
 
-std::string kitti_calibration(const world::SensorSpec& sensor) {
+std::string kitti_calibration(const world::SensorSpec& sensor, const world::SensorSpec* velodyne) {
     const render::Camera camera(sensor, Eigen::Isometry3d::Identity());
     const Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();
+    const Eigen::Isometry3d pose_mount_velodyne =
+        velodyne == nullptr ? Eigen::Isometry3d::Identity() : world::pose_in_mount(*velodyne);
+    Eigen::Isometry3d pose_camera_mount = Eigen::Isometry3d::Identity();
+    pose_camera_mount.matrix().topRows<3>() = into_camera(camera);
+    const auto rows = [](const Eigen::Isometry3d& pose) {
+        return Rows(pose.matrix().topRows<3>());
+    };
     std::string kitti;
     for (const char* name : {"P0", "P1", "P2", "P3"})
         kitti += line_of(name, projection(camera));
-    // Without a velodyne its frame is the carrier's, as the IMU's is; readers want both lines.
-    kitti += line_of("R0_rect", upright) + line_of("Tr_velo_to_cam", into_camera(camera)) +
-             line_of("Tr_imu_to_velo", Rows::Identity());
+    kitti += line_of("R0_rect", upright) +
+             line_of("Tr_velo_to_cam", rows(pose_camera_mount * pose_mount_velodyne)) +
+             line_of("Tr_imu_to_velo", rows(pose_mount_velodyne.inverse()));
     if (!camera.lens().is_plain())
         kitti += lens_lines(camera);
     return kitti;

@@ -14,7 +14,9 @@ void write_calibration(const std::filesystem::path& folder,
                        const world::SensorSpec& sensor,
                        const std::string& carrier);
 
-/// calib.txt alone, with a LiDAR's frame that is the carrier's.
-std::string kitti_calibration(const world::SensorSpec& sensor);
+/// calib.txt alone. `velodyne`: the LiDAR whose points go with it, on the same carrier; without one
+/// its frame is the carrier's, which is the IMU's as well.
+std::string kitti_calibration(const world::SensorSpec& sensor,
+                              const world::SensorSpec* velodyne = nullptr);
 
 }  // namespace reprise::cli

@@ -14,7 +14,8 @@ class Dataset:
     """One weather's view of a data set: `Dataset('set', weather='clear_night', split='train')`.
 
     An item is a dictionary: `id`, `trace`, `tick`, and by the name of each camera its picture (an array of rows), of
-    rgb cameras also `NAME_boxes`, the list that docs/rendering.md describes."""
+    rgb cameras also `NAME_boxes`, the list that docs/rendering.md describes; by the name of each LiDAR and radar its
+    rows of numbers, as docs/datasets.md says them."""
 
     def __init__(self, folder: Union[str, pathlib.Path], weather: Optional[str] = None, split: Optional[str] = None):
         self.folder = pathlib.Path(folder)
@@ -38,6 +39,8 @@ class Dataset:
                 self._pictures[name] = self.folder / folders[self.weather] / "training" / f"image_{number}"
                 number += 1
 
+        self._points = {one["name"]: one["files"].replace("{weather}", folders[self.weather]) for one in self.index.get("rays", [])}
+
     def __len__(self) -> int:
         return len(self.frames)
 
@@ -49,10 +52,17 @@ class Dataset:
             boxes = self.folder / "labels" / f"boxes_{name}" / f"{frame['id']:06}.json"
             if boxes.exists():
                 item[name + "_boxes"] = json.loads(boxes.read_text())["boxes"]
+        for name, files in self._points.items():
+            item[name] = read_points(self.folder / files.replace("{id}", f"{frame['id']:06}"))
         return item
 
     def __iter__(self) -> Iterator[Dict[str, Any]]:
         return (self[at] for at in range(len(self)))
+
+
+def read_points(path: pathlib.Path) -> np.ndarray:
+    """A row for each point: of KITTI's .bin x, y, z, intensity, of a .npy all columns of its sensor."""
+    return np.load(path) if path.suffix == ".npy" else np.fromfile(path, np.float32).reshape(-1, 4)
 
 
 def read_png(path: Union[str, pathlib.Path]) -> np.ndarray:

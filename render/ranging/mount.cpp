@@ -3,25 +3,16 @@
 #include <string>
 
 #include "world/check.h"
+#include "world/external/mounting.h"
 #include "world/models/viewpoint.h"
 
 namespace reprise::render {
-
-Eigen::Isometry3d pose_in_mount(const world::SensorSpec& spec) {
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.translation() = spec.position;
-    pose.linear() = (Eigen::AngleAxisd(spec.yaw, Eigen::Vector3d::UnitZ()) *
-                     Eigen::AngleAxisd(-spec.pitch, Eigen::Vector3d::UnitY()) *
-                     Eigen::AngleAxisd(spec.roll, Eigen::Vector3d::UnitX()))
-                        .toRotationMatrix();
-    return pose;
-}
 
 Mount::Mount(const world::TickView& tick,
              const world::SensorSpec& spec,
              const Eigen::Vector3d& origin)
     : origin_(origin),
-      pose_world_sensor_(pose_in_mount(spec)) {
+      pose_world_sensor_(world::pose_in_mount(spec)) {
     if (spec.actor == 0)
         return;
     const auto pose_world_actor = world::find_pose(tick, spec.actor);

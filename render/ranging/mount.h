@@ -33,7 +33,4 @@ class Mount {
     std::uint32_t hidden_ = 0;
 };
 
-/// Of a sensor in the frame that it is mounted in.
-Eigen::Isometry3d pose_in_mount(const world::SensorSpec& spec);
-
 }  // namespace reprise::render

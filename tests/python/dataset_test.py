@@ -142,4 +142,84 @@ class Datasets(unittest.TestCase):
             reprise.Dataset(WORK / "set", split="test")
 
 
+class Points(unittest.TestCase):
+    """A rig with two LiDARs and a radar in a moving car: sweeps roll, and the calibration is of the tick."""
+
+    @classmethod
+    def setUpClass(cls):
+        view = {"size": [480, 320], "position": [1.5, 0.2, 1.4], "yaw_deg": 4, "pitch_deg": -3}
+        sweep = {"range": 80, "points_per_second": 400000, "range_accuracy": 0}
+        cls.rig = [
+            {"name": "front", **view}, {"name": "far", "type": "depth", **view},
+            {"name": "roof", "type": "lidar", "position": [0.9, -0.1, 1.9], "yaw_deg": 10, "pitch_deg": -2, "roll_deg": 1, "attributes": sweep},
+            {"name": "mast", "type": "lidar", "position": [0.2, 0, 2.2], "attributes": {"channels": 4}},
+            {"name": "exact", "type": "semantic_lidar", "position": [0.9, 0, 1.9]},
+            {"name": "nose", "type": "radar", "position": [3.7, 0, 0.6]}]  # fmt: skip
+        WORK.mkdir(parents=True, exist_ok=True)
+        subprocess.run(["rm", "-rf", WORK / "points", WORK / "points_coco", WORK / "swept"], check=True)
+        (WORK / "points.json").write_text(json.dumps({"sensors": cls.rig}))
+        said("run", SOURCE / "scenarios/free_drive.lua", "--cars", 40, "--for", 8, "-o", "p.mcap")
+        cls.words = ["--weathers", "clear_noon,hard_rain_noon", "--rig", "points.json", "--ticks", "6s..8s", "--every", "1s", "--split", "train:0.5"]
+        said("dataset", "p.mcap", "-o", "points", *cls.words)
+
+    def test_points_and_depth_of_one_surface_agree_through_the_calibration(self):
+        agree = total = 0
+        for path in sorted((WORK / "points/labels/calib").iterdir()):
+            lines = dict(line.split(": ") for line in path.read_text().splitlines())
+            p2, to_camera, from_imu = (np.array(lines[key].split(), float).reshape(3, 4) for key in ("P2", "Tr_velo_to_cam", "Tr_imu_to_velo"))
+            points = np.fromfile(WORK / f"points/clear_noon/training/velodyne/{path.stem}.bin", np.float32).reshape(-1, 4)
+            self.assertTrue((points[:, 3] >= 0).all() and (points[:, 3] <= 1).all() and len(points) > 5000)
+            # The IMU's frame is the carrier's, in which the rig says where the LiDAR is.
+            np.testing.assert_allclose(from_imu[:, :3] @ [0.9, -0.1, 1.9] + from_imu[:, 3], 0, atol=1e-9)
+            seen = to_camera @ np.vstack([points[:, :3].T.astype(float), np.ones(len(points))])
+            seen = seen[:, seen[2] > 0.5]
+            pixel = p2 @ np.vstack([seen, np.ones(seen.shape[1])])
+            u, v = np.floor(pixel[:2] / pixel[2]).astype(int)
+            inside = (u > 0) & (v > 0) & (u < 479) & (v < 319)
+            u, v, z = u[inside], v[inside], seen[2, inside]
+            depth = read_png(WORK / f"points/labels/far/{path.stem}.png") / 256
+            around = np.stack([depth[v + dy, u + dx] for dy in (-1, 0, 1) for dx in (-1, 0, 1)])
+            room = 0.02 + 0.002 * z
+            agree += ((z > around.min(0) - room) & (z < around.max(0) + room)).sum()
+            total += len(z)
+        # The rest sees past an edge that hides it from the camera, or others that moved during the sweep.
+        self.assertGreater(total, 1000)
+        self.assertGreater(agree / total, 0.97)
+
+    def test_only_what_a_weather_changes_is_there_under_each(self):
+        noon, rain = (reprise.Dataset(WORK / "points", weather=one) for one in ("clear_noon", "hard_rain_noon"))
+        for dry, wet in zip(noon, rain):
+            self.assertEqual([dry[name].shape[1] for name in ("roof", "mast", "exact", "nose")], [4, 7, 8, 6])
+            self.assertFalse(np.array_equal(dry["roof"], wet["roof"]))
+            np.testing.assert_array_equal(dry["exact"], wet["exact"])
+            np.testing.assert_array_equal(dry["far"], wet["far"])
+
+    def test_points_are_those_of_render_where_nothing_rolls(self):
+        rig = [{**one, "attributes": {**one.get("attributes", {}), "rolling": 0}} if "lidar" in one.get("type", "") else one for one in self.rig]
+        (WORK / "still.json").write_text(json.dumps({"sensors": rig}))
+        words = [word.replace("points.json", "still.json") for word in self.words]
+        said("dataset", "p.mcap", "-o", "points_coco", "--format", "coco", *words)
+        said("render", "p.mcap", "-o", "swept", "--weather", "hard_rain_noon", "--rig", "still.json", "--ticks", "6s..8s", "--every", "1s", "--points", "npy")
+        for item in reprise.Dataset(WORK / "points_coco", weather="hard_rain_noon"):
+            for name in ("roof", "mast", "exact", "nose"):
+                np.testing.assert_array_equal(item[name], np.load(WORK / f"swept/{name}/{item['tick']:06}.npy"))
+
+    def test_points_that_are_gone_are_made_again_and_others_left_alone(self):
+        before = {path: path.read_bytes() for path in (WORK / "points").rglob("*") if path.is_file()}
+        for path in ("hard_rain_noon/training/velodyne/000001.bin", "labels/exact/000000.npy", "clear_noon/training/nose/000002.npy"):
+            (WORK / "points" / path).unlink()
+        said("dataset", "p.mcap", "-o", "points", *self.words)
+        self.assertEqual(before, {path: path.read_bytes() for path in (WORK / "points").rglob("*") if path.is_file()})
+
+    def test_rigs_without_a_place_in_data_sets_are_refused_in_a_line(self):
+        imu = {"name": "motion", "type": "imu"}
+        for rig, why in (([self.rig[0], imu], "sensor 'motion': a data set holds what cameras, LiDARs and radars see; reprise render --rig writes what a imu measures"),
+                         ([self.rig[2]], "a data set needs a camera of type rgb"),
+                         ([self.rig[0], {**self.rig[2], "actor": "world"}], "'roof' and 'front' have carriers of their own, and no calibration takes the points of one to the other")):  # fmt: skip
+            (WORK / "odd.json").write_text(json.dumps({"sensors": rig}))
+            odd = subprocess.run([PROGRAM, "dataset", "p.mcap", "-o", "odd", "--rig", "odd.json"], capture_output=True, text=True, cwd=WORK)
+            self.assertEqual((odd.returncode, odd.stderr), (2, f"reprise: odd.json: {why}\n"))
+            self.assertFalse((WORK / "odd").exists())
+
+
 unittest.main()

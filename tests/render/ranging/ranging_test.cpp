@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "render/ranging/sweep.h"
+#include "render/ranging/untwist.h"
 #include "render/sensors.h"
 #include "tests/render/ranging/points.h"
 #include "world/check.h"
@@ -224,6 +225,12 @@ TEST(Lidar, SensorThatMovesSeesAStandingWallFromWhereItWas) {
     const double bumper = 29 - world::vehicle_models()[0].rear_overhang;
     EXPECT_NEAR(straight.first, bumper, 0.15);
     EXPECT_GT(raw.first, straight.first) << "it was farther away before the tick";
+    SensorFrame untwisted = rolls;
+    render::untwist(untwisted, tick.view(), spec);
+    for (int i = 0; i < rolls.height; ++i) {
+        const Vector3d moved = point_at(rolls, i) + Vector3d(20 * real_at(rolls, i, 6), 0, 0);
+        ASSERT_LT((point_at(untwisted, i) - moved).norm(), 1e-4) << i;
+    }
 }
 
 TEST(Lidar, RainPutsDropsNearAndWetRoadsHideFarAway) {

@@ -1,0 +1,99 @@
+#include "cli/dataset/dataset_index.h"
+
+#include <fstream>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "cli/pictures/manifest.h"
+#include "files/output_file.h"
+#include "world/check.h"
+#include "world/fingerprint.h"
+
+namespace reprise::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What must be the same when the rest of a data set is made; where its traces lie may change.
+Json kept_part(Json index) {
+    index.erase("complete");
+    if (index.contains("traces") && index["traces"].is_array())
+        for (Json& trace : index["traces"])
+            if (trace.is_object())
+                trace.erase("path");
+    return index;
+}
+
+/// Where its points lie, for loaders: with {weather} and {id}.
+std::string file_pattern(const DatasetLayout& layout, std::size_t sensor) {
+    const std::string weather = "{weather}";
+    const fs::path path = layout.points(sensor, weather, 0);
+    return (path.parent_path().lexically_relative(layout.root()) / "{id}").string() +
+           path.extension().string();
+}
+
+}  // namespace
+
+Json index_of(const DatasetOptions& options,
+              const std::list<DatasetSource>& sources,
+              const std::vector<std::string>& weathers,
+              const std::vector<DatasetFrame>& frames,
+              const DatasetLayout& layout) {
+    Json json;
+    json["dataset"] = 1;
+    json["complete"] = false;
+    json["format"] = options.format;
+    for (const auto& [key, value] : world::build_fingerprint())
+        json["program"][key] = value;
+    json["portable"] = options.portable;
+    for (const DatasetSource& source : sources)
+        json["traces"].push_back({{"path", source.path()}, {"chain", chain_text(source.trace())}});
+    for (const std::string& weather : weathers)
+        json["weathers"].push_back(
+            {{"said", weather}, {"folder", DatasetLayout::folder_of(weather)}});
+    for (const world::SensorSpec& camera : layout.cameras())
+        json["cameras"].push_back(Json::parse(sensor_text(camera)));
+    for (std::size_t i = 0; i < layout.rays().size(); ++i) {
+        Json& one = json["rays"].emplace_back(Json::parse(sensor_text(layout.rays()[i])));
+        one["files"] = file_pattern(layout, i);
+    }
+    json["split"] = options.split;
+    std::map<std::string, std::size_t> counts;
+    for (const DatasetFrame& frame : frames)
+        ++counts[frame.split];
+    for (const Split& split : read_split(options.split))
+        json["frames_of"][split.name] = counts[split.name];
+    for (std::size_t id = 0; id < frames.size(); ++id)
+        json["frames"].push_back({{"id", id},
+                                  {"trace", frames[id].trace},
+                                  {"tick", frames[id].tick},
+                                  {"split", frames[id].split}});
+    return json;
+}
+
+void write_index(const fs::path& path, const Json& index) {
+    files::write_file(path, "the index", index.dump(1) + "\n");
+}
+
+void check_index(const fs::path& path, const Json& index) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file.is_open())
+        return;
+    const Json there = Json::parse(file, nullptr, false);
+    if (there.is_discarded() || !there.is_object())
+        throw world::Error(path.string() + ": this is no index that reprise dataset wrote");
+    const Json old = kept_part(there);
+    const Json wanted = kept_part(index);
+    for (const auto& [key, value] : wanted.items())
+        if (!old.contains(key) || old[key] != value)
+            throw world::Error(fmt::format(
+                "{}: another data set lies there: '{}' differs; name another folder for -o",
+                path.string(),
+                key));
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "cli/dataset/dataset_layout.h"
+#include "cli/pictures/ray_loop.h"
+
+namespace reprise::cli {
+
+/// Points of one trace under one weather on their way into a data set: in the sensor's frame at the
+/// tick. What is there already is not asked for again.
+class DatasetPoints : public RayOutput {
+  public:
+    /// `ids` of the trace's ticks. `labels`: what is the same under all weathers is made as well.
+    DatasetPoints(const DatasetLayout& layout,
+                  std::string weather,
+                  std::map<std::uint64_t, std::size_t> ids,
+                  bool labels);
+
+    bool wants(std::size_t sensor, std::uint64_t tick) const override;
+
+    /// Whether anything is.
+    bool wants_any() const;
+
+    void take(std::size_t sensor,
+              const world::TickView& tick,
+              const world::SensorSpec& placed,
+              world::SensorFrame frame) override;
+
+    std::size_t sweeps() const { return sweeps_; }
+
+  private:
+    const DatasetLayout& layout_;
+    std::string weather_;
+    std::map<std::uint64_t, std::size_t> ids_;
+    bool labels_;
+    std::atomic<std::size_t> sweeps_ = 0;
+};
+
+}  // namespace reprise::cli

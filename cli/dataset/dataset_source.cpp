@@ -1,0 +1,106 @@
+#include "cli/dataset/dataset_source.h"
+
+#include <fmt/format.h>
+
+#include "cli/options/option_checks.h"
+#include "cli/options/tick_option.h"
+#include "cli/options/tick_range.h"
+#include "cli/pictures/rig_file.h"
+#include "world/check.h"
+
+namespace reprise::cli {
+
+namespace {
+
+RenderOptions options_for(const DatasetOptions& dataset, const std::string& trace) {
+    RenderOptions options;
+    options.trace = trace;
+    options.output = dataset.output;
+    options.rig = dataset.rig;
+    options.cameras = {"rgb"};
+    options.recorded_rig = false;
+    options.no_view = true;
+    options.every = dataset.every;
+    options.actor = dataset.actor;
+    options.fov_deg = dataset.fov_deg;
+    options.threads = dataset.threads;
+    options.portable = dataset.portable;
+    try {
+        const PictureSize size = read_picture_size(dataset.size, "1242x375");
+        options.width = size.width;
+        options.height = size.height;
+    } catch (const world::Error& error) {
+        throw world::Error(std::string("--size: ") + error.what());
+    }
+    return options;
+}
+
+/// Whether a data set has room for what it measures.
+bool has_place(world::SensorKind kind) {
+    return world::is_camera(kind) ||
+           (world::is_ranging(kind) && kind != world::SensorKind::obstacle);
+}
+
+}  // namespace
+
+DatasetSource::DatasetSource(const DatasetOptions& dataset, const std::string& path)
+    : options_(options_for(dataset, path)),
+      trace_(std::make_unique<replay::TraceReader>(path)) {
+    const TickRange range = parse_ticks("--ticks", dataset.ticks, *trace_);
+    ticks_.from = range.first;
+    ticks_.to = range.last;
+    ticks_.every = parse_tick("--every", dataset.every, trace_->episode().step_ns, 0);
+    if (ticks_.every < 1)
+        throw world::Error("--every: expected 1 tick at least, got '" + dataset.every + "'");
+    if (!options_.rig.empty())
+        check_rig();
+    cameras_ = std::make_unique<Cameras>(options_, *trace_, ticks_);
+    rays_ = std::make_unique<MeasuredRig>(options_, *trace_, ticks_);
+}
+
+void DatasetSource::check_rig() const {
+    const RigFile file = read_rig_file(options_.rig, *trace_);
+    const world::SensorRig& sensors = file.rig.sensors;
+    const auto index_of = [&](world::SensorKind kind) {
+        std::size_t i = 0;
+        while (i < sensors.size() && sensors[i].kind != kind)
+            ++i;
+        return i;
+    };
+    for (const world::SensorSpec& sensor : sensors)
+        if (!has_place(sensor.kind))
+            throw world::Error(fmt::format(
+                "{}: sensor '{}': a data set holds what cameras, LiDARs and radars see; reprise "
+                "render --rig writes what a {} measures",
+                options_.rig,
+                sensor.name,
+                world::EnumNameSensorKind(sensor.kind)));
+    if (index_of(world::SensorKind::rgb) == sensors.size())
+        throw world::Error(options_.rig + ": a data set needs a camera of type rgb");
+    const std::size_t lidar = index_of(world::SensorKind::lidar);
+    for (std::size_t i = 0; i < sensors.size() && lidar < sensors.size(); ++i)
+        if (sensors[i].kind == world::SensorKind::rgb && file.carriers[i] != file.carriers[lidar])
+            throw world::Error(
+                fmt::format("{}: '{}' and '{}' have carriers of their own, and no calibration "
+                            "takes the points of one to the other",
+                            options_.rig,
+                            sensors[lidar].name,
+                            sensors[i].name));
+}
+
+void DatasetSource::add_frames(std::size_t number, std::vector<DatasetFrame>& frames) const {
+    const std::size_t before = frames.size();
+    for (std::uint64_t tick = ticks_.from; tick <= ticks_.to; tick += ticks_.every) {
+        const world::TickView view = trace_->tick(tick).view;
+        bool all = cameras_->actor(view).has_value() &&
+                   rays_->carriers(view).size() == rays_->sensors().size();
+        for (std::size_t i = 0; all && i < cameras_->sensors().size(); ++i)
+            all = cameras_->is_there(i, view);
+        if (all)
+            frames.push_back({number, tick, ""});
+    }
+    if (frames.size() == before)
+        throw world::Error("no vehicle to mount the cameras on in these ticks of " + path());
+}
+
+}  // namespace reprise::cli

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/dataset/frame_list.h"
+#include "cli/options/dataset_options.h"
+#include "cli/pictures/cameras.h"
+#include "cli/pictures/measured_rig.h"
+#include "replay/trace_reader.h"
+
+namespace reprise::cli {
+
+/// A trace that a data set is made of, and the sensors that look into it.
+class DatasetSource {
+  public:
+    /// Throws world::Error.
+    DatasetSource(const DatasetOptions& dataset, const std::string& path);
+
+    /// Cameras refer to the options beside them.
+    DatasetSource(const DatasetSource&) = delete;
+    DatasetSource& operator=(const DatasetSource&) = delete;
+
+    const std::string& path() const { return options_.trace; }
+
+    /// A weather, and whether boxes are made of what is seen.
+    RenderOptions& options() { return options_; }
+
+    replay::TraceReader& trace() const { return *trace_; }
+
+    const Ticks& ticks() const { return ticks_; }
+
+    const Cameras& cameras() const { return *cameras_; }
+
+    const MeasuredRig& rays() const { return *rays_; }
+
+    /// [s] of a tick.
+    double step() const { return static_cast<double>(trace_->episode().step_ns) * 1e-9; }
+
+    /// Adds the ticks in which all sensors are there. Throws world::Error where there are none.
+    void add_frames(std::size_t number, std::vector<DatasetFrame>& frames) const;
+
+  private:
+    void check_rig() const;
+
+    RenderOptions options_;
+    std::unique_ptr<replay::TraceReader> trace_;
+    Ticks ticks_;
+    std::unique_ptr<Cameras> cameras_;
+    std::unique_ptr<MeasuredRig> rays_;
+};
+
+}  // namespace reprise::cli
