@@ -5,7 +5,7 @@
 #include <iterator>
 #include <optional>
 
-#include "cli/pictures/tick_readings.h"
+#include "cli/measured/tick_readings.h"
 #include "cli/process/guard.h"
 #include "remote/live_rig.h"
 #include "render/sensors.h"

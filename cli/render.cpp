@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "cli/check_render.h"
+#include "cli/measured/measurements.h"
 #include "cli/options/tick_option.h"
 #include "cli/options/tick_range.h"
 #include "cli/pictures/cameras.h"
 #include "cli/pictures/manifest.h"
-#include "cli/pictures/measurements.h"
 #include "cli/pictures/picture_output.h"
 #include "cli/pictures/renderer.h"
 #include "cli/process/guard.h"

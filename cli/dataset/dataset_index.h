@@ -1,3 +1,4 @@
+// Private to the room: what dataset.json says.
 #pragma once
 
 #include <filesystem>

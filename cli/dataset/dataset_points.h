@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/dataset/dataset_layout.h"
-#include "cli/pictures/ray_loop.h"
+#include "cli/measured/ray_loop.h"
 
 namespace reprise::cli {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "cli/dataset/frame_list.h"
+#include "cli/measured/measured_rig.h"
 #include "cli/options/dataset_options.h"
 #include "cli/pictures/cameras.h"
-#include "cli/pictures/measured_rig.h"
 #include "replay/trace_reader.h"
 
 namespace reprise::cli {

@@ -44,7 +44,7 @@ INNER = {
     "scripting": "lua run words .",
     "replay": "mcap . table compare golden score",
     "exchange": ". carla page",
-    "cli": "options process fingerprint town trace golden external pictures dataset discover .",
+    "cli": "options process fingerprint town trace golden external pictures measured dataset discover .",
 }
 # Where a header may stand: in the .cpp files and private headers of a room, or, with "+", in all its headers.
 LIBRARIES = {

@@ -1,4 +1,4 @@
-#include "cli/pictures/measured_rig.h"
+#include "cli/measured/measured_rig.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // What it must do: write what a vehicle's sensors measured that are no cameras.
 // How it goes: sensors without rays read tick after tick; the others look at several ticks at once,
 //   as cameras do, and write a file for each.
-#include "cli/pictures/measurements.h"
+#include "cli/measured/measurements.h"
 
 #include <algorithm>
 #include <cstring>
@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/pictures/ray_loop.h"
-#include "cli/pictures/reading_file.h"
-#include "cli/pictures/tick_readings.h"
+#include "cli/measured/ray_loop.h"
+#include "cli/measured/reading_file.h"
+#include "cli/measured/tick_readings.h"
 #include "cli/process/new_folder.h"
 #include "render/point_file.h"
 #include "world/check.h"

@@ -1,4 +1,4 @@
-#include "cli/pictures/reading_file.h"
+#include "cli/measured/reading_file.h"
 
 #include <fmt/format.h>
 

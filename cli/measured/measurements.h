@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <functional>
 
+#include "cli/measured/measured_rig.h"
 #include "cli/options/render_options.h"
-#include "cli/pictures/measured_rig.h"
 #include "cli/pictures/written_files.h"
 #include "render/sensors.h"
 #include "replay/trace_reader.h"

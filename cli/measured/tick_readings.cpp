@@ -1,4 +1,4 @@
-#include "cli/pictures/tick_readings.h"
+#include "cli/measured/tick_readings.h"
 
 #include "render/readings/readings.h"
 #include "world/external/sensor_attributes.h"

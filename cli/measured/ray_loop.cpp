@@ -1,4 +1,4 @@
-#include "cli/pictures/ray_loop.h"
+#include "cli/measured/ray_loop.h"
 
 #include "cli/pictures/kept_ticks.h"
 

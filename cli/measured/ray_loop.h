@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "cli/measured/measured_rig.h"
 #include "cli/pictures/chosen_weather.h"
-#include "cli/pictures/measured_rig.h"
 #include "render/sensors.h"
 #include "replay/trace_reader.h"
 
