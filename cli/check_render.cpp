@@ -1,19 +1,17 @@
 #include "cli/check_render.h"
 
 #include <fstream>
-#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/options/options.h"
+#include "cli/pictures/made_again.h"
 #include "cli/pictures/manifest.h"
 #include "cli/process/guard.h"
-#include "cli/process/say.h"
 #include "cli/process/temporary_folder.h"
 #include "files/output_file.h"
 #include "world/check.h"
-#include "world/fingerprint.h"
 
 namespace reprise::cli {
 
@@ -53,25 +51,7 @@ Json read_manifest(const fs::path& file) {
     for (const auto& [name, value] : json["options"].items())
         if (!value.is_string() || !name.starts_with("--"))
             refuse();
-    for (const Json& one : json["files"])
-        if (!is_text(one, "path") || !is_text(one, "xxh3"))
-            refuse();
     return json;
-}
-
-/// Of a file: its own bytes', and what is to come out again: the same, of a film its pictures'.
-struct FileDigests {
-    std::string file;
-    std::string made;
-};
-
-std::map<std::string, FileDigests> digests(const Json& manifest) {
-    std::map<std::string, FileDigests> all;
-    for (const Json& file : manifest["files"]) {
-        const auto whole = file["xxh3"].get<std::string>();
-        all[file["path"].get<std::string>()] = {whole, file.value("pictures_xxh3", whole)};
-    }
-    return all;
 }
 
 /// Where the same is made again: of the same name, as a film is known by its ending.
@@ -108,34 +88,13 @@ RenderOptions options_again(const RenderOptions& options,
     return line.render;
 }
 
-bool same_program(const Json& manifest) {
-    Json now;
-    for (const auto& [key, value] : world::build_fingerprint())
-        now[key] = value;
-    return manifest["program"] == now;
-}
-
-/// What became of a file; nothing where it is as it was.
-std::string trouble_with(const fs::path& folder,
-                         const std::string& name,
-                         const FileDigests& then,
-                         const std::map<std::string, FileDigests>& now) {
-    const auto made = now.find(name);
-    if (made == now.end())
-        return "was not made again";
-    if (made->second.made != then.made)
-        return "made again it has other bytes";
-    if (!fs::exists(folder / name))
-        return "is no longer there";
-    return file_digest(folder / name) == then.file ? "" : "was changed since it was made";
-}
-
 }  // namespace
 
 int check_render(const RenderOptions& options,
                  const std::function<int(const RenderOptions&)>& render) {
     const fs::path path = named_manifest(options.check);
     const Json manifest = read_manifest(path);
+    const FileList then = read_file_list(manifest["files"], path.string());
     const fs::path root = path.parent_path();
     const fs::path trace =
         options.trace.empty() ? manifest["trace"]["path"].get<std::string>() : options.trace;
@@ -151,27 +110,12 @@ int check_render(const RenderOptions& options,
     const TemporaryFolder folder;
     if (const int code = render(options_again(options, manifest, trace, folder)))
         return code;
-    const auto then = digests(manifest);
-    const auto now = digests(read_manifest(manifest_of(output_again(manifest, folder))));
-    std::size_t different = 0;
-    const auto tell = [&](const std::string& name, const std::string& trouble) {
-        if (!trouble.empty() && ++different == 1)
-            say("{}: {}\n", (root / name).string(), trouble);
-    };
-    for (const auto& [name, digest] : then)
-        tell(name, trouble_with(root, name, digest, now));
-    for (const auto& [name, digest] : now)
-        tell(name, then.contains(name) ? "" : "is made now, and was not then");
-    if (different == 0) {
-        say("{}: all {} files were made again, byte for byte\n", options.check, then.size());
-        return exit_good;
-    }
-    say("{}: {} of {} files differ{}\n",
-        options.check,
-        different,
-        then.size(),
-        same_program(manifest) ? "" : "; another program made them, see reprise --version");
-    return exit_differs;
+    const Json again = read_manifest(manifest_of(output_again(manifest, folder)));
+    return tell_made_again(options.check,
+                           root,
+                           then,
+                           read_file_list(again["files"], options.check),
+                           same_program(manifest));
 }
 
 }  // namespace reprise::cli

@@ -10,11 +10,13 @@
 
 #include <fmt/format.h>
 
+#include "cli/dataset/check_dataset.h"
 #include "cli/dataset/dataset_index.h"
 #include "cli/dataset/dataset_lists.h"
 #include "cli/dataset/dataset_output.h"
 #include "cli/dataset/dataset_points.h"
 #include "cli/dataset/dataset_source.h"
+#include "cli/pictures/made_again.h"
 #include "cli/pictures/manifest.h"
 #include "cli/pictures/renderer.h"
 #include "cli/process/guard.h"
@@ -85,6 +87,8 @@ Made make_frames(DatasetSource& source,
 }  // namespace
 
 int dataset(const DatasetOptions& options) {
+    if (!options.check.empty())
+        return check_dataset(options, dataset);
     const auto begin = std::chrono::steady_clock::now();
     const std::vector<Split> splits = read_split(options.split);
     const std::vector<std::string> weathers = weathers_of(options);
@@ -126,8 +130,11 @@ int dataset(const DatasetOptions& options) {
         made.sweeps += more.sweeps;
     }
     write_lists(layout, weathers, splits, frames);
+    index["files"] = file_list(layout.files(weathers), root);
     index["complete"] = true;
     write_index(root / "dataset.json", index);
+    if (options.quiet)
+        return exit_good;
     say("{}: {} frames of {} traces under {} weathers; {} pictures{} made in {:.1f} s\n",
         options.output,
         frames.size(),

@@ -18,9 +18,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What must be the same when the rest of a data set is made; where its traces lie may change.
+/// What must be the same when the rest of a data set is made; where its traces lie may change, and
+/// how its frames were said.
 Json kept_part(Json index) {
-    index.erase("complete");
+    const Json said = index.value("options", Json::object());
+    index["actor"] = said.is_object() ? said.value("--actor", Json()) : Json();
+    for (const char* key : {"complete", "options", "files"})
+        index.erase(key);
     if (index.contains("traces") && index["traces"].is_array())
         for (Json& trace : index["traces"])
             if (trace.is_object())
@@ -57,10 +61,16 @@ Json index_of(const DatasetOptions& options,
             {{"said", weather}, {"folder", DatasetLayout::folder_of(weather)}});
     for (const world::SensorSpec& camera : layout.cameras())
         json["cameras"].push_back(Json::parse(sensor_text(camera)));
+    json["rays"] = Json::array();
     for (std::size_t i = 0; i < layout.rays().size(); ++i) {
         Json& one = json["rays"].emplace_back(Json::parse(sensor_text(layout.rays()[i])));
         one["files"] = file_pattern(layout, i);
     }
+    json["options"] = Json::object();
+    for (const auto& [name, value] : options.said)
+        json["options"][name] = value;
+    if (!options.rig.empty())
+        json["rig"] = Json::parse(std::ifstream(options.rig, std::ios::binary));
     json["split"] = options.split;
     std::map<std::string, std::size_t> counts;
     for (const DatasetFrame& frame : frames)
@@ -79,14 +89,20 @@ void write_index(const fs::path& path, const Json& index) {
     files::write_file(path, "the index", index.dump(1) + "\n");
 }
 
-void check_index(const fs::path& path, const Json& index) {
+Json read_index(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file.is_open())
-        return;
-    const Json there = Json::parse(file, nullptr, false);
-    if (there.is_discarded() || !there.is_object())
+        throw world::Error(path.string() + ": cannot be read");
+    Json json = Json::parse(file, nullptr, false);
+    if (json.is_discarded() || !json.is_object() || json.value("dataset", Json()) != 1)
         throw world::Error(path.string() + ": this is no index that reprise dataset wrote");
-    const Json old = kept_part(there);
+    return json;
+}
+
+void check_index(const fs::path& path, const Json& index) {
+    if (!fs::exists(path))
+        return;
+    const Json old = kept_part(read_index(path));
     const Json wanted = kept_part(index);
     for (const auto& [key, value] : wanted.items())
         if (!old.contains(key) || old[key] != value)

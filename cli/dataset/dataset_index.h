@@ -24,6 +24,9 @@ nlohmann::ordered_json index_of(const DatasetOptions& options,
 
 void write_index(const std::filesystem::path& path, const nlohmann::ordered_json& index);
 
+/// Throws world::Error when it is none.
+nlohmann::ordered_json read_index(const std::filesystem::path& path);
+
 /// Throws world::Error where another data set lies there.
 void check_index(const std::filesystem::path& path, const nlohmann::ordered_json& index);
 

@@ -120,6 +120,15 @@ std::vector<fs::path> DatasetLayout::folders(const std::vector<std::string>& wea
     return {all.begin(), all.end()};
 }
 
+std::vector<WrittenFile> DatasetLayout::files(const std::vector<std::string>& weathers) const {
+    std::vector<WrittenFile> all;
+    for (const fs::path& folder : folders(weathers))
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+            if (entry.is_regular_file() && entry.path().extension() != ".partial")
+                all.push_back({entry.path(), ""});
+    return all;
+}
+
 void DatasetLayout::link(const std::vector<std::string>& weathers) const {
     if (format_ != DatasetFormat::kitti)
         return;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/pictures/written_files.h"
 #include "world/external/sensor.h"
 
 namespace reprise::cli {
@@ -57,8 +58,13 @@ class DatasetLayout {
     /// As COCO's "file_name": below images/WEATHER.
     std::string file_name(std::size_t camera, std::size_t id) const;
 
-    /// Folders of all that, and what makes each weather's folder a KITTI of its own: links.
+    /// Of all that.
     std::vector<std::filesystem::path> folders(const std::vector<std::string>& weathers) const;
+
+    /// All that lies in those folders.
+    std::vector<WrittenFile> files(const std::vector<std::string>& weathers) const;
+
+    /// Makes each weather's folder a KITTI of its own.
     void link(const std::vector<std::string>& weathers) const;
 
     /// A weather as a folder's name.

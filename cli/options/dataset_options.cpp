@@ -9,15 +9,20 @@ namespace reprise::cli {
 void add_dataset(CLI::App& app, DatasetOptions& dataset) {
     CLI::App& command = *app.add_subcommand(
         "dataset", "Make a data set: many traces under many weathers, labels once");
+    // Asked for by hand: --check knows both.
     command.add_option("traces", dataset.traces, "The traces")
-        ->required()
-        ->type_name("T.mcap")
+        ->type_name("T.mcap REQUIRED")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
         .add_option("-o,--output",
                     dataset.output,
                     "Its folder; where a part of the same data set lies there, the rest is made")
-        ->required()
+        ->type_name("DIR REQUIRED");
+    command
+        .add_option("--check",
+                    dataset.check,
+                    "Make a data set again, elsewhere, and compare byte for byte; needs no -o, and "
+                    "traces only where they are no longer in their places")
         ->type_name("DIR");
     command
         .add_option("--weathers",
@@ -61,7 +66,21 @@ void add_dataset(CLI::App& app, DatasetOptions& dataset) {
     command.footer(
         "Stopped, by Ctrl-C or a full disk, the same command goes on where it was.\n"
         "Example: reprise dataset a.mcap b.mcap -o set --weathers clear_noon,hard_rain_sunset "
-        "--rig rig.json");
+        "--rig rig.json\n"
+        "         reprise dataset --check set");
+}
+
+void finish_dataset(const CLI::App& app, DatasetOptions& dataset) {
+    const CLI::App& command = *app.get_subcommand("dataset");
+    if (!command.parsed())
+        return;
+    if (!dataset.check.empty())
+        check_alone(command);
+    else if (dataset.traces.empty())
+        throw CLI::RequiredError("traces");
+    else if (dataset.output.empty())
+        throw CLI::RequiredError("--output");
+    dataset.said = said_words(command);
 }
 
 }  // namespace reprise::cli

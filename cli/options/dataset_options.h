@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -23,9 +24,17 @@ struct DatasetOptions {
     double fov_deg = 82;
     int threads = 0;
     bool portable = false;
+    std::string check;   ///< a data set that is made again and compared; empty: one is made
+    bool quiet = false;  ///< says nothing of what it made
+
+    /// As they were said, without those of the traces, the output, the rig and threads.
+    std::vector<std::pair<std::string, std::string>> said;
 };
 
 /// Adds `dataset`.
 void add_dataset(CLI::App& app, DatasetOptions& dataset);
+
+/// After the words are read: of those that may not stand together. Throws CLI::ParseError.
+void finish_dataset(const CLI::App& app, DatasetOptions& dataset);
 
 }  // namespace reprise::cli

@@ -153,4 +153,26 @@ CLI::Validator number_of_walkers() {
         "");
 }
 
+std::vector<std::pair<std::string, std::string>> said_words(const CLI::App& command) {
+    std::vector<std::pair<std::string, std::string>> said;
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_lnames().empty() ? "" : option->get_lnames().front();
+        if (option->count() == 0 || name.empty() || name == "output" || name == "threads" ||
+            name == "rig" || name == "check")
+            continue;
+        std::string value;
+        for (const std::string& one : option->results())
+            value += (value.empty() ? "" : ",") + one;
+        said.emplace_back("--" + name, value);
+    }
+    return said;
+}
+
+void check_alone(const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames())
+            if (option->count() > 0 && name != "check" && name != "threads")
+                throw CLI::ValidationError("--check", "the manifest says it: without --" + name);
+}
+
 }  // namespace reprise::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -47,5 +48,12 @@ CLI::Validator number_of_cars();
 
 /// A number of people on foot in the background.
 CLI::Validator number_of_walkers();
+
+/// What a manifest keeps of a command's options, as they were said: another place, and other
+/// threads, make the same, and a rig is kept whole.
+std::vector<std::pair<std::string, std::string>> said_words(const CLI::App& command);
+
+/// Throws CLI::ValidationError where options are said beside --check, which are in the manifest.
+void check_alone(const CLI::App& command);
 
 }  // namespace reprise::cli

@@ -113,6 +113,7 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
             accept.start.parameters.push_back(split_assignment(assignment));
         finish_drive(app_->drive_size, drive);
         finish_render(app, app_->render_words, render);
+        finish_dataset(app, dataset);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0)
             return app.exit(error);

@@ -266,20 +266,6 @@ void check_output(const std::string& output) {
                 "'");
 }
 
-/// What a manifest keeps: another place, and other threads, make the same.
-void keep_words(const CLI::App& command, RenderOptions& render) {
-    for (const CLI::Option* option : command.get_options()) {
-        const std::string name = option->get_lnames().empty() ? "" : option->get_lnames().front();
-        if (option->count() == 0 || name.empty() || name == "output" || name == "threads" ||
-            name == "rig" || name == "check")
-            continue;
-        std::string value;
-        for (const std::string& one : option->results())
-            value += (value.empty() ? "" : ",") + one;
-        render.said.emplace_back("--" + name, value);
-    }
-}
-
 /// Of options that may not stand together.
 void check_together(const CLI::App& command, const RenderOptions& render) {
     if (render.npy && render.exr)
@@ -290,11 +276,7 @@ void check_together(const CLI::App& command, const RenderOptions& render) {
         if (render.output.empty())
             throw CLI::RequiredError("--output");
     } else {
-        for (const CLI::Option* option : command.get_options())
-            for (const std::string& name : option->get_lnames())
-                if (option->count() > 0 && name != "check" && name != "threads")
-                    throw CLI::ValidationError("--check",
-                                               "the manifest says it: without --" + name);
+        check_alone(command);
     }
     if (!render.compare.empty() && film_ending(render.output).empty())
         throw CLI::ValidationError("--compare", "is of a film: -o run.mp4");
@@ -428,7 +410,7 @@ void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions&
     if (!command.parsed())
         return;
     check_together(command, render);
-    keep_words(command, render);
+    render.said = said_words(command);
     read_size(words.size, render);
     if (!words.mount.empty())
         read_mount(words.mount, render);

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/pictures/manifest.h"
+#include "cli/pictures/file_list.h"
 #include "cli/process/guard.h"
 #include "cli/process/say.h"
 #include "render/picture_difference.h"

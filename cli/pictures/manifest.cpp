@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <fstream>
 #include <set>
-#include <sstream>
-#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/pictures/file_list.h"
 #include "files/output_file.h"
 #include "world/check.h"
 #include "world/digest.h"
@@ -23,15 +22,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string read_all(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();  // in blocks: byte by byte it took longer than a sweep of LiDAR
-    if (!file.is_open() || file.bad() || fs::is_directory(path))
-        throw world::Error(path.string() + ": cannot be read");
-    return std::move(text).str();
-}
 
 /// Of numbers with several names the first.
 Json numbers_of(const world::Weather& weather) {
@@ -79,10 +69,6 @@ std::string chain_text(replay::TraceReader& trace) {
     return world::to_hex(trace.chain(trace.last()));
 }
 
-std::string file_digest(const fs::path& path) {
-    return world::to_hex(world::digest128(read_all(path)));
-}
-
 void write_manifest(const RenderOptions& options,
                     replay::TraceReader& trace,
                     const Ticks& ticks,
@@ -104,20 +90,8 @@ void write_manifest(const RenderOptions& options,
     for (const auto& [name, value] : options.said)
         json["options"][name] = value;
     if (!options.rig.empty())
-        json["rig"] = Json::parse(read_all(options.rig));
-    std::vector<WrittenFile> all = files.all();
-    std::sort(all.begin(), all.end(), [](const WrittenFile& one, const WrittenFile& other) {
-        return one.path < other.path;
-    });
-    json["files"] = Json::array();
-    for (const WrittenFile& file : all) {
-        Json& one = json["files"].emplace_back();
-        one["path"] = file.path.lexically_relative(manifest.parent_path()).string();
-        one["bytes"] = fs::file_size(file.path);
-        one["xxh3"] = file_digest(file.path);
-        if (!file.pictures.empty())
-            one["pictures_xxh3"] = file.pictures;
-    }
+        json["rig"] = Json::parse(std::ifstream(options.rig, std::ios::binary));
+    json["files"] = file_list(files.all(), manifest.parent_path());
     files::write_file(manifest, "the manifest", json.dump(1) + "\n");
 }
 

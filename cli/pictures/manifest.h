@@ -31,7 +31,4 @@ std::string chain_text(replay::TraceReader& trace);
 /// A sensor as manifests say what it is: JSON.
 std::string sensor_text(const world::SensorSpec& sensor);
 
-/// XXH3-128 of a file. Throws world::Error when it cannot be read.
-std::string file_digest(const std::filesystem::path& path);
-
 }  // namespace reprise::cli

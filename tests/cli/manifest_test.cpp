@@ -191,8 +191,8 @@ TEST_F(Manifest, FoldersAreComparedSensorBySensor) {
 }
 
 TEST_F(Manifest, MistakesAreOneLineAndLeaveNothing) {
-    write_file(folder_ / "lidar.json",
-               R"({ "sensors": [ { "name": "front" }, { "name": "roof", "type": "lidar" } ] })");
+    write_file(folder_ / "imu.json",
+               R"({ "sensors": [ { "name": "front" }, { "name": "motion", "type": "imu" } ] })");
     const std::vector<std::string> before = folder_.files();
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {"render t.mcap -o x --weather 5s:clear_noon,3s:rain=3", "3s: the stop before is at 5s"},
@@ -212,11 +212,15 @@ TEST_F(Manifest, MistakesAreOneLineAndLeaveNothing) {
         {"dataset t.mcap -o x --split train:2", "expected NAME:SHARE,..."},
         {"dataset t.mcap t.mcap -o x", "this trace is there twice"},
         {"dataset t.mcap -o x --rig no.json", "no.json: cannot be read"},
-        {"dataset t.mcap -o x --rig lidar.json",
-         "lidar.json: sensor 'roof': a data set holds what cameras see"},
+        {"dataset t.mcap -o x --rig imu.json",
+         "imu.json: sensor 'motion': a data set holds what cameras, LiDARs and radars see"},
         {"dataset t.mcap -o x --format kiti", "did you mean 'kitti'?"},
         {"dataset t.mcap -o t.mcap/x", "cannot be made a folder"},
         {"dataset t.mcap -o x --every 0", "expected 1 tick at least"},
+        {"dataset t.mcap", "--output is required"},
+        {"dataset -o x", "traces is required"},
+        {"dataset --check no", "no/dataset.json: cannot be read"},
+        {"dataset --check x --every 5", "the manifest says it: without --every"},
     };
     for (const auto& [words, expected] : mistakes) {
         const Result result = typed("reprise " + words, folder_);

@@ -122,6 +122,7 @@ class Datasets(unittest.TestCase):
         said("dataset", "a.mcap", "-o", "set", *self.words)
         self.assertEqual(kept.read_bytes(), b"of somebody else")
         kept.write_bytes(before[kept])
+        said("dataset", "a.mcap", "-o", "set", *self.words)  # the index holds digests of what is there
         self.assertEqual(before, {path: path.read_bytes() for path in (WORK / "set").rglob("*") if path.is_file()})
         other = subprocess.run([PROGRAM, "dataset", "a.mcap", "-o", "set"], capture_output=True, text=True, cwd=WORK)
         self.assertEqual(other.returncode, 2)
@@ -210,6 +211,33 @@ class Points(unittest.TestCase):
             (WORK / "points" / path).unlink()
         said("dataset", "p.mcap", "-o", "points", *self.words)
         self.assertEqual(before, {path: path.read_bytes() for path in (WORK / "points").rglob("*") if path.is_file()})
+
+    def test_check_makes_all_again_and_names_the_file_that_is_not(self):
+        check = lambda *words: subprocess.run([PROGRAM, "dataset", *words, "--check", "points"], capture_output=True, text=True, cwd=WORK)
+        index = json.loads((WORK / "points/dataset.json").read_text())
+        there = {str(path.relative_to(WORK / "points")) for path in (WORK / "points").rglob("*") if path.is_file()}
+        linked = {path for path in there if any(part in ("calib", "label_2", "ImageSets") for part in pathlib.Path(path).parts[1:-1]) and not path.startswith("labels")}
+        self.assertEqual({one["path"] for one in index["files"]}, there - linked - {"dataset.json"})
+        # Neither the rig's file nor threads nor the place of the trace matter.
+        (WORK / "points.json").rename(WORK / "away.json")
+        (WORK / "p.mcap").rename(WORK / "moved.mcap")
+        same = check("moved.mcap", "--threads", "1")
+        gone = check()
+        (WORK / "moved.mcap").rename(WORK / "p.mcap")
+        (WORK / "away.json").rename(WORK / "points.json")
+        self.assertEqual((same.returncode, same.stdout), (0, f"points: all {len(index['files'])} files were made again, byte for byte\n"), same.stderr)
+        self.assertEqual((gone.returncode, gone.stderr.count("\n")), (2, 1), gone.stderr)
+        path = WORK / "points/hard_rain_noon/training/velodyne/000001.bin"
+        kept = path.read_bytes()
+        path.write_bytes(kept[:-16])
+        changed = check()
+        path.write_bytes(kept)
+        self.assertEqual((changed.returncode, changed.stdout), (1, f"points/{path.relative_to(WORK / 'points')}: was changed since it was made\npoints: 1 of {len(index['files'])} files differ\n"))
+        text = (WORK / "points/dataset.json").read_text()
+        (WORK / "points/dataset.json").write_text(text.replace('"complete": true', '"complete": false'))
+        half = check()
+        (WORK / "points/dataset.json").write_text(text)
+        self.assertEqual((half.returncode, half.stderr), (2, "reprise: points/dataset.json: is not complete; the command that makes it goes on where it was\n"))
 
     def test_rigs_without_a_place_in_data_sets_are_refused_in_a_line(self):
         imu = {"name": "motion", "type": "imu"}

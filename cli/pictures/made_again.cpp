@@ -1,0 +1,75 @@
+#include "cli/pictures/made_again.h"
+
+#include <fmt/format.h>
+
+#include "cli/process/guard.h"
+#include "cli/process/say.h"
+#include "world/fingerprint.h"
+
+namespace reprise::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What became of a file; nothing where it is as it was.
+std::string trouble_with(const fs::path& root,
+                         const std::string& name,
+                         const FileDigests& then,
+                         const FileList& now) {
+    const auto made = now.find(name);
+    if (made == now.end())
+        return "was not made again";
+    if (made->second.made != then.made)
+        return "made again it has other bytes";
+    if (!fs::exists(root / name))
+        return "is no longer there";
+    return file_digest(root / name) == then.file ? "" : "was changed since it was made";
+}
+
+/// A film's bytes are its codec's affair: its pictures are compared.
+std::string all_of(const FileList& files) {
+    if (files.size() != 1)
+        return fmt::format("all {} files were", files.size());
+    const FileDigests& only = files.begin()->second;
+    return only.file == only.made ? "its only file was" : "its pictures were";
+}
+
+}  // namespace
+
+bool same_program(const Json& manifest) {
+    Json now;
+    for (const auto& [key, value] : world::build_fingerprint())
+        now[key] = value;
+    return manifest["program"] == now;
+}
+
+int tell_made_again(const std::string& what,
+                    const fs::path& root,
+                    const FileList& then,
+                    const FileList& now,
+                    bool same_program) {
+    std::size_t different = 0;
+    const auto tell = [&](const std::string& name, const std::string& trouble) {
+        if (!trouble.empty() && ++different == 1)
+            say("{}: {}\n", (root / name).string(), trouble);
+    };
+    for (const auto& [name, digests] : then)
+        tell(name, trouble_with(root, name, digests, now));
+    for (const auto& [name, digests] : now)
+        tell(name, then.contains(name) ? "" : "is made now, and was not then");
+    if (different == 0) {
+        say("{}: {} made again, byte for byte\n", what, all_of(then));
+        return exit_good;
+    }
+    say("{}: {} of {} files differ{}\n",
+        what,
+        different,
+        then.size(),
+        same_program ? "" : "; another program made them, see reprise --version");
+    return exit_differs;
+}
+
+}  // namespace reprise::cli
