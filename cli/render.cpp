@@ -144,9 +144,11 @@ int render(const RenderOptions& options) {
     }
     if (!cameras.sensors().empty())
         render_pictures(options, trace, ticks, cameras, sensors(), files);
-    world::SensorRig all = cameras.sensors();
-    if (!film)
-        all.insert(all.end(), measurements.sensors().begin(), measurements.sensors().end());
+    std::vector<MountedSensor> all;
+    for (std::size_t i = 0; i < cameras.sensors().size(); ++i)
+        all.push_back({cameras.sensors()[i], cameras.carrier(i)});
+    for (std::size_t i = 0; i < measurements.sensors().size() && !film; ++i)
+        all.push_back({measurements.sensors()[i], measurements.carrier(i)});
     write_manifest(options, trace, ticks, all, files);
     return exit_good;
 }

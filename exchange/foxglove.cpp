@@ -1,9 +1,9 @@
 #include "exchange/foxglove.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,9 +11,14 @@
 #include "exchange/base64.h"
 #include "exchange/foxglove_scene.h"
 #include "exchange/geo_origin.h"
+#include "exchange/point_cloud.h"
+#include "exchange/rendered_folder.h"
 #include "foxglove_schemas.h"
+#include "replay/table/actor_search.h"
 #include "replay/trace_file.h"
 #include "world/check.h"
+#include "world/external/mounting.h"
+#include "world/models/actors.h"
 #include "world/story/crashes.h"
 #include "world/story/wording.h"
 
@@ -67,48 +72,6 @@ std::string text_of(const world::Event& event, const world::ActorNames& names) {
     }
 }
 
-/// Pictures of one camera, by tick.
-struct Camera {
-    std::string topic;
-    std::map<std::uint64_t, fs::path> pictures;
-};
-
-Camera camera_in(const fs::path& folder, const std::string& topic) {
-    Camera camera{topic, {}};
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string stem = entry.path().stem().string();
-        std::uint64_t tick = 0;
-        const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), tick);
-        if (entry.path().extension() == ".png" && error == std::errc() &&
-            end == stem.data() + stem.size())
-            camera.pictures[tick] = entry.path();
-    }
-    return camera;
-}
-
-/// The folder itself, or its sub-folders: rgb, depth, semantic.
-std::vector<Camera> cameras_in(const fs::path& folder) {
-    std::vector<Camera> cameras;
-    if (folder.empty())
-        return cameras;
-    if (!fs::is_directory(folder))
-        throw world::Error(folder.string() + ": no such folder of pictures");
-    std::vector<Camera> found{camera_in(folder, "/camera")};
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.is_directory())
-            found.push_back(camera_in(entry.path(), "/camera/" + entry.path().filename().string()));
-    std::sort(found.begin(), found.end(), [](const Camera& one, const Camera& other) {
-        return one.topic < other.topic;
-    });
-    for (Camera& camera : found)
-        if (!camera.pictures.empty())
-            cameras.push_back(std::move(camera));
-    if (cameras.empty())
-        throw world::Error(folder.string() +
-                           ": expected pictures named by tick, such as 000120.png, found none");
-    return cameras;
-}
-
 std::string read_bytes(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file)
@@ -128,10 +91,12 @@ class Export {
     Export(replay::TraceReader& trace, const FoxgloveOptions& options, const fs::path& out)
         : trace_(trace),
           options_(options),
-          cameras_(cameras_in(options.images)),
+          rendered_(options.images.empty() ? RenderedFolder() : rendered_folder(options.images)),
           origin_(GeoOrigin::of(trace.recording().network)),
-          file_(out, channels()) {
+          file_(out, channels(), files::Unfinished::remove, "the export") {
         result_.located = origin_.has_value();
+        for (const RenderedSensor& sensor : rendered_.points)
+            carriers_.push_back(carrier_of(sensor));
     }
 
     FoxgloveExport run() {
@@ -156,9 +121,11 @@ class Export {
             channel("/tf", "FrameTransforms", foxglove_schemas::FrameTransforms),
             channel("/log", "Log", foxglove_schemas::Log),
             channel("/location", "LocationFix", foxglove_schemas::LocationFix)};
-        for (const Camera& camera : cameras_)
+        for (const RenderedSensor& camera : rendered_.cameras)
             list.push_back(
                 channel(camera.topic, "CompressedImage", foxglove_schemas::CompressedImage));
+        for (const RenderedSensor& sensor : rendered_.points)
+            list.push_back(channel(sensor.topic, "PointCloud", foxglove_schemas::PointCloud));
         return list;
     }
 
@@ -173,7 +140,7 @@ class Export {
             const bool seen =
                 index >= options_.first && (index - options_.first) % options_.every == 0;
             const replay::RecordedTick recorded =
-                seen ? trace_.tick(index) : trace_.recorded(index);
+                seen || has_points(index) ? trace_.tick(index) : trace_.recorded(index);
             const world::TickView& tick = recorded.view;
             learn_names(tick);
             if (index < options_.first)
@@ -183,6 +150,7 @@ class Export {
                 write_scene(tick, time);
             write_log(tick, time);
             write_pictures(index, time);
+            write_points(tick, time);
             if (pending_.records.size() >= chunk_bytes) {
                 file_.chunk(pending_);
                 pending_.clear();
@@ -237,9 +205,9 @@ class Export {
     }
 
     void write_pictures(std::uint64_t index, const json& time) {
-        for (std::size_t i = 0; i < cameras_.size(); ++i) {
-            const auto picture = cameras_[i].pictures.find(index);
-            if (picture == cameras_[i].pictures.end())
+        for (std::size_t i = 0; i < rendered_.cameras.size(); ++i) {
+            const auto picture = rendered_.cameras[i].files.find(index);
+            if (picture == rendered_.cameras[i].files.end())
                 continue;
             put(static_cast<std::uint16_t>(first_camera + i),
                 index,
@@ -249,6 +217,49 @@ class Export {
                  {"format", "png"}});
             ++result_.images;
         }
+    }
+
+    bool has_points(std::uint64_t index) const {
+        return std::any_of(
+            rendered_.points.begin(), rendered_.points.end(), [&](const RenderedSensor& sensor) {
+                return sensor.files.contains(index);
+            });
+    }
+
+    void write_points(const world::TickView& tick, const json& time) {
+        for (std::size_t i = 0; i < rendered_.points.size(); ++i) {
+            const RenderedSensor& sensor = rendered_.points[i];
+            const auto file = sensor.files.find(tick.index());
+            if (file == sensor.files.end())
+                continue;
+            const auto pose_world_mount = mount_pose(tick, carriers_[i]);
+            if (!pose_world_mount)
+                continue;
+            put(static_cast<std::uint16_t>(first_camera + rendered_.cameras.size() + i),
+                tick.index(),
+                point_cloud(read_point_cloud(file->second),
+                            *pose_world_mount * world::pose_in_mount(sensor.place),
+                            time));
+            ++result_.clouds;
+        }
+    }
+
+    /// Nobody: the first vehicle of each tick. 0: the world.
+    std::optional<std::uint32_t> carrier_of(const RenderedSensor& sensor) const {
+        if (sensor.mounted_on == "world")
+            return 0;
+        if (sensor.mounted_on == "the first vehicle")
+            return std::nullopt;
+        return replay::find_actor(trace_, sensor.mounted_on);
+    }
+
+    static std::optional<Eigen::Isometry3d> mount_pose(const world::TickView& tick,
+                                                       std::optional<std::uint32_t> carrier) {
+        if (!carrier && !tick.vehicles().empty())
+            carrier = tick.vehicles().front().id();
+        if (!carrier)
+            return std::nullopt;
+        return *carrier == 0 ? Eigen::Isometry3d::Identity() : world::find_pose(tick, *carrier);
     }
 
     void put(std::uint16_t to, std::uint64_t tick, const json& message) {
@@ -264,7 +275,8 @@ class Export {
 
     replay::TraceReader& trace_;
     FoxgloveOptions options_;
-    std::vector<Camera> cameras_;
+    RenderedFolder rendered_;
+    std::vector<std::optional<std::uint32_t>> carriers_;  ///< of its points
     std::optional<GeoOrigin> origin_;
     replay::TraceFile file_;
     replay::PendingChunk pending_;

@@ -14,8 +14,8 @@ struct FoxgloveOptions {
     std::uint64_t last = 0;
     std::uint64_t every = 2;  ///< ticks; events are written whenever they happen
 
-    /// Pictures named by tick (000120.png), or folders of such, as `reprise render` makes them; "":
-    /// none.
+    /// Pictures and points named by tick (000120.png, .ply), or folders of such, as `reprise
+    /// render` makes them; "": none.
     std::filesystem::path images;
 };
 
@@ -23,7 +23,8 @@ struct FoxgloveOptions {
 struct FoxgloveExport {
     std::uint64_t messages = 0;
     std::uint64_t images = 0;
-    bool located = false;  ///< the town lies somewhere on the globe
+    std::uint64_t clouds = 0;  ///< of points
+    bool located = false;      ///< the town lies somewhere on the globe
 };
 
 /// Writes what Foxglove and Lichtblick show: an MCAP file of Foxglove's own message types as JSON
@@ -34,6 +35,7 @@ struct FoxgloveExport {
 ///   /log       Log              events: what the scenario printed, checks, collisions
 ///   /location  LocationFix      of the first of them, where the road network has a projection
 ///   /camera/.. CompressedImage  pictures, where there are some
+///   /points/.. PointCloud       what LiDARs and radars measured, where there is some
 FoxgloveExport export_foxglove(replay::TraceReader& trace,
                                const FoxgloveOptions& options,
                                const std::filesystem::path& out);

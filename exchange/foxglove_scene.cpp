@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "exchange/base64.h"
 #include "world/frames.h"
 #include "world/models/catalogue.h"
 #include "world/town.h"
@@ -236,6 +237,25 @@ json transforms(const world::TickView& tick, const Names& names, const json& tim
                         {"translation", vector(world::to_eigen(state.position()))},
                         {"rotation", quaternion(world::to_eigen(state.orientation()))}});
     return {{"transforms", list}};
+}
+
+json point_cloud(const PointCloud& cloud,
+                 const Eigen::Isometry3d& pose_world_sensor,
+                 const json& time) {
+    enum NumericType { uint32 = 5, float32 = 7 };
+
+    json fields = json::array();
+    for (const PointCloud::Column& column : cloud.columns)
+        fields.push_back({{"name", column.name},
+                          {"offset", 4 * fields.size()},
+                          {"type", static_cast<int>(column.whole ? uint32 : float32)}});
+    return {{"timestamp", time},
+            {"frame_id", "world"},
+            {"pose",
+             pose(pose_world_sensor.translation(), Eigen::Quaterniond(pose_world_sensor.linear()))},
+            {"point_stride", cloud.row_bytes()},
+            {"fields", fields},
+            {"data", base64(cloud.rows)}};
 }
 
 }  // namespace reprise::exchange

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "exchange/point_cloud.h"
 #include "world/tick.h"
 #include "world/town_generated.h"
 
@@ -28,6 +29,11 @@ nlohmann::json actors_scene(const world::TickView& tick,
 nlohmann::json transforms(const world::TickView& tick,
                           const Names& names,
                           const nlohmann::json& time);
+
+/// Points in the frame of a sensor, as a PointCloud in the world's.
+nlohmann::json point_cloud(const PointCloud& cloud,
+                           const Eigen::Isometry3d& pose_world_sensor,
+                           const nlohmann::json& time);
 
 /// "ego", or "vehicle 7".
 std::string frame_name(std::uint32_t id, const Names& names);

@@ -7,8 +7,9 @@ TraceFile::TraceFile(const std::filesystem::path& path, Level level, files::Unfi
 
 TraceFile::TraceFile(const std::filesystem::path& path,
                      const std::vector<Channel>& channels,
-                     files::Unfinished unfinished)
-    : sink_(path, unfinished) {
+                     files::Unfinished unfinished,
+                     const std::string& what)
+    : sink_(path, what, unfinished) {
     try {
         records_ = std::make_unique<TraceRecords>(sink_, channels);
     } catch (...) {

@@ -23,10 +23,11 @@ class TraceFile {
     /// Magic, header, and the schemas and channels that a trace of this level has.
     TraceFile(const std::filesystem::path& path, Level level, files::Unfinished unfinished);
 
-    /// The same for another kind of file.
+    /// The same for another kind of file. `what` it is, for messages.
     TraceFile(const std::filesystem::path& path,
               const std::vector<Channel>& channels,
-              files::Unfinished unfinished = files::Unfinished::remove);
+              files::Unfinished unfinished = files::Unfinished::remove,
+              const std::string& what = "the trace");
 
     void metadata(const std::string& name, const std::map<std::string, std::string>& texts) {
         records_->metadata(name, texts);
@@ -62,8 +63,10 @@ class TraceFile {
         files::OutputFile file;
         Compressor compressor;
 
-        Sink(const std::filesystem::path& path, files::Unfinished unfinished)
-            : file(path, "the trace", unfinished) {}
+        Sink(const std::filesystem::path& path,
+             const std::string& what,
+             files::Unfinished unfinished)
+            : file(path, what, unfinished) {}
 
         void put(mcap::View bytes) override { file.append(bytes); }
 

@@ -59,6 +59,7 @@ void MeasuredRig::look_up_rig() {
     if (!options_.rig.empty()) {
         RigFile file = only(read_rig_file(options_.rig, trace_), /*cameras=*/false);
         rig_ = std::move(file.rig);
+        carriers_ = std::move(file.carriers);
         carrier_ids_ = std::move(file.carrier_ids);
     } else if (!options_.recorded_rig) {
         rig_.sensors = named_rig(options_);
@@ -72,6 +73,14 @@ std::string MeasuredRig::names() const {
     for (const world::SensorSpec& sensor : rig_.sensors)
         names.push_back(sensor.name);
     return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string MeasuredRig::mounted_on(std::size_t sensor) const {
+    if (!carriers_.empty() && !carriers_[sensor].empty())
+        return carriers_[sensor];
+    if (!options_.actor.empty())
+        return options_.actor;
+    return options_.recorded_rig ? std::to_string(rig_.sensors.front().actor) : "the first vehicle";
 }
 
 /// Whom a rig file says, 0 for the world; of a recorded rig who carried it; else who was named, or

@@ -25,6 +25,9 @@ class MeasuredRig {
     /// For people.
     std::string names() const;
 
+    /// Whose frame its place is in, for people: "ego", "world".
+    std::string mounted_on(std::size_t sensor) const;
+
     bool is_due(std::size_t sensor, std::uint64_t tick) const { return rig_.is_due(sensor, tick); }
 
     /// Who carries them in this tick, of those that are there: by the sensor's index. 0: the world.
@@ -46,6 +49,7 @@ class MeasuredRig {
     replay::TraceReader& trace_;
     Ticks ticks_;
     world::Rig rig_;
+    std::vector<std::string> carriers_;  ///< of a rig file's, by name; else empty
     std::vector<std::optional<std::uint32_t>> carrier_ids_;  ///< of a rig file's; else empty
     std::optional<std::uint32_t> named_;
 };

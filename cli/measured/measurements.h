@@ -28,6 +28,9 @@ class Measurements {
 
     const world::SensorRig& sensors() const { return rig_.sensors(); }
 
+    /// Whose frame its place is in, for people: "ego", "world".
+    std::string carrier(std::size_t sensor) const { return rig_.mounted_on(sensor); }
+
   private:
     const RenderOptions& options_;
     replay::TraceReader& trace_;

@@ -152,7 +152,10 @@ void add_export(CLI::App& app, ExportOptions& options) {
                     "Every so many ticks, or time (default all; of foxglove's scenes 0.1s); what "
                     "happened between is left out")
         ->type_name("N");
-    command.add_option("--images", options.images, "foxglove: pictures that reprise render made")
+    command
+        .add_option("--images",
+                    options.images,
+                    "foxglove: pictures that reprise render made, and points (ply, pcd, bin)")
         ->type_name("DIR");
     command.footer(
         "Example: reprise export a.mcap --to csv -o tables\n"

@@ -113,7 +113,10 @@ void Cameras::read_rig(replay::TraceReader& trace) {
 std::string Cameras::carrier(std::size_t sensor) const {
     if (!carriers_.empty() && !carriers_[sensor].empty())
         return carriers_[sensor];
-    return options_.actor.empty() ? "the first vehicle" : options_.actor;
+    if (!options_.actor.empty())
+        return options_.actor;
+    return recorded_ && carrier_ids_.empty() ? std::to_string(recorded_->sensors.front().actor)
+                                             : "the first vehicle";
 }
 
 bool Cameras::see_motion() const {

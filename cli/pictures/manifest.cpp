@@ -72,7 +72,7 @@ std::string chain_text(replay::TraceReader& trace) {
 void write_manifest(const RenderOptions& options,
                     replay::TraceReader& trace,
                     const Ticks& ticks,
-                    const world::SensorRig& sensors,
+                    const std::vector<MountedSensor>& sensors,
                     const WrittenFiles& files) {
     const fs::path manifest = manifest_of(options.output);
     Json json;
@@ -84,8 +84,10 @@ void write_manifest(const RenderOptions& options,
                      {"chain", chain_text(trace)}};
     json["ticks"] = {{"from", ticks.from}, {"to", ticks.to}, {"every", ticks.every}};
     json["weather"] = weather_of(options);
-    for (const world::SensorSpec& sensor : sensors)
-        json["sensors"].push_back(Json::parse(sensor_text(sensor)));
+    for (const MountedSensor& one : sensors) {
+        Json& said = json["sensors"].emplace_back(Json::parse(sensor_text(one.sensor)));
+        said["mounted_on"] = one.mounted_on;
+    }
     json["options"] = Json::object();
     for (const auto& [name, value] : options.said)
         json["options"][name] = value;

@@ -113,10 +113,11 @@ void export_foxglove(replay::TraceReader& trace,
     const exchange::FoxgloveOptions wanted{range.first, range.last, every, options.images};
     const auto done = exchange::export_foxglove(trace, wanted, options.output);
     say(stderr,
-        "{}: {}, {}{}\n",
+        "{}: {}, {}{}{}\n",
         options.output,
         world::count_of(done.messages, "message"),
         world::count_of(done.images, "picture among them", "pictures among them"),
+        done.clouds == 0 ? "" : " and " + world::count_of(done.clouds, "point cloud"),
         done.located ? "" : "; no /location: the road network lies nowhere on the globe");
 }
 

@@ -29,6 +29,16 @@ function validate(value, schema, path) {
   }
 }
 
+/// A vector turned by a unit quaternion.
+function turned({ x, y, z, w }, [a, b, c]) {
+  const t = [2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)];
+  return [a + w * t[0] + y * t[2] - z * t[1], b + w * t[1] + z * t[0] - x * t[2], c + w * t[2] + x * t[1] - y * t[0]];
+}
+
+function near(found, expected, where) {
+  for (const axis of ["x", "y", "z"]) assert.ok(Math.abs(found[axis] - expected[axis]) < 1e-6, where);
+}
+
 const said = new Map(); // by tick: both streams in one
 for (const text of execFileSync(reprise, ["cat", trace], { maxBuffer: 2 ** 30 }).toString().trim().split("\n")) {
   const line = JSON.parse(text);
@@ -55,6 +65,7 @@ for await (const message of reader.readMessages({ validateCrcs: true })) {
   counts[channel.topic] = (counts[channel.topic] ?? 0) + 1;
 
   const tick = said.get(String(message.sequence));
+  const name = String(message.sequence).padStart(6, "0");
   assert.equal(BigInt(Math.round(tick.time * 1e9)), message.logTime);
   if (channel.topic === "/tf") {
     assert.equal(shown.transforms.length, tick.vehicles.length, where);
@@ -78,8 +89,24 @@ for await (const message of reader.readMessages({ validateCrcs: true })) {
   } else if (channel.topic === "/log") {
     logged.push(shown.message);
   } else if (channel.topic === "/camera") {
-    const name = `${String(message.sequence).padStart(6, "0")}.png`;
-    assert.ok(Buffer.from(shown.data, "base64").equals(readFileSync(`${pictures}/${name}`)), where);
+    assert.ok(Buffer.from(shown.data, "base64").equals(readFileSync(`${pictures}/${name}.png`)), where);
+  } else if (channel.topic.startsWith("/points/")) {
+    const file = readFileSync(`${pictures}/${channel.topic.slice("/points/".length)}/${name}.ply`);
+    const head = file.toString("latin1", 0, file.indexOf("end_header\n") + "end_header\n".length);
+    assert.ok(Buffer.from(shown.data, "base64").equals(file.subarray(head.length)), where);
+    assert.equal(shown.data.length === 0 ? 0 : Buffer.from(shown.data, "base64").length / shown.point_stride, Number(head.match(/vertex (\d+)/)[1]));
+    const properties = [...head.matchAll(/property (\w+) (\w+)/g)];
+    assert.deepEqual(shown.fields, properties.map((one, i) => ({ name: one[2], offset: 4 * i, type: one[1] === "uint" ? 5 : 7 })));
+    // Where the sensor was: by the first vehicle's pose and what the command said.
+    const { position, orientation } = tick.vehicles[0];
+    const along = turned(orientation, [1, 0.2, 1.6]);
+    near(shown.pose.position, { x: position.x + along[0], y: position.y + along[1], z: position.z + along[2] }, where);
+    const [yaw, pitch] = [Math.PI / 9, -Math.PI / 36];
+    const ahead = [Math.cos(pitch) * Math.cos(yaw), Math.cos(pitch) * Math.sin(yaw), Math.sin(pitch)];
+    const [x, y, z] = turned(orientation, ahead);
+    const [a, b, c] = turned(shown.pose.orientation, [1, 0, 0]);
+    near({ x: a, y: b, z: c }, { x, y, z }, where);
+    assert.equal(shown.frame_id, "world");
   }
 }
 await file.close();
@@ -91,4 +118,6 @@ assert.equal(counts["/town"], 1);
 assert.equal(counts["/tf"], Math.ceil(said.size / 2));
 assert.equal(counts["/actors"], counts["/tf"]);
 assert.ok(counts["/camera"] > 0);
+assert.equal(counts["/points/lidar"], counts["/camera"]);
+assert.equal(counts["/points/radar"], counts["/camera"]);
 console.log(`every message is as its schema says and shows the trace: ${JSON.stringify(counts)}`);

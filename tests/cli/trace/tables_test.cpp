@@ -232,6 +232,35 @@ TEST_F(Tables, AnExportOfNobodySaysWhoThereIs) {
     }
 }
 
+TEST_F(Tables, ScenesTakePointsOnlyFromWhereTheirPlaceIsSaid) {
+    ASSERT_EQ(reprise({"render", "a.mcap", "-o", "seen", "--sensor", "lidar", "--ticks", "20..20"},
+                      folder->path())
+                  .code,
+              0);
+    const auto scenes = [&](const std::string& out) {
+        return reprise({"export", "a.mcap", "--to", "foxglove", "-o", out, "--images", "seen"},
+                       folder->path());
+    };
+    const Result good = scenes("good.mcap");
+    EXPECT_EQ(good.code, 0) << good.out;
+    EXPECT_THAT(good.out, HasSubstr("and 1 point cloud"));
+    const Result nowhere = scenes("no/such.mcap");
+    EXPECT_EQ(nowhere.code, 2);
+    EXPECT_THAT(nowhere.out, HasSubstr("no/such.mcap: cannot write the export"));
+    const std::string points = read_file(*folder / "seen/000020.ply");
+    write_file(*folder / "seen/000020.ply", points + "x");
+    EXPECT_EQ(scenes("bad.mcap").out,
+              "reprise: seen/000020.ply: these are no points that reprise render wrote\n");
+    write_file(*folder / "seen/000020.ply", points);
+    std::filesystem::remove(*folder / "seen/manifest.json");
+    EXPECT_EQ(
+        scenes("bad.mcap").out,
+        "reprise: seen: manifest.json does not say where what measured its points was: render it "
+        "again\n");
+    EXPECT_FALSE(std::filesystem::exists(*folder / "bad.mcap"));
+    EXPECT_FALSE(std::filesystem::exists(*folder / "bad.mcap.partial"));
+}
+
 /// Another seed of the traffic: its cars differ from the start, who stands alone does not.
 TEST_F(Tables, ADiffOfOneActorIsAboutItAlone) {
     write_file(*folder / "two.lua",
