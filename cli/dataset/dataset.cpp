@@ -16,6 +16,7 @@
 #include "cli/dataset/dataset_output.h"
 #include "cli/dataset/dataset_points.h"
 #include "cli/dataset/dataset_source.h"
+#include "cli/dataset/nuscenes_tables.h"
 #include "cli/pictures/made_again.h"
 #include "cli/pictures/manifest.h"
 #include "cli/pictures/renderer.h"
@@ -31,7 +32,9 @@ namespace fs = std::filesystem;
 namespace {
 
 DatasetFormat format_of(const std::string& word) {
-    return word == "coco" ? DatasetFormat::coco : DatasetFormat::kitti;
+    return word == "coco"       ? DatasetFormat::coco
+           : word == "nuscenes" ? DatasetFormat::nuscenes
+                                : DatasetFormat::kitti;
 }
 
 std::vector<std::string> weathers_of(const DatasetOptions& options) {
@@ -70,7 +73,7 @@ Made make_frames(DatasetSource& source,
                 source.options(), source.trace(), source.cameras(), output, {weather});
             renderer.look_at_all(look(), source.ticks(), fmt::format("{}, {}", name, weather));
         }
-        DatasetPoints points(layout, weather, ids, first);
+        DatasetPoints points(layout, weather, ids, source.rays().sensors().size(), first);
         if (points.wants_any())
             look_by_rays(source.rays(),
                          source.trace(),
@@ -108,7 +111,7 @@ int dataset(const DatasetOptions& options) {
     const DatasetLayout layout(root,
                                format_of(options.format),
                                sources.front().cameras().sensors(),
-                               sources.front().rays().sensors());
+                               sources.front().own_rays());
     nlohmann::ordered_json index = index_of(options, sources, weathers, frames, layout);
     check_index(root / "dataset.json", index);
 
@@ -129,7 +132,11 @@ int dataset(const DatasetOptions& options) {
         made.pictures += more.pictures;
         made.sweeps += more.sweeps;
     }
-    write_lists(layout, weathers, splits, frames);
+    if (layout.format() == DatasetFormat::nuscenes)
+        write_nuscenes(layout, sources, weathers, frames);
+    else
+        write_lists(layout, splits, frames);
+    layout.link(weathers);
     index["files"] = file_list(layout.files(weathers), root);
     index["complete"] = true;
     write_index(root / "dataset.json", index);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/dataset/nuscenes_map.h"
 #include "cli/pictures/manifest.h"
 #include "files/output_file.h"
 #include "world/check.h"
@@ -32,12 +33,13 @@ Json kept_part(Json index) {
     return index;
 }
 
-/// Where its points lie, for loaders: with {weather} and {id}.
-std::string file_pattern(const DatasetLayout& layout, std::size_t sensor) {
-    const std::string weather = "{weather}";
-    const fs::path path = layout.points(sensor, weather, 0);
-    return (path.parent_path().lexically_relative(layout.root()) / "{id}").string() +
-           path.extension().string();
+constexpr const char* any_weather = "{weather}";
+
+/// Where a sensor's files lie, for loaders: with {weather} and {id}.
+std::string file_pattern(const DatasetLayout& layout, const fs::path& first) {
+    std::string name = first.filename().string();
+    name.replace(0, name.find('.'), "{id}");
+    return (first.parent_path().lexically_relative(layout.root()) / name).string();
 }
 
 }  // namespace
@@ -59,12 +61,20 @@ Json index_of(const DatasetOptions& options,
     for (const std::string& weather : weathers)
         json["weathers"].push_back(
             {{"said", weather}, {"folder", DatasetLayout::folder_of(weather)}});
-    for (const world::SensorSpec& camera : layout.cameras())
-        json["cameras"].push_back(Json::parse(sensor_text(camera)));
+    if (layout.format() == DatasetFormat::nuscenes) {
+        const std::vector<NuscenesMap> maps = nuscenes_maps(sources, frames);
+        for (std::size_t i = 0; i < sources.size(); ++i)
+            json["traces"][i]["origin"] = {map_of(maps, i).origin().x(),
+                                           map_of(maps, i).origin().y()};
+    }
+    for (std::size_t i = 0; i < layout.cameras().size(); ++i) {
+        Json& one = json["cameras"].emplace_back(Json::parse(sensor_text(layout.cameras()[i])));
+        one["files"] = file_pattern(layout, layout.picture(i, any_weather, 0));
+    }
     json["rays"] = Json::array();
     for (std::size_t i = 0; i < layout.rays().size(); ++i) {
         Json& one = json["rays"].emplace_back(Json::parse(sensor_text(layout.rays()[i])));
-        one["files"] = file_pattern(layout, i);
+        one["files"] = file_pattern(layout, layout.points(i, any_weather, 0));
     }
     json["options"] = Json::object();
     for (const auto& [name, value] : options.said)

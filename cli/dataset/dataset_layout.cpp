@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/dataset/nuscenes_names.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -60,9 +61,33 @@ fs::path DatasetLayout::points(std::size_t sensor,
     const std::string folder = folder_of(weather);
     if (format_ == DatasetFormat::coco)
         return root_ / "points" / folder / name / numbered_file(id, "npy");
+    if (format_ == DatasetFormat::nuscenes)
+        return root_ / folder / "samples" / ray_channel(sensor) /
+               numbered_file(id,
+                             rays_[sensor].kind == world::SensorKind::radar ? "pcd" : "pcd.bin");
     const fs::path training = root_ / folder / "training";
     return sensor == velodyne() ? training / "velodyne" / numbered_file(id, "bin")
                                 : training / name / numbered_file(id, "npy");
+}
+
+fs::path DatasetLayout::beams(std::size_t id) const {
+    return root_ / "labels" / "beams" / numbered_file(id, "json");
+}
+
+fs::path DatasetLayout::tables(const std::string& weather) const {
+    return root_ / folder_of(weather) / "v1.0-mini";
+}
+
+fs::path DatasetLayout::maps() const {
+    return root_ / "labels" / "maps";
+}
+
+std::string DatasetLayout::camera_channel(std::size_t camera) const {
+    return nuscenes_channel(cameras_[camera], false);
+}
+
+std::string DatasetLayout::ray_channel(std::size_t sensor) const {
+    return nuscenes_channel(rays_[sensor], sensor == velodyne());
 }
 
 /// KITTI's colour cameras are 2 and 3; more of them count on.
@@ -82,10 +107,16 @@ fs::path DatasetLayout::picture(std::size_t camera,
                                 std::size_t id) const {
     if (!is_rgb(camera))
         return root_ / "labels" / file_name(camera, id);
-    const std::string folder = folder_of(weather);
-    return format_ == DatasetFormat::coco
-               ? root_ / "images" / folder / file_name(camera, id)
-               : root_ / folder / "training" / numbered("image", camera) / numbered_file(id, "png");
+    const fs::path folder = folder_of(weather);
+    switch (format_) {
+        case DatasetFormat::coco:
+            return root_ / "images" / folder / file_name(camera, id);
+        case DatasetFormat::nuscenes:
+            return root_ / folder / "samples" / camera_channel(camera) / numbered_file(id, "png");
+        default:
+            return root_ / folder / "training" / numbered("image", camera) /
+                   numbered_file(id, "png");
+    }
 }
 
 fs::path DatasetLayout::boxes(std::size_t camera, std::size_t id) const {
@@ -93,9 +124,14 @@ fs::path DatasetLayout::boxes(std::size_t camera, std::size_t id) const {
 }
 
 fs::path DatasetLayout::label(std::size_t camera, std::size_t id) const {
-    return format_ == DatasetFormat::coco
-               ? root_ / "labels" / ("coco_" + cameras_[camera].name) / numbered_file(id, "json")
-               : root_ / "labels" / numbered("label", camera) / numbered_file(id, "txt");
+    switch (format_) {
+        case DatasetFormat::coco:
+            return root_ / "labels" / ("coco_" + cameras_[camera].name) / numbered_file(id, "json");
+        case DatasetFormat::nuscenes:
+            return boxes(camera, id);
+        default:
+            return root_ / "labels" / numbered("label", camera) / numbered_file(id, "txt");
+    }
 }
 
 fs::path DatasetLayout::calibration(std::size_t camera, std::size_t id) const {
@@ -105,14 +141,26 @@ fs::path DatasetLayout::calibration(std::size_t camera, std::size_t id) const {
 }
 
 std::vector<fs::path> DatasetLayout::folders(const std::vector<std::string>& weathers) const {
-    std::set<fs::path> all{root_ / (format_ == DatasetFormat::coco ? "annotations" : "ImageSets")};
+    std::set<fs::path> all;
+    const bool nuscenes = format_ == DatasetFormat::nuscenes;
+    if (!nuscenes)
+        all.insert(root_ / (format_ == DatasetFormat::coco ? "annotations" : "ImageSets"));
+    else
+        all.insert(maps());
+    if (nuscenes && velodyne())
+        all.insert(beams(0).parent_path());
+    for (const std::string& weather : weathers)
+        if (nuscenes)
+            all.insert(tables(weather));
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
         for (const std::string& weather : weathers)
             all.insert(picture(i, weather, 0).parent_path());
         if (!is_rgb(i))
             continue;
-        for (const fs::path& file : {boxes(i, 0), label(i, 0), calibration(i, 0)})
-            all.insert(file.parent_path());
+        all.insert(boxes(i, 0).parent_path());
+        all.insert(label(i, 0).parent_path());
+        if (!nuscenes)
+            all.insert(calibration(i, 0).parent_path());
     }
     for (std::size_t i = 0; i < rays_.size(); ++i)
         for (const std::string& weather : weathers)
@@ -130,10 +178,14 @@ std::vector<WrittenFile> DatasetLayout::files(const std::vector<std::string>& we
 }
 
 void DatasetLayout::link(const std::vector<std::string>& weathers) const {
-    if (format_ != DatasetFormat::kitti)
+    if (format_ == DatasetFormat::coco)
         return;
     for (const std::string& weather : weathers) {
         const fs::path folder = root_ / folder_of(weather);
+        if (format_ == DatasetFormat::nuscenes) {
+            make_link("../labels/maps", folder / "maps");
+            continue;
+        }
         make_link("../ImageSets", folder / "ImageSets");
         for (std::size_t i = 0; i < cameras_.size(); ++i) {
             if (!is_rgb(i))

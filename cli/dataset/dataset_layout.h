@@ -11,7 +11,7 @@
 
 namespace reprise::cli {
 
-enum class DatasetFormat : std::uint8_t { kitti, coco };
+enum class DatasetFormat : std::uint8_t { kitti, coco, nuscenes };
 
 /// Where the files of a data set lie: see docs/datasets.md. Under each weather there is what the
 /// weather changes, pictures of rgb and points of LiDARs and radars; all else is the same under all
@@ -38,7 +38,7 @@ class DatasetLayout {
                                   std::size_t id) const;
     std::filesystem::path boxes(std::size_t camera, std::size_t id) const;
 
-    /// A label of KITTI's, or what COCO says of one picture.
+    /// A label of KITTI's, or what COCO says of one picture; nuScenes' tables are made of boxes.
     std::filesystem::path label(std::size_t camera, std::size_t id) const;
     std::filesystem::path calibration(std::size_t camera, std::size_t id) const;
 
@@ -47,12 +47,21 @@ class DatasetLayout {
                                  const std::string& weather,
                                  std::size_t id) const;
 
+    /// How many beams of the first LiDAR meet each actor.
+    std::filesystem::path beams(std::size_t id) const;
+
+    /// nuScenes' tables of a weather, masks of its maps, and its names of sensors.
+    std::filesystem::path tables(const std::string& weather) const;
+    std::filesystem::path maps() const;
+    std::string camera_channel(std::size_t camera) const;
+    std::string ray_channel(std::size_t sensor) const;
+
     bool is_rgb(std::size_t camera) const;
 
     /// Whether a weather changes what it measures.
     bool is_weathered(std::size_t sensor) const;
 
-    /// The LiDAR whose points are KITTI's velodyne: the first.
+    /// The LiDAR whose points are KITTI's velodyne and nuScenes' LIDAR_TOP: the first.
     std::optional<std::size_t> velodyne() const;
 
     /// As COCO's "file_name": below images/WEATHER.
@@ -64,7 +73,7 @@ class DatasetLayout {
     /// All that lies in those folders.
     std::vector<WrittenFile> files(const std::vector<std::string>& weathers) const;
 
-    /// Makes each weather's folder a KITTI of its own.
+    /// Makes each weather's folder a KITTI, or a nuScenes, of its own.
     void link(const std::vector<std::string>& weathers) const;
 
     /// A weather as a folder's name.

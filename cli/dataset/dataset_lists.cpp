@@ -66,10 +66,8 @@ void write_coco(const fs::path& folder,
 }  // namespace
 
 void write_lists(const DatasetLayout& layout,
-                 const std::vector<std::string>& weathers,
                  const std::vector<Split>& splits,
                  const std::vector<DatasetFrame>& frames) {
-    layout.link(weathers);
     if (layout.format() == DatasetFormat::coco)
         write_coco(layout.root() / "annotations", layout, splits, frames);
     else

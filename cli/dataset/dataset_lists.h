@@ -7,10 +7,9 @@
 
 namespace reprise::cli {
 
-/// Writes what says of a whole data set which frames belong where: KITTI's ImageSets with links,
+/// Writes what says of a whole data set which frames belong where: KITTI's ImageSets,
 /// COCO's annotations. Throws world::Error.
 void write_lists(const DatasetLayout& layout,
-                 const std::vector<std::string>& weathers,
                  const std::vector<Split>& splits,
                  const std::vector<DatasetFrame>& frames);
 

@@ -55,6 +55,8 @@ void DatasetOutput::take_boxes(std::size_t sensor,
     const world::SensorSpec& camera = layout_.cameras()[sensor];
     const auto velodyne = layout_.velodyne();
     files::write_file(layout_.boxes(sensor, id), "the boxes", text);
+    if (layout_.format() == DatasetFormat::nuscenes)
+        return;
     files::write_file(layout_.calibration(sensor, id),
                       "the calibration",
                       kitti_calibration(camera, velodyne ? &layout_.rays()[*velodyne] : nullptr));

@@ -1,5 +1,7 @@
 #include "cli/dataset/dataset_points.h"
 
+#include "cli/dataset/nuscenes_points.h"
+#include "files/output_file.h"
 #include "render/point_file.h"
 #include "render/ranging/untwist.h"
 
@@ -8,20 +10,31 @@ namespace reprise::cli {
 DatasetPoints::DatasetPoints(const DatasetLayout& layout,
                              std::string weather,
                              std::map<std::uint64_t, std::size_t> ids,
+                             std::size_t sensors,
                              bool labels)
     : layout_(layout),
       weather_(std::move(weather)),
       ids_(std::move(ids)),
+      sensors_(sensors),
       labels_(labels) {}
+
+bool DatasetPoints::is_twin(std::size_t sensor) const {
+    return sensor == layout_.rays().size();
+}
+
+std::filesystem::path DatasetPoints::path_of(std::size_t sensor, std::size_t id) const {
+    return is_twin(sensor) ? layout_.beams(id) : layout_.points(sensor, weather_, id);
+}
 
 bool DatasetPoints::wants(std::size_t sensor, std::uint64_t tick) const {
     const auto found = ids_.find(tick);
-    return found != ids_.end() && (labels_ || layout_.is_weathered(sensor)) &&
-           !std::filesystem::exists(layout_.points(sensor, weather_, found->second));
+    const bool weathered = !is_twin(sensor) && layout_.is_weathered(sensor);
+    return found != ids_.end() && (labels_ || weathered) &&
+           !std::filesystem::exists(path_of(sensor, found->second));
 }
 
 bool DatasetPoints::wants_any() const {
-    for (std::size_t i = 0; i < layout_.rays().size(); ++i)
+    for (std::size_t i = 0; i < sensors_; ++i)
         for (const auto& [tick, id] : ids_)
             if (wants(i, tick))
                 return true;
@@ -32,12 +45,22 @@ void DatasetPoints::take(std::size_t sensor,
                          const world::TickView& tick,
                          const world::SensorSpec& placed,
                          world::SensorFrame frame) {
+    const std::filesystem::path path = path_of(sensor, ids_.at(tick.index()));
+    if (is_twin(sensor))
+        return files::write_file(path, "the beams", beam_text(frame));
     render::untwist(frame, tick, placed);
-    const std::filesystem::path path = layout_.points(sensor, weather_, ids_.at(tick.index()));
-    render::write_points(
-        frame,
-        path,
-        path.extension() == ".bin" ? render::PointFormat::bin : render::PointFormat::npy);
+    const bool ours = layout_.format() != DatasetFormat::nuscenes || !layout_.is_weathered(sensor);
+    if (ours)
+        render::write_points(
+            frame,
+            path,
+            path.extension() == ".bin" ? render::PointFormat::bin : render::PointFormat::npy);
+    else
+        files::write_file(path,
+                          "the points",
+                          placed.kind == world::SensorKind::radar
+                              ? nuscenes_detections(frame, tick, placed)
+                              : nuscenes_sweep(frame, placed));
     ++sweeps_;
 }
 

@@ -14,10 +14,12 @@ namespace reprise::cli {
 /// tick. What is there already is not asked for again.
 class DatasetPoints : public RayOutput {
   public:
-    /// `ids` of the trace's ticks. `labels`: what is the same under all weathers is made as well.
+    /// `ids` of the trace's ticks. `sensors`: how many there are; one more than the layout's is the
+    /// twin of the first LiDAR. `labels`: what is the same under all weathers is made as well.
     DatasetPoints(const DatasetLayout& layout,
                   std::string weather,
                   std::map<std::uint64_t, std::size_t> ids,
+                  std::size_t sensors,
                   bool labels);
 
     bool wants(std::size_t sensor, std::uint64_t tick) const override;
@@ -33,9 +35,13 @@ class DatasetPoints : public RayOutput {
     std::size_t sweeps() const { return sweeps_; }
 
   private:
+    bool is_twin(std::size_t sensor) const;
+    std::filesystem::path path_of(std::size_t sensor, std::size_t id) const;
+
     const DatasetLayout& layout_;
     std::string weather_;
     std::map<std::uint64_t, std::size_t> ids_;
+    std::size_t sensors_;
     bool labels_;
     std::atomic<std::size_t> sweeps_ = 0;
 };

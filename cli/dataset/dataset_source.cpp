@@ -1,11 +1,16 @@
 #include "cli/dataset/dataset_source.h"
 
+#include <algorithm>
+#include <map>
+
 #include <fmt/format.h>
 
+#include "cli/dataset/nuscenes_names.h"
 #include "cli/options/option_checks.h"
 #include "cli/options/tick_option.h"
 #include "cli/options/tick_range.h"
 #include "cli/pictures/rig_file.h"
+#include "render/trace/camera.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -41,6 +46,32 @@ bool has_place(world::SensorKind kind) {
            (world::is_ranging(kind) && kind != world::SensorKind::obstacle);
 }
 
+/// nuScenes has one car that carries all, pinholes, and a name of its own for each sensor.
+void check_nuscenes(const RigFile& file, const std::string& path) {
+    std::map<std::string, std::string> channels;
+    bool lidar = false;
+    for (std::size_t i = 0; i < file.rig.sensors.size(); ++i) {
+        const world::SensorSpec& sensor = file.rig.sensors[i];
+        const auto refuse = [&](const std::string& why) {
+            throw world::Error(fmt::format("{}: sensor '{}': {}", path, sensor.name, why));
+        };
+        if (file.carriers[i] != file.carriers[0] || file.carriers[i] == "world")
+            refuse("in nuScenes one car carries all sensors");
+        const bool first = sensor.kind == world::SensorKind::lidar && !lidar;
+        lidar = lidar || first;
+        if (sensor.kind == world::SensorKind::rgb &&
+            !render::Camera(sensor, Eigen::Isometry3d::Identity()).lens().is_plain())
+            refuse("nuScenes' cameras are pinholes: without the attributes of its lens");
+        if (sensor.kind != world::SensorKind::rgb &&
+            (world::is_camera(sensor.kind) || sensor.kind == world::SensorKind::semantic_lidar))
+            continue;
+        const std::string channel = nuscenes_channel(sensor, first);
+        const auto [other, fresh] = channels.emplace(channel, sensor.name);
+        if (!fresh)
+            refuse(fmt::format("is {} in nuScenes, as '{}' is", channel, other->second));
+    }
+}
+
 }  // namespace
 
 DatasetSource::DatasetSource(const DatasetOptions& dataset, const std::string& path)
@@ -53,12 +84,19 @@ DatasetSource::DatasetSource(const DatasetOptions& dataset, const std::string& p
     if (ticks_.every < 1)
         throw world::Error("--every: expected 1 tick at least, got '" + dataset.every + "'");
     if (!options_.rig.empty())
-        check_rig();
+        check_rig(dataset.format == "nuscenes");
     cameras_ = std::make_unique<Cameras>(options_, *trace_, ticks_);
     rays_ = std::make_unique<MeasuredRig>(options_, *trace_, ticks_);
+    const world::SensorRig& rays = rays_->sensors();
+    const auto lidar = std::find_if(rays.begin(), rays.end(), [](const world::SensorSpec& one) {
+        return one.kind == world::SensorKind::lidar;
+    });
+    has_twin_ = dataset.format == "nuscenes" && lidar != rays.end();
+    if (has_twin_)
+        rays_->add_semantic_twin(static_cast<std::size_t>(lidar - rays.begin()));
 }
 
-void DatasetSource::check_rig() const {
+void DatasetSource::check_rig(bool nuscenes) const {
     const RigFile file = read_rig_file(options_.rig, *trace_);
     const world::SensorRig& sensors = file.rig.sensors;
     const auto index_of = [&](world::SensorKind kind) {
@@ -86,6 +124,19 @@ void DatasetSource::check_rig() const {
                             options_.rig,
                             sensors[lidar].name,
                             sensors[i].name));
+    if (nuscenes)
+        check_nuscenes(file, options_.rig);
+}
+
+world::SensorRig DatasetSource::own_rays() const {
+    world::SensorRig rays = rays_->sensors();
+    if (has_twin_)
+        rays.pop_back();
+    return rays;
+}
+
+std::uint32_t DatasetSource::ego(const world::TickView& tick) const {
+    return cameras_->placed(0, cameras_->actor(tick).value_or(0), tick).actor;
 }
 
 void DatasetSource::add_frames(std::size_t number, std::vector<DatasetFrame>& frames) const {

@@ -33,7 +33,14 @@ class DatasetSource {
 
     const Cameras& cameras() const { return *cameras_; }
 
+    /// What measures by rays; for nuScenes the first LiDAR has a semantic twin behind them.
     const MeasuredRig& rays() const { return *rays_; }
+
+    /// Those of the rig.
+    world::SensorRig own_rays() const;
+
+    /// Who carries the sensors in a tick of a frame.
+    std::uint32_t ego(const world::TickView& tick) const;
 
     /// [s] of a tick.
     double step() const { return static_cast<double>(trace_->episode().step_ns) * 1e-9; }
@@ -42,13 +49,14 @@ class DatasetSource {
     void add_frames(std::size_t number, std::vector<DatasetFrame>& frames) const;
 
   private:
-    void check_rig() const;
+    void check_rig(bool nuscenes) const;
 
     RenderOptions options_;
     std::unique_ptr<replay::TraceReader> trace_;
     Ticks ticks_;
     std::unique_ptr<Cameras> cameras_;
     std::unique_ptr<MeasuredRig> rays_;
+    bool has_twin_ = false;
 };
 
 }  // namespace reprise::cli

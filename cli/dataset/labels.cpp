@@ -73,11 +73,18 @@ double truncated(const Eigen::Isometry3d& pose_camera_box,
     return std::clamp(1 - share, 0.0, 1.0);
 }
 
-/// 0 whole, 1 partly, 2 largely hidden: by how many of the pixels that are expected show it.
-int occluded(const Json& box, double fill) {
+double share_of(const Json& box) {
+    constexpr double of_things = 0.6;
+    const Category* category = category_of(box);
+    const double fill = category != nullptr ? category->fill : of_things;
     const auto at = [&](std::size_t i) { return box["box_whole"][i].get<double>(); };
     const double area = (at(2) - at(0)) * (at(3) - at(1));
-    const double shown = box["pixels"].get<double>() / std::max(1.0, fill * area);
+    return box["pixels"].get<double>() / std::max(1.0, fill * area);
+}
+
+/// 0 whole, 1 partly, 2 largely hidden: by how many of the pixels that are expected show it.
+int occluded(const Json& box) {
+    const double shown = share_of(box);
     return shown > 0.75 ? 0 : shown > 0.35 ? 1 : 2;
 }
 
@@ -129,7 +136,7 @@ std::string kitti_labels(const std::string& boxes, const world::SensorSpec& came
             "{:.3f} {:.4f}\n",
             category->kitti,
             truncated(pose, size, camera),
-            occluded(box, category->fill),
+            occluded(box),
             alpha,
             seen[0].get<double>(),
             seen[1].get<double>(),
@@ -164,6 +171,10 @@ std::string coco_annotations(const std::string& boxes, const world::SensorFrame&
         one["actor"] = box["actor"];
     }
     return all.dump() + "\n";
+}
+
+double shown_share(const std::string& box) {
+    return share_of(Json::parse(box));
 }
 
 std::string coco_categories() {

@@ -16,6 +16,10 @@ std::string kitti_labels(const std::string& boxes, const world::SensorSpec& came
 /// the masks are made of.
 std::string coco_annotations(const std::string& boxes, const world::SensorFrame& instances);
 
+/// Which share of an actor a picture shows: its pixels, and how many such a thing has there when
+/// nothing hides it. Of one of "boxes".
+double shown_share(const std::string& box);
+
 /// COCO's categories, as JSON: CARLA's tags of all that moves.
 std::string coco_categories();
 

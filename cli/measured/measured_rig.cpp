@@ -6,6 +6,7 @@
 #include "cli/pictures/rig_file.h"
 #include "cli/pictures/told.h"
 #include "replay/table/actor_search.h"
+#include "world/external/sensor_attributes.h"
 #include "world/models/actors.h"
 #include "world/units.h"
 
@@ -73,6 +74,20 @@ std::string MeasuredRig::names() const {
     for (const world::SensorSpec& sensor : rig_.sensors)
         names.push_back(sensor.name);
     return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void MeasuredRig::add_semantic_twin(std::size_t lidar) {
+    world::SensorSpec twin = rig_.sensors[lidar];
+    twin.kind = world::SensorKind::semantic_lidar;
+    std::erase_if(twin.attributes, [&](const world::AttributeValue& one) {
+        return world::find_attribute(twin.kind, one.name) == nullptr;
+    });
+    rig_.sensors.push_back(std::move(twin));
+    rig_.every.push_back(rig_.every[lidar]);
+    if (carrier_ids_.empty())
+        return;
+    carriers_.push_back(carriers_[lidar]);
+    carrier_ids_.push_back(carrier_ids_[lidar]);
 }
 
 std::string MeasuredRig::mounted_on(std::size_t sensor) const {

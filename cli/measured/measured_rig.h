@@ -22,6 +22,10 @@ class MeasuredRig {
 
     const world::SensorRig& sensors() const { return rig_.sensors; }
 
+    /// One more sensor, last, in the place and at the ticks of another: which actors that LiDAR's
+    /// beams meet.
+    void add_semantic_twin(std::size_t lidar);
+
     /// For people.
     std::string names() const;
 

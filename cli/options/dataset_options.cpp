@@ -39,8 +39,8 @@ void add_dataset(CLI::App& app, DatasetOptions& dataset) {
         ->type_name("RIG.json");
     command
         .add_option("--format", dataset.format, "The layout (default kitti): see docs/datasets.md")
-        ->type_name("kitti|coco")
-        ->check(one_of({"kitti", "coco"}, "format"));
+        ->type_name("kitti|coco|nuscenes")
+        ->check(one_of({"kitti", "coco", "nuscenes"}, "format"));
     command
         .add_option("--split",
                     dataset.split,

@@ -27,19 +27,9 @@ class Dataset:
         if split is not None and split not in self.index["frames_of"]:
             raise KeyError(f"{folder}: no split '{split}'; there are {', '.join(self.index['frames_of'])}")
         self.frames = [one for one in self.index["frames"] if split in (None, one["split"])]
-        self._pictures: Dict[str, pathlib.Path] = {}
-        number = 2  # KITTI's first camera in colour
-        for camera in self.index["cameras"]:
-            name = camera["name"]
-            if camera["type"] != "rgb":
-                self._pictures[name] = self.folder / "labels" / name
-            elif self.index["format"] == "coco":
-                self._pictures[name] = self.folder / "images" / folders[self.weather] / name
-            else:
-                self._pictures[name] = self.folder / folders[self.weather] / "training" / f"image_{number}"
-                number += 1
-
-        self._points = {one["name"]: one["files"].replace("{weather}", folders[self.weather]) for one in self.index.get("rays", [])}
+        weather_folder = folders[self.weather]
+        where = lambda sensors: {one["name"]: one["files"].replace("{weather}", weather_folder) for one in sensors}
+        self._pictures, self._points = where(self.index["cameras"]), where(self.index["rays"])
 
     def __len__(self) -> int:
         return len(self.frames)
@@ -47,13 +37,14 @@ class Dataset:
     def __getitem__(self, at: int) -> Dict[str, Any]:
         frame = self.frames[at]
         item = {key: frame[key] for key in ("id", "trace", "tick")}
-        for name, folder in self._pictures.items():
-            item[name] = read_png(folder / f"{frame['id']:06}.png")
-            boxes = self.folder / "labels" / f"boxes_{name}" / f"{frame['id']:06}.json"
+        number = f"{frame['id']:06}"
+        for name, files in self._pictures.items():
+            item[name] = read_png(self.folder / files.replace("{id}", number))
+            boxes = self.folder / "labels" / f"boxes_{name}" / f"{number}.json"
             if boxes.exists():
                 item[name + "_boxes"] = json.loads(boxes.read_text())["boxes"]
         for name, files in self._points.items():
-            item[name] = read_points(self.folder / files.replace("{id}", f"{frame['id']:06}"))
+            item[name] = read_points(self.folder / files.replace("{id}", number))
         return item
 
     def __iter__(self) -> Iterator[Dict[str, Any]]:
@@ -61,8 +52,17 @@ class Dataset:
 
 
 def read_points(path: pathlib.Path) -> np.ndarray:
-    """A row for each point: of KITTI's .bin x, y, z, intensity, of a .npy all columns of its sensor."""
-    return np.load(path) if path.suffix == ".npy" else np.fromfile(path, np.float32).reshape(-1, 4)
+    """A row for each point: of KITTI's .bin x, y, z, intensity, of nuScenes' .pcd.bin the ring as well, of its radars'
+    .pcd records with named fields, of a .npy all columns of its sensor."""
+    if path.suffix == ".npy":
+        return np.load(path)
+    if path.suffix == ".bin":
+        return np.fromfile(path, np.float32).reshape(-1, 5 if path.name.endswith(".pcd.bin") else 4)
+    head, data = path.read_bytes().split(b"DATA binary\n", 1)
+    said = {line.split()[0]: line.split()[1:] for line in head.decode().splitlines()}
+    kind = np.dtype([(name, f"<{type.lower()}{size}") for name, type, size in zip(said["FIELDS"], said["TYPE"], said["SIZE"])])
+    points = np.frombuffer(data, kind, int(said["POINTS"][0]))
+    return points[~np.isnan(points["x"])]
 
 
 def read_png(path: Union[str, pathlib.Path]) -> np.ndarray:

@@ -100,6 +100,18 @@ Eigen::Vector2d reach_of_limbs(const world::TickView& tick, std::uint32_t actor)
 
 }  // namespace
 
+std::optional<ActorBox> actor_box(const world::TickView& tick, std::uint32_t actor) {
+    const auto extent = world::find_extent(tick, actor);
+    const auto pose = world::find_pose(tick, actor);
+    if (!extent || !pose)
+        return std::nullopt;
+    ActorBox box;
+    box.size = {extent->front - extent->rear, 2 * extent->half_width, extent->height};
+    box.size.head<2>() += 2 * reach_of_limbs(tick, actor);
+    box.pose_world = *pose * Eigen::Translation3d(extent->middle(), 0, extent->height / 2);
+    return box;
+}
+
 std::vector<LabelBox> boxes_of(const world::TickView& tick,
                                const Camera& camera,
                                const world::SensorFrame& instances,
@@ -121,9 +133,8 @@ std::vector<LabelBox> boxes_of(const world::TickView& tick,
     std::vector<LabelBox> boxes;
     for (const std::uint32_t actor : actors) {
         const auto count = counts.find(world::instance_of_actor(actor));
-        const auto extent = world::find_extent(tick, actor);
-        const auto pose = world::find_pose(tick, actor);
-        if (count == counts.end() || !extent || !pose)
+        const auto around = actor_box(tick, actor);
+        if (count == counts.end() || !around)
             continue;
         LabelBox& box = boxes.emplace_back();
         box.actor = actor;
@@ -131,12 +142,9 @@ std::vector<LabelBox> boxes_of(const world::TickView& tick,
         box.what = count->second.most();
         box.pixels = count->second.pixels;
         box.seen = count->second.around;
-        box.size = {extent->front - extent->rear, 2 * extent->half_width, extent->height};
-        box.size.head<2>() += 2 * reach_of_limbs(tick, actor);
-        const Eigen::Isometry3d middle =
-            *pose * Eigen::Translation3d(extent->middle(), 0, extent->height / 2);
-        box.whole = around_corners(camera, middle, box.size);
-        box.pose_camera = pose_world_camera.inverse() * middle;
+        box.size = around->size;
+        box.whole = around_corners(camera, around->pose_world, box.size);
+        box.pose_camera = pose_world_camera.inverse() * around->pose_world;
     }
     return boxes;
 }

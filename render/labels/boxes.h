@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,15 @@ namespace reprise::render {
 struct PixelBox {
     double left = 0, top = 0, right = 0, bottom = 0;
 };
+
+/// The box around an actor, with what its limbs reach.
+struct ActorBox {
+    Eigen::Isometry3d pose_world;  ///< of its middle; x ahead
+    Eigen::Vector3d size;          ///< [m] along it, across, upwards
+};
+
+/// Nothing when it is not in the tick.
+std::optional<ActorBox> actor_box(const world::TickView& tick, std::uint32_t actor);
 
 /// An actor in a picture.
 struct LabelBox {

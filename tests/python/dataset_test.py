@@ -2,6 +2,7 @@
 
 usage: dataset_test.py REPRISE WORK
 """
+import importlib.util
 import json
 import pathlib
 import subprocess
@@ -12,6 +13,7 @@ import struct
 
 import numpy as np
 import reprise
+import reprise.dataset
 from reprise.dataset import read_png
 
 PROGRAM, WORK = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
@@ -41,6 +43,23 @@ def png(picture, filters):
     chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     head = struct.pack(">IIBBBBB", width, height, 8, 2 if unit == 3 else 0, 0, 0, 0)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(text)) + chunk(b"IEND", b"")
+
+
+def homogeneous(points):
+    return np.vstack([points.T.astype(float), np.ones(len(points))])
+
+
+def agreeing(seen, camera, depth):
+    """How many points in a camera's frame are as far as a depth picture says, within 2 cm and 0.2 %, and how many it shows."""
+    height, width = depth.shape
+    seen = seen[:, seen[2] > 0.5]
+    pixel = camera @ np.vstack([seen, np.ones(seen.shape[1])])
+    u, v = np.floor(pixel[:2] / pixel[2]).astype(int)
+    inside = (u > 0) & (v > 0) & (u < width - 1) & (v < height - 1)
+    u, v, z = u[inside], v[inside], seen[2, inside]
+    around = np.stack([depth[v + dy, u + dx] for dy in (-1, 0, 1) for dx in (-1, 0, 1)])
+    room = 0.02 + 0.002 * z
+    return np.array([((z > around.min(0) - room) & (z < around.max(0) + room)).sum(), len(z)])
 
 
 class Datasets(unittest.TestCase):
@@ -164,7 +183,7 @@ class Points(unittest.TestCase):
         said("dataset", "p.mcap", "-o", "points", *cls.words)
 
     def test_points_and_depth_of_one_surface_agree_through_the_calibration(self):
-        agree = total = 0
+        agree = np.zeros(2)
         for path in sorted((WORK / "points/labels/calib").iterdir()):
             lines = dict(line.split(": ") for line in path.read_text().splitlines())
             p2, to_camera, from_imu = (np.array(lines[key].split(), float).reshape(3, 4) for key in ("P2", "Tr_velo_to_cam", "Tr_imu_to_velo"))
@@ -172,20 +191,11 @@ class Points(unittest.TestCase):
             self.assertTrue((points[:, 3] >= 0).all() and (points[:, 3] <= 1).all() and len(points) > 5000)
             # The IMU's frame is the carrier's, in which the rig says where the LiDAR is.
             np.testing.assert_allclose(from_imu[:, :3] @ [0.9, -0.1, 1.9] + from_imu[:, 3], 0, atol=1e-9)
-            seen = to_camera @ np.vstack([points[:, :3].T.astype(float), np.ones(len(points))])
-            seen = seen[:, seen[2] > 0.5]
-            pixel = p2 @ np.vstack([seen, np.ones(seen.shape[1])])
-            u, v = np.floor(pixel[:2] / pixel[2]).astype(int)
-            inside = (u > 0) & (v > 0) & (u < 479) & (v < 319)
-            u, v, z = u[inside], v[inside], seen[2, inside]
             depth = read_png(WORK / f"points/labels/far/{path.stem}.png") / 256
-            around = np.stack([depth[v + dy, u + dx] for dy in (-1, 0, 1) for dx in (-1, 0, 1)])
-            room = 0.02 + 0.002 * z
-            agree += ((z > around.min(0) - room) & (z < around.max(0) + room)).sum()
-            total += len(z)
+            agree += agreeing(to_camera @ homogeneous(points[:, :3]), p2, depth)
         # The rest sees past an edge that hides it from the camera, or others that moved during the sweep.
-        self.assertGreater(total, 1000)
-        self.assertGreater(agree / total, 0.97)
+        self.assertGreater(agree[1], 1000)
+        self.assertGreater(agree[0] / agree[1], 0.97)
 
     def test_only_what_a_weather_changes_is_there_under_each(self):
         noon, rain = (reprise.Dataset(WORK / "points", weather=one) for one in ("clear_noon", "hard_rain_noon"))
@@ -248,6 +258,229 @@ class Points(unittest.TestCase):
             odd = subprocess.run([PROGRAM, "dataset", "p.mcap", "-o", "odd", "--rig", "odd.json"], capture_output=True, text=True, cwd=WORK)
             self.assertEqual((odd.returncode, odd.stderr), (2, f"reprise: odd.json: {why}\n"))
             self.assertFalse((WORK / "odd").exists())
+
+
+# What devkits read of each table; a name after ">" is the table that a token is of, "" stands for none.
+SCHEMA = {
+    "category": {"name": str, "description": str}, "attribute": {"name": str, "description": str},
+    "visibility": {"level": str, "description": str}, "sensor": {"channel": str, "modality": str},
+    "instance": {"category_token": ">category", "nbr_annotations": int, "first_annotation_token": ">sample_annotation", "last_annotation_token": ">sample_annotation"},
+    "calibrated_sensor": {"sensor_token": ">sensor", "translation": [float] * 3, "rotation": [float] * 4, "camera_intrinsic": list},
+    "ego_pose": {"timestamp": int, "translation": [float] * 3, "rotation": [float] * 4},
+    "log": {"logfile": str, "vehicle": str, "date_captured": str, "location": str},
+    "scene": {"name": str, "description": str, "log_token": ">log", "nbr_samples": int, "first_sample_token": ">sample", "last_sample_token": ">sample"},
+    "sample": {"timestamp": int, "scene_token": ">scene", "prev": ">sample", "next": ">sample"},
+    "sample_data": {"sample_token": ">sample", "ego_pose_token": ">ego_pose", "calibrated_sensor_token": ">calibrated_sensor", "filename": str, "fileformat": str,
+                    "width": int, "height": int, "timestamp": int, "is_key_frame": bool, "prev": ">sample_data", "next": ">sample_data"},
+    "sample_annotation": {"sample_token": ">sample", "instance_token": ">instance", "attribute_tokens": list, "visibility_token": ">visibility", "translation": [float] * 3,
+                          "size": [float] * 3, "rotation": [float] * 4, "num_lidar_pts": int, "num_radar_pts": int, "prev": ">sample_annotation", "next": ">sample_annotation"},
+    "map": {"log_tokens": list, "category": str, "filename": str}}  # fmt: skip
+
+
+def pose(row):
+    """Of a row with translation and rotation (w, x, y, z): 4 x 4."""
+    w, x, y, z = row["rotation"]
+    made = np.eye(4)
+    made[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                    [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                    [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]  # fmt: skip
+    made[:3, 3] = row["translation"]
+    return made
+
+
+class Nuscenes(unittest.TestCase):
+    """Two drives under two weathers: what the tables say of them, by their own links."""
+
+    @classmethod
+    def setUpClass(cls):
+        front = {"size": [320, 180], "position": [1.5, 0, 1.5], "fov_deg": 70}
+        cls.rig = [
+            {"name": "front", **front}, {"name": "far", "type": "depth", **front}, {"name": "cam_back", **front, "yaw_deg": 180},
+            {"name": "roof", "type": "lidar", "position": [0.9, 0, 1.9], "yaw_deg": 5, "pitch_deg": 1, "attributes": {"range": 80, "points_per_second": 640000, "range_accuracy": 0}},
+            {"name": "exact", "type": "semantic_lidar", "position": [0.9, 0, 1.9]}, {"name": "front_right", "type": "radar", "position": [3.7, 0, 0.6]}]  # fmt: skip
+        WORK.mkdir(parents=True, exist_ok=True)
+        subprocess.run(["rm", "-rf", WORK / "nu"], check=True)
+        (WORK / "nu.json").write_text(json.dumps({"sensors": cls.rig}))
+        said("run", SOURCE / "scenarios/free_drive.lua", "--cars", 60, "--seed", 3, "--for", 6, "-o", "c.mcap")
+        said("run", SOURCE / "scenarios/child_runs_out.lua", "-o", "d.mcap")
+        cls.words = ["dataset", "c.mcap", "d.mcap", "-o", "nu", "--format", "nuscenes", "--weathers", "clear_noon,hard_rain_noon", "--rig", "nu.json", "--every", "1s", "--split", "train:0.5"]
+        said(*cls.words)
+        cls.noon, cls.rain = (cls.tables(one) for one in ("clear_noon", "hard_rain_noon"))
+
+    @staticmethod
+    def tables(weather):
+        """By name and token."""
+        folder = WORK / "nu" / weather / "v1.0-mini"
+        return {name: {row["token"]: row for row in json.loads((folder / f"{name}.json").read_text())} for name in SCHEMA}
+
+    def test_tables_have_the_fields_that_devkits_read_and_every_token_is_there(self):
+        for tables in (self.noon, self.rain):
+            for name, fields in SCHEMA.items():
+                self.assertGreater(len(tables[name]), 0, name)
+                for row in tables[name].values():
+                    self.assertEqual(set(row) - {"index"}, {"token", *fields})
+                    for key, kind in fields.items():
+                        value = row[key]
+                        if isinstance(kind, str):
+                            self.assertTrue(value in tables[kind[1:]] or (value == "" and key in ("prev", "next")), (name, key, value))
+                        elif isinstance(kind, list):
+                            self.assertEqual([type(one) for one in value], kind, (name, key))
+                        else:
+                            self.assertIs(type(value), kind, (name, key))
+                    if row.get("next"):
+                        self.assertEqual(tables[name][row["next"]]["prev"], row["token"])
+                        self.assertGreater(tables[name][row["next"]].get("timestamp", 1), row.get("timestamp", 0))
+            for row in tables["sample_annotation"].values():
+                self.assertTrue(all(one in tables["attribute"] for one in row["attribute_tokens"]))
+            for row in tables["instance"].values():
+                chain = [row["first_annotation_token"]]
+                while tables["sample_annotation"][chain[-1]]["next"]:
+                    chain.append(tables["sample_annotation"][chain[-1]]["next"])
+                self.assertEqual((chain[-1], len(chain)), (row["last_annotation_token"], row["nbr_annotations"]))
+            for row in tables["map"].values():
+                self.assertTrue(set(row["log_tokens"]) <= set(tables["log"]))
+            self.assertEqual({one for row in tables["map"].values() for one in row["log_tokens"]}, set(tables["log"]))
+            self.assertEqual(sorted(row["channel"] for row in tables["sensor"].values()), ["CAM_BACK", "CAM_FRONT", "LIDAR_TOP", "RADAR_FRONT_RIGHT"])
+
+    def test_tokens_and_labels_are_the_same_under_every_weather(self):
+        for name in SCHEMA:
+            for token, row in self.noon[name].items():
+                other = self.rain[name][token]
+                unlike = {key for key in row if row[key] != other[key]}
+                self.assertTrue(unlike <= {"num_lidar_pts", "num_radar_pts", "description"}, (name, unlike))
+        self.assertNotEqual([row["num_lidar_pts"] for row in self.noon["sample_annotation"].values()], [row["num_lidar_pts"] for row in self.rain["sample_annotation"].values()])
+
+    def data(self, tables, weather):
+        """For each sample by channel: what to read, the pose of the car and the pose in the car; and the intrinsics."""
+        samples = {token: {} for token in tables["sample"]}
+        for row in tables["sample_data"].values():
+            mount = tables["calibrated_sensor"][row["calibrated_sensor_token"]]
+            channel = tables["sensor"][mount["sensor_token"]]["channel"]
+            samples[row["sample_token"]][channel] = (WORK / "nu" / weather / row["filename"], pose(tables["ego_pose"][row["ego_pose_token"]]), pose(mount), mount["camera_intrinsic"], row)
+        return samples
+
+    def test_points_agree_with_depth_and_cameras_stand_where_their_boxes_say(self):
+        index = json.loads((WORK / "nu/dataset.json").read_text())
+        agree = np.zeros(2)
+        for number, sensors in enumerate(self.data(self.noon, "clear_noon").values()):
+            path, car, lidar, _, _ = sensors["LIDAR_TOP"]
+            picture, _, camera, intrinsic, row = sensors["CAM_FRONT"]
+            points = np.fromfile(path, np.float32).reshape(-1, 5)
+            self.assertTrue((points[:, 3] >= 0).all() and (points[:, 3] <= 255).all() and set(points[:, 4]) <= set(range(32)))
+            # Rings count from the lowest: those of the ground near by.
+            self.assertLess(points[points[:, 4] == 0][:, 2].mean(), points[points[:, 4] == 20][:, 2].mean())
+            depth = read_png(WORK / f"nu/labels/far/{picture.name}") / 256
+            self.assertEqual(depth.shape, (row["height"], row["width"]))
+            agree += agreeing((np.linalg.inv(camera) @ lidar @ homogeneous(points[:, :3]))[:3], np.hstack([intrinsic, [[0], [0], [0]]]), depth)
+            boxes = json.loads((WORK / f"nu/labels/boxes_front/{picture.stem}.json").read_text())
+            origin = np.eye(4)
+            origin[:2, 3] = index["traces"][index["frames"][number]["trace"]]["origin"]
+            np.testing.assert_allclose(origin @ car @ camera, boxes["world_from_camera"], atol=1e-6)
+        self.assertGreater(agree[1], 1000)
+        self.assertGreater(agree[0] / agree[1], 0.97)
+
+    def test_annotations_are_the_boxes_of_the_cameras_and_hold_the_points_that_they_count(self):
+        found = set()
+        for tables, weather in ((self.noon, "clear_noon"), (self.rain, "hard_rain_noon")):
+            samples = self.data(tables, weather)
+            for row in tables["sample_annotation"].values():
+                sensors = samples[row["sample_token"]]
+                into_box = np.linalg.inv(pose(row))
+                width, length, height = row["size"]
+                for channel, key in (("LIDAR_TOP", "num_lidar_pts"), ("RADAR_FRONT_RIGHT", "num_radar_pts")):
+                    path, car, mount, _, _ = sensors[channel]
+                    points = reprise.dataset.read_points(path)
+                    places = np.stack([points[axis] for axis in "xyz"], 1) if channel.startswith("RADAR") else points[:, :3]
+                    inside = np.abs(into_box @ car @ mount @ homogeneous(places))[:3] <= np.array([[length], [width], [height]]) / 2
+                    self.assertEqual(inside.all(0).sum(), row[key])
+                    found.add((channel, row[key] > 0))
+                picture, car, camera, _, _ = sensors["CAM_FRONT"]
+                boxes = json.loads((WORK / f"nu/labels/boxes_front/{picture.stem}.json").read_text())["boxes"]
+                middle = (np.linalg.inv(car @ camera) @ pose(row))[:3, 3]
+                for box in boxes:
+                    there = np.array(box["camera_from_box"])
+                    if np.abs(there[:3, 3] - middle).max() < 1e-3:
+                        np.testing.assert_allclose(box["size"], [length, width, height])
+                        np.testing.assert_allclose(there[:3, :3], (np.linalg.inv(car @ camera) @ pose(row))[:3, :3], atol=1e-6)
+                        found.add("a box")
+        self.assertEqual(found, {("LIDAR_TOP", True), ("LIDAR_TOP", False), ("RADAR_FRONT_RIGHT", True), ("RADAR_FRONT_RIGHT", False), "a box"})
+        # The town's child and van, and whom the LiDAR alone sees behind a corner.
+        names = {self.noon["category"][one["category_token"]]["name"] for one in self.noon["instance"].values()}
+        self.assertTrue({"human.pedestrian.child", "vehicle.car"} <= names, names)
+        beams = sum(len(json.loads(path.read_text())["beams"]) for path in (WORK / "nu/labels/beams").iterdir())
+        self.assertGreater(beams, 0)
+
+    def test_velocities_follow_from_neighbours_and_fit_the_attributes(self):
+        rows, seen = self.noon["sample_annotation"], set()
+        for row in rows.values():
+            if not row["next"]:
+                continue
+            after = rows[row["next"]]
+            time = (self.noon["sample"][after["sample_token"]]["timestamp"] - self.noon["sample"][row["sample_token"]]["timestamp"]) * 1e-6
+            self.assertAlmostEqual(time, max(1, round(time)))  # whom nobody sees for a while is not annotated meanwhile
+            way = np.linalg.norm(np.subtract(after["translation"], row["translation"])) / time
+            does = [self.noon["attribute"][one]["name"] for one in row["attribute_tokens"] + after["attribute_tokens"]]
+            if does == ["vehicle.parked"] * 2:
+                self.assertLess(way, 0.01)
+            if does == ["vehicle.moving"] * 2:
+                self.assertTrue(0.05 < way < 30)
+            seen.add(does[0])
+        self.assertTrue({"vehicle.moving", "vehicle.parked"} <= seen, seen)
+
+    def test_radars_say_which_detections_move_over_the_ground(self):
+        standing = 0
+        for sensors in self.data(self.noon, "clear_noon").values():
+            points = reprise.dataset.read_points(sensors["RADAR_FRONT_RIGHT"][0])
+            over_ground = np.hypot(points["vx_comp"], points["vy_comp"])
+            np.testing.assert_array_equal(points["dyn_prop"] == 1, over_ground < 0.5)
+            standing += (points["dyn_prop"] == 1).sum()
+        self.assertGreater(standing, 50)
+
+    def test_all_is_made_again_and_a_stopped_one_goes_on(self):
+        check = lambda: subprocess.run([PROGRAM, "dataset", "--check", "nu"], capture_output=True, text=True, cwd=WORK)
+        same = check()
+        self.assertEqual(same.returncode, 0, same.stdout + same.stderr)
+        for path in ("labels/beams/000001.json", "hard_rain_noon/samples/LIDAR_TOP/000002.pcd.bin", "clear_noon/samples/CAM_FRONT/000003.png", "clear_noon/v1.0-mini/sample.json"):
+            (WORK / "nu" / path).unlink()
+        self.assertIn("is no longer there", check().stdout)
+        said(*self.words)
+        self.assertEqual(check().returncode, 0)
+
+    def test_rigs_that_nuscenes_has_no_place_for_are_refused_in_a_line(self):
+        front, roof = self.rig[0], self.rig[3]
+        for rig, why in (([front, {**front, "name": "cam_front"}], "sensor 'cam_front': is CAM_FRONT in nuScenes, as 'front' is"),
+                         ([front, {**roof, "name": "lidar_top"}, {**roof, "name": "LIDAR_TOP"}], "sensor 'LIDAR_TOP': is LIDAR_TOP in nuScenes, as 'lidar_top' is"),
+                         ([{**front, "actor": "world"}], "sensor 'front': in nuScenes one car carries all sensors"),
+                         ([{**front, "attributes": {"k1": -0.2}}], "sensor 'front': nuScenes' cameras are pinholes: without the attributes of its lens")):  # fmt: skip
+            (WORK / "odd.json").write_text(json.dumps({"sensors": rig}))
+            odd = subprocess.run([PROGRAM, "dataset", "c.mcap", "-o", "odd", "--format", "nuscenes", "--rig", "odd.json"], capture_output=True, text=True, cwd=WORK)
+            self.assertEqual((odd.returncode, odd.stderr), (2, f"reprise: odd.json: {why}\n"))
+            self.assertFalse((WORK / "odd").exists())
+
+    @unittest.skipUnless(importlib.util.find_spec("nuscenes"), "nuscenes-devkit is not installed")
+    def test_the_devkit_opens_it_and_counts_the_same_points(self):
+        from nuscenes import NuScenes
+        from nuscenes.utils.data_classes import LidarPointCloud, RadarPointCloud
+        from nuscenes.utils.geometry_utils import points_in_box
+        from nuscenes.utils.splits import get_scenes_of_split
+
+        for weather in ("clear_noon", "hard_rain_noon"):
+            nusc = NuScenes(version="v1.0-mini", dataroot=str(WORK / "nu" / weather), verbose=False)
+            names = {one: get_scenes_of_split(f"reprise_{one}", nusc) for one in ("train", "val")}
+            self.assertEqual(sorted(sum(names.values(), [])), [one["name"] for one in nusc.scene])
+            for sample in nusc.sample:
+                path, boxes, _ = nusc.get_sample_data(sample["data"]["LIDAR_TOP"])
+                cloud = LidarPointCloud.from_file(path)
+                for box in boxes:
+                    row = nusc.get("sample_annotation", box.token)
+                    self.assertLess(abs(points_in_box(box, cloud.points[:3]).sum() - row["num_lidar_pts"]), 3)
+                    self.assertLess(np.linalg.norm(np.nan_to_num(nusc.box_velocity(box.token))), 40)
+                RadarPointCloud.from_file(nusc.get_sample_data_path(sample["data"]["RADAR_FRONT_RIGHT"]))
+                log = nusc.get("log", nusc.get("scene", sample["scene_token"])["log_token"])
+                mask = nusc.get("map", log["map_token"])["mask"]
+                car = nusc.get("ego_pose", sample["data"]["LIDAR_TOP"])["translation"]
+                self.assertTrue(mask.is_on_mask(car[0], car[1])[0])
+                self.assertFalse(mask.is_on_mask(car[0] - 249, car[1] - 249)[0])
 
 
 unittest.main()

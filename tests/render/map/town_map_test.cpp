@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "ground/mesh/build_ground.h"
 #include "ground/paint/markings.h"
+#include "render/map/road_mask.h"
 #include "tests/support/worlds.h"
+#include "world/town.h"
 
 namespace reprise::render {
 namespace {
@@ -105,6 +108,41 @@ TEST(TownMap, BearsNamesThatItCannotWrite) {
             lane.street = name;
         EXPECT_GT(map_of(town, {{}, 300}).data.size(), 0U);
     }
+}
+
+TEST(RoadMask, IsWhiteWhereALaneIsAndBlackBesideTheRoad) {
+    const world::TownT town = test::straight_road(200);
+    const world::Box region{{-20, -40}, {150, 40}};
+    constexpr double pixel = 0.1;
+    const world::SensorFrame mask = road_mask(ground::build_ground(town), region, pixel);
+    ASSERT_EQ(mask.width, 1700);
+    ASSERT_EQ(mask.height, 800);
+    // As nuScenes' devkit looks a place up: rows count from the top.
+    const auto at_place = [&](double x, double y) {
+        const auto column = std::lround((x - region.low.x()) / pixel);
+        const auto row = mask.height - std::lround((y - region.low.y()) / pixel);
+        return mask.data[static_cast<std::size_t>(row * mask.width + column)];
+    };
+    double south = 1e9;
+    double north = -1e9;
+    for (const world::LaneT& lane : town.lanes)
+        for (double s = 1; s < 140; s += 7) {
+            const Eigen::Vector3d on = world::point_at(lane, s).position;
+            if (on.x() < 1 || on.x() > 140)
+                continue;
+            for (const double aside : {-0.45, 0.0, 0.45})
+                EXPECT_EQ(at_place(on.x(), on.y() + aside * lane.width), 255) << s;
+            south = std::min(south, on.y() - lane.width / 2);
+            north = std::max(north, on.y() + lane.width / 2);
+        }
+    ASSERT_LT(south, north);
+    for (double x = 1; x < 140; x += 7)
+        for (const double beside : {1.5, 6.0})
+            for (const double y : {south - beside, north + beside})
+                EXPECT_EQ(at_place(x, y), 0) << x << ' ' << y;
+    EXPECT_TRUE(std::all_of(mask.data.begin(), mask.data.end(), [](std::uint8_t value) {
+        return value == 0 || value == 255;
+    }));
 }
 
 }  // namespace
