@@ -16,14 +16,31 @@ namespace {
 
 constexpr std::size_t lanes = 8;  // packets of 16 with instances hang on AVX-512: never use them
 
+// So many packets are filled before the first of them is traced: Embree reads eight lanes at once,
+// and has to wait for what was stored lane by lane just before.
+constexpr std::size_t ahead = 8;
+
+template <typename Rays>
+struct FilledPacket {
+    alignas(32) Rays rays;
+    alignas(32) std::array<int, lanes> valid;
+    bool any;
+};
+
+/// In a direction along an axis of the world Embree's coherent packets lose all of their rays.
+float off_axis(float component) {
+    constexpr float least = 1e-12F;
+    return std::abs(component) < least ? std::copysign(least, component) : component;
+}
+
 template <typename Packet>
 void fill_lane(Packet& packet, std::size_t lane, const Ray& ray) {
     packet.org_x[lane] = ray.origin.x();
     packet.org_y[lane] = ray.origin.y();
     packet.org_z[lane] = ray.origin.z();
-    packet.dir_x[lane] = ray.direction.x();
-    packet.dir_y[lane] = ray.direction.y();
-    packet.dir_z[lane] = ray.direction.z();
+    packet.dir_x[lane] = off_axis(ray.direction.x());
+    packet.dir_y[lane] = off_axis(ray.direction.y());
+    packet.dir_z[lane] = off_axis(ray.direction.z());
     packet.tnear[lane] = 0;
     packet.tfar[lane] = ray.far;
     packet.time[lane] = 0;
@@ -82,6 +99,46 @@ std::array<std::uint32_t, lanes> nearer_of_tick(const Scene& scene,
     return numbers;
 }
 
+void trace_packet(const Scene& scene,
+                  RTCIntersectContext& context,
+                  FilledPacket<RTCRayHit8>& filled,
+                  std::span<Hit> hits) {
+    std::fill(hits.begin(), hits.end(), Hit{});
+    if (!filled.any)
+        return;
+    RTCRayHit8& packet = filled.rays;
+    rtcIntersect8(filled.valid.data(), scene.town_tree(), &context, &packet);
+    const std::array<std::uint32_t, lanes> numbers =
+        nearer_of_tick(scene, filled.valid, context, packet);
+    for (std::size_t lane = 0; lane < hits.size(); ++lane)
+        if (filled.valid[lane] != 0 && numbers[lane] != no_instance)
+            hits[lane] = {packet.ray.tfar[lane],
+                          numbers[lane],
+                          packet.hit.primID[lane],
+                          packet.hit.u[lane],
+                          packet.hit.v[lane]};
+}
+
+void occlude_packet(const Scene& scene,
+                    RTCIntersectContext& context,
+                    FilledPacket<RTCRay8>& filled,
+                    std::span<std::uint8_t> visible) {
+    RTCRay8& packet = filled.rays;
+    // Embree sets tfar to minus infinity where the way is blocked.
+    if (filled.any)
+        rtcOccluded8(filled.valid.data(), scene.town_tree(), &context, &packet);
+    bool open = false;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        if (packet.tfar[lane] < 0)
+            filled.valid[lane] = 0;
+        open |= filled.valid[lane] != 0;
+    }
+    if (open && scene.tree() != nullptr)
+        rtcOccluded8(filled.valid.data(), scene.tree(), &context, &packet);
+    for (std::size_t lane = 0; lane < visible.size(); ++lane)
+        visible[lane] = static_cast<std::uint8_t>(packet.tfar[lane] >= 0);
+}
+
 }  // namespace
 
 void trace_nearest(const Scene& scene,
@@ -91,32 +148,22 @@ void trace_nearest(const Scene& scene,
     if (scene.portable_tracer() != nullptr)
         return scene.portable_tracer()->trace_nearest(rays, hits);
     RTCIntersectContext context = context_of(coherent);
-    for (std::size_t first = 0; first < rays.size(); first += lanes) {
-        alignas(32) RTCRayHit8 packet;
-        alignas(32) std::array<int, lanes> valid{};
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-            packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    std::array<FilledPacket<RTCRayHit8>, ahead> packets;
+    for (std::size_t batch = 0; batch < rays.size(); batch += ahead * lanes) {
+        const std::size_t count = std::min(ahead, (rays.size() - batch + lanes - 1) / lanes);
+        for (std::size_t i = 0; i < count; ++i) {
+            RTCHit8& hit = packets[i].rays.hit;
+            std::fill_n(hit.geomID, lanes, RTC_INVALID_GEOMETRY_ID);
+            std::fill_n(hit.instID[0], lanes, RTC_INVALID_GEOMETRY_ID);
+            packets[i].any =
+                fill_packet(packets[i].rays.ray, packets[i].valid, rays, batch + i * lanes);
         }
-        if (!fill_packet(packet.ray, valid, rays, first)) {
-            std::fill_n(hits.begin() + static_cast<std::ptrdiff_t>(first),
-                        std::min(lanes, rays.size() - first),
-                        Hit{});
-            continue;
-        }
-        rtcIntersect8(valid.data(), scene.town_tree(), &context, &packet);
-        const std::array<std::uint32_t, lanes> numbers =
-            nearer_of_tick(scene, valid, context, packet);
-        for (std::size_t lane = 0; lane < lanes && first + lane < rays.size(); ++lane) {
-            Hit& hit = hits[first + lane];
-            hit = Hit{};
-            if (valid[lane] == 0 || numbers[lane] == no_instance)
-                continue;
-            hit = {packet.ray.tfar[lane],
-                   numbers[lane],
-                   packet.hit.primID[lane],
-                   packet.hit.u[lane],
-                   packet.hit.v[lane]};
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t first = batch + i * lanes;
+            trace_packet(scene,
+                         context,
+                         packets[i],
+                         hits.subspan(first, std::min(lanes, rays.size() - first)));
         }
     }
 }
@@ -128,22 +175,19 @@ void trace_visibility(const Scene& scene,
     if (scene.portable_tracer() != nullptr)
         return scene.portable_tracer()->trace_visibility(rays, visible);
     RTCIntersectContext context = context_of(coherent);
-    for (std::size_t first = 0; first < rays.size(); first += lanes) {
-        alignas(32) RTCRay8 packet;
-        alignas(32) std::array<int, lanes> valid{};
-        // Embree sets tfar to minus infinity where the way is blocked.
-        if (fill_packet(packet, valid, rays, first))
-            rtcOccluded8(valid.data(), scene.town_tree(), &context, &packet);
-        bool open = false;
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            if (packet.tfar[lane] < 0)
-                valid[lane] = 0;
-            open |= valid[lane] != 0;
+    std::array<FilledPacket<RTCRay8>, ahead> packets;
+    for (std::size_t batch = 0; batch < rays.size(); batch += ahead * lanes) {
+        const std::size_t count = std::min(ahead, (rays.size() - batch + lanes - 1) / lanes);
+        for (std::size_t i = 0; i < count; ++i)
+            packets[i].any =
+                fill_packet(packets[i].rays, packets[i].valid, rays, batch + i * lanes);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t first = batch + i * lanes;
+            occlude_packet(scene,
+                           context,
+                           packets[i],
+                           visible.subspan(first, std::min(lanes, rays.size() - first)));
         }
-        if (open && scene.tree() != nullptr)
-            rtcOccluded8(valid.data(), scene.tree(), &context, &packet);
-        for (std::size_t lane = 0; lane < lanes && first + lane < rays.size(); ++lane)
-            visible[first + lane] = static_cast<std::uint8_t>(packet.tfar[lane] >= 0);
     }
 }
 
