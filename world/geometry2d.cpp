@@ -154,4 +154,10 @@ std::vector<std::uint32_t> BoxGrid::near(const Box& box) const {
     return found;
 }
 
+std::span<const std::uint32_t> BoxGrid::at(const Eigen::Vector2d& p) const {
+    const Eigen::Vector2d place = (p - low_) / cell_;
+    const std::size_t cell = cell_of(place.y(), rows_) * columns_ + cell_of(place.x(), columns_);
+    return {items_.data() + begin_[cell], items_.data() + begin_[cell + 1]};
+}
+
 }  // namespace reprise::world

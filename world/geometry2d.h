@@ -88,6 +88,10 @@ class BoxGrid {
     /// Items with a box in the cells that `box` touches: all that overlap it, and some beside.
     std::vector<std::uint32_t> near(const Box& box) const;
 
+    /// Items in the cell of `p`: all that hold it, and some beside. Ascending; O(1), of this grid's
+    /// memory.
+    std::span<const std::uint32_t> at(const Eigen::Vector2d& p) const;
+
   private:
     template <typename Visit>
     void for_each_cell(const Box& box, Visit&& visit) const;

@@ -79,10 +79,8 @@ GroundProbe::GroundProbe(const GroundMesh& mesh) : mesh_(&mesh) {
 
 std::optional<GroundProbe::Hit> GroundProbe::below(const Eigen::Vector3d& from_world) const {
     const Eigen::Vector2d p = from_world.head<2>();
-    world::Box place;
-    place.take(p);
     std::optional<Hit> highest;
-    for (const std::uint32_t triangle : by_place_.near(place)) {
+    for (const std::uint32_t triangle : by_place_.at(p)) {
         const Extent& extent = extents_[triangle];
         if (p.x() < static_cast<double>(extent.west) || p.x() > static_cast<double>(extent.east) ||
             p.y() < static_cast<double>(extent.south) || p.y() > static_cast<double>(extent.north))
