@@ -12,21 +12,39 @@ namespace {
 
 constexpr std::size_t at_once = 256;
 
-/// As refined_distance, and with the normal, which it takes the same way to.
-Echo echo_of(const Scene& scene, const Hit& hit, const Beam& beam) {
+/// That a triangle lies in, in the scene's frame.
+struct Plane {
+    const Instance* instance = nullptr;
+    std::uint32_t triangle = 0;
+    Eigen::Vector3d a;
+    Eigen::Vector3d normal;  ///< of any length
+    double length = 0;       ///< of the normal
+
+    Plane() = default;
+
+    Plane(const Instance& its_instance, std::uint32_t its_triangle)
+        : instance(&its_instance),
+          triangle(its_triangle) {
+        const PlacedTriangle placed(its_instance, its_triangle);
+        a = placed.a;
+        normal = placed.to_b.cross(placed.to_c);
+        length = normal.norm();
+    }
+};
+
+/// As refined_distance. `last` is the plane that a neighbour met: often this one meets it, too.
+Echo echo_of(const Scene& scene, const Hit& hit, const Beam& beam, Plane& last) {
     Echo echo;
     echo.hit = hit;
     echo.instance = &scene.instance(hit.instance);
-    const PlacedTriangle placed(*echo.instance, hit.triangle);
-    const Eigen::Vector3d normal = placed.to_b.cross(placed.to_c);
-    const double along = normal.dot(beam.direction);
+    if (last.instance != echo.instance || last.triangle != hit.triangle)
+        last = Plane(*echo.instance, hit.triangle);
+    const double along = last.normal.dot(beam.direction);
     const auto found = static_cast<double>(hit.distance);
-    const double distance = normal.dot(placed.a - beam.origin) / along;
+    const double distance = last.normal.dot(last.a - beam.origin) / along;
     // At grazing angles the plane's equation is ill-conditioned: the tracer's distance is kept.
     echo.distance = std::abs(distance - found) <= 1e-3 + 1e-2 * found ? distance : found;
-    const double length = normal.norm();
-    echo.normal = normal / (along > 0 ? -length : length);
-    echo.cosine = static_cast<float>(std::min(1.0, std::abs(along) / length));
+    echo.cosine = static_cast<float>(std::min(1.0, std::abs(along) / last.length));
     return echo;
 }
 
@@ -39,6 +57,7 @@ void find_echoes(const Scene& scene,
                  std::span<Echo> echoes) {
     std::array<Ray, at_once> rays;
     std::array<Hit, at_once> hits;
+    Plane last;
     for (std::size_t first = 0; first < beams.size(); first += at_once) {
         const std::size_t count = std::min(at_once, beams.size() - first);
         for (std::size_t i = 0; i < count; ++i) {
@@ -52,8 +71,13 @@ void find_echoes(const Scene& scene,
         for (std::size_t i = 0; i < count; ++i)
             echoes[first + i] = hits[i].instance == no_instance
                                     ? Echo()
-                                    : echo_of(scene, hits[i], beams[first + i]);
+                                    : echo_of(scene, hits[i], beams[first + i], last);
     }
+}
+
+Eigen::Vector3d normal_of(const Echo& echo, const Beam& beam) {
+    const Plane plane(*echo.instance, echo.hit.triangle);
+    return plane.normal / (plane.normal.dot(beam.direction) > 0 ? -plane.length : plane.length);
 }
 
 }  // namespace reprise::render

@@ -8,6 +8,7 @@
 #include "render/ranging/lidar.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <vector>
@@ -37,7 +38,6 @@ constexpr double moment = 0.01;   // [s] in which nobody but the sensor moves
 struct Work {
     const Scene& scene;
     const world::SensorSpec& spec;
-    const Sweep& sweep;
     const Mount& mount;
     const LidarOptics* optics;  ///< none: semantic
     const world::SensorNoise& noise;
@@ -50,8 +50,8 @@ struct Work {
 
 using Words = std::vector<std::uint32_t>;
 
-void put(Words& words, double value) {
-    words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+std::uint32_t word(double value) {
+    return std::bit_cast<std::uint32_t>(static_cast<float>(value));
 }
 
 /// Takes from ray to ray of one block what they have in common.
@@ -66,7 +66,7 @@ class Block {
         }
     }
 
-    void trace(Words& words) {
+    Words trace() {
         const std::size_t shots = columns_.size() * work_.elevations.size();
         beams_.reserve(shots * work_.rays);
         for (std::size_t ray = 0; ray < work_.rays; ++ray)
@@ -76,12 +76,14 @@ class Block {
                         {poses_[i].translation(), poses_[i].linear() * direction(i, ring, ray)});
         echoes_.resize(beams_.size());
         find_echoes(work_.scene, beams_, work_.range, work_.mask, echoes_);
+        const std::size_t most = work_.optics != nullptr ? work_.optics->returns : 1;
+        Words words(shots * most * world::point_fields(work_.spec.kind).size());
+        std::uint32_t* end = words.data();
         for (std::size_t i = 0; i < columns_.size(); ++i)
             for (std::size_t ring = 0; ring < work_.elevations.size(); ++ring)
-                if (work_.optics != nullptr)
-                    measure(words, i, ring);
-                else
-                    label(words, i, ring);
+                end = work_.optics != nullptr ? measure(end, i, ring) : label(end, i, ring);
+        words.resize(static_cast<std::size_t>(end - words.data()));
+        return words;
     }
 
   private:
@@ -102,41 +104,51 @@ class Block {
         return (ray * work_.elevations.size() + ring) * columns_.size() + column;
     }
 
-    void put_place(Words& words, std::size_t column, std::size_t ring, double range) const {
+    /// All of these write rows at `to`, and say where the next one goes.
+    std::uint32_t* put_place(std::uint32_t* to,
+                             std::size_t column,
+                             std::size_t ring,
+                             double range) const {
         const Vector3d p_sensor = range * direction(column, ring, 0);
         for (int axis = 0; axis < 3; ++axis)
-            put(words, p_sensor[axis]);
+            *to++ = word(p_sensor[axis]);
+        return to;
     }
 
-    void measure(Words& words, std::size_t column, std::size_t ring) const {
+    std::uint32_t* measure(std::uint32_t* to, std::size_t column, std::size_t ring) {
         const std::uint64_t shot = columns_[column].number * work_.elevations.size() + ring;
         if (work_.optics->dropoff_general > 0 &&
             work_.noise.uniform(shot, 0) < work_.optics->dropoff_general)
-            return;
-        std::array<Echo, rays_of_wide_beam> rays;
-        for (std::size_t ray = 0; ray < work_.rays; ++ray)
-            rays[ray] = echoes_[index(column, ring, ray)];
-        const LidarReturns returns = returns_of(
-            *work_.optics, work_.scene, std::span(rays).first(work_.rays), work_.noise, shot);
-        for (std::size_t i = 0; i < returns.count; ++i) {
-            put_place(words, column, ring, returns.found[i].range);
-            put(words, static_cast<double>(returns.found[i].intensity));
-            put(words, -columns_[column].ago);
-            words.push_back(static_cast<std::uint32_t>(ring));
-            words.push_back(static_cast<std::uint32_t>(i));
+            return to;
+        std::span<const Echo> rays(&echoes_[index(column, ring, 0)], 1);
+        if (work_.rays > 1) {
+            for (std::size_t ray = 0; ray < work_.rays; ++ray)
+                several_[ray] = echoes_[index(column, ring, ray)];
+            rays = std::span(several_).first(work_.rays);
         }
+        const LidarReturns returns =
+            returns_of(*work_.optics, work_.scene, rays, work_.noise, shot);
+        for (std::size_t i = 0; i < returns.count; ++i) {
+            to = put_place(to, column, ring, returns.found[i].range);
+            *to++ = word(static_cast<double>(returns.found[i].intensity));
+            *to++ = word(-columns_[column].ago);
+            *to++ = static_cast<std::uint32_t>(ring);
+            *to++ = static_cast<std::uint32_t>(i);
+        }
+        return to;
     }
 
-    void label(Words& words, std::size_t column, std::size_t ring) const {
+    std::uint32_t* label(std::uint32_t* to, std::size_t column, std::size_t ring) const {
         const Echo& echo = echoes_[index(column, ring, 0)];
         if (!echo)
-            return;
-        put_place(words, column, ring, echo.distance);
-        put(words, static_cast<double>(echo.cosine));
-        words.push_back(echo.instance->actor);
-        words.push_back(static_cast<std::uint32_t>(semantic_class(work_.scene, echo.hit)));
-        put(words, -columns_[column].ago);
-        words.push_back(static_cast<std::uint32_t>(ring));
+            return to;
+        to = put_place(to, column, ring, echo.distance);
+        *to++ = word(static_cast<double>(echo.cosine));
+        *to++ = echo.instance->actor;
+        *to++ = static_cast<std::uint32_t>(semantic_class(work_.scene, echo.hit));
+        *to++ = word(-columns_[column].ago);
+        *to++ = static_cast<std::uint32_t>(ring);
+        return to;
     }
 
     const Work& work_;
@@ -145,23 +157,52 @@ class Block {
     std::vector<Eigen::Vector2d> azimuths_;
     std::vector<Beam> beams_;
     std::vector<Echo> echoes_;
+    std::array<Echo, rays_of_wide_beam> several_;  ///< of one shot
 };
 
-/// Of a moment: columns whose time lies in the same 10 ms before the tick.
-void trace_moment(const Work& work, std::span<const Sweep::Column> columns, Words& all) {
-    std::vector<Words> found((columns.size() + block - 1) / block);
-    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+void trace_moment(const Work& work,
+                  std::span<const Sweep::Column> columns,
+                  std::vector<Words>& all) {
+    const std::size_t before = all.size();
+    all.resize(before + (columns.size() + block - 1) / block);
+    tbb::parallel_for(std::size_t{0}, all.size() - before, [&](std::size_t i) {
         const DefaultFloatMode plain;
         const std::size_t first = i * block;
-        Block(work, columns.subspan(first, std::min(block, columns.size() - first)))
-            .trace(found[i]);
+        all[before + i] =
+            Block(work, columns.subspan(first, std::min(block, columns.size() - first))).trace();
     });
-    for (const Words& words : found)
-        all.insert(all.end(), words.begin(), words.end());
 }
+
+/// Columns whose time lies in the same 10 ms before the tick.
+struct Moment {
+    double ago = 0;  ///< [s] its middle; 0 where nothing rolls
+    std::span<const Sweep::Column> columns;
+};
 
 int moment_of(const Sweep::Column& column, bool rolls) {
     return rolls ? static_cast<int>(column.ago / moment) : 0;
+}
+
+std::vector<Moment> moments_of(std::span<const Sweep::Column> columns, bool rolls) {
+    std::vector<Moment> moments;
+    for (std::size_t first = 0; first < columns.size();) {
+        const int now = moment_of(columns[first], rolls);
+        std::size_t next = first;
+        while (next < columns.size() && moment_of(columns[next], rolls) == now)
+            ++next;
+        // The first column of a moment was shot when the last one of the moment before it was.
+        moments.push_back({rolls ? (now + 0.5) * moment : 0, columns.subspan(first, next - first)});
+        first = next;
+    }
+    return moments;
+}
+
+/// Around all that the shots of a moment can meet.
+Ball ball_of(const Moment& one, const Mount& mount, bool rolls, double range) {
+    const Vector3d from = mount.pose(rolls ? one.columns.front().ago : 0).translation();
+    const Vector3d to = mount.pose(rolls ? one.columns.back().ago : 0).translation();
+    constexpr double rounding = 0.1;  // [m] and what a turn bends the way
+    return {from, range + (to - from).norm() + rounding};
 }
 
 }  // namespace
@@ -182,33 +223,29 @@ world::SensorFrame lidar_frame(Scene& scene,
     for (const double elevation : sweep.elevations)
         elevations.emplace_back(std::cos(elevation), std::sin(elevation));
     const bool rolls = world::attribute(spec, "rolling") >= 0.5;
+    const double range = world::attribute(spec, "range");
     const std::uint32_t hidden = mount.hidden();
     const std::span<const std::uint32_t> mounts(&hidden, hidden != 0 ? 1 : 0);
 
-    Words words;
-    const std::span<const Sweep::Column> columns = sweep.columns;
-    for (std::size_t first = 0; first < columns.size();) {
-        const int now = moment_of(columns[first], rolls);
-        std::size_t next = first;
-        while (next < columns.size() && moment_of(columns[next], rolls) == now)
-            ++next;
-        // The first column of a moment was shot when the last one of the moment before it was.
-        scene.place(tick, mounts, rolls ? (now + 0.5) * moment : 0);
+    const std::vector<Moment> moments = moments_of(sweep.columns, rolls);
+    std::vector<Scene::Moment> places;
+    for (const Moment& one : moments)
+        places.push_back({one.ago, ball_of(one, mount, rolls, range)});
+    std::vector<Words> found;  // by block
+    scene.place_each(tick, mounts, places, [&](std::size_t i) {
         const Work work{scene,
                         spec,
-                        sweep,
                         mount,
                         optics ? &*optics : nullptr,
                         noise,
-                        world::attribute(spec, "range"),
+                        range,
                         rolls,
                         scene.mask_hiding(hidden),
                         elevations,
                         optics && optics->returns > 1 ? rays_of_wide_beam : 1};
-        trace_moment(work, columns.subspan(first, next - first), words);
-        first = next;
-    }
-    return point_frame(tick, spec, words);
+        trace_moment(work, moments[i].columns, found);
+    });
+    return joined_point_frame(tick, spec, found);
 }
 
 }  // namespace reprise::render

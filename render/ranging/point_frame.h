@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "world/external/sensor.h"
 #include "world/tick.h"
@@ -13,5 +14,10 @@ namespace reprise::render {
 world::SensorFrame point_frame(const world::TickView& tick,
                                const world::SensorSpec& spec,
                                std::span<const std::uint32_t> words);
+
+/// Likewise of several pieces, one behind the other.
+world::SensorFrame joined_point_frame(const world::TickView& tick,
+                                      const world::SensorSpec& spec,
+                                      std::span<const std::vector<std::uint32_t>> pieces);
 
 }  // namespace reprise::render

@@ -30,7 +30,7 @@ std::vector<ProbeEcho> probe_scene(const Scene& scene,
         answer.distance = echo.distance;
         answer.actor = echo.instance->actor;
         answer.label = semantic_class(scene, echo.hit);
-        answer.normal = echo.normal;
+        answer.normal = normal_of(echo, beams[i]);
         answer.reflectivity = reflectance_of(scene, echo).diffuse;
         answer.cross_section = radar_share(scene, echo);
         if (const auto twist = find_twist(tick, answer.actor); answer.actor != 0 && twist)

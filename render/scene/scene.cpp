@@ -2,7 +2,7 @@
 // What it assumes: ticks are sorted by id.
 // How it goes: a tree of who is there, built anew for every tick (history-free, and cheaper than
 //   refitting).
-// What it keeps: nothing of the last tick.
+// What it keeps: nothing of the last tick but what Embree need not be told again.
 #include "render/scene/scene.h"
 
 #include <algorithm>
@@ -19,9 +19,8 @@ constexpr std::size_t mount_bits = 30;
 }  // namespace
 
 Scene::~Scene() {
-    for (RTCScene tree : {tree_, standing_})
-        if (tree != nullptr)
-            rtcReleaseScene(tree);
+    if (standing_ != nullptr)
+        rtcReleaseScene(standing_);
 }
 
 /// The town without these instances, which keep their numbers. Made anew when they change.
@@ -58,15 +57,15 @@ void Scene::hide_mounts() {
             instance.mask = ~mask_hiding(instance.actor);
 }
 
-void Scene::commit() {
+void Scene::commit(const Ball& ball) {
     if (town_.portable_tracer() != nullptr) {
         portable_tracer_.emplace(
             moving_, portable_standing_ ? &*portable_standing_ : town_.portable_tracer());
         return;
     }
-    if (tree_ != nullptr)
-        rtcReleaseScene(tree_);
-    tree_ = moving_.empty() ? nullptr : town_.tree_of(moving_);
+    if (!tree_)
+        tree_.emplace(town_);
+    tree_->hold(moving_, ball);
 }
 
 }  // namespace reprise::render

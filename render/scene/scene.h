@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "render/scene/tick_tree.h"
 #include "render/scene/town_scene.h"
 #include "render/shapes/people/wardrobe.h"
 
@@ -30,6 +32,20 @@ class Scene {
     /// limbs, wheels and lamps are as at the tick.
     void place(const world::TickView& tick, std::span<const std::uint32_t> mounts, double ago = 0);
 
+    /// A time of a tick, and where its rays stay.
+    struct Moment {
+        double ago = 0;  ///< [s]
+        Ball ball;       ///< scene
+    };
+
+    /// As place() at each of these times, one behind the other; `look` is told which, and sees the
+    /// scene there. Only who is in its ball is surely found. Half the cost of placing everybody
+    /// each time.
+    void place_each(const world::TickView& tick,
+                    std::span<const std::uint32_t> mounts,
+                    std::span<const Moment> moments,
+                    const std::function<void(std::size_t)>& look);
+
     /// As place(), everybody a share of the way along `motions`, which are of the tick's parts.
     void place_along(const world::TickView& tick,
                      std::span<const std::uint32_t> mounts,
@@ -48,7 +64,7 @@ class Scene {
     RTCSceneTy* town_tree() const { return standing_ != nullptr ? standing_ : town_.tree(); }
 
     /// Embree's tree of who was placed; none when nobody was, or when pictures must be portable.
-    RTCSceneTy* tree() const { return tree_; }
+    RTCSceneTy* tree() const { return tree_ && !moving_.empty() ? tree_->handle() : nullptr; }
 
     /// Instead of Embree's trees when pictures must be portable: of the town and who is in it.
     const PortableTracer* portable_tracer() const {
@@ -108,11 +124,11 @@ class Scene {
     void take_down(std::vector<std::size_t> broken);
     void hide_mounts();
     void move_back(const world::TickView& tick, double ago);
-    void commit();
+    void commit(const Ball& ball = {});
 
     const TownScene& town_;
     std::vector<Instance> moving_;
-    RTCSceneTy* tree_ = nullptr;
+    std::optional<TickTree> tree_;
     std::vector<std::size_t> broken_;  // of the town's instances, sorted: what stands no longer
     RTCSceneTy* standing_ = nullptr;   // the town without them; none: nothing is broken
     std::optional<PortableTracer> portable_standing_;

@@ -162,6 +162,23 @@ void Scene::place(const world::TickView& tick, std::span<const std::uint32_t> mo
     commit();
 }
 
+void Scene::place_each(const world::TickView& tick,
+                       std::span<const std::uint32_t> mounts,
+                       std::span<const Moment> moments,
+                       const std::function<void(std::size_t)>& look) {
+    mounts_.assign(mounts.begin(), mounts.end());
+    arrange(tick);
+    hide_mounts();
+    const std::vector<Instance> at_tick = moving_;
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+        moving_ = at_tick;
+        if (moments[i].ago > 0)
+            move_back(tick, moments[i].ago);
+        commit(moments[i].ball);
+        look(i);
+    }
+}
+
 void Scene::place_along(const world::TickView& tick,
                         std::span<const std::uint32_t> mounts,
                         std::span<const Motion> motions,

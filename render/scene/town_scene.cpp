@@ -85,6 +85,8 @@ TownScene::~TownScene() {
 
 const Prototype* TownScene::add_prototype(Mesh mesh) {
     Prototype& prototype = meshes_.emplace_back(Prototype{std::move(mesh), nullptr, nullptr});
+    for (const Eigen::Vector3f& vertex : prototype.mesh.vertices)
+        prototype.radius = std::max(prototype.radius, vertex.cast<double>().norm());
     if (!device_) {
         prototype.plain_tree = std::make_unique<MeshTree>(prototype.mesh);
         return &prototype;
@@ -120,33 +122,49 @@ const Prototype* TownScene::add_prototype(Mesh mesh) {
 }
 
 void TownScene::add_instance(std::vector<Instance>& instances,
-                             Instance instance,
+                             const Instance& instance,
                              const Eigen::Affine3d& pose_world) const {
-    instance.pose = pose_world;
-    instance.pose.translation() -= origin_;
-    instance.moved = instance.pose.matrix() != Eigen::Matrix4d::Identity();
-    instance.normal_to_scene = pose_world.linear().inverse().transpose().cast<float>();
-    instances.push_back(instance);
+    Instance& placed = instances.emplace_back(instance);
+    placed.pose = pose_world;
+    placed.pose.translation() -= origin_;
+    placed.moved = placed.pose.matrix() != Eigen::Matrix4d::Identity();
+    placed.normal_to_scene = pose_world.linear().inverse().transpose().cast<float>();
+}
+
+void set_pose(RTCGeometryTy* geometry, const Instance& instance) {
+    const Eigen::Affine3f pose = instance.pose.cast<float>();
+    const Eigen::Matrix<float, 3, 4> columns = pose.matrix().topRows<3>();
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+}
+
+void TownScene::check() const {
+    device_->check();
+}
+
+RTCSceneTy* TownScene::new_tree() const {
+    RTCScene tree = rtcNewScene(device_->handle);
+    rtcSetSceneBuildQuality(tree, RTC_BUILD_QUALITY_MEDIUM);
+    return tree;
+}
+
+void TownScene::attach(RTCSceneTy* tree, const Instance& instance, unsigned id) const {
+    RTCGeometry geometry = rtcNewGeometry(device_->handle, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, instance.prototype->tree);
+    set_pose(geometry, instance);
+    rtcSetGeometryMask(geometry, instance.mask);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(tree, geometry, id);
+    rtcReleaseGeometry(geometry);
 }
 
 RTCSceneTy* TownScene::tree_of(std::span<const Instance> instances) const {
     if (!device_)
         return nullptr;
-    RTCScene tree = rtcNewScene(device_->handle);
-    rtcSetSceneBuildQuality(tree, RTC_BUILD_QUALITY_MEDIUM);
-    for (const Instance& instance : instances) {
-        RTCGeometry geometry = rtcNewGeometry(device_->handle, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(geometry, instance.prototype->tree);
-        const Eigen::Affine3f pose = instance.pose.cast<float>();
-        Eigen::Matrix<float, 3, 4> columns = pose.matrix().topRows<3>();
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
-        rtcSetGeometryMask(geometry, instance.mask);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(tree, geometry);  // ids count up from 0: an id is the index here
-        rtcReleaseGeometry(geometry);
-    }
+    RTCScene tree = new_tree();
+    for (std::size_t i = 0; i < instances.size(); ++i)
+        attach(tree, instances[i], static_cast<unsigned>(i));
     rtcCommitScene(tree);
-    device_->check();
+    check();
     return tree;
 }
 

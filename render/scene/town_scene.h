@@ -25,6 +25,7 @@
 #include "world/town_generated.h"
 
 struct RTCDeviceTy;
+struct RTCGeometryTy;
 struct RTCSceneTy;
 
 namespace reprise::render {
@@ -53,6 +54,9 @@ struct Prototypes {
     std::array<const Prototype*, figure_part_shapes> figure_parts{};  // by FigurePart::Shape
 };
 
+/// Tells Embree where an instance's geometry is.
+void set_pose(RTCGeometryTy* geometry, const Instance& instance);
+
 /// All that stays: the town, in Embree, or in our own PortableTracer when pictures must be
 /// `portable` between CPUs, and the shapes of all that moves in it. Owns the device. The scene's
 /// frame is the world's, moved to `origin` (whole metres), so that single precision stays exact to
@@ -64,8 +68,16 @@ class TownScene {
     TownScene(const TownScene&) = delete;
     TownScene& operator=(const TownScene&) = delete;
 
-    /// Embree's tree of these instances, to be released by the caller; none when portable.
+    /// Embree's tree of these instances, whose numbers are its ids; to be released by the caller;
+    /// none when portable.
     RTCSceneTy* tree_of(std::span<const Instance> instances) const;
+
+    /// Such a tree to come, one instance after the other. Not when portable.
+    RTCSceneTy* new_tree() const;
+    void attach(RTCSceneTy* tree, const Instance& instance, unsigned id) const;
+
+    /// Did Embree do what it was asked to since it was asked last?
+    void check() const;
 
     RTCSceneTy* tree() const { return tree_; }
 
@@ -120,7 +132,7 @@ class TownScene {
 
     /// Adds an instance in its place, in the scene's frame.
     void add_instance(std::vector<Instance>& instances,
-                      Instance instance,
+                      const Instance& instance,
                       const Eigen::Affine3d& pose_world) const;
 
     /// Adds a car's body and its wheels.

@@ -34,6 +34,7 @@ struct Prototype {
     Mesh mesh;
     RTCSceneTy* tree = nullptr;
     std::unique_ptr<MeshTree> plain_tree;
+    double radius = 0;  ///< [m] from the mesh's origin to its farthest corner
 };
 
 /// A prototype in its place.

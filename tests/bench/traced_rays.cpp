@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
@@ -13,11 +14,21 @@ namespace {
 
 constexpr std::size_t lanes = 8;
 
+/// Trees of moments are released when the next one comes; their packets are traced again later.
+void keep(RTCScene scene) {
+    static std::vector<RTCScene> kept;
+    if (std::find(kept.begin(), kept.end(), scene) != kept.end())
+        return;
+    rtcRetainScene(scene);
+    kept.push_back(scene);
+}
+
 TracedPacket noted(const int* valid,
                    RTCScene scene,
                    const RTCIntersectContext& context,
                    const RTCRay8& rays,
                    bool nearest) {
+    keep(scene);
     TracedPacket packet{};
     packet.scene = scene;
     packet.nearest = nearest;

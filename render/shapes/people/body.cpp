@@ -195,17 +195,23 @@ Mesh hem_mesh(const world::WalkerModel& model) {
     return mesh;
 }
 
-HemSize hem_size(const world::WalkerModel& model, double z) {
-    const std::vector<Slice> slices = hem_slices(model);
-    REPRISE_CHECK(!slices.empty(), model.name);
+Hem::Hem(const world::WalkerModel& model) {
+    for (const Slice& slice : hem_slices(model)) {
+        heights_.push_back(slice.z);
+        sizes_.push_back({slice.half_width, slice.half_depth});
+    }
+    REPRISE_CHECK(!heights_.empty(), model.name);
+}
+
+HemSize Hem::at(double z) const {
     std::size_t above = 1;
-    while (above + 1 < slices.size() && slices[above].z < z)
+    while (above + 1 < heights_.size() && heights_[above] < z)
         ++above;
-    const Slice& low = slices[above - 1];
-    const Slice& high = slices[above];
-    const double share = std::clamp((z - low.z) / (high.z - low.z), 0.0, 1.0);
-    return {std::lerp(low.half_width, high.half_width, share),
-            std::lerp(low.half_depth, high.half_depth, share)};
+    const HemSize& low = sizes_[above - 1];
+    const HemSize& high = sizes_[above];
+    const double share =
+        std::clamp((z - heights_[above - 1]) / (heights_[above] - heights_[above - 1]), 0.0, 1.0);
+    return {std::lerp(low.width, high.width, share), std::lerp(low.depth, high.depth, share)};
 }
 
 Mesh shoe_mesh() {

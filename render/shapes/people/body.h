@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "render/shapes/mesh.h"
 #include "render/shapes/people/posture.h"
 
@@ -22,8 +24,17 @@ struct HemSize {
     double depth;
 };
 
-/// Of a model with a hem.
-HemSize hem_size(const world::WalkerModel& model, double z);
+/// The hem of a model that has one, for who asks for many heights.
+class Hem {
+  public:
+    explicit Hem(const world::WalkerModel& model);
+
+    HemSize at(double z) const;
+
+  private:
+    std::vector<double> heights_;  ///< rising
+    std::vector<HemSize> sizes_;   ///< there
+};
 
 /// A shoe around the tip of its sole: x ahead, the ankle behind, length 1 from toe to ankle.
 Mesh shoe_mesh();

@@ -146,13 +146,14 @@ std::vector<Held> held_by_hem(const world::WalkerModel& model,
                               const std::vector<FigurePart>& parts) {
     static const std::array<Mesh, 3> meshes{bone_mesh(), bone_mesh(), shoe_mesh()};
     const double low = -hem_length(model);
+    const Hem hem(model);
     std::vector<Held> held;
     for (const std::size_t leg : {first_leg, second_leg})
         for (std::size_t part = 0; part < meshes.size(); ++part)
             for (const Eigen::Vector3f& vertex : meshes[part].vertices) {
                 const Vector3d p = parts[leg + part].pose * vertex.cast<double>() - posture.hip;
                 if (p.z() > low && p.z() < 0)
-                    held.push_back({p.x(), p.y(), p.z(), hem_size(model, p.z())});
+                    held.push_back({p.x(), p.y(), p.z(), hem.at(p.z())});
             }
     return held;
 }
