@@ -1,7 +1,5 @@
 #include "cli/dataset/nuscenes_content.h"
 
-#include <algorithm>
-
 #include "cli/dataset/nuscenes_points.h"
 #include "cli/pictures/manifest.h"
 #include "render/trace/camera.h"
@@ -59,13 +57,14 @@ NuscenesContent::NuscenesContent(const DatasetLayout& dataset,
                         episode.town,
                         episode.seed,
                         episode.step_ns,
+                        episode.weather_name,
                         map_of(maps, logs.size()).origin()});
     }
     for (std::size_t id = 0; id < frames.size(); ++id) {
         if (id == 0 || frames[id - 1].trace != frames[id].trace ||
             frames[id - 1].split != frames[id].split)
-            ++scenes;
-        scene_of.push_back(scenes - 1);
+            scenes.push_back(id);
+        scene_of.push_back(scenes.size() - 1);
     }
 }
 
@@ -81,8 +80,7 @@ std::string NuscenesContent::sample(std::size_t id) const {
 }
 
 std::string NuscenesContent::scene(std::size_t number) const {
-    const auto first = std::find(scene_of.begin(), scene_of.end(), number) - scene_of.begin();
-    return nuscenes_token("scene", sample(static_cast<std::size_t>(first)));
+    return nuscenes_token("scene", sample(scenes[number]));
 }
 
 std::string NuscenesContent::data(std::size_t id, const NuscenesChannel& channel) const {

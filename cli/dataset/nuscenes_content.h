@@ -35,6 +35,7 @@ struct NuscenesLog {
     std::string town;
     std::uint64_t seed = 0;
     std::uint64_t step_ns = 0;
+    std::string weather;  ///< as it was recorded
     Eigen::Vector3d origin;
 };
 
@@ -52,7 +53,7 @@ struct NuscenesContent {
 
     /// Of each frame: a scene for each run of frames of one trace and one part.
     std::vector<std::size_t> scene_of;
-    std::size_t scenes = 0;
+    std::vector<std::size_t> scenes;  ///< the first frame of each
 
     /// [us] Logs have days of their own, so that what is sorted by time stays in its log.
     std::uint64_t time(std::size_t id) const;

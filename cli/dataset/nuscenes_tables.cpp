@@ -92,21 +92,24 @@ void add_sensors(const NuscenesContent& content, NuscenesTables& tables) {
 void add_scenes(const NuscenesContent& content,
                 const std::string& weather,
                 NuscenesTables& tables) {
-    for (std::size_t number = 0; number < content.scenes; ++number) {
-        const auto first = std::find(content.scene_of.begin(), content.scene_of.end(), number);
-        const auto count = std::count(content.scene_of.begin(), content.scene_of.end(), number);
-        const auto id = static_cast<std::size_t>(first - content.scene_of.begin());
+    for (std::size_t number = 0; number < content.scenes.size(); ++number) {
+        const std::size_t id = content.scenes[number];
+        const std::size_t end =
+            number + 1 < content.scenes.size() ? content.scenes[number + 1] : content.frames.size();
         const NuscenesFrame& frame = content.frames[id];
         const NuscenesLog& log = content.logs[frame.trace];
         const std::string name = fmt::format("scene-{:04}", number + 1);
-        tables["scene"].push_back(
-            {{"token", content.scene(number)},
-             {"log_token", content.log(frame.trace)},
-             {"nbr_samples", count},
-             {"first_sample_token", content.sample(id)},
-             {"last_sample_token", content.sample(id + static_cast<std::size_t>(count) - 1)},
-             {"name", name},
-             {"description", fmt::format("{}, seed {}, {}", log.scenario, log.seed, weather)}});
+        tables["scene"].push_back({{"token", content.scene(number)},
+                                   {"log_token", content.log(frame.trace)},
+                                   {"nbr_samples", end - id},
+                                   {"first_sample_token", content.sample(id)},
+                                   {"last_sample_token", content.sample(end - 1)},
+                                   {"name", name},
+                                   {"description",
+                                    fmt::format("{}, seed {}, {}",
+                                                log.scenario,
+                                                log.seed,
+                                                weather == "recorded" ? log.weather : weather)}});
         tables["splits"]["reprise_" + frame.split].push_back(name);
     }
 }
