@@ -18,6 +18,7 @@ NONE = 0xFFFFFFFF
 
 STANDS = 0.1  # [m/s] below
 LONG = 60  # [s] of standing that is told
+STUCK = 180  # [s] of standing, longer than any light is red
 REACTION = 1.0  # [s] of an attentive driver
 BRAKING = 6.0  # [m/s^2] of one who has to
 LOOK_BACK = 5.0  # [s]
@@ -201,11 +202,11 @@ class Account:
         self.car_speeds = []  # [m/s] mean of the background, each second
         self.still = {}  # since which tick somebody stands
         self.longest_wait = 0.0
-        self.stuck_cars = 0  # at the end, for over 3 minutes
+        self.stuck_cars = 0  # at the end, for over STUCK
         for tick in trace:
             self._take(tick)
         last = trace[trace.last]
-        limit = 180 / trace.step
+        limit = STUCK / trace.step
         for actor, since in self.still.items():
             if trace.last - since > limit and actor not in self.wrecks:
                 self.stuck_cars += 1
@@ -228,6 +229,7 @@ class Account:
         if tick.index % 20 == 0:
             cars = tick.traffic.cars
             self._note_still(tick, cars["id"], cars["speed"])
+            self._forget_gone(cars["id"], tick.tick.vehicles["id"])
             if len(cars):
                 self.car_speeds.append(float(cars["speed"].mean()))
         for event in tick.tick.events:
@@ -255,6 +257,12 @@ class Account:
             elif actor in self.still:
                 self._waited(tick, actor)
                 del self.still[actor]
+
+    def _forget_gone(self, *here):
+        """Who was taken out while it stood stands no more."""
+        ids = {int(actor) for some in here for actor in some}
+        for actor in [actor for actor in self.still if actor not in ids]:
+            del self.still[actor]
 
     def _waited(self, tick, actor):
         since = self.still.get(actor)

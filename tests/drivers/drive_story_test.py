@@ -5,6 +5,7 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import drive_story  # noqa: E402
 from drive_story import Account  # noqa: E402
 from reprise.trace import Trace  # noqa: E402
 
@@ -36,6 +37,18 @@ class Stories(unittest.TestCase):
             car:hold_speed(12)""")  # fmt: skip
         self.assertGreaterEqual(told.counts["collision"], 1)
         self.assertEqual(told.avoidable, 0, told.stories)
+
+    def test_who_stands_at_the_end_is_stuck_but_not_who_was_taken_out_standing(self):
+        self.addCleanup(setattr, drive_story, "STUCK", drive_story.STUCK)
+        drive_story.STUCK = 3
+        body = """
+            local car = spawn{{ model = 'sedan', driver = 'traffic', lane = 'east_1', s = 40 }}
+            car:hold_speed(0)
+            spawn{{ model = 'sedan', driver = 'manual', lane = 'east_1', s = 200 }}:control{{ brake = 1 }}
+            wait(1.5)
+            {}"""
+        self.assertEqual(account("stands", body.format("")).stuck_cars, 2)
+        self.assertEqual(account("is_gone", body.format("car:despawn()")).stuck_cars, 1)
 
     def test_the_kilometres_are_those_of_the_odometer(self):
         told = account("drives", "spawn{ name = 'ego', model = 'sedan', driver = 'autopilot', lane = 'east_1', s = 20, speed = 10 }")
