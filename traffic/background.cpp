@@ -29,6 +29,7 @@
 #include "traffic/orders.h"
 #include "traffic/placements.h"
 #include "traffic/rescue_lane.h"
+#include "traffic/roads/right_of_way.h"
 #include "traffic/roads/road_graph.h"
 #include "traffic/route_planner.h"
 #include "traffic/scripted_spawns.h"
@@ -68,6 +69,7 @@ struct Background::Parts {
           std::string_view network)
         : process(episode, network),
           graph(town, lane_classes(town)),
+          right_of_way(right_of_way_in_sumo(town)),
           points(town, graph),
           routes(graph, episode.seed),
           detours(town, graph, routes, world::seconds(1, episode.step_ns)),
@@ -76,7 +78,7 @@ struct Background::Parts {
           placements(episode, town, lanes, graph, routes, insertion),
           spawns(episode, town, graph, points, insertion, placements),
           orders(episode, town, graph, routes),
-          lookout(episode, town, lanes, graph, orders),
+          lookout(episode, town, lanes, graph, right_of_way, orders),
           standoffs(town, graph, world::seconds(1, episode.step_ns)),
           bends(town),
           lane_change_pace(town),
@@ -96,6 +98,7 @@ struct Background::Parts {
 
     SumoProcess process;
     RoadGraph graph;
+    RightOfWay right_of_way;
     InsertionPoints points;
     RoutePlanner routes;
     Detours detours;

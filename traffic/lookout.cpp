@@ -199,7 +199,7 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
     constexpr std::uint64_t goes_on_for = 200;  // [ticks]
     const world::VehicleModel& model = world::vehicle_models()[car.model];
     const bool is_long = model.length > longest_short_car;
-    if (car.pass || (is_long && car.pushes_until > tick))
+    if (car.pass || (is_long && car.brushes_until > tick))
         return world::infinity;
     const double around = looked_at + 2 * model.length;
     std::vector<BodyBox> others;
@@ -229,7 +229,7 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
     for (double driven = spacing; driven <= std::min(looked_at, way.length()); driven += spacing)
         if (touches(driven)) {
             if (is_long && car.standing_ticks * step_ > waits && driven <= 2 * spacing)
-                car.pushes_until = tick + goes_on_for;
+                car.brushes_until = tick + goes_on_for;
             return braking.speed_before(driven - spacing, 0, 0);
         }
     return world::infinity;

@@ -4,6 +4,7 @@
 
 #include "traffic/cars/cars.h"
 #include "traffic/orders.h"
+#include "traffic/roads/right_of_way.h"
 #include "traffic/roads/road_graph.h"
 #include "traffic/sight/meetings.h"
 #include "traffic/sight/obstructions.h"
@@ -32,6 +33,7 @@ class Lookout {
             const world::TownT& town,
             const world::LaneMap& lanes,
             const RoadGraph& graph,
+            const RightOfWay& right_of_way,
             const Orders& orders)
         : town_(&town),
           graph_(&graph),
@@ -40,7 +42,7 @@ class Lookout {
           obstructions_(town, lanes, step_),
           stand_ins_(town, graph, step_),
           passing_(town, obstructions_, step_),
-          meetings_(town, graph, step_) {}
+          meetings_(town, graph, right_of_way, step_) {}
 
     Lookout(const Lookout&) = delete;
     Lookout& operator=(const Lookout&) = delete;

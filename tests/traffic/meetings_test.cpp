@@ -225,7 +225,8 @@ TEST(Meetings, OneOfTwoWhoseWaysCrossWaits) {
             const WayAhead its_way(cars[1], lines, graph, 20);
             for (double driven = 0; driven < 14; driven += 0.25)
                 would_touch |= overlap(way.at(driven), its_way.at(driven));
-            Meetings meetings(town, graph, meeting_step);
+            const RightOfWay right_of_way(town, {});
+            Meetings meetings(town, graph, right_of_way, meeting_step);
             meetings.look(cars, 2);
             const int waiting = static_cast<int>(std::isfinite(meetings.allowed_speed(0))) +
                                 static_cast<int>(std::isfinite(meetings.allowed_speed(1)));
@@ -241,6 +242,163 @@ TEST(Meetings, OneOfTwoWhoseWaysCrossWaits) {
     EXPECT_GT(crossed, 10);
 }
 
+/// In the junction, so far [m] along its lane, and there for long.
+Car car_inside(
+    const TownT& town, const RoadGraph& graph, std::uint32_t id, const Entry& entry, double s) {
+    Car car = car_before(town, graph, id, "sedan", entry.first, entry.second, 1, 0);
+    const world::LaneT& on = town.lanes[entry.second];
+    for (double driven = -1; driven <= s; driven += 0.1)
+        car.trail.advance(driven < 0 ? world::point_at(town.lanes[entry.first],
+                                                       town.lanes[entry.first].length + driven)
+                                           .position
+                                     : world::point_at(on, driven).position);
+    car.lane = entry.second;
+    car.lane_position = s / on.length * on.sumo_length;
+    car.rear = car.trail.rear();
+    const Eigen::Vector2d body = (car.trail.front() - car.rear).head<2>();
+    car.turn_to(std::atan2(body.y(), body.x()));
+    car.standing_ticks = car.stuck_ticks = 200;
+    return car;
+}
+
+/// Two that stand in each other's way: one gets past by a mirror's width for which the other one
+/// waits, and through a body nobody drives. (What they would touch is worked out twice, once by
+/// Foresight and once by a look at each half metre of the way.)
+TEST(Meetings, OneOfTwoInEachOthersWayPushesPastAndNobodyPushesThrough) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const RightOfWay right_of_way(town, {});
+    const LaneLines lines(town);
+    const std::vector<Entry> entries = entries_of(town);
+    int past = 0, blocked = 0;
+    for (const Entry& one : entries)
+        for (const Entry& other : entries) {
+            if (graph.edge_of(one.first) >= graph.edge_of(other.first) ||
+                town.lanes[one.second].junction != town.lanes[other.second].junction)
+                continue;
+            for (double s = 1; s < town.lanes[one.second].length - 1; s += 1)
+                for (double its = 1; its < town.lanes[other.second].length - 1; its += 0.5) {
+                    Cars cars;
+                    world::TickDraft draft;
+                    cars.add(car_inside(town, graph, 7, one, s), "", 0, draft);
+                    cars.add(car_inside(town, graph, 8, other, its), "", 0, draft);
+                    const WayAhead way(cars[0], lines, graph, 20);
+                    const WayAhead its_way(cars[1], lines, graph, 20);
+                    const auto deepest = [](const WayAhead& of, const BodyBox& standing) {
+                        double found = 0;
+                        for (double driven = 0; driven < 5; driven += 0.25)
+                            found = std::max(found, depth(of.at(driven), standing));
+                        return found;
+                    };
+                    if (overlap(way.at(0).widened(0.1), its_way.at(0)))
+                        continue;
+                    const double least =
+                        std::min(deepest(way, its_way.at(0)), deepest(its_way, way.at(0)));
+                    Meetings meetings(town, graph, right_of_way, meeting_step);
+                    meetings.look(cars, 2);
+                    const std::size_t pushing =
+                        cars[0].pushes_past.size() + cars[1].pushes_past.size();
+                    ASSERT_LE(pushing, 1U) << "both would";
+                    if (least > 0.6) {
+                        ++blocked;
+                        ASSERT_EQ(pushing, 0U) << least << " m";
+                    }
+                    if (pushing == 0)
+                        continue;
+                    ++past;
+                    const std::size_t who = cars[0].pushes_past.empty() ? 1 : 0;
+                    ASSERT_LT(deepest(who == 0 ? way : its_way, (who == 0 ? its_way : way).at(0)),
+                              0.5);
+                    meetings.look(cars, 3);
+                    EXPECT_TRUE(std::isinf(meetings.allowed_speed(who)));
+                    EXPECT_EQ(meetings.allowed_speed(1 - who), 0);
+                }
+        }
+    EXPECT_GT(past, 5);
+    EXPECT_GT(blocked, 20);
+}
+
+/// Whoever lies in another one's body, by whatever went wrong before.
+TEST(Meetings, WhoLiesInAnotherBodyGetsNoDeeperIntoIt) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const RightOfWay right_of_way(town, {});
+    const LaneLines lines(town);
+    int deeper = 0, out = 0;
+    for (const Entry& one : entries_of(town))
+        for (const Entry& other : entries_of(town)) {
+            if (graph.edge_of(one.first) >= graph.edge_of(other.first) ||
+                town.lanes[one.second].junction != town.lanes[other.second].junction ||
+                graph.edge_after(one.second) == graph.edge_after(other.second))
+                continue;
+            for (double s = 1; s < town.lanes[one.second].length - 3; s += 1)
+                for (double its = 1; its < town.lanes[other.second].length - 3; its += 1) {
+                    Cars cars;
+                    world::TickDraft draft;
+                    cars.add(car_inside(town, graph, 7, one, s), "", 0, draft);
+                    cars.add(car_inside(town, graph, 8, other, its), "", 0, draft);
+                    const WayAhead way(cars[0], lines, graph, 20);
+                    const WayAhead its_way(cars[1], lines, graph, 20);
+                    const double now = depth(way.at(0), its_way.at(0));
+                    if (now < 0.02)
+                        continue;
+                    Meetings meetings(town, graph, right_of_way, meeting_step);
+                    meetings.look(cars, 2);
+                    for (const std::size_t who : {0U, 1U}) {
+                        if (std::isfinite(meetings.allowed_speed(who)))
+                            continue;
+                        ++out;
+                        const WayAhead& of = who == 0 ? way : its_way;
+                        const BodyBox standing = (who == 0 ? its_way : way).at(0);
+                        const double soon = depth(of.at(1.2), standing);
+                        ASSERT_LT(soon, std::max(now + 0.1, 0.5)) << now << " m";
+                    }
+                    for (const std::size_t who : {0U, 1U})
+                        deeper += meetings.allowed_speed(who) == 0;
+                }
+        }
+    EXPECT_GT(deeper, 50);
+    EXPECT_GT(out, 50);
+}
+
+/// As SUMO says it, whoever would be there first: it makes the other one wait.
+TEST(Meetings, WhoLetsTheOtherGoInSumoWaits) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const std::vector<Entry> entries = entries_of(town);
+    int crossed = 0;
+    for (const Entry& one : entries)
+        for (const Entry& other : entries) {
+            if (graph.edge_of(one.first) >= graph.edge_of(other.first) ||
+                town.lanes[one.second].junction != town.lanes[other.second].junction)
+                continue;
+            for (const std::size_t waits : {0U, 1U}) {
+                Cars cars;
+                world::TickDraft draft;
+                for (const auto& [id, entry] : {std::pair{7U, one}, std::pair{8U, other}})
+                    cars.add(car_before(town, graph, id, "sedan", entry.first, entry.second, 4, 6),
+                             "",
+                             0,
+                             draft);
+                RightOfWay::Firsts firsts(town.lanes.size());
+                firsts[waits == 0 ? one.second : other.second] = {waits == 0 ? other.first
+                                                                             : one.first};
+                const RightOfWay right_of_way(town, firsts);
+                Meetings meetings(town, graph, right_of_way, meeting_step);
+                meetings.look(cars, 2);
+                Foresight seen, its_seen;
+                seen.look(cars[0], meetings.lines(), graph, 20);
+                its_seen.look(cars[1], meetings.lines(), graph, 20);
+                if (!seen.would_meet(its_seen) || !its_seen.would_meet(seen))
+                    continue;
+                ++crossed;
+                EXPECT_FALSE(cars[waits].waits_for.empty())
+                    << town.lanes[one.second].name << " and " << town.lanes[other.second].name;
+            }
+        }
+    EXPECT_GT(crossed, 20);
+}
+
 /// SUMO loses the order of a lane's cars when a vehicle with mass overtakes them.
 TEST(Meetings, NobodyDrivesIntoWhoIsAheadOnHisLane) {
     const TownT& town = own_town("town1").town;
@@ -250,7 +408,8 @@ TEST(Meetings, NobodyDrivesIntoWhoIsAheadOnHisLane) {
     world::TickDraft draft;
     cars.add(car_before(town, graph, 7, "sedan", lane, via, 19, 10), "", 0, draft);
     cars.add(car_before(town, graph, 8, "sedan", lane, via, 9, 1), "", 0, draft);
-    Meetings meetings(town, graph, meeting_step);
+    const RightOfWay right_of_way(town, {});
+    Meetings meetings(town, graph, right_of_way, meeting_step);
     meetings.look(cars, 2);
     EXPECT_LT(meetings.allowed_speed(0), 10);
     EXPECT_TRUE(std::isinf(meetings.allowed_speed(1)));

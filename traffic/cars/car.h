@@ -105,8 +105,11 @@ struct Car {
 
     // Among others of SUMO's; see meetings.h and standoffs.h.
     std::vector<std::uint32_t> waits_for;  ///< ids of those whom it lets go first
-    std::uint64_t pushes_until = 0;        ///< tick; until then it stops for no body beside its way
-    bool ignores_standing = false;         ///< SUMO was told so
+    std::vector<std::uint32_t>
+        pushes_past;                  ///< ids of those who stand in its way, and it in theirs
+    std::uint64_t pushes_until = 0;   ///< tick; until then it stops for none of these
+    std::uint64_t brushes_until = 0;  ///< tick; until then it stops for no body beside its way
+    bool ignores_standing = false;    ///< SUMO was told so
 
     // For vehicles with their blue lamps on; see rescue_lane.h and blue_lamps.h.
     bool on_call = false;                ///< its own are on, as of the last tick

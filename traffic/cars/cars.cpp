@@ -155,9 +155,12 @@ void Cars::add_to(world::Hasher& hasher) const {
             hasher.add(car.goes_first);
             hasher.add(car.makes_way);
         }
-        if (!car.waits_for.empty() || car.pushes_until != 0 || car.ignores_standing) {
+        if (!car.waits_for.empty() || car.pushes_until != 0 || car.brushes_until != 0 ||
+            car.ignores_standing) {
             hasher.add(std::span<const std::uint32_t>(car.waits_for));
+            hasher.add(std::span<const std::uint32_t>(car.pushes_past));
             hasher.add(car.pushes_until);
+            hasher.add(car.brushes_until);
             hasher.add(car.ignores_standing);
         }
         if (car.trajectory) {

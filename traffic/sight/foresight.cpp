@@ -125,6 +125,13 @@ bool Foresight::would_meet(const BodyBox& standing) {
     return false;
 }
 
+double Foresight::depth_in(const BodyBox& standing, double reach) const {
+    double deepest = 0;
+    for (double s = 0; s <= reach; s += spacing)
+        deepest = std::max(deepest, depth(way_.at(s), standing));
+    return deepest;
+}
+
 /// Of `others`, with corners at `radius` [m].
 Foresight::Entry Foresight::first_on(std::span<const BodyBox> others, double radius) {
     const double radii = roomy_radius_ + radius;

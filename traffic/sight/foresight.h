@@ -43,6 +43,9 @@ class Foresight {
     /// Likewise, into what stands there.
     bool would_meet(const BodyBox& standing);
 
+    /// [m] that its body would lie in that one at most within `reach` [m] of way; 0: beside it.
+    double depth_in(const BodyBox& standing, double reach) const;
+
     /// Where its body would lie first, driving on, on what another one stands on, or drives over.
     struct Entry {
         double driven = 0;      ///< [m]

@@ -21,6 +21,7 @@ constexpr double gap_before = 0.7;         // [m] before another's way
 constexpr double beside_its_lane = 0.6;    // [m] from its lane: seen as an obstruction
 constexpr double lets_go_first = 6;        // [s] of one who stands; then the other one waits
 constexpr std::uint64_t pushes_for = 240;  // [ticks]
+constexpr double deepest_push = 0.35;      // [m] in the other one's body, which mirrors give way to
 constexpr double halt = 0.1;               // [m/s]
 constexpr double hard = 0.8;               // of the hardest braking, that one plans with
 constexpr double longest_body = 12;        // [m]
@@ -33,9 +34,13 @@ bool touch(const world::Box& one, const world::Box& other) {
 
 }  // namespace
 
-Meetings::Meetings(const world::TownT& town, const RoadGraph& graph, double step)
+Meetings::Meetings(const world::TownT& town,
+                   const RoadGraph& graph,
+                   const RightOfWay& right_of_way,
+                   double step)
     : lines_(town),
       graph_(&graph),
+      right_of_way_(&right_of_way),
       step_(step),
       yields_(town.lanes.size(), false) {
     for (const world::LaneT& lane : town.lanes)
@@ -114,12 +119,17 @@ bool Meetings::has_stood(const Driver& driver) const {
     return driver.car->standing_ticks * step_ > lets_go_first;
 }
 
-/// In the first junction on its way.
-bool Meetings::yields(const Driver& driver) const {
+/// As that, but creeping by a hand's breadth is no way out.
+bool Meetings::is_stuck(const Driver& driver) const {
+    return driver.car->stuck_ticks * step_ > lets_go_first;
+}
+
+/// Its lane in the first junction on its way, or none.
+std::uint32_t Meetings::in_junction(const Driver& driver) const {
     for (const std::uint32_t lane : driver.seen->way().lanes())
         if (lines_.town().lanes[lane].kind == world::LaneKind::internal)
-            return yields_[lane];
-    return false;
+            return lane;
+    return none;
 }
 
 /// Before the first place where its body would lie on the other's way, which begins at `first`.
@@ -150,8 +160,6 @@ Meetings::Stop Meetings::stop_before_body(const Driver& driver, const Driver& ot
 
 void Meetings::hold(const Driver& driver, const Stop& stop) {
     const Car& car = *driver.car;
-    if (car.pushes_until > tick_)
-        return;
     const Braking braking{
         car.speed, comfortable_braking(car.model), emergency_braking(car.model), step_};
     double& allowed = allowed_[static_cast<std::size_t>(&driver - drivers_.data())];
@@ -165,12 +173,50 @@ void Meetings::wait(Driver& driver, Driver& other, const Stop& stop) {
     const bool is_in_its_way = other.seen->would_meet(driver.seen->now());
     if (is_in_its_way)
         hold(other, stop_before_body(other, driver));
-    if (!has_stood(driver) || !has_stood(other))
-        return;
     // Both stand, each for the other's body: nobody else will solve it.
-    if (is_in_its_way && driver.seen->would_meet(other.seen->now()) &&
-        driver.car->pushes_until <= tick_)
-        driver.car->pushes_until = tick_ + pushes_for;
+    if (is_in_its_way && is_stuck(driver) && is_stuck(other) &&
+        driver.seen->would_meet(other.seen->now()))
+        push_past(driver, other);
+}
+
+/// Of the two the one who is less in the other one's body on his way; through it nobody drives.
+void Meetings::push_past(Driver& one, Driver& other) const {
+    const double depth = one.seen->depth_in(other.seen->now(), one.reach);
+    const double its_depth = other.seen->depth_in(one.seen->now(), other.reach);
+    if (std::min(depth, its_depth) > deepest_push)
+        return;
+    Car& car = depth <= its_depth ? *one.car : *other.car;
+    if (car.pushes_until <= tick_)
+        car.pushes_past.clear();
+    car.pushes_past.push_back(depth <= its_depth ? other.car->id : one.car->id);
+    car.pushes_until = tick_ + pushes_for;
+}
+
+bool Meetings::pushes_past(const Driver& driver, const Driver& other) const {
+    const auto& ids = driver.car->pushes_past;
+    return driver.car->pushes_until > tick_ &&
+           std::find(ids.begin(), ids.end(), other.car->id) != ids.end();
+}
+
+/// Who is pushed past stands until the other one is through: two that push meet in the middle.
+void Meetings::let_past(const Driver& driver, const Driver& other) {
+    Stop stop = stop_before_way(driver, other);
+    stop.speed = 0;
+    hold(driver, stop);
+}
+
+/// Who lies in another one's body gets out of it, and no deeper in.
+void Meetings::part(const Driver& one, const Driver& other) {
+    constexpr double looked_at = 2;    // [m] of way
+    constexpr double rounding = 0.03;  // [m]
+    const double now = depth(one.seen->now(), other.seen->now()) + rounding;
+    const double soon = one.seen->depth_in(other.seen->now(), looked_at);
+    const double its_soon = other.seen->depth_in(one.seen->now(), looked_at);
+    const bool is_deep = std::min(soon, its_soon) > std::max(now, deepest_push);
+    if (soon > now && (soon > its_soon || is_deep))
+        hold(one, {});
+    if (its_soon > now && (its_soon >= soon || is_deep))
+        hold(other, {});
 }
 
 bool Meetings::first_waits(const Driver& one, const Driver& other) const {
@@ -187,8 +233,19 @@ bool Meetings::first_waits(const Driver& one, const Driver& other) const {
     const Stop stop_other = stop_before_way(other, one);
     if (stop_one.is_possible != stop_other.is_possible)
         return stop_one.is_possible;
-    if (yields(one) != yields(other))
-        return yields(one);
+    // SUMO's own word first: else each would wait for the other one.
+    const std::uint32_t lane = in_junction(one);
+    const std::uint32_t its_lane = in_junction(other);
+    if (lane != none && its_lane != none) {
+        if (right_of_way_->lets_go(lane, its_lane))
+            return true;
+        if (right_of_way_->lets_go(its_lane, lane))
+            return false;
+    }
+    const bool yields = lane != none && yields_[lane];
+    const bool other_yields = its_lane != none && yields_[its_lane];
+    if (yields != other_yields)
+        return yields;
     if (stop_one.time != stop_other.time)
         return stop_one.time > stop_other.time;
     return one.car->id > other.car->id;
@@ -225,8 +282,14 @@ void Meetings::meet(Driver& one, Driver& other) {
     const bool one_follows = follows(one, other);
     const bool other_follows = follows(other, one);
     if ((one_follows && other_follows) || (one_follows && is_all_on_its_lane(other)) ||
-        (other_follows && is_all_on_its_lane(one)) || overlap(one.seen->now(), other.seen->now()))
+        (other_follows && is_all_on_its_lane(one)))
         return;
+    if (pushes_past(one, other))
+        return let_past(other, one);
+    if (pushes_past(other, one))
+        return let_past(one, other);
+    if (overlap(one.seen->now(), other.seen->now()))
+        return part(one, other);
     const bool first = !other_follows && one.seen->would_meet(*other.seen);
     const bool second = !one_follows && other.seen->would_meet(*one.seen);
     if (!first && !second)

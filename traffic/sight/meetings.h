@@ -6,6 +6,7 @@
 
 #include "traffic/cars/cars.h"
 #include "traffic/roads/lane_lines.h"
+#include "traffic/roads/right_of_way.h"
 #include "traffic/roads/road_graph.h"
 #include "traffic/sight/foresight.h"
 #include "world/geometry2d.h"
@@ -22,12 +23,16 @@ namespace reprise::traffic {
 ///         follows the other. Of two who would meet one waits before the other's way: who must by
 ///         the rules, else who comes there later; the other one, where he can no longer. Who has
 ///         begun to wait keeps to it. When both have stood for long the other one tries, and where
-///         they block each other for good, one pushes past.
-/// KEEPS   with each car, whom it waits for, and until when it pushes past others.
+///         they block each other for good, one pushes past, for which the other one stands still;
+///         not where it would be through the other one. Who lies in another one gets no deeper in.
+/// KEEPS   with each car, whom it waits for, and whom it pushes past until when.
 class Meetings {
   public:
-    /// Both must outlive this. `step` [s] of a tick.
-    Meetings(const world::TownT& town, const RoadGraph& graph, double step);
+    /// All three must outlive this. `step` [s] of a tick.
+    Meetings(const world::TownT& town,
+             const RoadGraph& graph,
+             const RightOfWay& right_of_way,
+             double step);
 
     /// As the cars are now, in the tick being made.
     void look(Cars& cars, std::uint64_t tick);
@@ -73,8 +78,13 @@ class Meetings {
     void follow(const Driver& one, const Driver& other);
     void wait(Driver& driver, Driver& other, const Stop& stop);
     void prepare(Driver& driver);
+    void push_past(Driver& one, Driver& other) const;
+    bool pushes_past(const Driver& driver, const Driver& other) const;
+    void part(const Driver& one, const Driver& other);
+    void let_past(const Driver& driver, const Driver& other);
     bool has_stood(const Driver& driver) const;
-    bool yields(const Driver& driver) const;
+    bool is_stuck(const Driver& driver) const;
+    std::uint32_t in_junction(const Driver& driver) const;
     bool first_waits(const Driver& one, const Driver& other) const;
     static bool follows(const Driver& driver, const Driver& leader);
     static bool is_all_on_its_lane(const Driver& driver);
@@ -88,6 +98,7 @@ class Meetings {
 
     const LaneLines lines_;
     const RoadGraph* graph_;
+    const RightOfWay* right_of_way_;
     double step_;               ///< [s]
     std::vector<bool> yields_;  ///< by lane of a junction: has to let others go first
     std::vector<double> allowed_;

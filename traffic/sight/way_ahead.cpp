@@ -41,6 +41,19 @@ bool overlap(const BodyBox& one, const BodyBox& other) {
     return !is_apart(one, other) && !is_apart(other, one);
 }
 
+double depth(const BodyBox& one, const BodyBox& other) {
+    const Eigen::Vector2d apart = other.middle - one.middle;
+    const double along = std::abs(one.ahead.dot(other.ahead));
+    const double across = std::abs(world::cross(one.ahead, other.ahead));
+    const auto least = [&](const BodyBox& own, const BodyBox& its) {
+        return std::min(own.half_length + its.half_length * along + its.half_width * across -
+                            std::abs(apart.dot(own.ahead)),
+                        own.half_width + its.half_length * across + its.half_width * along -
+                            std::abs(world::cross(own.ahead, apart)));
+    };
+    return std::max(0.0, std::min(least(one, other), least(other, one)));
+}
+
 std::uint32_t lane_after(std::uint32_t lane,
                          const Car& car,
                          const world::TownT& town,

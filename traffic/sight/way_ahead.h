@@ -29,6 +29,9 @@ struct BodyBox {
 /// Does one lie in the other? By the axes of both.
 bool overlap(const BodyBox& one, const BodyBox& other);
 
+/// [m] that one would have to be moved to lie beside the other; 0 where it does.
+double depth(const BodyBox& one, const BodyBox& other);
+
 /// The lane that a car comes to behind this one of its route; none where its route ends.
 std::uint32_t lane_after(std::uint32_t lane,
                          const Car& car,

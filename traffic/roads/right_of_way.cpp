@@ -1,0 +1,66 @@
+#include "traffic/roads/right_of_way.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <libsumo/libsumo.h>
+
+namespace reprise::traffic {
+
+using world::none;
+
+RightOfWay::RightOfWay(const world::TownT& town, Firsts firsts)
+    : firsts_(std::move(firsts)),
+      ways_(town.lanes.size()) {
+    firsts_.resize(town.lanes.size());
+    for (std::uint32_t from = 0; from < town.lanes.size(); ++from) {
+        if (town.lanes[from].kind == world::LaneKind::internal)
+            continue;
+        for (const world::Link& link : town.lanes[from].links)
+            for (std::uint32_t via = link.via();
+                 via != none && town.lanes[via].kind == world::LaneKind::internal &&
+                 ways_[via].from == none;) {
+                ways_[via] = {from, link.via()};
+                const auto& links = town.lanes[via].links;
+                via = links.empty() ? none : links.front().via();
+            }
+    }
+}
+
+bool RightOfWay::lets_all_of(const Way& way, std::uint32_t from) const {
+    return std::binary_search(firsts_[way.first].begin(), firsts_[way.first].end(), from);
+}
+
+bool RightOfWay::lets_go(std::uint32_t lane, std::uint32_t other) const {
+    const Way& one = ways_[lane];
+    const Way& its = ways_[other];
+    return one.from != none && its.from != none && lets_all_of(one, its.from) &&
+           !lets_all_of(its, one.from);
+}
+
+RightOfWay right_of_way_in_sumo(const world::TownT& town) {
+    std::map<std::string_view, std::uint32_t> by_name;
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
+        by_name.emplace(town.lanes[i].name, i);
+    RightOfWay::Firsts firsts(town.lanes.size());
+    for (const world::LaneT& lane : town.lanes) {
+        if (!world::is_for_cars(lane) || lane.kind == world::LaneKind::internal)
+            continue;
+        for (const world::Link& link : lane.links) {
+            if (link.via() == none || link.to() == none)
+                continue;
+            auto& before_us = firsts[link.via()];
+            for (const std::string& foe :
+                 libsumo::Lane::getFoes(lane.name, town.lanes[link.to()].name))
+                if (const auto found = by_name.find(foe); found != by_name.end())
+                    before_us.push_back(found->second);
+            std::sort(before_us.begin(), before_us.end());
+        }
+    }
+    return {town, std::move(firsts)};
+}
+
+}  // namespace reprise::traffic
