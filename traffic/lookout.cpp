@@ -269,7 +269,7 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
                 allowed = allowed_speed(car, cars);
         }
         if (car.pass) {
-            allowed = std::min(allowed, Passing::speed);
+            allowed = std::min(allowed, Passing::allowed_speed(car));
         } else {
             allowed = std::min(allowed, before_swept(car, tick));
             car.sees_no_way = allowed < crawl;

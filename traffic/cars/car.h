@@ -47,6 +47,7 @@ struct LaneOrder {
 struct PassOrder {
     std::uint32_t lane = world::none;  ///< its own
     double end = 0;                    ///< [m] along that: from there on it comes back
+    double pace = 0;                   ///< [m/s] at most, until it is aside
 };
 
 /// A car that traffic owns. Positions are world, metres.

@@ -149,6 +149,7 @@ void Cars::add_to(world::Hasher& hasher) const {
         if (car.pass) {
             hasher.add(car.pass->lane);
             hasher.add(car.pass->end);
+            hasher.add(car.pass->pace);
         }
         if (car.on_call || car.goes_first || car.makes_way) {
             hasher.add(car.on_call);

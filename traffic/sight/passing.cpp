@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "traffic/sight/way_ahead.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
@@ -19,8 +20,10 @@ constexpr double longest_row = 25;       // [m] of what is passed at once
 constexpr double room_to_return = 14;    // [m] of the lane, beside the car's own length
 constexpr double slow_pass = 3.5;        // [m/s] on average
 constexpr double pull_out_time = 2.5;    // [s]
+constexpr double slow_pull_out = 1.4;    // [m/s] of one who stands close behind what he passes
 constexpr double beside_oncoming = 2.4;  // [m] from middle to middle
 constexpr double longest_to_swing = 7;   // [m] the side of a longer one would cut the corner
+constexpr double room_in_queue = 12;     // [m] between the place where it is back and who is there
 
 }  // namespace
 
@@ -88,6 +91,10 @@ bool Passing::is_free(const Stretch& stretch,
         const bool passed = other.origin == Origin::parked;
         if (!passed && stretch.holds(middle, model.length / 2, other.speed * ahead))
             return false;
+        // Its own lane's queue, round a bend too: who waits behind others passes nobody.
+        if (!passed && other.lane == car.lane && other.lane_position > car.lane_position &&
+            other.lane_position - model.length < car.lane_position + stretch.length + room_in_queue)
+            return false;
         if (other.lane != stretch.opposite)
             continue;
         const double way =
@@ -113,6 +120,45 @@ bool Passing::is_free(const Stretch& stretch,
     return std::none_of(there.begin(), there.end(), [&](const Obstruction& one) {
         return one.end > stretch.from_end - stretch.length - 5 && one.begin < stretch.from_end + 5;
     });
+}
+
+/// Pulling out from where it stands, at no more than that pace [m/s], would its side or corner
+/// touch what it passes?
+bool Passing::swings_into_any(const Car& car,
+                              const world::LaneProjection& at,
+                              double aside,
+                              double pace) const {
+    constexpr double sample = 0.05;   // [s]
+    constexpr double quickest = 3;    // [m/s^2] the less time to get aside
+    constexpr double hair = 0.1;      // [m]
+    constexpr double look_ahead = 3;  // [s]
+    const world::VehicleModel& model = world::vehicle_models()[car.model];
+    const world::LaneT& lane = town_->lanes[car.lane];
+    Trail trail = car.trail;
+    double driving = 0;  // [m/s]
+    double driven = 0;   // [m]
+    double offset = 0;   // [m] from where it is now, as CarReader::move_aside has it
+    for (double time = sample; time < look_ahead; time += sample) {
+        driving = std::min(driving + quickest * sample, pace);
+        driven += driving * sample;
+        const double wanted = (aside - car.offset) * std::min(time / pull_out_time, 1.0);
+        offset += std::clamp(wanted - offset, -driving * sample, driving * sample);
+        const world::LanePoint on = world::point_at(lane, at.s + driven);
+        const Eigen::Vector2d left = world::turned_left(world::ahead_of(on.yaw));
+        Eigen::Vector3d front = on.position;
+        front.head<2>() += (at.t + offset) * left;
+        trail.advance(front);
+        BodyBox body;
+        body.ahead = (front - trail.rear()).head<2>().normalized();
+        body.half_length = model.length / 2 + hair;
+        body.half_width = model.width / 2 + hair;
+        body.middle = front.head<2>() - model.length / 2 * body.ahead;
+        for (const Footprint& one : obstructions_->footprints())
+            if (one.id != car.id && std::abs(one.z - car.rear.z()) < world::level_clearance &&
+                overlap(body, {one.centre, one.direction, one.half_length, one.half_width}))
+                return true;
+    }
+    return false;
 }
 
 void Passing::begin(Car& car,
@@ -147,9 +193,21 @@ void Passing::begin(Car& car,
     stretch.from_end = world::project(opposite, front).s;
     if (!is_free(stretch, car, cars, last))
         return;
-    car.pass = PassOrder{car.lane, *end + model.length + 1};
+    double pace = speed;
+    if (swings_into_any(car, at, aside, pace))
+        pace = slow_pull_out;
+    if (pace < speed && swings_into_any(car, at, aside, pace))
+        return;
+    car.pass = PassOrder{car.lane, *end + model.length + 1, pace};
     car.offset_order =
         OffsetOrder{{car.offset, aside, pull_out_time, world::Shape::linear}, tick - 1};
+}
+
+double Passing::allowed_speed(const Car& car) {
+    constexpr double aside_enough = 0.3;  // [m]
+    const bool pulls_out = car.offset_order && car.offset_order->change.to != 0 &&
+                           std::abs(car.offset_order->change.to - car.offset) > aside_enough;
+    return pulls_out ? car.pass->pace : speed;
 }
 
 void Passing::follow(Car& car, std::uint64_t tick) const {

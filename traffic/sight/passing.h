@@ -18,7 +18,8 @@ namespace reprise::traffic {
 /// ASSUMES that a car goes aside as it drives (see CarReader), SUMO having it in its own lane all
 ///         the while, and that others see a car that is aside (see footprints.h).
 /// GOES    who has stood for some seconds, first behind the thing, is told to drive aside by a
-///         lane's width, and behind the thing to come back.
+///         lane's width, and behind the thing to come back; slowly, where it stands so close that
+///         a corner would touch the thing otherwise, and not at all where it would even so.
 /// KEEPS   nothing beside the cars.
 class Passing {
   public:
@@ -33,12 +34,19 @@ class Passing {
     /// A car that is held back and stands begins to pass, where it may.
     void begin(Car& car, const Cars& cars, const world::TickView& last, std::uint64_t tick) const;
 
+    /// [m/s] of a car that passes.
+    static double allowed_speed(const Car& car);
+
     /// Tells a car that passes to come back, behind what it passed.
     void follow(Car& car, std::uint64_t tick) const;
 
   private:
     struct Stretch;
 
+    bool swings_into_any(const Car& car,
+                         const world::LaneProjection& at,
+                         double aside,
+                         double pace) const;
     std::optional<double> end_of_row(const Car& car, double front, double aside) const;
     bool is_free(const Stretch& stretch,
                  const Car& car,

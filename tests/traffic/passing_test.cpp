@@ -1,0 +1,105 @@
+#include "traffic/sight/passing.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/worlds.h"
+#include "traffic/cars/fleet.h"
+#include "traffic/sight/obstructions.h"
+#include "world/frames.h"
+#include "world/geometry2d.h"
+#include "world/models/catalogue.h"
+#include "world/town.h"
+
+namespace reprise::traffic {
+namespace {
+
+constexpr double step = 0.05;
+constexpr double bend_start = 60;  // [m]
+constexpr double radius = 12;      // [m]
+
+/// One lane each way; from 60 m on to the right.
+world::TownT road_with_a_bend(double straight) {
+    world::TownT town = test::straight_road(200, 1);
+    for (world::LaneT& lane : town.lanes) {
+        const world::LaneT before = lane;
+        lane.centre.clear();
+        lane.length = 0;
+        for (double s = 0; s <= before.length; s += 1) {
+            Eigen::Vector3d p = world::point_at(before, s).position;
+            const double turned = std::max(p.x() - straight, 0.0) / radius;
+            if (turned > 0)
+                p.head<2>() = Eigen::Vector2d(straight + (radius + p.y()) * std::sin(turned),
+                                              -radius + (radius + p.y()) * std::cos(turned));
+            if (!lane.centre.empty())
+                lane.length += (p - world::to_eigen(lane.centre.back())).norm();
+            lane.centre.push_back(world::to_vec3(p));
+        }
+        lane.sumo_length = lane.length;
+    }
+    return town;
+}
+
+std::uint32_t lane_of(const world::TownT& town, const char* name) {
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
+        if (town.lanes[i].name == name)
+            return i;
+    return world::none;
+}
+
+Car car_on(const world::TownT& town, std::uint32_t id, double front) {
+    Car car;
+    car.id = id;
+    car.sumo = "known";
+    car.lane = lane_of(town, "east_1");
+    car.lane_position = front;
+    const world::LanePoint at = world::point_at(town.lanes[car.lane], front);
+    car.turn_to(at.yaw);
+    const Eigen::Vector3d ahead(std::cos(at.yaw), std::sin(at.yaw), 0);
+    car.trail.start(at.position, -ahead, origin_to_front(car.model));
+    car.rear = car.trail.rear();
+    car.standing_ticks = car.stuck_ticks = 1000;
+    return car;
+}
+
+/// Does who stands `gap` [m] behind a vehicle with mass, which has stood for long, go around it?
+bool passes(const world::TownT& town, double gap, const std::vector<double>& queue_ahead = {}) {
+    const world::LaneT& lane = town.lanes[lane_of(town, "east_1")];
+    const world::VehicleModel& sedan = world::vehicle_models()[0];
+    const double rear_end = 50;  // [m] of who stands
+    const world::LanePoint at = world::point_at(lane, rear_end + sedan.rear_overhang);
+    const world::SealedTick last =
+        test::tick_with({test::vehicle_at(9, at.position.x(), at.position.y(), at.yaw)});
+    Cars cars;
+    world::TickDraft draft;
+    cars.add(car_on(town, 1000000, rear_end - gap), "", 0, draft);
+    for (const double front : queue_ahead)
+        cars.add(car_on(town, 1000000 + static_cast<std::uint32_t>(front), front), "", 0, draft);
+    const world::LaneMap lanes(town);
+    Obstructions obstructions(town, lanes, step);
+    for (int i = 0; i < 800; ++i)
+        obstructions.look(last.view(), cars.all());
+    const Passing passing(town, obstructions, step);
+    passing.begin(cars[0], cars, last.view(), 900);
+    return cars[0].pass.has_value();
+}
+
+/// At 2.4 m a corner swept over an ego's rear in Town07: it pulls out as steeply as it can.
+TEST(Passing, WhoStandsCloseBehindHasNoRoomToPullOut) {
+    const world::TownT town = road_with_a_bend(1000);
+    EXPECT_TRUE(passes(town, 5.5)) << "nothing is shown";
+    EXPECT_FALSE(passes(town, 2.4));
+    EXPECT_FALSE(passes(town, 1.5));
+}
+
+/// Who has stood for long in a queue waits as everybody there does.
+TEST(Passing, NobodyPassesAQueueThatGoesOnRoundABend) {
+    const world::TownT town = road_with_a_bend(bend_start);
+    EXPECT_TRUE(passes(town, 5.5)) << "nothing is shown";
+    EXPECT_FALSE(passes(town, 5.5, {bend_start + 14}));
+}
+
+}  // namespace
+}  // namespace reprise::traffic
