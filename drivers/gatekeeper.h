@@ -22,7 +22,7 @@ namespace reprise::drivers {
 ///         where a car turns.
 /// GOES    through the gates ahead, nearest first, until one says stop.
 /// KEEPS   what was decided at yellow, and how long we have waited: after 12 s it creeps on,
-///         because several who all give way would wait for ever; and after 90 s before a row of
+///         because several who all give way would wait for ever; and after 45 s before a row of
 ///         junctions it asks no more than that the first be free.
 class Gatekeeper {
   public:

@@ -185,10 +185,10 @@ TEST(Gatekeeper, KeepsARowOfJunctionsFreeThatHasNoRoomInBetween) {
     EXPECT_EQ(approach.allowed(1.5, 0, tick_of({})), world::infinity);
 }
 
-TEST(Gatekeeper, EntersARowOfJunctionsAfterAMinuteAndAHalfThatOnlyItsEndIsNotFree) {
+TEST(Gatekeeper, EntersARowOfJunctionsAfterThreeQuartersOfAMinuteThatOnlyItsEndIsNotFree) {
     Approach approach(two_junctions(2));
     approach.overlaps = {{220, 0, 5}};
-    for (int tick = 0; tick * step < 89.9; ++tick)
+    for (int tick = 0; tick * step < 44.9; ++tick)
         ASSERT_LT(approach.allowed(1.5, 0, tick_of({})), 1) << tick * step << " s";
     double allowed = 0;
     for (int tick = 0; tick < 5; ++tick)
