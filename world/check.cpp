@@ -57,7 +57,7 @@ std::vector<std::string> words_of(const std::string& name) {
 
 /// How many of the words stand in the name as well, or nearly.
 std::size_t shared_words(const std::vector<std::string>& words, const std::string& name) {
-    constexpr std::size_t shortest_word = 4;
+    constexpr std::size_t shortest_word = 3;
     const std::vector<std::string> others = words_of(name);
     return static_cast<std::size_t>(
         std::count_if(words.begin(), words.end(), [&](const std::string& word) {
@@ -100,8 +100,10 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
             nearest = &candidate;
         }
     }
-    if (nearest == nullptr)
-        nearest = of_same_words(word, candidates);
+    // A slip of the fingers comes first, then a whole word, then what is just alike.
+    if (nearest == nullptr || best > 1)
+        if (const std::string* same = of_same_words(word, candidates))
+            nearest = same;
     return nearest == nullptr ? "" : " (did you mean '" + *nearest + "'?)";
 }
 

@@ -56,6 +56,14 @@ TEST(DidYouMean, SuggestsTheNearestName) {
     EXPECT_EQ(did_you_mean("vn", models), " (did you mean 'van'?)");
 }
 
+TEST(DidYouMean, SuggestsANameThatSaysItsUnitAsWell) {
+    const std::vector<std::string> keys{"name", "type", "fov_deg", "yaw_deg", "size", "rate_hz"};
+    EXPECT_EQ(did_you_mean("fov", keys), " (did you mean 'fov_deg'?)");
+    EXPECT_EQ(did_you_mean("yaw", keys), " (did you mean 'yaw_deg'?)");
+    EXPECT_EQ(did_you_mean("rate", keys), " (did you mean 'rate_hz'?)");
+    EXPECT_EQ(did_you_mean("far", keys), "");
+}
+
 TEST(DidYouMean, KeepsQuietWhenNothingIsNear) {
     EXPECT_EQ(did_you_mean("submarine", models), "");
     const std::vector<std::string> weathers{"clear_noon", "clear_night", "soft_rain_night"};
