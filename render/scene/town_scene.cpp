@@ -38,6 +38,28 @@ Vector3d whole_metres_amid(const world::TownT& town) {
             middle(town.low.z(), town.high.z())};
 }
 
+/// Embree looks into the mesh itself, which must outlive it there; its last corner as well is read
+/// as four floats.
+void share(RTCGeometry geometry, Mesh& mesh) {
+    mesh.vertices.reserve(mesh.vertices.size() + 1);
+    rtcSetSharedGeometryBuffer(geometry,
+                               RTC_BUFFER_TYPE_VERTEX,
+                               0,
+                               RTC_FORMAT_FLOAT3,
+                               mesh.vertices.data(),
+                               0,
+                               sizeof(Eigen::Vector3f),
+                               mesh.vertices.size());
+    rtcSetSharedGeometryBuffer(geometry,
+                               RTC_BUFFER_TYPE_INDEX,
+                               0,
+                               RTC_FORMAT_UINT3,
+                               mesh.triangles.data(),
+                               0,
+                               sizeof(std::array<std::uint32_t, 3>),
+                               mesh.triangles.size());
+}
+
 }  // namespace
 
 struct TownScene::Device {
@@ -97,20 +119,7 @@ const Prototype* TownScene::add_prototype(Mesh mesh) {
     rtcSetSceneFlags(prototype.tree, RTC_SCENE_FLAG_ROBUST);
     if (!prototype.mesh.triangles.empty()) {
         RTCGeometry geometry = rtcNewGeometry(device_->handle, RTC_GEOMETRY_TYPE_TRIANGLE);
-        const std::size_t vertices = prototype.mesh.vertices.size();
-        const std::size_t triangles = prototype.mesh.triangles.size();
-        auto* positions =
-            static_cast<Eigen::Vector3f*>(rtcSetNewGeometryBuffer(geometry,
-                                                                  RTC_BUFFER_TYPE_VERTEX,
-                                                                  0,
-                                                                  RTC_FORMAT_FLOAT3,
-                                                                  sizeof(Eigen::Vector3f),
-                                                                  vertices));
-        std::copy(prototype.mesh.vertices.begin(), prototype.mesh.vertices.end(), positions);
-        using Corners = std::array<std::uint32_t, 3>;
-        auto* corners = static_cast<Corners*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Corners), triangles));
-        std::copy(prototype.mesh.triangles.begin(), prototype.mesh.triangles.end(), corners);
+        share(geometry, prototype.mesh);
         // Rays choose by the instance; everything inside one is visible to all.
         rtcSetGeometryMask(geometry, 0xffffffffu);
         rtcCommitGeometry(geometry);
