@@ -119,25 +119,39 @@ void add_ellipsoid(
 }
 
 void smooth(Mesh& mesh, double crease) {
-    std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
-    std::vector<Vector3f> normals;
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        normals.push_back(area_normal(mesh, mesh.triangles[i]));
-        for (const std::uint32_t corner : mesh.triangles[i])
-            around[corner].push_back(i);
+    const std::size_t count = mesh.triangles.size();
+    std::vector<Vector3f> normals;  // of triangles, as long as these are large
+    std::vector<Vector3f> units;
+    normals.reserve(count);
+    units.reserve(count);
+    // Of vertex v: around[begin[v]] to around[begin[v + 1]], ascending.
+    std::vector<std::uint32_t> begin(mesh.vertices.size() + 2, 0);
+    for (const auto& triangle : mesh.triangles) {
+        normals.push_back(area_normal(mesh, triangle));
+        units.push_back(normals.back().normalized());
+        for (const std::uint32_t corner : triangle)
+            ++begin[corner + 2];
     }
+    for (std::size_t v = 2; v < begin.size(); ++v)
+        begin[v] += begin[v - 1];
+    std::vector<std::uint32_t> around(3 * count);
+    for (std::uint32_t i = 0; i < count; ++i)
+        for (const std::uint32_t corner : mesh.triangles[i])
+            around[begin[corner + 1]++] = i;
+
     const auto least_cosine = static_cast<float>(std::cos(crease));
-    mesh.normals.assign(mesh.triangles.size(), {});
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Vector3f own = normals[i].normalized();
+    mesh.normals.assign(count, {});
+    for (std::size_t i = 0; i < count; ++i)
         for (std::size_t corner = 0; corner < 3; ++corner) {
+            const std::uint32_t vertex = mesh.triangles[i][corner];
             Vector3f sum = normals[i];
-            for (const std::uint32_t other : around[mesh.triangles[i][corner]])
-                if (other != i && normals[other].normalized().dot(own) > least_cosine)
+            for (std::uint32_t k = begin[vertex]; k < begin[vertex + 1]; ++k) {
+                const std::uint32_t other = around[k];
+                if (other != i && units[other].dot(units[i]) > least_cosine)
                     sum += normals[other];
+            }
             mesh.normals[i][corner] = sum.normalized();
         }
-    }
 }
 
 void append(Mesh& mesh, const Mesh& part) {
