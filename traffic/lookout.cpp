@@ -23,7 +23,6 @@ constexpr double steepest_pass = 0.9;  // of one who has stood behind what it pa
 constexpr double corner_reach = 0.25;  // [m] and how far its bumper's corner reaches out then
 constexpr double walking_pace = 1.4;   // [m/s]
 constexpr double starting = 3;         // [m/s^2] no car of the fleet starts quicker
-constexpr double crawl = 0.5;          // [m/s]
 
 }  // namespace
 
@@ -256,7 +255,6 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
     meetings_.look(cars, tick);
     for (std::size_t i = 0; i < cars.size(); ++i) {
         Car& car = cars[i];
-        car.sees_no_way = false;
         if (car.sumo.empty() || car.origin == Origin::parked || car.lane == none ||
             car.held_in == tick || (car.speed_order && !car.speed_order->reacts))
             continue;
@@ -268,13 +266,11 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
             if (car.pass)
                 allowed = allowed_speed(car, cars);
         }
-        if (car.pass) {
+        if (car.pass)
             allowed = std::min(allowed, Passing::allowed_speed(car));
-        } else {
-            allowed = std::min(allowed, before_swept(car, tick));
-            car.sees_no_way = allowed < crawl;
-            allowed = std::min({allowed, meetings_.allowed_speed(i), car.way_speed});
-        }
+        else
+            allowed = std::min(
+                {allowed, meetings_.allowed_speed(i), car.way_speed, before_swept(car, tick)});
         if (car.pass || allowed < car.speed + starting * step_) {
             hold_back(car, allowed, tick);
         } else if (car.held_back) {

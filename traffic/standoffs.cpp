@@ -14,7 +14,6 @@ namespace reprise::traffic {
 namespace {
 
 constexpr double patience = 12;    // [s] for the first of several; as much again for each other
-constexpr double short_one = 3;    // [s] for who cannot go on himself
 constexpr double place = 35;       // [m] a junction with the ends of its roads
 constexpr double at_the_line = 3;  // [m] before the end of its lane
 constexpr double has_stopped = 2;  // [s]
@@ -26,7 +25,7 @@ constexpr const char* ignored = "junctionModel.ignoreIDs";
 /// At the front of its lane, or in a junction; not at a light.
 bool Standoffs::waits(const Car& car) const {
     if (car.origin != Origin::demand || car.sumo.empty() || car.lane == world::none ||
-        car.stuck_ticks * step_ < short_one)
+        car.stuck_ticks * step_ < patience)
         return false;
     const world::LaneT& lane = town_->lanes[car.lane];
     if (lane.kind == world::LaneKind::internal)
@@ -59,17 +58,6 @@ bool Standoffs::is_ahead(const Car& other, const Car& car) const {
         driven += i > 0 ? graph_->edge(car.route[i]).length : 0;
     }
     return false;
-}
-
-/// Those who wait, but not for him: for people, or for what SUMO does not know.
-std::string Standoffs::held_near(const Car& car, const Cars& cars) const {
-    std::string names;
-    for (const Car& other : cars.all())
-        if (other.id != car.id && other.sees_no_way && !is_ahead(other, car) &&
-            other.stuck_ticks * step_ > has_stopped &&
-            (other.rear - car.rear).head<2>().norm() < place)
-            names += other.sumo + ' ';
-    return names;
 }
 
 std::string Standoffs::standing_near(const Car& car,
@@ -111,19 +99,12 @@ void Standoffs::advance(const world::TickView& last, Cars& cars, std::uint64_t t
             waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(i), [&](const Car* one) {
                 return (one->rear - waiting[i]->rear).head<2>().norm() < place;
             });
-        Car& car = *waiting[i];
-        if (car.stuck_ticks * step_ >= patience * static_cast<double>(before + 1))
-            let_go(car, standing_near(car, last, cars));
-        else if (!car.sees_no_way)
-            let_go(car, held_near(car, cars));
+        if (waiting[i]->stuck_ticks * step_ < patience * static_cast<double>(before + 1))
+            continue;
+        libsumo::Vehicle::setParameter(
+            waiting[i]->sumo, ignored, standing_near(*waiting[i], last, cars));
+        waiting[i]->ignores_standing = true;
     }
-}
-
-void Standoffs::let_go(Car& car, const std::string& past) const {
-    if (past.empty() && !car.ignores_standing)
-        return;
-    libsumo::Vehicle::setParameter(car.sumo, ignored, past);
-    car.ignores_standing = true;
 }
 
 }  // namespace reprise::traffic

@@ -18,8 +18,7 @@ namespace reprise::traffic {
 /// ASSUMES that Lookout keeps him from driving into anybody.
 /// GOES    once a second: of those who have stood at a junction for longer than anybody waits there
 ///         for a gap the longest, one in each place, is told not to mind those who stand near it;
-///         the next one when that was of no use. Not at lights, before which one has to wait. Those
-///         who stand for people or things in their way are not waited for that long.
+///         the next one when that was of no use. Not at lights, before which one has to wait.
 /// KEEPS   with each car, whether it was told.
 class Standoffs {
   public:
@@ -34,10 +33,8 @@ class Standoffs {
 
   private:
     bool waits(const Car& car) const;
-    void let_go(Car& car, const std::string& past) const;
     bool is_through(const Car& car) const;
     bool is_ahead(const Car& other, const Car& car) const;
-    std::string held_near(const Car& car, const Cars& cars) const;
     std::string standing_near(const Car& car, const world::TickView& last, const Cars& cars) const;
 
     const world::TownT* town_;

@@ -101,8 +101,7 @@ struct Car {
     std::vector<world::CommandT> waiting;         ///< orders for when SUMO drives it again
     std::uint64_t held_in = 0;                    ///< tick in which SUMO must hold its speed
 
-    bool held_back = false;    ///< by what it sees on its way; see lookout.h
-    bool sees_no_way = false;  ///< in this tick, for what SUMO does not know
+    bool held_back = false;  ///< by what it sees on its way; see lookout.h
     std::optional<PassOrder> pass;
 
     // Among others of SUMO's; see meetings.h and standoffs.h.
