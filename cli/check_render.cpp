@@ -10,7 +10,6 @@
 #include "cli/pictures/manifest.h"
 #include "cli/process/guard.h"
 #include "cli/process/temporary_folder.h"
-#include "files/output_file.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -67,23 +66,16 @@ RenderOptions options_again(const RenderOptions& options,
                             const Json& manifest,
                             const fs::path& trace,
                             const TemporaryFolder& folder) {
-    std::vector<std::string> words{
-        "reprise", "render", trace.string(), "--output=" + output_again(manifest, folder).string()};
-    for (const auto& [name, value] : manifest["options"].items())
-        words.push_back(name + "=" + value.get<std::string>());
-    if (manifest.contains("rig")) {
-        const fs::path rig = folder / "rig.json";
-        files::write_file(rig, "the rig", manifest["rig"].dump());
-        words.push_back("--rig=" + rig.string());
-    }
-    if (options.threads > 0)
-        words.push_back(fmt::format("--threads={}", options.threads));
-    std::vector<char*> pointers;
-    for (std::string& word : words)
-        pointers.push_back(word.data());
     CommandLine line;
-    if (line.parse(static_cast<int>(pointers.size()), pointers.data()))
-        throw world::Error(options.check + ": its options are none of this program's");
+    parse_again({{"reprise",
+                  "render",
+                  trace.string(),
+                  "--output=" + output_again(manifest, folder).string()},
+                 manifest,
+                 options.threads,
+                 options.check},
+                folder,
+                line);
     line.render.quiet = true;
     return line.render;
 }

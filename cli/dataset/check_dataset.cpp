@@ -10,7 +10,6 @@
 #include "cli/pictures/manifest.h"
 #include "cli/process/guard.h"
 #include "cli/process/temporary_folder.h"
-#include "files/output_file.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -81,21 +80,8 @@ DatasetOptions options_again(const DatasetOptions& options,
     for (const std::string& trace : traces_of(options, index))
         words.push_back(trace);
     words.push_back("--output=" + (folder / "made").string());
-    for (const auto& [name, value] : index["options"].items())
-        words.push_back(name + "=" + value.get<std::string>());
-    if (index.contains("rig")) {
-        const fs::path rig = folder / "rig.json";
-        files::write_file(rig, "the rig", index["rig"].dump());
-        words.push_back("--rig=" + rig.string());
-    }
-    if (options.threads > 0)
-        words.push_back(fmt::format("--threads={}", options.threads));
-    std::vector<char*> pointers;
-    for (std::string& word : words)
-        pointers.push_back(word.data());
     CommandLine line;
-    if (line.parse(static_cast<int>(pointers.size()), pointers.data()))
-        throw world::Error(options.check + ": its options are none of this program's");
+    parse_again({words, index, options.threads, options.check}, folder, line);
     line.dataset.quiet = true;
     return line.dataset;
 }

@@ -4,6 +4,8 @@
 
 #include "cli/process/guard.h"
 #include "cli/process/say.h"
+#include "files/output_file.h"
+#include "world/check.h"
 #include "world/fingerprint.h"
 
 namespace reprise::cli {
@@ -38,6 +40,24 @@ std::string all_of(const FileList& files) {
 }
 
 }  // namespace
+
+void parse_again(const Recipe& recipe, const TemporaryFolder& folder, CommandLine& line) {
+    std::vector<std::string> words = recipe.words;
+    for (const auto& [name, value] : recipe.said["options"].items())
+        words.push_back(name + "=" + value.get<std::string>());
+    if (recipe.said.contains("rig")) {
+        const std::filesystem::path rig = folder / "rig.json";
+        files::write_file(rig, "the rig", recipe.said["rig"].dump());
+        words.push_back("--rig=" + rig.string());
+    }
+    if (recipe.threads > 0)
+        words.push_back(fmt::format("--threads={}", recipe.threads));
+    std::vector<char*> pointers;
+    for (std::string& word : words)
+        pointers.push_back(word.data());
+    if (line.parse(static_cast<int>(pointers.size()), pointers.data()))
+        throw world::Error(recipe.what + ": its options are none of this program's");
+}
 
 bool same_program(const Json& manifest) {
     Json now;

@@ -3,12 +3,29 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "cli/options/options.h"
 #include "cli/pictures/file_list.h"
+#include "cli/process/temporary_folder.h"
 
 namespace reprise::cli {
+
+/// How to make what was made once.
+struct Recipe {
+    std::vector<std::string>
+        words;  ///< of the program and its command, what it reads, where its output goes
+    const nlohmann::ordered_json&
+        said;          ///< a manifest or an index: its "options", and its "rig" if it has one
+    int threads = 0;   ///< as many as the program likes
+    std::string what;  ///< is made again, for people
+};
+
+/// Reads a recipe as the program's own command line; the rig becomes a file of `folder`. Throws
+/// world::Error when it is none.
+void parse_again(const Recipe& recipe, const TemporaryFolder& folder, CommandLine& line);
 
 /// Whether this program is the one that a manifest names.
 bool same_program(const nlohmann::ordered_json& manifest);
