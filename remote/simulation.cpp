@@ -156,9 +156,10 @@ struct Simulation::Connection {
         Builder builder;
         const auto schema = builder.CreateString(schema_digest());
         builder.Finish(CreateOpen(builder, wire_version, schema, builder.CreateString(token)));
-        say(Kind::open, builder);
         Frame answer;
         try {
+            // A server that never was may be gone before we speak, or before it would.
+            channel.send(Kind::open, {builder.GetBufferPointer(), builder.GetSize()});
             answer = channel.receive();
         } catch (const ChannelFault& fault) {
             const auto ended = own ? own->wait(1) : std::nullopt;
