@@ -22,6 +22,11 @@ PICTURES = {
     "rgb_84x84": "colour, 84x84",
     "semantic_84x84": "semantic classes, 84x84",
 }
+SWEEPS = {
+    "semantic_64x2048": "a turn of a LiDAR, 64 x 2048, with labels",
+    "lidar_64x2048": "a turn of a LiDAR, 64 x 2048, clear noon",
+    "lidar_rain_64x2048": "a turn of a LiDAR, 64 x 2048, hard rain",
+}
 COMMANDS = ("--version", "--help", "info", "diff")
 TICKS_AN_HOUR = 72_000
 TICK = 0.05  # [s]
@@ -106,6 +111,9 @@ def pictures(v):
         at = f"look/{name}."
         rows.append([words, v.text(at + "real_ms", digits=3) + " ms", v.text(at + "of_bare", decimals=1),
                      v.text(at + "portable_ms", digits=3) + " ms"])
+    for name, words in SWEEPS.items():
+        at = f"sweep/{name}."
+        rows.append([words, v.text(at + "real_ms", digits=3) + " ms (no file)", v.text(at + "of_bare", decimals=1), ""])
     columns = ["a picture, one core", "with its file", "of bare Embree over all its rays", "`--portable`, without the file"]
     return table(columns, rows) + (
         f"\n\nUntil the first picture {v.text('StartUp.real_ms', digits=3)} ms pass. Two threads make "
