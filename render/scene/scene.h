@@ -25,11 +25,10 @@ class Scene {
     Scene& operator=(const Scene&) = delete;
 
     /// Places everybody. The actors in `mounts` can be hidden from rays, see mask_hiding.
-    /// Nothing is kept from the last tick: the same tick gives the same tree. 0.5 ms for 100 cars.
-    /// Umbrellas are open when it rains in the tick: what there is to see does not depend on the
-    /// weather that pictures are made under.
-    /// `ago`: where they were so many seconds before, as far as the tick tells, see Twist::back;
-    /// limbs, wheels and lamps are as at the tick.
+    /// The same tick gives the same tree, whatever the last one was. 1.1 ms for 100 cars and 50
+    /// walkers. Umbrellas are open when it rains in the tick: what there is to see does not depend
+    /// on the weather that pictures are made under. `ago`: where they were so many seconds before,
+    /// as far as the tick tells, see Twist::back; limbs, wheels and lamps are as at the tick.
     void place(const world::TickView& tick, std::span<const std::uint32_t> mounts, double ago = 0);
 
     /// A time of a tick, and where its rays stay.

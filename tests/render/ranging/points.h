@@ -37,6 +37,14 @@ inline world::SensorSpec ranger(world::SensorKind kind,
     return spec;
 }
 
+inline world::Weather clear() {
+    world::Weather weather = noon();
+    weather.mutate_rain(0);
+    weather.mutate_fog_extinction(0);
+    weather.mutate_wetness(0);
+    return weather;
+}
+
 inline std::uint32_t whole_at(const world::SensorFrame& frame, int row, int column) {
     std::uint32_t word = 0;
     const auto index = static_cast<std::size_t>(row * frame.channels + column);
