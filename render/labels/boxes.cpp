@@ -1,13 +1,11 @@
 // What it must do: say of every actor that is seen where it is, in the picture and in space.
 // What it assumes: both frames are of this tick and camera.
-// How it goes: pixels are counted by their instance; each actor looks up its own count. A
-//   box that reaches behind the camera has no outline: the whole picture is said.
+// How it goes: pixels are counted by their instance; each actor looks up its own count.
 // What it keeps: nothing.
 #include "render/labels/boxes.h"
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <map>
 
 #include "world/external/instance_id.h"
@@ -51,41 +49,6 @@ std::map<std::uint16_t, Count> count_pixels(const world::SensorFrame& instances,
             count.around.bottom = std::max(count.around.bottom, y + 1.0);
         }
     return counts;
-}
-
-PixelBox around_corners(const Camera& camera,
-                        const Eigen::Isometry3d& pose_world_middle,
-                        const Eigen::Vector3d& size) {
-    constexpr double nearest = 0.05;  // [m] before the camera
-    constexpr double far = std::numeric_limits<double>::max();
-    PixelBox box{far, far, -far, -far};
-    // Of a lens that bends straight lines the edges as well.
-    const int parts = camera.lens().is_plain() ? 1 : 16;
-    for (int point = 0; point < 12 * (parts + 1); ++point) {
-        const int axis = point / (4 * (parts + 1));
-        const int edge = point / (parts + 1) % 4;
-        const double along = static_cast<double>(point % (parts + 1)) / parts;
-        Eigen::Vector3d way;
-        way[axis] = along - 0.5;
-        way[(axis + 1) % 3] = (edge & 1) != 0 ? 0.5 : -0.5;
-        way[(axis + 2) % 3] = (edge & 2) != 0 ? 0.5 : -0.5;
-        const Eigen::Vector3d at =
-            camera.project(pose_world_middle * Eigen::Vector3d(way.cwiseProduct(size)));
-        if (at.z() < nearest)
-            return {
-                0, 0, static_cast<double>(camera.width()), static_cast<double>(camera.height())};
-        box.left = std::min(box.left, at.x());
-        box.top = std::min(box.top, at.y());
-        box.right = std::max(box.right, at.x());
-        box.bottom = std::max(box.bottom, at.y());
-    }
-    const auto cut = [](double value, int most) {
-        return std::clamp(value, 0.0, static_cast<double>(most));
-    };
-    return {cut(box.left, camera.width()),
-            cut(box.top, camera.height()),
-            cut(box.right, camera.width()),
-            cut(box.bottom, camera.height())};
 }
 
 /// [m] along and across, by which somebody on foot reaches out of the body that others bump into:
@@ -143,7 +106,7 @@ std::vector<LabelBox> boxes_of(const world::TickView& tick,
         box.pixels = count->second.pixels;
         box.seen = count->second.around;
         box.size = around->size;
-        box.whole = around_corners(camera, around->pose_world, box.size);
+        box.whole = box_in_picture(camera, around->pose_world, box.size).value_or(box.seen);
         box.pose_camera = pose_world_camera.inverse() * around->pose_world;
     }
     return boxes;

@@ -6,15 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "render/labels/box_outline.h"
 #include "render/trace/camera.h"
 #include "world/tick.h"
 
 namespace reprise::render {
-
-/// In pixels from the upper left corner; right and bottom are behind the last pixel.
-struct PixelBox {
-    double left = 0, top = 0, right = 0, bottom = 0;
-};
 
 /// The box around an actor, with what its limbs reach.
 struct ActorBox {
@@ -32,7 +28,7 @@ struct LabelBox {
     world::SemanticClass what = world::SemanticClass::unlabeled;
     std::size_t pixels = 0;         ///< that show it
     PixelBox seen;                  ///< around these
-    PixelBox whole;                 ///< around its box in space, cut off at the picture's border
+    PixelBox whole;                 ///< around what the picture would show of its box in space
     Eigen::Vector3d size;           ///< [m] along it, across, upwards
     Eigen::Isometry3d pose_camera;  ///< of the middle of its box: to the camera's frame
 };
