@@ -20,6 +20,7 @@
 #include "render/sensors.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 
@@ -106,9 +107,9 @@ void render_pictures(const RenderOptions& options,
     output->finish();
     const std::string recorded = trace.episode().weather_name;
     if (!options.quiet)
-        say("{}: {} pictures of {} in {:.2f} s\n",
+        say("{}: {} of {} in {:.2f} s\n",
             options.output,
-            renderer.pictures(),
+            world::count_of(renderer.pictures(), "picture"),
             !beside.empty()           ? options.compare
             : options.weather.empty() ? recorded
                                       : options.weather,

@@ -24,6 +24,7 @@
 #include "cli/process/new_folder.h"
 #include "cli/process/say.h"
 #include "world/check.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 
@@ -142,13 +143,13 @@ int dataset(const DatasetOptions& options) {
     write_index(root / "dataset.json", index);
     if (options.quiet)
         return exit_good;
-    say("{}: {} frames of {} traces under {} weathers; {} pictures{} made in {:.1f} s\n",
+    say("{}: {} of {} under {}; {}{} made in {:.1f} s\n",
         options.output,
-        frames.size(),
-        sources.size(),
-        weathers.size(),
-        made.pictures,
-        made.sweeps == 0 ? "" : fmt::format(" and {} point clouds", made.sweeps),
+        world::count_of(frames.size(), "frame"),
+        world::count_of(sources.size(), "trace"),
+        world::count_of(weathers.size(), "weather"),
+        world::count_of(made.pictures, "picture"),
+        made.sweeps == 0 ? "" : " and " + world::count_of(made.sweeps, "point cloud"),
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     return exit_good;
 }

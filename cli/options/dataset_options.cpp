@@ -49,7 +49,12 @@ void add_dataset(CLI::App& app, DatasetOptions& dataset) {
     add_ticks(command, dataset.ticks);
     command.add_option("--every", dataset.every, "Every so many ticks, or time (default 0.5s)")
         ->type_name("N");
-    add_actor(command, dataset.actor);
+    command
+        .add_option("--actor",
+                    dataset.actor,
+                    "Who carries the sensors, in every trace: a name or an id (default: the first "
+                    "vehicle with a rig, or the first); a rig's \"actor\" comes first")
+        ->type_name("NAME");
     command.add_option("--size", dataset.size, "Without a rig (default 1242x375)")
         ->type_name("WxH");
     command

@@ -3,7 +3,7 @@
 
 A page is played in a fresh folder that has the project's examples, python and tests, and those scenarios that it names.
 Commands are the lines of ```sh blocks, and of indented blocks that begin with `reprise` (with `$ reprise`: the lines
-with a `$`; the others show what is said). What a page's reader has in mind stands in comments, which nobody sees:
+with a `$`; the others show what is said, and must be said so, in this order; `...` stands for any lines). What a page's reader has in mind stands in comments, which nobody sees:
 
     <!-- by hand: WHY -->             the next block is not run: it needs a person, another's file, minutes
     <!-- before: COMMAND -->          is done here
@@ -27,7 +27,7 @@ import tempfile
 SECONDS_TO_CTRL_C = 3
 HEAD = """#!/bin/bash
 failed=0
-run() {  # LINE EXIT COMMAND
+run() {  # LINE EXIT COMMAND [SHOWN]
     eval "$3" > .said 2>&1 < /dev/null
     local code=$?
     if [ $code != "$2" ]; then
@@ -35,7 +35,19 @@ run() {  # LINE EXIT COMMAND
         echo "$1: $3: exit status $code, expected $2"
         tail -n 20 .said
     fi
+    [ -z "$4" ] || python3 .compare "$1" "$4" || failed=1
 }
+"""
+
+COMPARE = """import sys
+said, at = open(".said").read().splitlines(), 0
+for line in sys.argv[2].splitlines():
+    if line.strip() == "...":
+        continue
+    if line.rstrip() not in said[at:]:
+        print(f"{sys.argv[1]}: shown, but not said (so, or there): {line}")
+        sys.exit(1)
+    at += said[at:].index(line.rstrip()) + 1
 """
 
 
@@ -111,7 +123,9 @@ class Page:
         if self.by_hand:
             self.skipped += 1
         elif block[0].startswith("$ "):
-            self.run_all(first + 1, [line[2:] if line.startswith("$ ") else "" for line in block])
+            starts = [at for at, line in enumerate(block) if line.startswith("$ ")]
+            for at, end in zip(starts, [*starts[1:], len(block)]):
+                self.run(first + 1 + at, block[at][2:], "\n".join(block[at + 1 : end]))
         else:
             self.run_all(first + 1, block)
 
@@ -120,7 +134,7 @@ class Page:
             if line.strip():
                 self.run(number, line)
 
-    def run(self, number, line):
+    def run(self, number, line, shown=""):
         self.commands += 1
         code = re.search(r"\(exit (\d)\)", line)
         expected = int(code[1]) if code else 0
@@ -130,7 +144,7 @@ class Page:
         if "ends with Ctrl-C" in line:
             command = f"timeout --preserve-status -s INT {SECONDS_TO_CTRL_C} {command}"
             expected = 130
-        self.script.append(f"run {self.name}:{number} {expected} {shlex.quote(command)}")
+        self.script.append(f"run {self.name}:{number} {expected} {shlex.quote(command)} {shlex.quote(shown)}")
 
     def write(self, name, text):
         path = self.folder / name
@@ -141,6 +155,7 @@ class Page:
     def play(self, reprise, source):
         environment = dict(os.environ, PYTHONDONTWRITEBYTECODE="1", PYTHONPATH=f"{source}/python", HOME=str(self.folder))
         environment["PATH"] = f"{reprise.parent}:/usr/bin:{environment['PATH']}"  # Debian's python3 has what it needs
+        self.write(".compare", COMPARE)
         self.write(".script", "\n".join(self.script) + "\nexit $failed\n")
         done = subprocess.run(["bash", ".script"], cwd=self.folder, env=environment, text=True, stdout=subprocess.PIPE, check=False)
         print(f"{self.name}: {self.commands} commands, {self.skipped} blocks by hand\n{done.stdout}", end="", flush=True)
