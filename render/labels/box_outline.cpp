@@ -1,4 +1,5 @@
-// What it must do: say where a box in space is in a picture, as far as it is in it: one that reaches
+// What it must do: say where a box in space is in a picture, as far as it is in it: one that
+// reaches
 //   out of the picture, or behind the camera, has an outline of what can be seen of it.
 // How it goes: what is farthest out of a box's image lies on one of its edges, as far as these are
 //   in the picture, or in a corner of the picture.

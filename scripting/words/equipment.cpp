@@ -63,7 +63,8 @@ int set_doors(Run& run, lua_State* L) {
             continue;
         any = true;
         if (!world::has_door(model, door))
-            refuse("set_doors", fmt::format("model '{}' has no door '{}'", model.name, door_words[door]));
+            refuse("set_doors",
+                   fmt::format("model '{}' has no door '{}'", model.name, door_words[door]));
         const auto bit = static_cast<std::uint8_t>(1U << door);
         doors = static_cast<std::uint8_t>(*open ? doors | bit : doors & ~bit);
     }

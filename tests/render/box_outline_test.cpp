@@ -28,8 +28,8 @@ struct Scene {
     Vector3d size;
 };
 
-/// A car's box anywhere within 8 m of a camera, which looks anywhere: often beside, behind or around
-/// it.
+/// A car's box anywhere within 8 m of a camera, which looks anywhere: often beside, behind or
+/// around it.
 Scene scene(std::uint64_t round, const std::vector<world::AttributeValue>& attributes) {
     world::SensorSpec spec = test::camera(SensorKind::instance, {0, 0, 0});
     spec.width = 80 + static_cast<int>(40 * chance(round, 0));
@@ -45,7 +45,8 @@ Scene scene(std::uint64_t round, const std::vector<world::AttributeValue>& attri
     return {render::Camera(spec, Isometry3d::Identity()), pose, {4.7, 1.8, 1.5}};
 }
 
-/// By asking every pixel's rays, so many along each side: is one ever inside of the box's six planes?
+/// By asking every pixel's rays, so many along each side: is one ever inside of the box's six
+/// planes?
 std::optional<render::PixelBox> by_rays(const Scene& scene, int parts) {
     constexpr double most = std::numeric_limits<double>::max();
     render::PixelBox box{most, most, -most, -most};
@@ -134,12 +135,12 @@ TEST(BoxOutline, OfABoxBesideTheCameraEndsWhereItsFrontEnds) {
     spec.fov = std::acos(0.0);
     Isometry3d pose = Isometry3d::Identity();
     pose.translation() = Vector3d(-0.5, -1.5, -0.25);
-    const auto box = render::box_in_picture(
-        render::Camera(spec, Isometry3d::Identity()), pose, {9, 1, 1.5});
+    const auto box =
+        render::box_in_picture(render::Camera(spec, Isometry3d::Identity()), pose, {9, 1, 1.5});
     ASSERT_TRUE(box);
     EXPECT_NEAR(box->left, 50 + 50 * 1 / 4.0, 1e-9);
     EXPECT_NEAR(box->right, 100, 1e-9);
-    EXPECT_NEAR(box->bottom, 100, 1e-9);            // 1 m below, where its side leaves the picture
+    EXPECT_NEAR(box->bottom, 100, 1e-9);             // 1 m below, where its side leaves the picture
     EXPECT_NEAR(box->top, 50 - 50 * 0.5 / 1, 1e-9);  // likewise, half a metre above
 }
 
