@@ -21,6 +21,7 @@ constexpr double reaction = 1;       ///< [s] of an attentive driver
 constexpr double braking = 6;        ///< [m/s2] firm, on dry asphalt
 constexpr double beside = 0.3;       ///< [m] at each side that a way takes
 constexpr double moving = 0.5;       ///< [m/s]
+constexpr std::size_t listed = 12;   ///< of a kind
 
 double corner_reach(double half_length, double half_width) {
     return std::hypot(half_length, half_width);
@@ -66,14 +67,17 @@ std::vector<StreetAudit::Body> StreetAudit::bodies_of(const world::TickView& tic
         const Eigen::Vector3d x = world::to_eigen(turned).toRotationMatrix().col(0);
         return std::atan2(x.y(), x.x());
     };
-    for (const auto& car : tick.cars())
-        add(car.id(),
-            Kind::car,
-            car.position(),
-            double{car.yaw()},
-            double{car.speed()},
-            world::extent_of(world::vehicle_models()[car.model()]))
-            .lane = car.lane();
+    for (const auto& car : tick.cars()) {
+        const world::VehicleModel& model = world::vehicle_models()[car.model()];
+        Body& body = add(car.id(),
+                         Kind::car,
+                         car.position(),
+                         double{car.yaw()},
+                         double{car.speed()},
+                         world::extent_of(model));
+        body.lane = car.lane();
+        body.model = model.name;
+    }
     for (const auto& vehicle : tick.vehicles()) {
         const auto* measured = world::find(tick.measurements(), vehicle.id());
         Body& body = add(vehicle.id(),
@@ -83,6 +87,7 @@ std::vector<StreetAudit::Body> StreetAudit::bodies_of(const world::TickView& tic
                          measured == nullptr ? 0 : measured->speed(),
                          world::extent_of(world::vehicle_models()[vehicle.model()]));
         body.has_mass = true;
+        body.model = world::vehicle_models()[vehicle.model()].name;
         body.lane = measured == nullptr ? world::none : measured->lane();
     }
     for (const auto& walker : tick.walkers())
@@ -222,24 +227,37 @@ void StreetAudit::find_walls(const Body& body) {
             note(body,
                  0,
                  body.kind == Kind::car ? "car in a wall or pole" : "walker in a wall or pole",
-                 depth);
+                 depth,
+                 fmt::format("{}; {:.2f} m wide at {:.1f}, {:.1f}",
+                             lane_of(body),
+                             2 * wall.radius,
+                             to.x(),
+                             to.y()));
     }
 }
 
 void StreetAudit::note(const Body& who,
                        std::uint32_t other,
                        const std::string& what,
-                       double depth) {
+                       double depth,
+                       const std::string& details) {
     const std::uint64_t apart = static_cast<std::uint64_t>(1 / step_);
     const std::pair<std::uint32_t, std::uint32_t> key = std::minmax(who.id, other);
     const auto [open, is_new] = open_.try_emplace(key, intrusions_.size());
     if (is_new || intrusions_[open->second].last + apart < tick_) {
         open->second = intrusions_.size();
-        intrusions_.push_back({who.id, other, what, tick_, tick_, depth, who.middle});
+        intrusions_.push_back({who.id, other, what, tick_, tick_, depth, who.middle, details});
     }
     Intrusion& intrusion = intrusions_[open->second];
     intrusion.last = tick_;
+    if (depth >= intrusion.depth)
+        intrusion.details = details;
     intrusion.depth = std::max(intrusion.depth, depth);
+}
+
+std::string StreetAudit::lane_of(const Body& body) const {
+    const std::string what = body.model;
+    return body.lane < town_->lanes.size() ? what + " on " + town_->lanes[body.lane].name : what;
 }
 
 void StreetAudit::measure(std::span<const Body> bodies) {
@@ -412,16 +430,17 @@ std::string StreetAudit::text() const {
             return one->depth > other->depth;
         });
         text += fmt::format("  {} {}\n", all.size(), what);
-        for (std::size_t i = 0; i < std::min<std::size_t>(5, all.size()); ++i)
-            text +=
-                fmt::format("      {} and {}: {:.2f} m, {:.2f} s to {:.2f} s, at {:.1f}, {:.1f}\n",
-                            all[i]->who,
-                            all[i]->other,
-                            all[i]->depth,
-                            static_cast<double>(all[i]->first) * step_,
-                            static_cast<double>(all[i]->last) * step_,
-                            all[i]->place.x(),
-                            all[i]->place.y());
+        for (std::size_t i = 0; i < std::min<std::size_t>(listed, all.size()); ++i)
+            text += fmt::format(
+                "      {} and {}: {:.2f} m, {:.2f} s to {:.2f} s, at {:.1f}, {:.1f} {}\n",
+                all[i]->who,
+                all[i]->other,
+                all[i]->depth,
+                static_cast<double>(all[i]->first) * step_,
+                static_cast<double>(all[i]->last) * step_,
+                all[i]->place.x(),
+                all[i]->place.y(),
+                all[i]->details);
     }
     text += fmt::format("collisions: {}, avoidable by an attentive driver: {}\n",
                         collisions_.size(),

@@ -46,6 +46,7 @@ class StreetAudit {
         std::uint64_t last = 0;   ///< tick
         double depth = 0;         ///< [m] the deepest
         Eigen::Vector2d place{0, 0};
+        std::string details;    ///< of the deepest: which lane, and which wall
         bool is_wreck = false;  ///< of a crash: pressed in, not driven through
     };
 
@@ -93,6 +94,7 @@ class StreetAudit {
         double z = 0;
         double speed = 0;  ///< [m/s] along `ahead`
         std::uint32_t lane = world::none;
+        const char* model = "";
         bool has_mass = false;
     };
 
@@ -100,7 +102,12 @@ class StreetAudit {
     static double depth_of(const Body& one, const Body& other);
     void find_intrusions(std::span<const Body> bodies);
     void find_walls(const Body& body);
-    void note(const Body& who, std::uint32_t other, const std::string& what, double depth);
+    void note(const Body& who,
+              std::uint32_t other,
+              const std::string& what,
+              double depth,
+              const std::string& details = {});
+    std::string lane_of(const Body& body) const;
     void measure(std::span<const Body> bodies);
     void end_minute();
     void judge(const world::Crash& crash);
