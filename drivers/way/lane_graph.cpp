@@ -39,6 +39,7 @@ LaneGraph::LaneGraph(const world::TownT& town)
                     exit_[internal] = link.to();
     }
     find_dead_ends();
+    find_circles();
 }
 
 Continuation LaneGraph::continuation(const Link& link) const {
@@ -75,15 +76,62 @@ void LaneGraph::find_dead_ends() {
     }
 }
 
+/// The lane behind it where there is no choice, but for turning around; else none.
+std::uint32_t LaneGraph::only_way_on(std::uint32_t lane) const {
+    std::uint32_t only = world::none;
+    for (const Link& link : town_->lanes[lane].links) {
+        if (link.turn() == world::Turn::around || !leads_somewhere(*town_, link))
+            continue;
+        if (only != world::none)
+            return world::none;
+        only = link.to();
+    }
+    return only;
+}
+
+/// Lanes whose only way on comes back to them, and those that lead nowhere but there.
+void LaneGraph::find_circles() {
+    constexpr double longest = 400;  // [m] who goes round a larger one sees something of the town
+    const auto count = static_cast<std::uint32_t>(town_->lanes.size());
+    circles_.assign(count, false);
+    for (std::uint32_t start = 0; start < count; ++start) {
+        if (circles_[start] || town_->lanes[start].kind != LaneKind::driving)
+            continue;
+        std::vector<std::uint32_t> way;
+        double length = 0;
+        for (std::uint32_t lane = only_way_on(start); lane != world::none && length < longest;
+             lane = only_way_on(lane)) {
+            length += town_->lanes[lane].length;
+            way.push_back(lane);
+            if (lane != start)
+                continue;
+            for (const std::uint32_t one : way)
+                circles_[one] = true;
+            break;
+        }
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t on =
+                town_->lanes[i].kind == LaneKind::driving ? only_way_on(i) : world::none;
+            if (circles_[i] || on == world::none || !circles_[on])
+                continue;
+            circles_[i] = changed = true;
+        }
+    }
+}
+
 std::vector<std::uint32_t> LaneGraph::choices(std::uint32_t lane) const {
     const std::vector<Link>& links = town_->lanes[lane].links;
     const Continuation best = straight_continuation(lane);
     // To turn here is no better than to turn later, unless there is no later.
-    for (const bool around : {false, true}) {
+    for (const auto& [around, round] : {std::pair{false, false}, {false, true}, {true, true}}) {
         std::vector<std::uint32_t> found;
         for (std::uint32_t i = 0; i < links.size(); ++i)
             if (leads_somewhere(*town_, links[i]) && continuation(links[i]) == best &&
-                (around || links[i].turn() != world::Turn::around))
+                (around || links[i].turn() != world::Turn::around) &&
+                (round || !circles_[links[i].to()]))
                 found.push_back(i);
         if (!found.empty())
             return found;
@@ -114,7 +162,8 @@ std::optional<LaneGraph::Better> LaneGraph::better_lane(std::uint32_t lane) cons
     const Continuation here = straight_continuation(lane);
     const std::vector<std::uint32_t> sideways = reachable_sideways(lane);
     const auto better = std::find_if(sideways.begin(), sideways.end(), [&](std::uint32_t to) {
-        return straight_continuation(to) > here;
+        const Continuation there = straight_continuation(to);
+        return there > here || (there == here && circles_[lane] && !circles_[to]);
     });
     if (better == sideways.end())
         return std::nullopt;

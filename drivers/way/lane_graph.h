@@ -40,7 +40,7 @@ class LaneGraph {
     const world::TownT& town() const { return *town_; }
 
     /// Links of a lane that a wandering driver may take: those with the best continuation; to turn
-    /// around only where nothing else is left. Indices in lane.links.
+    /// around, or into a circle, only where nothing else is left. Indices in lane.links.
     std::vector<std::uint32_t> choices(std::uint32_t lane) const;
 
     /// A lane in the same direction that leads on better.
@@ -49,9 +49,13 @@ class LaneGraph {
         int changes = 0;                        ///< of lanes, to get there
     };
 
-    /// The nearest lane in the same direction whose own links have a better continuation; none
-    /// when there is no such lane. Ties go to the right.
+    /// The nearest lane in the same direction whose own links have a better continuation, or as
+    /// good a one that does not circle; none when there is no such lane. Ties go to the right.
     std::optional<Better> better_lane(std::uint32_t lane) const;
+
+    /// Does who stays on this lane go round and round a small ring, as on the inner lane of a
+    /// roundabout?
+    bool circles(std::uint32_t lane) const { return circles_[lane]; }
 
     /// The internal lanes of a link, in driving order.
     std::vector<std::uint32_t> inside(const world::Link& link) const;
@@ -89,9 +93,12 @@ class LaneGraph {
     Continuation straight_continuation(std::uint32_t lane) const;  ///< without changing lanes
     std::vector<std::uint32_t> reachable_sideways(std::uint32_t lane) const;  ///< nearest first
     void find_dead_ends();
+    void find_circles();
+    std::uint32_t only_way_on(std::uint32_t lane) const;
 
     const world::TownT* town_;
     std::vector<Continuation> continuation_;
+    std::vector<bool> circles_;  ///< [lane]
     std::vector<std::uint32_t> exit_;
     std::vector<std::vector<std::uint32_t>> incoming_;
     std::vector<bool> has_stop_sign_;

@@ -104,6 +104,52 @@ TEST(LaneGraph, TurnsAroundOnlyWhereNothingElseIsLeft) {
     EXPECT_EQ(drivers::LaneGraph(town).choices(4), std::vector<std::uint32_t>{0});
 }
 
+/// A street into a small ring of two lanes, whose outer one alone leads out:
+///   0 in right, 1 in left -> 2 ring outer, 3 ring inner -> itself; 2 also -> 4 out
+world::TownT roundabout() {
+    constexpr double pi = std::numbers::pi;
+    world::TownT town;
+    town.name = "roundabout";
+    town.lanes = {make_lane("in_0", Turtle(-100, 0, 0).ahead(100)),
+                  make_lane("in_1", Turtle(-100, 3.5, 0).ahead(100)),
+                  make_lane("ring_0", Turtle(0, 0, 0).turn(2 * pi, 18)),
+                  make_lane("ring_1", Turtle(0, 3.5, 0).turn(2 * pi, 14.5)),
+                  make_lane("out_0", Turtle(0, 0, 0).ahead(1500))};
+    town.lanes[0].left = 1;
+    town.lanes[1].right = 0;
+    town.lanes[2].left = 3;
+    town.lanes[3].right = 2;
+    town.lanes[1].edge = town.lanes[0].edge;
+    town.lanes[3].edge = town.lanes[2].edge;
+    town.lanes[0].links = {make_link(2, world::none, Turn::straight)};
+    town.lanes[1].links = {make_link(3, world::none, Turn::straight)};
+    town.lanes[2].links = {make_link(2, world::none, Turn::left),
+                           make_link(4, world::none, Turn::right)};
+    town.lanes[3].links = {make_link(3, world::none, Turn::left)};
+    town.lanes[4].links = {make_link(0, world::none, Turn::straight)};
+    return town;
+}
+
+TEST(LaneGraph, NobodyWandersRoundAndRoundARoundabout) {
+    const world::TownT town = roundabout();
+    const drivers::LaneGraph graph(town);
+    for (std::uint32_t lane = 0; lane < 5; ++lane)
+        EXPECT_EQ(graph.circles(lane), lane == 1 || lane == 3) << "lane " << lane;
+    for (const std::uint32_t inner : {1u, 3u}) {
+        const auto better = graph.better_lane(inner);
+        ASSERT_TRUE(better);
+        EXPECT_EQ(better->neighbour, inner - 1);
+    }
+    EXPECT_FALSE(graph.better_lane(0));
+    EXPECT_FALSE(graph.better_lane(2));
+    // Who could go into the circle goes elsewhere; who must, goes.
+    world::TownT wide = roundabout();
+    wide.lanes[0].links = {make_link(2, world::none, Turn::straight),
+                           make_link(3, world::none, Turn::straight)};
+    EXPECT_EQ(drivers::LaneGraph(wide).choices(0), std::vector<std::uint32_t>{0});
+    EXPECT_EQ(graph.choices(1), std::vector<std::uint32_t>{0});
+}
+
 TEST(LaneGraph, PlansTheShorterWayThroughAllStops) {
     const world::TownT town = ring();
     const drivers::LaneGraph graph(town);
