@@ -32,6 +32,10 @@ class Clearance {
     /// A strip around a polyline.
     void add_line(const std::vector<world::Vec3>& line, double half_width);
 
+    void add_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double half_width) {
+        add_segment({from, to, half_width});
+    }
+
     /// A polygon's border and inside, wound either way; it may cross itself.
     void add_polygon(const world::Loop& loop);
     void add_polygon(const std::vector<world::Vec3>& outline);

@@ -6,6 +6,7 @@
 
 #include "ground/mesh/ground.h"
 #include "ground/mesh/terrain.h"
+#include "towns/furnish/swept_area.h"
 #include "world/digest.h"
 #include "world/lane_starts.h"
 
@@ -53,6 +54,7 @@ PlacementContext::PlacementContext(world::TownT& target,
       roadsides(towns::roadsides(target)),
       ground_heights(target) {
     add_lanes();
+    add_swept_area();
     for (const world::JunctionT& junction : town.junctions)
         junctions.add_polygon(junction.outline);
     for (const auto& outline : place.keep_clear)
@@ -77,6 +79,19 @@ void PlacementContext::add_lanes() {
                            std::max(lane.width / 2,
                                     lane.kind == LaneKind::internal ? turning_half : narrowest));
         add_level(lane);
+    }
+}
+
+/// Two strips side by side a body: quicker than polygons, and 0.15 m short of their corners.
+void PlacementContext::add_swept_area() {
+    constexpr double from_end = 0.45;  // [m]
+    for (const Footprint& body : bus_bodies(town)) {
+        const double half_strip = body.width / 4;
+        const Vector2d along = world::ahead_of(body.yaw) * (body.length / 2 - from_end);
+        const Vector2d aside = world::left_of(body.yaw) * half_strip;
+        for (const Vector2d& middle :
+             {Vector2d(body.centre + aside), Vector2d(body.centre - aside)})
+            roads.add_line(middle - along, middle + along, half_strip);
     }
 }
 

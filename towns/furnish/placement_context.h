@@ -31,7 +31,7 @@ struct PlacementContext {
     GroundHeights ground_heights;
 
     // Obstacles by kind. [m] The largest distance that a step asks for.
-    Clearance roads{20};     ///< lanes for vehicles, and the paths of cars across junctions
+    Clearance roads{20};     ///< lanes for vehicles, and where buses sweep over more than those
     Clearance junctions{4};  ///< their outlines, walking areas included
     Clearance walks{8};      ///< sidewalks and walking areas
     Clearance walkways{1};   ///< the middle of sidewalks and crossings, which nothing may narrow
@@ -81,6 +81,7 @@ struct PlacementContext {
     };
 
     void add_lanes();
+    void add_swept_area();
     void add_level(const world::LaneT& lane);
     void add_sights();
 
