@@ -332,11 +332,17 @@ int run(const RunOptions& options) {
     Commentary commentary(recording.episode.step_ns, progress);
     const std::optional<world::Outcome> ended_before = recorded_end(before);
     std::uint64_t index = 0;
+    const auto step = [&]() -> const world::SealedTick& {
+        try {
+            return kernel.step(before ? inputs(*before, index + 1) : seats.controls());
+        } catch (const world::Error& error) {
+            throw index == 0 ? error : world::Error(error.what() + rest);
+        }
+    };
     try {
         while (!kernel.finished() && stop.signal() == 0 && !seats.loss() &&
                !(ended_before && index >= ended_before->ticks)) {
-            const world::SealedTick& tick =
-                kernel.step(before ? inputs(*before, index + 1) : seats.controls());
+            const world::SealedTick& tick = step();
             ++index;
             trace->append(tick);
             commentary.hear(tick.view());

@@ -101,7 +101,7 @@ void write_index(const fs::path& path, const Json& index) {
 
 Json read_index(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
-    if (!file.is_open())
+    if (!file.is_open() || !fs::is_regular_file(path))
         throw world::Error(path.string() + ": cannot be read");
     Json json = Json::parse(file, nullptr, false);
     if (json.is_discarded() || !json.is_object() || json.value("dataset", Json()) != 1)

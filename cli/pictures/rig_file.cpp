@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <numbers>
 #include <optional>
+#include <sstream>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -90,10 +95,18 @@ class Table {
 };
 
 Json parse(const std::filesystem::path& path) {
+    constexpr std::uintmax_t largest = 1 << 20;
+    std::error_code error;
+    // It is read again for the manifest, which a pipe could not be.
+    if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+        throw world::Error(path.string() + ": is not a file, where a rig was expected");
+    if (const auto size = std::filesystem::file_size(path, error); !error && size > largest)
+        throw world::Error(path.string() + ": is larger than 1 MB: not a rig");
     std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file.is_open() || file.bad() || std::filesystem::is_directory(path))
+    std::ostringstream bytes;
+    if (!file.is_open() || (file.peek() != EOF && !(bytes << file.rdbuf())) || file.bad())
         throw world::Error(path.string() + ": cannot be read");
+    const std::string text = std::move(bytes).str();
     try {
         return Json::parse(text);
     } catch (const Json::parse_error& error) {

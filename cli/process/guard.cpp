@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <sys/uio.h>
 #include <unistd.h>
 
@@ -101,6 +102,12 @@ int guarded(const std::string& command_line, const std::function<int()>& work) {
     } catch (const process::Stopped& stopped) {
         std::fprintf(stderr, "reprise: %s\n", stopped.what());
         return exit_stopped + stopped.signal;
+    } catch (const std::filesystem::filesystem_error& error) {
+        // Names that are too long, links in circles, folders that may not be entered.
+        const std::string where =
+            error.path1().empty() ? "this folder" : world::printable_lines(error.path1().string());
+        std::fprintf(stderr, "reprise: %s: %s\n", where.c_str(), error.code().message().c_str());
+        return exit_bad_input;
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "reprise: out of memory\n");
         return exit_bad_input;

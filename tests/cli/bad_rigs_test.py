@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """bad_rigs_test.py REPRISE: broken rig files and numbers that are none end in one line, exit status 2 and no folder."""
 import json
+import os
 import pathlib
 import random
 import subprocess
@@ -53,7 +54,10 @@ with tempfile.TemporaryDirectory() as name:
     for text in mutations(random.Random(17)):
         (folder / "rig.json").write_text(text)
         hold(text, "--rig", "rig.json")
-    for words in WORDS:
+    os.mkfifo(folder / "pipe")
+    (folder / "large.json").write_text(" " * (1 << 20) + json.dumps(RIG))
+    NO_FILES = [["--rig", each] for each in (".", "no_such.json", "pipe", "/dev/zero", "large.json", "/proc/self/mem")]
+    for words in WORDS + NO_FILES:
         before = good
         hold(words, *words)
         if good > before:

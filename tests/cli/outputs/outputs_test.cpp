@@ -98,6 +98,19 @@ TEST_P(Outputs, NeverReplaceAPipeOrADevice) {
     EXPECT_EQ(all(), before);
 }
 
+TEST_P(Outputs, ThatNoFileCanBeAreToldInOneLine) {
+    write_file(folder_ / "file", "");
+    const std::string long_name(300, 'a');
+    const auto before = all();
+    for (const std::string& out : {long_name, std::string("file/a.mcap"), long_name + "/a"}) {
+        const Result result = write_to(out);
+        EXPECT_EQ(result.code, 2) << out << ": " << result.out;
+        EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+        EXPECT_THAT(result.out, HasSubstr("reprise: "));
+        EXPECT_EQ(all(), before) << out;
+    }
+}
+
 TEST_P(Outputs, IntoTheStandardOutputAreTextOrNothing) {
     std::string line = "exec reprise";
     for (const std::string& word : GetParam().to("out"))

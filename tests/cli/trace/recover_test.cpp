@@ -107,6 +107,20 @@ std::string command_in(const std::string& text) {
     return at == std::string::npos ? "false" : text.substr(at, text.find('\n', at) - at);
 }
 
+TEST(Recover, AScriptsMistakeInMidRunSaysWhereTheTicksAreAndTheCommandThatSavesThem) {
+    const Folder folder;
+    write_file(folder / "slip.lua",
+               "return scenario 'slip' { town = 'town1', run = function()\n"
+               "  wait(5)\n"
+               "  local ego = spawn{ model = 'sedna' }\n"
+               "end }");
+    const Result run = reprise({"run", "slip.lua", "-o", "t.mcap"}, folder.path());
+    EXPECT_EQ(run.code, 2);
+    EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1) << run.out;
+    EXPECT_THAT(run.out, HasSubstr("slip.lua:3: spawn: no model 'sedna'"));
+    EXPECT_EQ(recovered(typed(command_in(run.out), folder), folder / "t.mcap"), 100U);
+}
+
 TEST(Crash, SaysWhereTheTicksAreAndTheCommandThatSavesThem) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "crashes are the sanitizer's to report";
