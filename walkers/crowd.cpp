@@ -89,7 +89,7 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
         if (walker.on_road)
             on_road_.push_back(place);
     }
-    add_things(last, next, on_road_, neighbours_);
+    add_things(last, next, step_, on_road_, neighbours_);
     neighbours_.sort();
 
     // Where to, around whom, and the step.

@@ -25,8 +25,15 @@ struct Thing {
     double half_length = 0;
     double half_width = 0;
     Eigen::Vector2d velocity{0, 0};
+    double turning = 0;           ///< [rad/s] counter-clockwise, around `pivot`
+    Eigen::Vector2d pivot{0, 0};  ///< rear axle: what moves at `velocity`
     std::uint32_t id = 0;
     bool drives = false;
+
+    /// [m/s] of a place on it: a bus's tail swings out while the bus drives on.
+    Eigen::Vector2d velocity_at(const Eigen::Vector2d& place) const {
+        return velocity + turning * world::turned_left(place - pivot);
+    }
 };
 
 /// Of a car's corners a quarter of a metre looks out of the circle around its end.
@@ -39,10 +46,11 @@ void add_corners(const Thing& thing, Neighbours& neighbours) {
     const Eigen::Vector2d across = (thing.half_width - round) * world::turned_left(thing.ahead);
     for (const Eigen::Vector2d& corner :
          {Eigen::Vector2d(along + across), Eigen::Vector2d(along - across)})
-        for (const double end : {1.0, -1.0})
-            neighbours.add(
-                {thing.middle + end * corner, thing.velocity, round + beside_cars, thing.id},
-                thing.drives);
+        for (const double end : {1.0, -1.0}) {
+            const Eigen::Vector2d place = thing.middle + end * corner;
+            neighbours.add({place, thing.velocity_at(place), round + beside_cars, thing.id},
+                           thing.drives);
+        }
 }
 
 void add(const Thing& thing, Neighbours& neighbours) {
@@ -54,7 +62,8 @@ void add(const Thing& thing, Neighbours& neighbours) {
     const int count = 1 + static_cast<int>(std::ceil(2 * end / radius));
     for (int i = 0; i < count; ++i) {
         const double at = count > 1 ? -end + 2 * end * i / (count - 1) : 0;
-        neighbours.add({thing.middle + at * along, thing.velocity, radius, thing.id}, thing.drives);
+        const Eigen::Vector2d place = thing.middle + at * along;
+        neighbours.add({place, thing.velocity_at(place), radius, thing.id}, thing.drives);
     }
     add_corners(thing, neighbours);
 }
@@ -63,6 +72,7 @@ Thing car_of(const Eigen::Vector2d& rear_axle, double yaw, std::uint16_t model, 
     const world::Extent extent = world::extent_of(world::vehicle_models()[model]);
     Thing thing;
     thing.ahead = world::ahead_of(yaw);
+    thing.pivot = rear_axle;
     thing.middle = rear_axle + extent.middle() * thing.ahead;
     thing.half_length = (extent.front - extent.rear) / 2;
     thing.half_width = extent.half_width;
@@ -82,6 +92,7 @@ bool is_near(const world::CarState& car, std::span<const Eigen::Vector2d> people
 
 void add_cars(const world::TickView& last,
               const world::TickDraft& next,
+              double step,
               std::span<const Eigen::Vector2d> on_road,
               Neighbours& neighbours) {
     for (const world::CarState& car : next.traffic.cars) {
@@ -94,6 +105,9 @@ void add_cars(const world::TickView& last,
         Thing thing = car_of(world::in_plan(car.position()), yaw, car.model(), car.id());
         thing.velocity = speed * thing.ahead;
         thing.drives = drives;
+        const world::CarState* before = drives ? world::find(last.cars(), car.id()) : nullptr;
+        if (before != nullptr)
+            thing.turning = world::wrap_angle(yaw - static_cast<double>(before->yaw())) / step;
         add(thing, neighbours);
     }
     for (const world::VehicleState& vehicle : last.vehicles()) {
@@ -104,6 +118,7 @@ void add_cars(const world::TickView& last,
                              vehicle.model(),
                              vehicle.id());
         thing.velocity = {vehicle.velocity().x(), vehicle.velocity().y()};
+        thing.turning = vehicle.angular_velocity().z();
         thing.drives = thing.velocity.norm() > stands;
         add(thing, neighbours);
     }
@@ -157,9 +172,10 @@ void add_doors(const world::TickView& last, const world::TickDraft& next, Neighb
 
 void add_things(const world::TickView& last,
                 const world::TickDraft& next,
+                double step,
                 std::span<const Eigen::Vector2d> on_road,
                 Neighbours& neighbours) {
-    add_cars(last, next, on_road, neighbours);
+    add_cars(last, next, step, on_road, neighbours);
     add_props(last, neighbours);
     add_doors(last, next, neighbours);
 }

@@ -13,9 +13,10 @@ namespace reprise::walkers {
 /// as `next` has them, vehicles with mass, props and open doors as `last` had them. Whoever is on
 /// the road keeps away from what drives; everybody goes around what stands for good: parked cars,
 /// wrecks, props and doors. Of SUMO's cars that drive only those near somebody on the road are
-/// added: `on_road`, where such people are.
+/// added: `on_road`, where such people are. `step` [s] of a tick.
 void add_things(const world::TickView& last,
                 const world::TickDraft& next,
+                double step,
                 std::span<const Eigen::Vector2d> on_road,
                 Neighbours& neighbours);
 

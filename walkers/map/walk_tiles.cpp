@@ -53,9 +53,11 @@ TileTriangles triangles_in(const ground::GroundMesh& ground,
     return triangles;
 }
 
-constexpr double narrowest =
-    0.15;                          ///< [m] half width of what stands there: seen by a cell's middle
-constexpr double step_over = 0.1;  ///< [m] what is lower is in nobody's way
+/// [m] What stands there takes up so much more: the mesh's edge may lie a cell nearer to it than a
+/// body does (TileRules::simplification). Less beside poles, which stand in narrow places.
+constexpr double beside_box = 0.07, beside_pole = 0.05;
+constexpr double narrowest = 0.15;  ///< [m] half width of it: seen by a cell's middle
+constexpr double step_over = 0.1;   ///< [m] what is lower is in nobody's way
 
 }  // namespace
 
@@ -81,8 +83,10 @@ WalkTiles::Shape WalkTiles::shape_of(const world::Obstacle& obstacle) {
         return shape;
     }
     const Eigen::Vector2d ahead = world::ahead_of(obstacle.yaw);
-    const double length = std::max(obstacle.half.x(), narrowest);
-    const double width = std::max(obstacle.half.y(), narrowest);
+    const bool is_box = obstacle.shape == world::Obstacle::Shape::box;
+    const double more = is_box ? beside_box : beside_pole;
+    const double length = std::max(obstacle.half.x() + more, narrowest);
+    const double width = std::max(obstacle.half.y() + more, narrowest);
     for (const auto& [x, y] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}})
         shape.outline.emplace_back(middle + x * length * ahead +
                                    y * width * world::turned_left(ahead));

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "ground/mesh/build_ground.h"
+#include "ground/obstacles.h"
+#include "tests/support/towns.h"
 #include "walkers/walking_ground.h"
 
 namespace reprise::walkers {
@@ -123,6 +125,37 @@ TEST(WalkMap, AStreetAskewHasFewPolygonsToo) {
                   5 * WalkingGround(town, &straight).streets().polygons())
             << degrees << " degrees";
     }
+}
+
+/// Shoulders are half a metre wide.
+TEST(WalkMap, EndsAShoulderBesideBenchesAndMailboxes) {
+    const world::TownT& town = test::own_town("town1").town;
+    WalkingGround ground(town);
+    const WalkMap& map = ground.pavement();
+    constexpr double shoulder = 0.23;
+    int beside = 0;
+    for (const world::Obstacle& thing : ground::obstacles_of(town)) {
+        if (thing.shape != world::Obstacle::Shape::box || thing.radius > 1.5)
+            continue;
+        const Eigen::Rotation2Dd turn(thing.yaw);
+        for (const Eigen::Vector2d& side : {Eigen::Vector2d(1, 0.5),
+                                            Eigen::Vector2d(1, -0.5),
+                                            Eigen::Vector2d(-1, 0),
+                                            Eigen::Vector2d(0, 1),
+                                            Eigen::Vector2d(0.5, -1),
+                                            Eigen::Vector2d(-0.5, -1)}) {
+            const Eigen::Vector2d edge = turn * side.cwiseProduct(thing.half.head<2>());
+            const auto place = map.nearest(thing.position + Vector3d(edge.x(), edge.y(), 0));
+            if (!place)
+                continue;
+            const Eigen::Vector2d to =
+                turn.inverse() * (place->position - thing.position).head<2>();
+            const Eigen::Vector2d gap = (to.cwiseAbs() - thing.half.head<2>()).cwiseMax(0.0);
+            EXPECT_GE(gap.norm(), shoulder) << "at " << place->position.transpose();
+            ++beside;
+        }
+    }
+    EXPECT_GT(beside, 100);
 }
 
 TEST(WalkMap, IsTheSameBytesEveryTime) {

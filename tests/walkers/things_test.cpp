@@ -1,0 +1,64 @@
+#include "walkers/things.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "world/models/catalogue.h"
+
+namespace reprise::walkers {
+namespace {
+
+void put(world::TickDraft& tick, float yaw, float speed, std::uint16_t model) {
+    tick.traffic.cars.emplace_back(world::Vec3(0, 0, 0),
+                                   yaw,
+                                   0.0F,
+                                   speed,
+                                   0.0F,
+                                   7U,
+                                   world::none,
+                                   model,
+                                   std::uint16_t{0},
+                                   0.0F);
+}
+
+/// The bodies of a car whose rear axle drives east through the origin.
+std::vector<Body> bodies_of(std::uint16_t model, float turned, float speed, double step) {
+    world::TickDraft before;
+    world::TickDraft now;
+    put(before, 0, speed, model);
+    put(now, turned, speed, model);
+    const world::SealedTick last = world::seal(before, {});
+    Neighbours neighbours;
+    const Eigen::Vector2d somebody(0, -3);
+    add_things(last.view(), now, step, std::vector<Eigen::Vector2d>{somebody}, neighbours);
+    neighbours.sort();
+    std::vector<Body> found;
+    neighbours.around({somebody, {0, 0}, 0.25, 1}, 30, true, found);
+    return found;
+}
+
+TEST(Things, TheTailOfABusThatTurnsComesSideways) {
+    const std::uint16_t bus = world::find_vehicle_model("bus").value();
+    constexpr float turned = 0.02F;
+    constexpr double step = 0.05;
+    std::vector<Body> bodies = bodies_of(bus, turned, 5, step);
+    ASSERT_GT(bodies.size(), 4U);
+    for (const Body& body : bodies) {
+        // Turning left, what is behind the axle goes to the right.
+        const double rate = static_cast<double>(turned) / step;
+        EXPECT_NEAR(body.velocity.y(),
+                    5 * std::sin(static_cast<double>(turned)) + rate * body.place.x(),
+                    1e-6);
+    }
+    const auto tail =
+        std::min_element(bodies.begin(), bodies.end(), [](const Body& one, const Body& other) {
+            return one.place.x() < other.place.x();
+        });
+    EXPECT_LT(tail->velocity.y(), -0.8);
+    EXPECT_NEAR(bodies_of(bus, 0, 5, step).back().velocity.y(), 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace reprise::walkers
