@@ -94,6 +94,9 @@ std::optional<RectangularSite> rectangular_site(const world::Loop& outline,
         return std::nullopt;
     around.length *= std::sqrt(share);
     around.width *= std::sqrt(share);
+    // A corner that was cut off for a sidewalk would be there again.
+    if (!streets.roads.is_clear(around, 0) || !streets.walks.is_clear(around, 0))
+        return std::nullopt;
     RectangularSite site;
     for (std::size_t i = 0; i < 4; ++i) {
         site.fronts[i] = around;

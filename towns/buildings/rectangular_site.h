@@ -25,7 +25,7 @@ struct RectangularSite {
 };
 
 /// The rectangle around an outline, shrunk to the outline's area, so that neighbours stay apart.
-/// None when the outline fills less than 92 % of it.
+/// None when the outline fills less than 92 % of it, or it would stand on a street.
 std::optional<RectangularSite> rectangular_site(const world::Loop& outline, const Streets& streets);
 
 /// How a model stands on it: with its door to the nearest street that its sizes allow. Porches and

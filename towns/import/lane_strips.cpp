@@ -1,6 +1,7 @@
 #include "towns/import/lane_strips.h"
 
 #include "ground/mesh/ribbon.h"
+#include "towns/furnish/swept_area.h"
 
 namespace reprise::towns {
 
@@ -23,6 +24,13 @@ LaneStrips::LaneStrips(const world::TownT& roads) : roads_(roads) {
         boxes_.push_back(box);
     }
     grid_ = world::BoxGrid(entries);
+    entries.clear();
+    for (const Footprint& body : bus_bodies(roads)) {
+        entries.push_back(
+            {world::box_around(corners(body)), static_cast<std::uint32_t>(buses_.size())});
+        buses_.push_back(corners(body));
+    }
+    bus_grid_ = world::BoxGrid(entries);
 }
 
 Box LaneStrips::box(double margin) const {
@@ -53,6 +61,9 @@ ground::Area LaneStrips::around(const world::Loop& loop, const Eigen::Vector2d& 
         for (const world::Loop& part : ribbon.loops())
             strips.add(part);
     }
+    for (const std::uint32_t bus : bus_grid_.near(world::box_around(loop)))
+        if (overlap(world::box_around(buses_[bus]), world::box_around(loop)))
+            strips.add(buses_[bus]);
     return strips;
 }
 

@@ -9,7 +9,8 @@
 
 namespace reprise::towns {
 
-/// The strips that all lanes take up, seen from above, found by place. Borrows the town.
+/// The strips that all lanes take up, and what buses sweep over beside them, seen from above, found
+/// by place. Borrows the town.
 class LaneStrips {
   public:
     explicit LaneStrips(const world::TownT& roads);
@@ -20,7 +21,7 @@ class LaneStrips {
     /// Does a lane come within this distance of the loop, sideways or along? By boxes. [m]
     bool is_near(const world::Loop& loop, double distance) const;
 
-    /// The lanes that come near the loop, each as wide as it is and a little more.
+    /// The lanes that come near the loop, each as wide as it is and a little more; and the buses.
     ground::Area around(const world::Loop& loop, const Eigen::Vector2d& origin) const;
 
   private:
@@ -29,6 +30,8 @@ class LaneStrips {
     const world::TownT& roads_;
     std::vector<world::Box> boxes_;  ///< [lane]
     world::BoxGrid grid_;
+    std::vector<world::Loop> buses_;
+    world::BoxGrid bus_grid_;
 };
 
 }  // namespace reprise::towns

@@ -52,6 +52,17 @@ TEST(RectangularSite, ANookIsAllowedAnAngleIsNot) {
     EXPECT_FALSE(rectangular_site({{0, 40}, {0, 40}, {0, 40}}, streets));
 }
 
+/// A corner that a sidewalk cut off (edge 6 m from the axis) is not put back.
+TEST(RectangularSite, IsNoneWhereTheRectangleWouldStandOnASidewalk) {
+    const Streets streets(test::straight_road());
+    const auto cut_off = [&](double y) {
+        return rectangular_site({{2, y}, {12, y}, {12, y + 10}, {0, y + 10}, {0, y + 2}}, streets);
+    };
+    EXPECT_TRUE(cut_off(6.2));
+    EXPECT_FALSE(cut_off(5.8));
+    EXPECT_FALSE(cut_off(2));
+}
+
 TEST(RectangularSite, DoorsAreAtTheStreet) {
     const Streets streets(test::straight_road());
     for (const double side : {-1.0, 1.0})

@@ -1,9 +1,12 @@
 #include "towns/import/footprints.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "tests/support/worlds.h"
 #include "world/geometry2d.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::towns {
 namespace {
@@ -94,6 +97,31 @@ TEST_F(Footprints, AcrossTheRoadKeepTheirLargerPartOrNothing) {
                                           building("3", rectangle(100, edge - 1, 1.9, 3.9))});
     EXPECT_EQ(report.on_roads, 3) << "less than half is left; less than 6 m2 are left";
     EXPECT_THAT(place_.buildings, IsEmpty());
+}
+
+/// Two lanes that meet at a right angle, without a curve between them: a bus cuts the corner.
+TEST(FootprintsInABend, AreCutBackToWhereABusSweeps) {
+    world::TownT town;
+    town.lanes.resize(2);
+    town.lanes[0].centre = {{0, 0, 0}, {50, 0, 0}};
+    town.lanes[1].centre = {{50, 0, 0}, {50, 50, 0}};
+    for (world::LaneT& lane : town.lanes) {
+        lane.width = 3;
+        lane.length = 50;
+    }
+    town.lanes[0].links = {world::Link(1, world::none, world::none, world::Turn::left, false, 0)};
+    Place place;
+    const FootprintReport report =
+        place_footprints({building("1", rectangle(30, 2, 18, 15))}, town, place);
+    EXPECT_EQ(report.cut, 1);
+    ASSERT_THAT(place.buildings, SizeIs(1));
+    // As a ladder slides down a wall: its middle comes half its length to the corner.
+    const world::VehicleModel& bus =
+        world::vehicle_models()[world::find_vehicle_model("bus").value()];
+    const double reach = (bus.length - bus.rear_overhang) / 2 * std::sqrt(0.5);
+    const world::Loop left = world::in_plan(place.buildings[0].outline);
+    EXPECT_FALSE(world::contains(left, {50 - reach, reach}));
+    EXPECT_TRUE(world::contains(left, {34, 12}));
 }
 
 TEST_F(Footprints, MayOverlapEachOther) {
