@@ -39,6 +39,7 @@ class Control:
     def __post_init__(self) -> None:
         try:
             if (0 <= self.throttle <= 1 and 0 <= self.brake <= 1 and -1 <= self.steer <= 1
+                    and self.hand_brake in (False, True) and self.reverse in (False, True)
                     and 0 <= operator.index(self.lamps) <= 0xFFFF):  # fmt: skip
                 return
         except (TypeError, ValueError):  # a text, an array
@@ -55,6 +56,10 @@ class Control:
                 is_possible = False
             if not is_possible:
                 raise ValueError(f"Control({name}={value!r}): expected a number in [{low}, 1]")
+        for name in ("hand_brake", "reverse"):
+            value = getattr(self, name)
+            if not isinstance(value, (bool, int, np.bool_)) or value not in (False, True):
+                raise ValueError(f"Control({name}={value!r}): expected a bool in [False, True]")
         raise ValueError(f"Control(lamps={self.lamps!r}): expected the bits of lamps, an integer in [0, 65535]")
 
 

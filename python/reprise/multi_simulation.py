@@ -63,7 +63,10 @@ class MultiSimulation(Client):
 
     def reset(self, **changes: Any) -> dict[str, Observation]:
         """Begins an episode; returns what those see who appear first, by name. `changes` as of Simulation.reset()."""
-        self._change_plan(changes)
+        with self._asked(changes):
+            return self._begin()
+
+    def _begin(self) -> dict[str, Observation]:
         if self._is_on:  # it ends when its drivers are gone
             with contextlib.suppress(Fault):
                 self._last_word()

@@ -1,9 +1,11 @@
 """Writes the nouns (remote/wire.fbs) as FlatBuffers bytes: tables by name, from plain values."""
 from __future__ import annotations
 
+import math
 from typing import Any, Mapping
 
 import flatbuffers
+import numpy as np
 
 from . import schema
 from .nouns import dtype
@@ -33,7 +35,7 @@ def _table(builder: flatbuffers.Builder, name: str, values: Mapping[str, Any]) -
             raise AttributeError(f"{name} has no field '{field}': {', '.join(fields)}")
     given = {field: value for field, value in values.items() if value is not None}
     # Whatever lies outside of the table comes before it.
-    offsets = {field: _outside(builder, fields[field][1], name, value) for field, value in given.items()}
+    offsets = {field: _outside(builder, field, fields[field][1], name, value) for field, value in given.items()}
     builder.StartObject(1 + max(number for number, _ in fields.values()))
     for field, value in given.items():
         number, of = fields[field]
@@ -45,15 +47,36 @@ def _table(builder: flatbuffers.Builder, name: str, values: Mapping[str, Any]) -
             value = schema.ENUMS[full][1][value]
         kind = dtype(of, name)
         text = "?" if kind.kind == "b" else kind.str.replace("|", "")
-        getattr(builder, _SLOTS[text])(number, kind.type(value).item(), 0)
+        getattr(builder, _SLOTS[text])(number, _number(field, kind, value), 0)
     return builder.EndObject()
 
 
-def _outside(builder: flatbuffers.Builder, of: str, name: str, value: Any) -> int | None:
+def _number(field: str, kind: np.dtype, value: Any) -> bool | int | float:
+    """`value` as the field holds it. Raises ValueError: numpy would round it, wrap it around, or take any text for True."""
+    if kind.kind == "f":
+        low, high, words = -math.inf, math.inf, "a number"
+    elif kind.kind == "b":
+        low, high, words = 0, 1, "True or False"
+    else:
+        low, high = np.iinfo(kind).min, np.iinfo(kind).max
+        words = f"a whole number in [{low}, {high}]"
+    try:
+        number = float(value) if kind.kind == "f" else int(value)
+        is_possible = not isinstance(value, (str, bytes)) and (number != number or number == value and low <= number <= high)
+    except (TypeError, ValueError, OverflowError):
+        is_possible = False
+    if not is_possible:
+        raise ValueError(f"{field}: expected {words}, got {value!r}")
+    return kind.type(number).item()
+
+
+def _outside(builder: flatbuffers.Builder, field: str, of: str, name: str, value: Any) -> int | None:
     if of == "string":
+        if not isinstance(value, str):
+            raise ValueError(f"{field}: expected a text, got {value!r}")
         return builder.CreateString(value)
     if of.startswith("["):
-        items = [_outside(builder, of[1:-1], name, item) for item in value]
+        items = [_outside(builder, field, of[1:-1], name, item) for item in value]
         builder.StartVector(4, len(items), 4)
         for item in reversed(items):
             builder.PrependUOffsetTRelative(item)

@@ -8,7 +8,7 @@ import pathlib
 import shutil
 import socket
 import subprocess
-from typing import TYPE_CHECKING, Any, Mapping, Sequence, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence, TypeVar, Union
 
 from .driver import Control, Driver, Observation, Run, values_of
 from .nouns import Noun
@@ -156,11 +156,17 @@ class Client:
         for name in changes:
             if name not in self._plan:
                 raise TypeError(f"reset: no '{name}'; there are {', '.join(self._plan)}")
-        before = dict(self._plan)
-        self._plan.update(changes)
+        self._plan = {**self._plan, **changes}
+        self._check_plan()
+
+    @contextlib.contextmanager
+    def _asked(self, changes: dict[str, Any]) -> Iterator[None]:
+        """What is asked for stays for the resets after it, but what cannot be does not."""
+        before = self._plan
         try:
-            self._check_plan()
-        except BaseException:
+            self._change_plan(changes)
+            yield
+        except (ValueError, TypeError):  # a Fault, too
             self._plan = before
             raise
 
@@ -244,8 +250,11 @@ class Simulation(Client):
 
     def reset(self, **changes: Any) -> Observation:
         """Begins an episode and returns what its first tick shows. `changes` to the arguments of the class, such as
-        seed=8, stay for the resets after it. Raises Fault for what cannot be, such as a mistake in a scenario."""
-        self._change_plan(changes)
+        seed=8, stay for the resets after it, unless they cannot be. Raises Fault for what cannot be, such as a mistake in a scenario."""
+        with self._asked(changes):
+            return self._begin()
+
+    def _begin(self) -> Observation:
         self._seen, self.outcome = None, None
         self._say("reset", **self._message())
         kind, message = self._hear(first=True)

@@ -2,6 +2,7 @@
 
 usage: driver_test.py REPRISE WORK
 """
+import os
 import pathlib
 import subprocess
 import sys
@@ -67,10 +68,24 @@ class Mistakes(unittest.TestCase):
 
     def test_in_a_control_are_told_when_it_is_made(self):
         for wrong in (dict(throttle=-0.1), dict(brake=1.01), dict(steer=-1.5), dict(steer=float("nan")), dict(throttle="1"),
-                      dict(throttle=np.zeros(2)), dict(brake=None), dict(lamps=-1), dict(lamps=65536), dict(lamps=1.0)):  # fmt: skip
+                      dict(throttle=np.zeros(2)), dict(brake=None), dict(lamps=-1), dict(lamps=65536), dict(lamps=1.0),
+                      dict(hand_brake="no"), dict(reverse=5), dict(reverse=None)):  # fmt: skip
             with self.assertRaisesRegex(ValueError, rf"^Control\({next(iter(wrong))}=.*expected .* in \["):
                 reprise.Control(**wrong)
-        reprise.Control(throttle=True, brake=np.float32(1), steer=-1, lamps=np.uint16(65535))
+        reprise.Control(throttle=True, brake=np.float32(1), steer=-1, lamps=np.uint16(65535), reverse=np.bool_(True), hand_brake=1)
+
+    def test_in_what_an_episode_starts_from_are_told_and_the_simulation_lives_on(self):
+        wrong = (dict(cars=1.5), dict(cars="many"), dict(seed=-1), dict(seed=1 << 64), dict(seed="7"), dict(walkers=-1),
+                 dict(weather=5), dict(weather={"rain": 5}), dict(town=5), dict(model=5), dict(seconds="long"),
+                 dict(rig=[dict(name="front", width=0.5)]), dict(rig=[dict(name=5)]))  # fmt: skip
+        os.environ["REPRISE"] = PROGRAM
+        with reprise.Simulation("straight", seconds=0.1) as sim:
+            for each in wrong:
+                with self.subTest(each), self.assertRaisesRegex(ValueError, "expected"):
+                    sim.reset(**each)
+            with self.assertRaisesRegex(reprise.Fault, "no town"):
+                sim.reset(town="nowhere")
+            self.assertEqual(sim.reset(cars=np.int64(0), seed=7.0).index, 1)
 
 
 if __name__ == "__main__":
