@@ -12,6 +12,7 @@
 #include "cli/options/tick_option.h"
 #include "cli/options/tick_range.h"
 #include "cli/pictures/cameras.h"
+#include "cli/pictures/earlier_rendering.h"
 #include "cli/pictures/manifest.h"
 #include "cli/pictures/picture_output.h"
 #include "cli/pictures/renderer.h"
@@ -130,6 +131,7 @@ int render(const RenderOptions& options) {
     if (film && cameras.sensors().empty())
         throw world::Error(options.output + ": a film shows a camera, and there is none in " +
                            (options.rig.empty() ? options.trace : options.rig));
+    const EarlierRendering earlier(options.output);
     WrittenFiles files;
     // The town takes seconds to build, and sensors without rays do not look at it.
     std::optional<render::Sensors> made;
@@ -151,6 +153,12 @@ int render(const RenderOptions& options) {
     for (std::size_t i = 0; i < measurements.sensors().size() && !film; ++i)
         all.push_back({measurements.sensors()[i], measurements.carrier(i)});
     write_manifest(options, trace, ticks, all, files);
+    if (const auto left = earlier.left_beside(files); !left.empty() && !options.quiet)
+        say("{}: {} of an earlier rendering there, such as {}; the new manifest is not about "
+            "them\n",
+            options.output,
+            world::count_of(left.size(), "file is left", "files are left"),
+            left.front().string());
     return exit_good;
 }
 

@@ -109,7 +109,7 @@ void DatasetSource::check_rig(bool nuscenes) const {
         if (!has_place(sensor.kind))
             throw world::Error(fmt::format(
                 "{}: sensor '{}': a data set holds what cameras, LiDARs and radars see; reprise "
-                "render --rig writes what a {} measures",
+                "render --rig writes what sensors of type {} measure",
                 options_.rig,
                 sensor.name,
                 world::EnumNameSensorKind(sensor.kind)));

@@ -75,6 +75,26 @@ TEST_F(Manifest, ChangesOfAWeatherReachLidarsToo) {
     EXPECT_TRUE(rain == points("0s:clear_noon,1s:rain=50"));
 }
 
+TEST_F(Manifest, OfAFolderThatIsRenderedIntoAgainIsAwayUntilAllIsThereAndTellsWhatIsOfBefore) {
+    EXPECT_EQ(render("p", {"--ticks", "10..50", "--every", "10t"}).code, 0);
+    // Pictures of 1 kB at most cannot be written.
+    const std::string again = "reprise render t.mcap -o p --weather clear_night --size 320x240";
+    const Result stopped = typed("ulimit -f 1; exec " + again + " --ticks 20", folder_);
+    EXPECT_EQ(stopped.code, 2) << stopped.out;
+    EXPECT_THAT(folder_.files(), testing::Not(testing::Contains("p/manifest.json")));
+
+    EXPECT_EQ(render("p", {"--ticks", "10..50", "--every", "10t"}).code, 0);
+    const Result mixed = typed("exec " + again + " --ticks 20..50 --every 20t", folder_);
+    EXPECT_EQ(mixed.code, 0) << mixed.out;
+    EXPECT_THAT(
+        mixed.out,
+        HasSubstr("p: 3 files are left of an earlier rendering there, such as p/000010.png"));
+    const Result anew = render("p", {"--ticks", "10..50", "--every", "20t"});
+    EXPECT_THAT(anew.out, HasSubstr("files are left"));
+    EXPECT_THAT(render("p", {"--ticks", "10..50", "--every", "20t"}).out,
+                testing::Not(HasSubstr("left")));
+}
+
 TEST_F(Manifest, ChecksThatAllIsMadeAgainAndNamesTheFileThatIsNot) {
     write_file(folder_ / "rig.json",
                R"({"sensors": [{"name": "a", "size": [64, 48]}, {"name": "d", "type": "depth",
