@@ -200,6 +200,42 @@ TEST(Foresight, TellsWhatALookAtEveryMomentTells) {
     EXPECT_GT(missed, 100);
 }
 
+/// Its bumper is in the left lane, where a queue stands; who comes on the right sees its tail.
+TEST(Meetings, NobodyDrivesThroughTheTailOfWhoStandsBetweenTwoLanes) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const std::vector<Entry> entries = entries_of(town);
+    int shown = 0;
+    for (const auto& [right, via] : entries) {
+        const std::uint32_t left = town.lanes[right].left;
+        const auto yaw_before = [&](double metres) {
+            const world::LaneT& lane = town.lanes[right];
+            return world::point_at(lane, lane.length - metres).yaw;
+        };
+        if (left == world::none || town.lanes[right].length < 80 ||
+            std::abs(yaw_before(60) - yaw_before(40)) > 0.01)
+            continue;
+        for (const double turned : {0.0, 0.3}) {
+            Cars cars;
+            world::TickDraft next;
+            cars.add(car_before(town, graph, 7, "sedan", right, via, 60, 6), "", 0, next);
+            Car standing = car_before(town, graph, 8, "minibus", left, via, 45, 0);
+            standing.turn_to(standing.yaw + turned);
+            standing.rear = standing.trail.front() -
+                            origin_to_front(standing.model) *
+                                Eigen::Vector3d(standing.ahead.x(), standing.ahead.y(), 0);
+            cars.add(standing, "", 0, next);
+            const RightOfWay right_of_way(town, {});
+            Meetings meetings(town, graph, right_of_way, meeting_step);
+            meetings.look(cars, 2);
+            EXPECT_EQ(std::isfinite(meetings.allowed_speed(0)), turned > 0)
+                << town.lanes[right].name;
+        }
+        ++shown;
+    }
+    EXPECT_GT(shown, 3);
+}
+
 /// Of two whose bodies would come into each other one waits, and only one.
 TEST(Meetings, OneOfTwoWhoseWaysCrossWaits) {
     const TownT& town = own_town("town1").town;

@@ -25,6 +25,7 @@ constexpr double deepest_push = 0.35;      // [m] in the other one's body, which
 constexpr double halt = 0.1;               // [m/s]
 constexpr double hard = 0.8;               // of the hardest braking, that one plans with
 constexpr double longest_body = 12;        // [m]
+constexpr double off_its_lane = 0.6;       // [m] of bumper or tail, from the middle of its lane
 
 /// Most pairs that are near each other west to east are not south to north: these come first.
 bool touch(const world::Box& one, const world::Box& other) {
@@ -55,6 +56,22 @@ Meetings::Meetings(const world::TownT& town,
                           : links.front().via() == none ? links.front().to()
                                                         : links.front().via();
                 }
+}
+
+/// Between two lanes, as who changes them: a tail in the other one stays there while its own lane
+/// stands.
+bool Meetings::is_between_lanes(const Car& car) const {
+    const world::VehicleModel& model = world::vehicle_models()[car.model];
+    const world::LaneT& lane = lines_.town().lanes[car.lane];
+    const double s = car.lane_position * lane.length / lane.sumo_length;
+    for (const double behind : {0.0, model.length}) {
+        const Eigen::Vector2d place =
+            car.rear.head<2>() + (model.length - model.rear_overhang - behind) * car.ahead;
+        const Eigen::Vector2d middle = lines_.position_at(car.lane, std::max(s - behind, 0.0));
+        if ((place - middle).squaredNorm() > off_its_lane * off_its_lane)
+            return true;
+    }
+    return false;
 }
 
 void Meetings::gather(Cars& cars) {
@@ -89,7 +106,8 @@ void Meetings::gather(Cars& cars) {
         place.lane = car.lane;
         place.driver = static_cast<std::uint32_t>(i);
         place.is_turning = lane.kind == world::LaneKind::internal || left < driver.reach ||
-                           model.length > longest_short_car || car.lane_position < model.length;
+                           model.length > longest_short_car || car.lane_position < model.length ||
+                           is_between_lanes(car);
         places_.push_back(place);
     }
     std::sort(places_.begin(), places_.end(), [](const Place& one, const Place& other) {

@@ -73,6 +73,7 @@ class Meetings {
     };
 
     void gather(Cars& cars);
+    bool is_between_lanes(const Car& car) const;
     bool could_meet(const Driver& one, const Driver& other) const;
     void meet(Driver& one, Driver& other);
     void follow(const Driver& one, const Driver& other);
