@@ -1,8 +1,10 @@
 #include "render/point_file.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -97,17 +99,6 @@ std::string kitti_bytes(const Points& points) {
     return bytes_of(words);
 }
 
-std::string npy_bytes(const world::SensorFrame& frame) {
-    const auto fields = world::point_fields(frame.kind);
-    std::vector<float> values(frame.data.size() / sizeof(float));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        std::uint32_t word = 0;
-        std::memcpy(&word, frame.data.data() + i * sizeof(word), sizeof(word));
-        values[i] = fields[i % fields.size()].whole ? static_cast<float>(word) : real(word);
-    }
-    return npy_file(values, fields.size());
-}
-
 /// Version 1.0; the header is padded so that numbers begin at a multiple of 64.
 template <typename Number>
 std::string npy_of(std::span<const Number> values, std::size_t columns) {
@@ -126,6 +117,29 @@ std::string npy_of(std::span<const Number> values, std::size_t columns) {
     file += header;
     file.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     return file;
+}
+
+template <typename Number>
+std::string npy_rows(const world::SensorFrame& frame) {
+    const auto fields = world::point_fields(frame.kind);
+    std::vector<Number> values(frame.data.size() / sizeof(std::uint32_t));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        std::uint32_t word = 0;
+        std::memcpy(&word, frame.data.data() + i * sizeof(word), sizeof(word));
+        values[i] = fields[i % fields.size()].whole ? static_cast<Number>(word)
+                                                    : static_cast<Number>(real(word));
+    }
+    return npy_of(std::span<const Number>(values), fields.size());
+}
+
+/// Ids of people in the background begin at 100,000,000: a float of 32 bits has only each eighth.
+std::string npy_bytes(const world::SensorFrame& frame) {
+    const auto fields = world::point_fields(frame.kind);
+    const bool has_ids =
+        std::any_of(fields.begin(), fields.end(), [](const world::PointField& one) {
+            return one.name == "object";
+        });
+    return has_ids ? npy_rows<double>(frame) : npy_rows<float>(frame);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ enum class PointFormat : std::uint8_t {
     ply,  ///< binary, little endian; a property for each column
     pcd,  ///< version 0.7, binary
     bin,  ///< KITTI's: x, y, z and intensity as float32, nothing else
-    npy   ///< NumPy's: float32, a row for each point, columns of point_fields
+    npy   ///< NumPy's: a row for each point, columns of point_fields; float32, with ids float64
 };
 
 /// Writes a frame of a ranging sensor. In ply, pcd and bin a radar's detections have x, y and z [m]
