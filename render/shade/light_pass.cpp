@@ -59,12 +59,14 @@ void request_light(const ShadingJob& job,
     const Vector3f origin = offset_origin(at.position, at.flat, at.distance);
     const float facing = look.normal.dot(job.input.sky.to_sun());
     if (job.sun_matters && (facing > 0 || look.translucency > 0))
-        rays.sun.add(sun_ray(job, origin, place), owner);
+        rays.sun.add(origin, sun_direction(job, place), infinite, job.mask & ~marking_bit, owner);
     if (job.lamps_matter) {
         const LampSum lamps(job.input, job.sources, look, at.position, at.view);
         job.frame.lamps[owner] = lamps.light();
-        if (lamps.any())
-            rays.lamp.add(lamp_ray(job, origin, lamps, place), owner);
+        if (lamps.any()) {
+            const Vector3f way = lamp_direction(lamps, place);
+            rays.lamp.add(origin, way, lamp_reach(way), job.mask & ~marking_bit, owner);
+        }
     }
     const OrthonormalBasis axes(at.normal);
     for (int i = 0; i < 2 && asks_for_sky(at); ++i) {
@@ -72,13 +74,13 @@ void request_light(const ShadingJob& job,
         const float up = direction.dot(at.flat);
         if (up < 0.02F)
             direction += (0.04F - up) * at.flat;
-        rays.sky.add({origin, direction, near_things, job.mask & ~marking_bit}, owner);
+        rays.sky.add(origin, direction, near_things, job.mask & ~marking_bit, owner);
     }
     if (look.gloss > 0) {
         const Vector2f spot = disc_point(place) * (look.roughness * look.roughness * 0.55F);
         const Vector3f tilted = (look.normal + spot.x() * axes.x + spot.y() * axes.y).normalized();
-        rays.mirror.add(
-            {origin, mirror_direction(at.view, tilted, at.flat), mirror_reach, job.mask}, owner);
+        const Vector3f direction = mirror_direction(at.view, tilted, at.flat);
+        rays.mirror.add(origin, direction, mirror_reach, job.mask, owner);
     }
 }
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "render/shade/shading_job.h"
 
@@ -11,7 +10,6 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
 // Of a pixel, no two in one row or column (rotated grid); the first two lie across its middle.
 constexpr std::array<std::array<double, 2>, 4> subpixel_offsets{
     {{.375, .125}, {.625, .875}, {.875, .375}, {.125, .625}}};
@@ -115,11 +113,11 @@ RayBatch subpixel_rays(const ShadingJob& job,
         const int x = owner % job.frame.width;
         const int y = owner / job.frame.width;
         for (std::size_t k = first; k < first + pair; ++k)
-            batch.add({job.eye,
-                       job.camera.ray(x + subpixel_offsets[k][0], y + subpixel_offsets[k][1])
-                           .cast<float>(),
-                       infinite,
-                       job.mask},
+            batch.add(job.eye,
+                      job.camera.ray(x + subpixel_offsets[k][0], y + subpixel_offsets[k][1])
+                          .cast<float>(),
+                      infinite,
+                      job.mask,
                       i);
     }
     return batch;
@@ -174,7 +172,8 @@ void add_pair(ShadingJob& job, std::size_t first, std::vector<Refined>& pixels) 
             continue;
         const Vector3f origin =
             offset_origin(sample.surface.position, sample.surface.flat, sample.surface.distance);
-        rays.sun.add(sun_ray(job, origin, static_cast<int>((2 * i + first) % 16)), i);
+        const Vector3f direction = sun_direction(job, static_cast<int>((2 * i + first) % 16));
+        rays.sun.add(origin, direction, infinite, job.mask & ~marking_bit, i);
     }
     trace_batch(job, rays, rays.sun, true, [&](std::size_t owner, bool visible) {
         samples[owner].light.sun_visibility =

@@ -76,24 +76,13 @@ const Vector3f& sky_direction(int place) {
     return tables.sky[static_cast<std::size_t>(place)];
 }
 
-Vector3f offset_origin(const Vector3f& position, const Vector3f& flat, float distance) {
-    return position + flat * (2e-3F + 1e-4F * distance);
-}
-
-Ray sun_ray(const ShadingJob& job, const Vector3f& origin, int place) {
+Vector3f sun_direction(const ShadingJob& job, int place) {
     const Vector2f spot = disc_point(place) * job.input.sky.sun_radius();
-    return {origin,
-            job.sun_basis.apply({spot.x(), spot.y(), 1}),
-            std::numeric_limits<float>::infinity(),
-            job.mask & ~marking_bit};
+    return job.sun_basis.apply({spot.x(), spot.y(), 1});
 }
 
-Ray lamp_ray(const ShadingJob& job, const Vector3f& origin, const LampSum& lamps, int place) {
-    const Vector3f way =
-        lamps.towards((static_cast<float>(place) + 0.5F) / 16, disc_point((place * 5 + 3) & 15));
-    // It ends before the lamp's own housing.
-    const float share = 1 - std::min(0.2F / way.norm(), 0.9F);
-    return {origin, way, share, job.mask & ~marking_bit};
+Vector3f lamp_direction(const LampSum& lamps, int place) {
+    return lamps.towards((static_cast<float>(place) + 0.5F) / 16, disc_point((place * 5 + 3) & 15));
 }
 
 Color sky_color(const ShadingJob& job, const Vector3f& direction) {
