@@ -18,7 +18,8 @@ constexpr double out_of_sight = 80;  // [m] from every physics vehicle
 constexpr double far_too_long = 150;  // [s] of standing
 constexpr double not_beside = 30;     // [m]
 // Nobody waits so long inside of a junction but for one who waits for him, or who never moves.
-constexpr double far_too_long_in_junction = 50;  // [s] of standing, whoever sees it
+constexpr double far_too_long_in_junction = 50;  // [s] of standing, whoever sees it,
+constexpr double at_its_edge = 1;  // [m] where one who waited to go in is no hindrance
 
 /// A speed at which a car may appear there without anybody braking hard; `room` [m] ahead. [m/s]
 double entry_speed(const world::LaneT& lane, const InsertionPoint& point, double room) {
@@ -133,7 +134,7 @@ bool Demand::is_stuck(const Car& car, const world::TickView& last) const {
     const double stood = car.stuck_ticks * step_;
     return (stood > too_long && !is_seen(car.rear, last, out_of_sight)) ||
            (stood > far_too_long && !is_seen(car.rear, last, not_beside)) ||
-           (stood > far_too_long_in_junction &&
+           (stood > far_too_long_in_junction && car.lane_position > at_its_edge &&
             town_->lanes[car.lane].kind == world::LaneKind::internal);
 }
 

@@ -118,6 +118,29 @@ TEST(Flow, WhoIsStuckInAJunctionIsTakenOutInTheEndWhoeverIsBeside) {
     }
 }
 
+/// Of a full town, where a minor road waits for a minute. Town 1 has no dead end, at which cars
+/// leave.
+TEST(Flow, NobodyWhoWaitedForLongIsTakenOutAsHeDrivesIntoAJunction) {
+    const test::Loaded& town1 = own_town("town1");
+    int drove_in = 0;
+    for (const std::uint64_t seed : {3, 4}) {
+        Stage stage(town1, 110, seed);
+        std::map<std::uint32_t, int> waited;  // [ticks] before a junction
+        for (int tick = 0; tick < 3 * minute / 2; ++tick) {
+            const auto& cars = stage.step().traffic.cars;
+            for (const auto& [id, ticks] : waited)
+                ASSERT_NE(stage.car(id), nullptr) << id << " waited for " << ticks << " ticks";
+            for (const world::CarState& car : cars) {
+                int& ticks = waited[car.id()];
+                const bool inside = town1.town.lanes[car.lane()].kind == world::LaneKind::internal;
+                drove_in += inside && ticks > 55 * minute / 60;
+                ticks = !inside && car.speed() < 1 ? ticks + 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(drove_in, 0) << "nobody waited: nothing is shown";
+}
+
 TEST(Flow, AsManyCarsAsATownCarriesAreThereInTheFirstTick) {
     for (const char* town : {"town1", "town2", "straight", "curves", "junctions"}) {
         const std::uint32_t carried = world::cars_carried(own_town(town).town);
