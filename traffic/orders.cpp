@@ -198,6 +198,9 @@ void Orders::keep_lane(Car& car, bool keep) const {
 /// Edges from here through all of the lanes. The last of them becomes last_lane.
 std::vector<std::uint32_t> Orders::way_to(const world::CommandT& command, Car& car) const {
     std::vector<std::uint32_t> route{car.route.front()};
+    // Inside a junction it is decided where it comes out: SUMO refuses a way that leads elsewhere.
+    if (car.lane != none && graph_->edge_after(car.lane) != graph_->edge_of(car.lane))
+        route.push_back(graph_->edge_after(car.lane));
     for (const std::uint32_t lane : command.lanes) {
         const std::uint32_t edge = graph_->edge_of(lane);
         if (edge == none)

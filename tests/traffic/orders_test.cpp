@@ -150,6 +150,30 @@ TEST(Orders, RoutesAreFollowed) {
     EXPECT_TRUE(passed);
 }
 
+TEST(Orders, ARouteThatIsToldInsideAJunctionGoesOnFromWhereThatComesOut) {
+    const auto& loaded = own_town("town1");
+    int told = 0;
+    for (const char* name : {"a2_a1_1", "a2_a3_1", "a2_l1_1"}) {
+        Stage stage(loaded, 0);
+        stage.step({spawn(actor, lane(loaded.town, "a1_a2_1"), 40, 8)});
+        const auto edge = [&] { return loaded.town.lanes[stage.car(actor)->lane()].edge; };
+        for (int i = 0; i < 1200 && edge() == "a1_a2"; ++i)
+            stage.step();
+        ASSERT_EQ(edge().front(), ':') << edge();
+        world::CommandT order = command(CommandKind::set_route, actor);
+        order.lanes = {lane(loaded.town, name)};
+        stage.step({order});
+        const std::string wanted = loaded.town.lanes[order.lanes.front()].edge;
+        for (int i = 0; i < 6000 && edge() != wanted; ++i) {
+            stage.step();
+            ASSERT_NE(stage.car(actor), nullptr);
+        }
+        EXPECT_EQ(edge(), wanted);
+        ++told;
+    }
+    EXPECT_EQ(told, 3);
+}
+
 TEST(Orders, ParkedCarsStandAndAreRecordedEveryTick) {
     const auto& loaded = own_town("town1");
     const std::uint32_t road = lane(loaded.town, "a1_a2_1");
