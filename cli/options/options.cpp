@@ -100,6 +100,21 @@ CommandLine::CommandLine() : app_(std::make_unique<App>()) {
     add_golden_commands(app, test, accept, golden_list, app_->accept_assignments);
 }
 
+namespace {
+
+/// A shell's variable that is not set: whatever it was to say, silence is not it.
+void check_not_empty(const CLI::App& app) {
+    for (const CLI::Option* option : app.get_options())
+        if (const auto& said = option->results();
+            !option->get_positional() && std::find(said.begin(), said.end(), "") != said.end())
+            throw CLI::ValidationError(option->get_name(),
+                                       "expected " + option->get_type_name() + ", got ''");
+    for (const CLI::App* command : app.get_subcommands())
+        check_not_empty(*command);
+}
+
+}  // namespace
+
 std::optional<int> CommandLine::parse(int argc, char** argv) {
     CLI::App& app = app_->app;
     try {
@@ -114,6 +129,7 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
         finish_drive(app_->drive_size, drive);
         finish_render(app, app_->render_words, render);
         finish_dataset(app, dataset);
+        check_not_empty(app);  // behind what says more
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0)
             return app.exit(error);

@@ -91,6 +91,9 @@ INSTANTIATE_TEST_SUITE_P(
                 {"no recorded number is called 'velocty.x'", "did you mean 'velocity.x'?"}},
         Mistake{"NudgeOfNoTick", nullptr, {"--nudge", "ego.speed"}, {"TICK"}},
         Mistake{"EmptyOutput", nullptr, {"-o", ""}, {"--output", "path"}},
+        Mistake{"EmptySet", nullptr, {"--set", ""}, {"--set"}},
+        Mistake{"EmptyLevel", nullptr, {"--level", ""}, {"--level"}},
+        Mistake{"EmptyDriver", nullptr, {"--driver", ""}, {"--driver"}},
         Mistake{"NegativeSeed", nullptr, {"--seed", "-1"}, {"seed", "whole number"}},
         Mistake{"SeedTooLarge", nullptr, {"--seed", "18446744073709551616"}, {"whole number"}},
         Mistake{"BadSeed", nullptr, {"--seed", "seven"}, {"seed"}},
@@ -133,6 +136,28 @@ TEST(Help, IsEverywhere) {
     for (const char* command :
          {"run", "verify", "info", "diff", "recover", "render", "test", "accept", "golden"})
         EXPECT_EQ(reprise({command, "--help"}).code, 0) << command;
+}
+
+/// A shell's variable that is not set must not be taken for nothing: least of all where it is a
+/// token.
+TEST(Options, WithoutATextAreTold) {
+    const Folder folder;
+    const std::vector<std::vector<std::string>> lines{
+        {"render", "no.mcap", "-o", "x", "--rig", ""},
+        {"render", "no.mcap", "-o", "x", "--ticks", ""},
+        {"cat", "no.mcap", "--actor", ""},
+        {"test", "no.lua", "--junit", ""},
+        {"serve", "--port", "0", "--listen", "0.0.0.0", "--token-file", ""},
+        {"serve", "--port", ""},
+        {"town", "show", "town1", "-o", ""},
+    };
+    for (const auto& line : lines) {
+        const Result result = reprise(line, folder.path());
+        EXPECT_EQ(result.code, 2) << result.out;
+        EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+        EXPECT_THAT(result.out, testing::AllOf(HasSubstr("expected "), HasSubstr("got ''")));
+    }
+    EXPECT_THAT(folder.files(), testing::IsEmpty());
 }
 
 }  // namespace
