@@ -25,8 +25,22 @@ struct DoorBoxes::Box {
     bool with_mass = false;
     btBoxShape shape;
     std::unique_ptr<btRigidBody> body;
+    const btRigidBody* carrier = nullptr;  ///< is not felt
+    std::uint32_t put_down = 0;            ///< of the carrier, when it was last seen
 
     std::tuple<std::uint32_t, std::uint8_t> key() const { return {door.actor(), door.door()}; }
+
+    /// Its vehicle has another body since it was put down elsewhere: the door is there with it,
+    /// and has not swept over what lies between.
+    void go_with(const Vehicle* vehicle) {
+        if (carrier != nullptr)
+            body->setIgnoreCollisionCheck(carrier, false);
+        carrier = vehicle != nullptr ? &vehicle->body() : nullptr;
+        put_down = vehicle != nullptr ? vehicle->times_put_down() : 0;
+        if (carrier != nullptr)
+            body->setIgnoreCollisionCheck(carrier, true);
+        body->setInterpolationWorldTransform(body->getWorldTransform());
+    }
 
     /// Where it is with the vehicle here.
     void place(const Eigen::Isometry3d& pose_world_vehicle) {
@@ -55,7 +69,7 @@ DoorBoxes::~DoorBoxes() {
         world_->removeRigidBody(box->body.get());
 }
 
-void DoorBoxes::enter(const world::Door& door, const world::VehicleModel& model, Vehicle* on) {
+void DoorBoxes::enter(const world::Door& door, const world::VehicleModel& model) {
     const world::DoorLeaf leaf =
         world::door_leaf(model, Eigen::Isometry3d::Identity(), door.door(), 0);
     auto box = std::make_unique<Box>(door, to_bullet(leaf.half));
@@ -67,8 +81,6 @@ void DoorBoxes::enter(const world::Door& door, const world::VehicleModel& model,
     body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     body.setActivationState(DISABLE_DEACTIVATION);
     tag(body, car_body, door.actor());
-    if (on != nullptr)
-        body.setIgnoreCollisionCheck(&on->body(), true);
     boxes_.push_back(std::move(box));
 }
 
@@ -102,7 +114,7 @@ void DoorBoxes::choose(const world::TickDraft& next,
         const std::uint16_t model = with_mass ? (*vehicle)->model_index() : car->model();
         const bool is_new = box == boxes_.end();
         if (is_new) {
-            enter(door, world::vehicle_models()[model], with_mass ? vehicle->get() : nullptr);
+            enter(door, world::vehicle_models()[model]);
             box = boxes_.end() - 1;
         }
         Box& own = **box;
@@ -112,10 +124,11 @@ void DoorBoxes::choose(const world::TickDraft& next,
         own.with_mass = with_mass;
         own.pose_world_car = pose;
         own.place(pose);
-        if (is_new) {
-            own.body->setInterpolationWorldTransform(own.body->getWorldTransform());
+        const Vehicle* carrier = with_mass ? vehicle->get() : nullptr;
+        if (is_new || own.put_down != (with_mass ? carrier->times_put_down() : 0))
+            own.go_with(carrier);
+        if (is_new)
             world_->addRigidBody(own.body.get());
-        }
     }
     std::erase_if(boxes_, [&](const auto& box) {
         if (!box->wanted)

@@ -36,7 +36,7 @@ class DoorBoxes {
   private:
     struct Box;
 
-    void enter(const world::Door& door, const world::VehicleModel& model, Vehicle* on);
+    void enter(const world::Door& door, const world::VehicleModel& model);
 
     btDynamicsWorld* world_;
     std::vector<std::unique_ptr<Box>> boxes_;  ///< sorted by (actor, door)

@@ -130,6 +130,7 @@ void Vehicle::put_down(btDynamicsWorld& bullet,
                        const Eigen::Isometry3d& pose_world_vehicle,
                        double speed) {
     lies_still_ = 0;
+    ++times_put_down_;
     chassis_.reset();  // Bullet hears of the old one's end first
     chassis_ = std::make_unique<Chassis>(model_, bullet, *ground_);
     const Eigen::Isometry3d pose_world_body =

@@ -97,6 +97,10 @@ class Vehicle {
     /// it has driven stays.
     void teleport(const Eigen::Isometry3d& pose_world_vehicle, double speed);
 
+    /// How often it was put down somewhere: each time it has another body in Bullet, whose address
+    /// may be the old one's or not.
+    std::uint32_t times_put_down() const { return times_put_down_; }
+
     /// [m/s] along its heading, at once; turning as its wheels stand.
     void set_speed(double speed);
 
@@ -161,6 +165,7 @@ class Vehicle {
     world::CarModel model_;
     const Ground* ground_;
     std::unique_ptr<Chassis> chassis_;
+    std::uint32_t times_put_down_ = 0;
     world::Driveline driveline_;
     world::Control control_;
     double steering_angle_ = 0;

@@ -73,6 +73,23 @@ TEST(Doors, OfACarWithMassDoNotPushIt) {
     EXPECT_EQ(open.back().recorded().view.doors().size(), 2U);
 }
 
+/// Each time it has another body in Bullet.
+TEST(Doors, OfACarThatIsPutElsewhereDoNotPushItEither) {
+    const auto states = [](const std::string& doors) {
+        return play(
+            "local car = spawn{ model = 'sedan', driver = 'manual', lane = 'main_1', s = 60 } " +
+                doors +
+                " wait(0.5) for i = 1, 6 do car:teleport{ lane = 'main_1', s = 60 + 15 * i, "
+                "speed = 5 } wait(0.5) end",
+            4);
+    };
+    const auto shut = states("");
+    const auto open = states("car:set_doors{ front_left = true, front_right = true }");
+    ASSERT_EQ(open.size(), shut.size());
+    for (std::size_t i = 0; i < open.size(); ++i)
+        EXPECT_EQ(open[i].recorded().view.vehicles()[0], shut[i].recorded().view.vehicles()[0]);
+}
+
 TEST(Doors, AreSeenByAnAutopilot) {
     const auto ticks = play(beside("autopilot", "parked:set_doors{ front_left = true }"), 12);
     EXPECT_EQ(hits(ticks), 0);
