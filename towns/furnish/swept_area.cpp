@@ -58,11 +58,9 @@ class Way {
     std::vector<double> ends_;  ///< [i] metres to points_[i]
 };
 
-/// From a lane's start over one of its links to the end of the lane there.
-Way way_of(const world::TownT& town, const world::LaneT& lane, const world::Link& link) {
+/// The way, on over a link to the end of the lane there.
+Way way_over(const world::TownT& town, Way way, const world::Link& link) {
     constexpr int most_pieces = 8;  // of a way over a junction
-    Way way;
-    way.add(lane);
     std::uint32_t next = link.via();
     for (int i = 0; i < most_pieces && next != world::none; ++i) {
         way.add(town.lanes[next]);
@@ -98,29 +96,43 @@ void add_bodies(const Way& way, double from, double to, std::vector<Footprint>& 
     }
 }
 
+/// On from the end of a way, which ends with that lane, until its axle is through the first
+/// junction: over more than one where the lanes between them are short. `end` [m] along the way; 0:
+/// that junction is the next one.
+void drive_on(const world::TownT& town,
+              const world::LaneT& lane,
+              const Way& way,
+              double end,
+              int junctions,
+              std::vector<Footprint>& bodies) {
+    for (const world::Link& link : lane.links) {
+        if (link.turn() == world::Turn::around && lane.links.size() > 1)
+            continue;  // nobody turns a bus around where it can go on
+        const world::LaneT& behind = town.lanes[link.to()];
+        const Way next = way_over(town, way, link);
+        Way last;
+        last.add(behind);
+        const double until = end > 0 ? end : next.length() - last.length() + axle_behind;
+        add_bodies(next, way.length(), std::min(next.length(), until), bodies);
+        if (next.length() < until && junctions > 1)
+            drive_on(town, behind, next, until, junctions - 1, bodies);
+    }
+}
+
 }  // namespace
 
 std::vector<Footprint> bus_bodies(const world::TownT& town) {
+    constexpr int most_junctions = 4;  // until its axle is through the first one
     std::vector<Footprint> bodies;
     for (const world::LaneT& lane : town.lanes) {
         if (lane.kind != world::LaneKind::driving)
             continue;
-        Way alone;
-        alone.add(lane);
-        if (!alone.is_line())
+        Way way;
+        way.add(lane);
+        if (!way.is_line())
             continue;
-        add_bodies(alone, 0, alone.length(), bodies);
-        for (const world::Link& link : lane.links) {
-            if (link.turn() == world::Turn::around && lane.links.size() > 1)
-                continue;  // nobody turns a bus around where it can go on
-            const Way way = way_of(town, lane, link);
-            Way last;
-            last.add(town.lanes[link.to()]);
-            add_bodies(way,
-                       alone.length(),
-                       way.length() - std::max(0.0, last.length() - axle_behind),
-                       bodies);
-        }
+        add_bodies(way, 0, way.length(), bodies);
+        drive_on(town, lane, way, 0, most_junctions, bodies);
     }
     return bodies;
 }

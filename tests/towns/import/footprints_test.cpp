@@ -101,27 +101,37 @@ TEST_F(Footprints, AcrossTheRoadKeepTheirLargerPartOrNothing) {
 
 /// Two lanes that meet at a right angle, without a curve between them: a bus cuts the corner.
 TEST(FootprintsInABend, AreCutBackToWhereABusSweeps) {
-    world::TownT town;
-    town.lanes.resize(2);
-    town.lanes[0].centre = {{0, 0, 0}, {50, 0, 0}};
-    town.lanes[1].centre = {{50, 0, 0}, {50, 50, 0}};
-    for (world::LaneT& lane : town.lanes) {
-        lane.width = 3;
-        lane.length = 50;
+    // Also where a piece of a lane, as maps have them, is all that lies behind the bend.
+    for (const double piece : {0.0, 0.3}) {
+        world::TownT town;
+        town.lanes.resize(3);
+        town.lanes[0].centre = {{0, 0, 0}, {50, 0, 0}};
+        town.lanes[1].centre = {{50, 0, 0}, {50, piece, 0}};
+        town.lanes[2].centre = {{50, piece, 0}, {50, 50, 0}};
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            town.lanes[i].width = 3;
+            town.lanes[i].length = i == 1 ? piece : 50;
+            if (i < 2)
+                town.lanes[i].links = {
+                    world::Link(i + 1, world::none, world::none, world::Turn::left, false, 0)};
+        }
+        if (piece == 0) {
+            town.lanes.erase(town.lanes.begin() + 1);
+            town.lanes[0].links[0].mutate_to(1);
+        }
+        Place place;
+        const FootprintReport report =
+            place_footprints({building("1", rectangle(30, 2, 18, 15))}, town, place);
+        EXPECT_EQ(report.cut, 1);
+        ASSERT_THAT(place.buildings, SizeIs(1));
+        // As a ladder slides down a wall: its middle comes half its length to the corner.
+        const world::VehicleModel& bus =
+            world::vehicle_models()[world::find_vehicle_model("bus").value()];
+        const double reach = (bus.length - bus.rear_overhang) / 2 * std::sqrt(0.5);
+        const world::Loop left = world::in_plan(place.buildings[0].outline);
+        EXPECT_FALSE(world::contains(left, {50 - reach, reach})) << piece;
+        EXPECT_TRUE(world::contains(left, {34, 12}));
     }
-    town.lanes[0].links = {world::Link(1, world::none, world::none, world::Turn::left, false, 0)};
-    Place place;
-    const FootprintReport report =
-        place_footprints({building("1", rectangle(30, 2, 18, 15))}, town, place);
-    EXPECT_EQ(report.cut, 1);
-    ASSERT_THAT(place.buildings, SizeIs(1));
-    // As a ladder slides down a wall: its middle comes half its length to the corner.
-    const world::VehicleModel& bus =
-        world::vehicle_models()[world::find_vehicle_model("bus").value()];
-    const double reach = (bus.length - bus.rear_overhang) / 2 * std::sqrt(0.5);
-    const world::Loop left = world::in_plan(place.buildings[0].outline);
-    EXPECT_FALSE(world::contains(left, {50 - reach, reach}));
-    EXPECT_TRUE(world::contains(left, {34, 12}));
 }
 
 TEST_F(Footprints, MayOverlapEachOther) {
