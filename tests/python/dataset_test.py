@@ -251,7 +251,7 @@ class Points(unittest.TestCase):
 
     def test_rigs_without_a_place_in_data_sets_are_refused_in_a_line(self):
         imu = {"name": "motion", "type": "imu"}
-        for rig, why in (([self.rig[0], imu], "sensor 'motion': a data set holds what cameras, LiDARs and radars see; reprise render --rig writes what a imu measures"),
+        for rig, why in (([self.rig[0], imu], "sensor 'motion': a data set holds what cameras, LiDARs and radars see; reprise render --rig writes what sensors of type imu measure"),
                          ([self.rig[2]], "a data set needs a camera of type rgb"),
                          ([self.rig[0], {**self.rig[2], "actor": "world"}], "'roof' and 'front' have carriers of their own, and no calibration takes the points of one to the other")):  # fmt: skip
             (WORK / "odd.json").write_text(json.dumps({"sensors": rig}))
