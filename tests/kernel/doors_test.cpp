@@ -83,7 +83,7 @@ TEST(Doors, OfACarThatIsPutElsewhereDoNotPushItEither) {
                 "speed = 5 } wait(0.5) end",
             4);
     };
-    const auto shut = states("");
+    const auto shut = states("car:set_doors{ front_left = false, front_right = false }");
     const auto open = states("car:set_doors{ front_left = true, front_right = true }");
     ASSERT_EQ(open.size(), shut.size());
     for (std::size_t i = 0; i < open.size(); ++i)
