@@ -11,6 +11,7 @@ find_package(fmt REQUIRED CONFIG)
 find_package(Boost 1.74 REQUIRED)
 find_path(cgal_headers CGAL/Constrained_Delaunay_triangulation_2.h REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(PNG REQUIRED)
 find_package(EXPAT REQUIRED)
 find_package(nlohmann_json REQUIRED CONFIG)
 pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet-float64)
@@ -19,12 +20,16 @@ pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(sqlite3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
+pkg_check_modules(openexr REQUIRED IMPORTED_TARGET OpenEXR)
 pkg_check_modules(cli11 REQUIRED IMPORTED_TARGET CLI11)
 # The one that may be missing: then who drives by hand looks at a terminal.
 pkg_check_modules(sdl2 IMPORTED_TARGET sdl2)
-if(sdl2_FOUND)  # its -D_REENTRANT says nothing to this compiler, but that the compiled headers are others'
-  set_target_properties(PkgConfig::sdl2 PROPERTIES INTERFACE_COMPILE_OPTIONS "")
-endif()
+# Their -pthread defines _REENTRANT, which says nothing to this compiler, but that the compiled headers are others'.
+foreach(target PkgConfig::openexr PkgConfig::sdl2)
+  if(TARGET ${target})
+    set_target_properties(${target} PROPERTIES INTERFACE_COMPILE_OPTIONS "")
+  endif()
+endforeach()
 
 # libsumo, Recast, libosmium and the OpenCV modules ship no CMake package in the small -dev packages we install.
 include(PlainLibrary)
@@ -35,7 +40,7 @@ target_link_libraries(osmium INTERFACE EXPAT::EXPAT Threads::Threads)
 reprise_plain_library(recast recastnavigation/Recast.h NAMES DetourCrowd Detour Recast)
 reprise_plain_library(sumo libsumo/libsumo.h NAMES sumocpp)
 reprise_plain_library(opencv opencv2/core.hpp PATHS opencv4
-                      NAMES opencv_core opencv_imgproc opencv_imgcodecs)
+                      NAMES opencv_core opencv_imgproc)
 reprise_plain_library(opencv_video opencv2/videoio.hpp PATHS opencv4 NAMES opencv_core opencv_videoio)
 
 # ./dev demo builds the program only, from packages.txt's first list.
@@ -47,4 +52,6 @@ if(REPRISE_TESTS)
     message(FATAL_ERROR "tests need libgmock-dev, libgtest-dev and libbenchmark-dev (packages.txt, [tests]): "
                         "./dev test installs them, -DREPRISE_TESTS=OFF builds without tests")
   endif()
+  # Reads again what render/codecs writes.
+  reprise_plain_library(opencv_codecs opencv2/imgcodecs.hpp PATHS opencv4 NAMES opencv_imgcodecs)
 endif()

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "files/output_file.h"
+#include "render/codecs/exr.h"
+#include "render/codecs/png.h"
 #include "render/palette.h"
 #include "world/check.h"
 
@@ -57,33 +56,43 @@ std::uint16_t coded(float depth, DepthCoding coding) {
     }
 }
 
-cv::Mat carla_depth(const world::SensorFrame& frame) {
+/// Room for a picture of the frame's size, all 0.
+Numbers blank(const world::SensorFrame& frame, int channels, world::PixelType type) {
+    Numbers numbers{frame.width, frame.height, channels, type, {}};
+    numbers.data.resize(numbers.row_bytes() * static_cast<std::size_t>(frame.height));
+    return numbers;
+}
+
+template <typename Value>
+void put(Numbers& numbers, std::size_t index, Value value) {
+    std::memcpy(numbers.data.data() + index * sizeof(Value), &value, sizeof(Value));
+}
+
+Numbers carla_depth(const world::SensorFrame& frame) {
     constexpr double steps_a_metre = 16777215.0 / 1000;
-    cv::Mat matrix(frame.height, frame.width, CV_8UC3);
-    std::uint8_t* target = matrix.ptr<std::uint8_t>();
+    Numbers numbers = blank(frame, 3, world::PixelType::u8);
     for (std::size_t i = 0; i < pixel_count(frame); ++i) {
         const double whole = std::round(
             std::clamp(static_cast<double>(depth_at(frame, i)), 0.0, 1000.0) * steps_a_metre);
         const auto value = static_cast<std::uint32_t>(whole);
-        // OpenCV keeps blue first.
-        target[3 * i] = static_cast<std::uint8_t>(value >> 16U);
-        target[3 * i + 1] = static_cast<std::uint8_t>(value >> 8U);
-        target[3 * i + 2] = static_cast<std::uint8_t>(value);
+        numbers.data[3 * i] = static_cast<std::uint8_t>(value);
+        numbers.data[3 * i + 1] = static_cast<std::uint8_t>(value >> 8U);
+        numbers.data[3 * i + 2] = static_cast<std::uint8_t>(value >> 16U);
     }
-    return matrix;
+    return numbers;
 }
 
-cv::Mat depth_matrix(const world::SensorFrame& frame, DepthCoding coding) {
+Numbers depth_numbers(const world::SensorFrame& frame, DepthCoding coding) {
     if (coding == DepthCoding::carla)
         return carla_depth(frame);
-    cv::Mat matrix(frame.height, frame.width, CV_16UC1);
+    Numbers numbers = blank(frame, 1, world::PixelType::u16);
     for (std::size_t i = 0; i < pixel_count(frame); ++i)
-        matrix.ptr<std::uint16_t>()[i] = coded(depth_at(frame, i), coding);
-    return matrix;
+        put(numbers, i, coded(depth_at(frame, i), coding));
+    return numbers;
 }
 
-cv::Mat flow_matrix(const world::SensorFrame& frame) {
-    cv::Mat matrix(frame.height, frame.width, CV_16UC3, cv::Scalar::all(0));
+Numbers flow_numbers(const world::SensorFrame& frame) {
+    Numbers numbers = blank(frame, 3, world::PixelType::u16);
     const auto code = [](float pixels) {
         return std::round(64 * static_cast<double>(pixels)) + 32768;
     };
@@ -92,12 +101,11 @@ cv::Mat flow_matrix(const world::SensorFrame& frame) {
         const double y = code(value_at<float>(frame, 2 * i + 1));
         if (!(x >= 64 && x <= 65472 && y >= 64 && y <= 65472))
             continue;
-        std::uint16_t* target = matrix.ptr<std::uint16_t>() + 3 * i;
-        target[0] = 1;
-        target[1] = static_cast<std::uint16_t>(y);
-        target[2] = static_cast<std::uint16_t>(x);
+        put(numbers, 3 * i, static_cast<std::uint16_t>(x));
+        put(numbers, 3 * i + 1, static_cast<std::uint16_t>(y));
+        put(numbers, 3 * i + 2, std::uint16_t{1});
     }
-    return matrix;
+    return numbers;
 }
 
 Eigen::Vector3f normal_at(const world::SensorFrame& frame, std::size_t index) {
@@ -106,47 +114,32 @@ Eigen::Vector3f normal_at(const world::SensorFrame& frame, std::size_t index) {
             value_at<float>(frame, 3 * index + 2)};
 }
 
-cv::Mat normal_matrix(const world::SensorFrame& frame) {
-    cv::Mat matrix(frame.height, frame.width, CV_16UC3, cv::Scalar::all(0));
+Numbers normal_numbers(const world::SensorFrame& frame) {
+    Numbers numbers = blank(frame, 3, world::PixelType::u16);
     for (std::size_t i = 0; i < pixel_count(frame); ++i) {
         const Eigen::Vector3f normal = normal_at(frame, i);
         if (normal.isZero(0))
             continue;
         for (int axis = 0; axis < 3; ++axis)
-            matrix.ptr<std::uint16_t>()[3 * i + 2 - static_cast<std::size_t>(axis)] =
+            put(numbers,
+                3 * i + static_cast<std::size_t>(axis),
                 static_cast<std::uint16_t>(std::lround(
-                    std::clamp((static_cast<double>(normal[axis]) + 1) * 32767.5, 0.0, 65535.0)));
+                    std::clamp((static_cast<double>(normal[axis]) + 1) * 32767.5, 0.0, 65535.0))));
     }
-    return matrix;
+    return numbers;
 }
 
-cv::Mat matrix_of(const world::SensorFrame& frame, DepthCoding coding) {
+Numbers numbers_of(const world::SensorFrame& frame, DepthCoding coding) {
     switch (frame.kind) {
         case world::SensorKind::depth:
-            return depth_matrix(frame, coding);
+            return depth_numbers(frame, coding);
         case world::SensorKind::flow:
-            return flow_matrix(frame);
+            return flow_numbers(frame);
         case world::SensorKind::normals:
-            return normal_matrix(frame);
+            return normal_numbers(frame);
         default:
-            break;
+            return {frame.width, frame.height, frame.channels, frame.type, frame.data};
     }
-    cv::Mat matrix;
-    if (frame.channels == 1) {
-        const bool wide = frame.type == world::PixelType::u16;
-        matrix.create(frame.height, frame.width, wide ? CV_16UC1 : CV_8UC1);
-        std::copy(frame.data.begin(), frame.data.end(), matrix.ptr<std::uint8_t>());
-        return matrix;
-    }
-    // OpenCV keeps blue first.
-    matrix.create(frame.height, frame.width, CV_8UC3);
-    std::uint8_t* target = matrix.ptr<std::uint8_t>();
-    for (std::size_t i = 0; i < frame.data.size(); i += 3) {
-        target[i] = frame.data[i + 2];
-        target[i + 1] = frame.data[i + 1];
-        target[i + 2] = frame.data[i];
-    }
-    return matrix;
 }
 
 /// Around grey: -1 is black, 1 is white.
@@ -208,16 +201,12 @@ Rgb color_at(const world::SensorFrame& frame, std::size_t i) {
 
 /// Among the grain of an rgb frame zlib finds no strings that are there again, and looks for them
 /// half of its time: without, files are 1 % smaller. Flat areas repeat, and the simplest of PNG's
-/// filters, which OpenCV takes where no level is asked for, is enough for them.
-std::vector<int> packing_of(const world::SensorFrame& frame, Texture texture) {
+/// filters is enough for them.
+PngPacking packing_of(const world::SensorFrame& frame, Texture texture) {
     if (frame.kind == world::SensorKind::semantic)
-        return {cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_RLE};
-    if (frame.kind != world::SensorKind::rgb || texture == Texture::flat)
-        return {cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_DEFAULT};
-    return {cv::IMWRITE_PNG_COMPRESSION,
-            1,
-            cv::IMWRITE_PNG_STRATEGY,
-            cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY};
+        return PngPacking::runs;
+    return frame.kind == world::SensorKind::rgb && texture == Texture::grainy ? PngPacking::grain
+                                                                              : PngPacking::areas;
 }
 
 }  // namespace
@@ -230,10 +219,8 @@ void write_png(const world::SensorFrame& frame,
                       frame.data.size() == pixel_count(frame) * pixel_bytes(frame),
                   "frame " + frame.name + ": " + std::to_string(frame.data.size()) + " bytes");
     // Packed in memory, so that it is our stream that meets a full disk or a missing folder.
-    std::vector<std::uint8_t> png;
-    const bool packed =
-        cv::imencode(".png", matrix_of(frame, coding), png, packing_of(frame, texture));
-    REPRISE_CHECK(packed, "OpenCV: " + path.string());
+    const std::vector<std::uint8_t> png =
+        encode_png(numbers_of(frame, coding), packing_of(frame, texture));
     files::write_file(path, "the picture", png);
 }
 
@@ -260,34 +247,20 @@ void write_npy(const world::SensorFrame& frame, const std::filesystem::path& pat
 
 void write_exr(const world::SensorFrame& frame, const std::filesystem::path& path) {
     REPRISE_CHECK(frame.type == world::PixelType::f32, frame.name);
-    const int channels = frame.channels == 1 ? 1 : 3;
-    cv::Mat matrix(frame.height, frame.width, channels == 1 ? CV_32FC1 : CV_32FC3);
-    // OpenCV keeps blue first.
-    for (std::size_t i = 0; i < pixel_count(frame); ++i) {
-        float* pixel = matrix.ptr<float>() + i * static_cast<std::size_t>(channels);
-        if (channels == 1) {
-            pixel[0] = depth_at(frame, i);
-        } else if (frame.channels == 3) {
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                pixel[2 - axis] = value_at<float>(frame, 3 * i + axis);
-        } else {
+    Numbers numbers{frame.width, frame.height, frame.channels, frame.type, frame.data};
+    if (frame.channels == 2) {
+        numbers = blank(frame, 3, world::PixelType::f32);
+        for (std::size_t i = 0; i < pixel_count(frame); ++i) {
             const float x = value_at<float>(frame, 2 * i);
             const float y = value_at<float>(frame, 2 * i + 1);
-            const bool known = std::isfinite(x) && std::isfinite(y);
-            pixel[0] = known ? 1.0F : 0.0F;
-            pixel[1] = known ? y : 0.0F;
-            pixel[2] = known ? x : 0.0F;
+            if (!std::isfinite(x) || !std::isfinite(y))
+                continue;
+            put(numbers, 3 * i, x);
+            put(numbers, 3 * i + 1, y);
+            put(numbers, 3 * i + 2, 1.0F);
         }
     }
-    // Off unless one asks for it: Debian's OpenCV has it nevertheless.
-    static const bool asked = setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1) == 0;
-    std::vector<std::uint8_t> exr;
-    const std::vector<int> packing{cv::IMWRITE_EXR_TYPE,
-                                   cv::IMWRITE_EXR_TYPE_FLOAT,
-                                   cv::IMWRITE_EXR_COMPRESSION,
-                                   cv::IMWRITE_EXR_COMPRESSION_ZIP};
-    REPRISE_CHECK(asked && cv::imencode(".exr", matrix, exr, packing), "OpenCV: " + path.string());
-    files::write_file(path, "the picture", exr);
+    files::write_file(path, "the picture", encode_exr(numbers));
 }
 
 world::SensorFrame in_paper_classes(const world::SensorFrame& frame) {

@@ -2,47 +2,69 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include "render/codecs/exr.h"
+#include "render/codecs/png.h"
 
 namespace reprise::render {
 
 namespace {
 
-/// Its numbers as they are, as doubles.
-cv::Mat read(const std::filesystem::path& path, int& depth) {
-    static const bool asked = setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1) == 0;
-    cv::Mat picture;
-    if (asked && (path.extension() == ".png" || path.extension() == ".exr"))
-        picture = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
-    depth = picture.depth();
-    cv::Mat numbers;
-    picture.convertTo(numbers, CV_64F);
-    return numbers;
+std::optional<Numbers> read(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
+    if (path.extension() == ".png")
+        return decode_png(bytes);
+    if (path.extension() == ".exr")
+        return decode_exr(bytes);
+    return std::nullopt;
+}
+
+double number(const Numbers& numbers, std::size_t index) {
+    const auto as = [&]<typename Value>(Value value) {
+        std::memcpy(&value, numbers.data.data() + index * sizeof(Value), sizeof(Value));
+        return static_cast<double>(value);
+    };
+    switch (numbers.type) {
+        case world::PixelType::u8:
+            return as(std::uint8_t{});
+        case world::PixelType::u16:
+            return as(std::uint16_t{});
+        default:
+            return as(float{});
+    }
+}
+
+double peak(world::PixelType type) {
+    return type == world::PixelType::u8 ? 255 : type == world::PixelType::u16 ? 65535 : 0;
+}
+
+bool are_alike(const Numbers& one, const Numbers& two) {
+    return one.width == two.width && one.height == two.height && one.channels == two.channels &&
+           one.type == two.type;
 }
 
 }  // namespace
 
 std::optional<PictureDifference> picture_difference(const std::filesystem::path& expected,
                                                     const std::filesystem::path& found) {
-    int depth = 0;
-    int other = 0;
-    const cv::Mat one = read(expected, depth);
-    const cv::Mat two = read(found, other);
-    if (one.empty() || one.size() != two.size() || one.type() != two.type() || depth != other)
+    const std::optional<Numbers> one = read(expected);
+    const std::optional<Numbers> two = read(found);
+    if (!one || !two || !are_alike(*one, *two))
         return std::nullopt;
     PictureDifference difference;
-    difference.peak = depth == CV_8U ? 255 : depth == CV_16U ? 65535 : 0;
-    const int channels = one.channels();
-    for (int y = 0; y < one.rows; ++y)
-        for (int x = 0; x < one.cols; ++x) {
+    difference.peak = peak(one->type);
+    std::size_t index = 0;
+    for (int y = 0; y < one->height; ++y)
+        for (int x = 0; x < one->width; ++x) {
             bool differs = false;
-            for (int c = 0; c < channels; ++c) {
-                const double left = one.ptr<double>(y)[x * channels + c];
-                const double right = two.ptr<double>(y)[x * channels + c];
+            for (int c = 0; c < one->channels; ++c, ++index) {
+                const double left = number(*one, index);
+                const double right = number(*two, index);
                 if (left == right || (std::isnan(left) && std::isnan(right)))
                     continue;
                 differs = true;
@@ -57,7 +79,7 @@ std::optional<PictureDifference> picture_difference(const std::filesystem::path&
                 difference.y = y;
             }
         }
-    difference.squares /= static_cast<double>(one.total()) * channels;
+    difference.squares /= static_cast<double>(index);
     return difference;
 }
 
