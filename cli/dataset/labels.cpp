@@ -25,7 +25,7 @@ struct Category {
 };
 
 constexpr std::array categories{
-    Category{SemanticClass::pedestrian, "pedestrian", "Pedestrian", 0.45},
+    Category{SemanticClass::pedestrian, "pedestrian", "Pedestrian", 0.35},
     Category{SemanticClass::rider, "rider", "Cyclist", 0.45},
     Category{SemanticClass::car, "car", "Car", 0.7},
     Category{SemanticClass::truck, "truck", "Truck", 0.75},

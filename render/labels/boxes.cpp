@@ -7,8 +7,13 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <string>
 
+#include "render/shapes/people/figure.h"
+#include "render/shapes/people/figure_bounds.h"
+#include "world/check.h"
 #include "world/external/instance_id.h"
+#include "world/frames.h"
 #include "world/models/actors.h"
 
 namespace reprise::render {
@@ -51,28 +56,29 @@ std::map<std::uint16_t, Count> count_pixels(const world::SensorFrame& instances,
     return counts;
 }
 
-/// [m] along and across, by which somebody on foot reaches out of the body that others bump into:
-/// feet and hands, farther the faster they go. Found by tests/cli/labels_proof.py.
-Eigen::Vector2d reach_of_limbs(const world::TickView& tick, std::uint32_t actor) {
-    const world::WalkerState* walker = world::find(tick.walkers(), actor);
-    if (walker == nullptr)
-        return Eigen::Vector2d::Zero();
-    const double speed = std::clamp(static_cast<double>(walker->speed()), 0.0, 1.5);
-    return {0.3 + 0.35 * speed, 0.2};
+/// Of somebody on foot: around limbs and luggage, which reach out of the body that others bump
+/// into.
+ActorBox figure_box(const world::TickView& tick, const world::WalkerState& walker) {
+    const auto models = world::walker_models();
+    REPRISE_CHECK(walker.model() < models.size(), "walker " + std::to_string(walker.id()));
+    const Eigen::AlignedBox3d bounds =
+        figure_bounds(models[walker.model()], walker, umbrellas_are_open(tick));
+    return {world::pose(walker.position(), static_cast<double>(walker.yaw()), 0) *
+                Eigen::Translation3d(bounds.center()),
+            bounds.sizes()};
 }
 
 }  // namespace
 
 std::optional<ActorBox> actor_box(const world::TickView& tick, std::uint32_t actor) {
+    if (const world::WalkerState* walker = world::find(tick.walkers(), actor))
+        return figure_box(tick, *walker);
     const auto extent = world::find_extent(tick, actor);
     const auto pose = world::find_pose(tick, actor);
     if (!extent || !pose)
         return std::nullopt;
-    ActorBox box;
-    box.size = {extent->front - extent->rear, 2 * extent->half_width, extent->height};
-    box.size.head<2>() += 2 * reach_of_limbs(tick, actor);
-    box.pose_world = *pose * Eigen::Translation3d(extent->middle(), 0, extent->height / 2);
-    return box;
+    return ActorBox{*pose * Eigen::Translation3d(extent->middle(), 0, extent->height / 2),
+                    {extent->front - extent->rear, 2 * extent->half_width, extent->height}};
 }
 
 std::vector<LabelBox> boxes_of(const world::TickView& tick,

@@ -12,7 +12,7 @@
 
 namespace reprise::render {
 
-/// The box around an actor, with what its limbs reach.
+/// The box around an actor; of somebody on foot as he is at this tick, with limbs and luggage.
 struct ActorBox {
     Eigen::Isometry3d pose_world;  ///< of its middle; x ahead
     Eigen::Vector3d size;          ///< [m] along it, across, upwards

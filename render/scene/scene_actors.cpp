@@ -8,6 +8,7 @@
 #include "render/shapes/cars/two_wheeler.h"
 #include "render/shapes/noise.h"
 #include "render/shapes/paint.h"
+#include "render/shapes/people/figure.h"
 #include "render/shapes/street/thing_mesh.h"
 #include "world/check.h"
 #include "world/frames.h"
@@ -206,8 +207,7 @@ void Scene::arrange(const world::TickView& tick) {
     place_cars(tick);
     place_things(tick);
     place_doors(tick);
-    const world::Weather* weather = tick.tick->weather();
-    const bool rains = weather != nullptr && weather->rain() > 0;
+    const bool rains = umbrellas_are_open(tick);
     for (const world::WalkerState& walker : tick.walkers())
         place_walker(walker, rains);
 }

@@ -1,8 +1,10 @@
+#include <array>
 #include <cmath>
 #include <set>
 
 #include <gmock/gmock.h>
 
+#include "render/labels/boxes.h"
 #include "render/sensors.h"
 #include "tests/render/street.h"
 #include "world/external/instance_id.h"
@@ -43,7 +45,46 @@ world::SensorSpec carried(SensorKind kind) {
     return spec;
 }
 
+/// Somebody on a road, who crosses it: walks, stands, runs or lies.
+world::SealedTick person(std::uint32_t number) {
+    world::TickDraft draft;
+    draft.tick.index = 40;
+    const auto models = static_cast<std::uint16_t>(world::walker_models().size());
+    draft.traffic.walkers.emplace_back(world::Vec3(200, 0, 0),
+                                       number % 2 == 0 ? 1.5708F : -1.5708F,
+                                       std::array{1.4F, 0.0F, 3.0F}.at(number % 3),
+                                       0.17F * static_cast<float>(number),
+                                       20,
+                                       static_cast<std::uint16_t>(11 * number % models),
+                                       number == 4,
+                                       std::uint8_t{0},
+                                       77 * number);
+    return world::seal(draft, {});
+}
+
 }  // namespace
+
+/// From so far away, so narrowly, that what is near is hardly larger than what is behind it.
+TEST(Labels, ABoxInSpaceEndsWhereSomebodyOnFootEnds) {
+    render::Sensors sensors(test::straight_road_with_signal(400));
+    world::SensorSpec spec = camera(SensorKind::instance, {50, 0, 1.1});
+    spec.fov = 2.8 / 150;  // [m] of the picture there
+    spec.width = spec.height = 280;
+    world::SensorSpec classes = spec;
+    classes.kind = SensorKind::semantic;
+    for (std::uint32_t number = 0; number < 12; ++number) {
+        const world::SealedTick tick = person(number);
+        const auto frames = sensors.observe(tick.view(), {spec, classes}, test::noon());
+        const auto boxes = render::boxes_of(
+            tick.view(), render::Camera(spec, Eigen::Isometry3d::Identity()), frames[0], frames[1]);
+        ASSERT_EQ(boxes.size(), 1U) << number;
+        constexpr double rounding = 2;  // [px] of a centimetre each
+        EXPECT_NEAR(boxes[0].whole.left, boxes[0].seen.left, rounding) << number;
+        EXPECT_NEAR(boxes[0].whole.right, boxes[0].seen.right, rounding) << number;
+        EXPECT_NEAR(boxes[0].whole.top, boxes[0].seen.top, rounding) << number;
+        EXPECT_NEAR(boxes[0].whole.bottom, boxes[0].seen.bottom, rounding) << number;
+    }
+}
 
 TEST(Labels, InstancesAreThoseOfActorsAndOfTheTownsThings) {
     const world::TownT town = test::street();

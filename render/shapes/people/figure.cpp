@@ -190,6 +190,11 @@ std::uint32_t appearance_bits(const world::WalkerState& walker) {
     return walker.look() != 0 ? walker.look() : hash(walker.id(), 1);
 }
 
+bool umbrellas_are_open(const world::TickView& tick) {
+    const world::Weather* weather = tick.tick->weather();
+    return weather != nullptr && weather->rain() > 0;
+}
+
 std::vector<FigurePart> figure(const world::WalkerModel& model,
                                const world::WalkerState& walker,
                                bool rains) {

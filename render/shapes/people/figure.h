@@ -8,13 +8,16 @@
 #include "render/shapes/people/figure_part.h"
 #include "render/shapes/people/wardrobe.h"
 #include "world/models/catalogue.h"
-#include "world/traffic_generated.h"
+#include "world/tick.h"
 
 namespace reprise::render {
 
 /// What his clothes, skin and hair are drawn from (world::WalkerState::look); of one that was not
 /// recorded (an imported run), from his id.
 std::uint32_t appearance_bits(const world::WalkerState& walker);
+
+/// Of the weather that was recorded, so that what there is to see does not depend on another one.
+bool umbrellas_are_open(const world::TickView& tick);
 
 /// The parts of a walker at his phase of the walk (see posture.h) with what he carries. Frame: x
 /// ahead, on the ground between his feet. One who was hit lies on his back.
