@@ -6,6 +6,7 @@
 #include "traffic/sight/foresight.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace reprise::traffic {
@@ -25,6 +26,9 @@ std::size_t sure_samples(double gap, double closing) {
     return gap <= 0 ? 0 : static_cast<std::size_t>(gap / closing);
 }
 
+constexpr std::size_t moments = 4;                           // in each stretch of time
+constexpr std::uint32_t of_a_stretch = (1U << moments) - 1;  // a bit each
+
 /// [m] to the corner of a box that is wider and longer by a margin on each side.
 double corner(const BodyBox& box, double margin) {
     return std::sqrt((box.half_length + margin) * (box.half_length + margin) +
@@ -36,13 +40,28 @@ double corner(const BodyBox& box, double margin) {
 void Foresight::look(const Car& car, const LaneLines& lines, const RoadGraph& graph, double reach) {
     way_.look(car, lines, graph, reach + 1);
     now_ = way_.at(0);
-    corridor_ = way_.corridor(reach, now_.ahead).widened(room);
     speed_ = car.speed;
     reach_ = reach;
+    constexpr double each = sample * moments;
+    for (std::size_t i = 0; i < stretches; ++i) {
+        const double from = i == 0 ? 0 : each * static_cast<double>(i) + sample;
+        const double to = each * static_cast<double>(i + 1);
+        stretches_[i].from = speed_ * from;
+        stretches_[i].to = tried_speed(1) * to;
+    }
+    way_.surround(stretches_);
     radius_ = corner(now_, 0);
     roomy_radius_ = corner(now_, room);
     most_moved_ = way_.most_moved();
+    has_corridor_ = false;
     drives_.known = soon_[0].known = soon_[1].known = sweep_.known = 0;
+}
+
+const BodyBox& Foresight::corridor() {
+    if (!has_corridor_)
+        corridor_ = way_.corridor(reach_, now_.ahead).widened(room);
+    has_corridor_ = true;
+    return corridor_;
 }
 
 const BodyBox& Foresight::drives(std::size_t i) {
@@ -72,6 +91,20 @@ const BodyBox& Foresight::soon(std::size_t which, std::size_t i) {
     return row.bodies[i];
 }
 
+/// Bits of the samples at which the two may touch, at whichever of their speeds; 1: now.
+std::uint32_t Foresight::moments_near(const Foresight& other) const {
+    constexpr double apart = 2 * room;  // [m] more than enough for who has room beside
+    std::uint32_t near = 0;
+    for (std::size_t i = 0; i < stretches; ++i) {
+        const world::Box& own = stretches_[i].area;
+        const world::Box& its = other.stretches_[i].area;
+        if (own.low.x() <= its.high.x() + apart && its.low.x() <= own.high.x() + apart &&
+            own.low.y() <= its.high.y() + apart && its.low.y() <= own.high.y() + apart)
+            near |= (i == 0 ? 2 * of_a_stretch + 1 : 2 * of_a_stretch << (i * moments));
+    }
+    return near;
+}
+
 std::span<const BodyBox> Foresight::sweep() {
     if (sweep_.known == 0) {
         sweep_.known = 1;
@@ -84,6 +117,7 @@ std::span<const BodyBox> Foresight::sweep() {
 /// At both speeds side by side: what one of them says about a moment, less what the other one has
 /// driven more or less by then, is true of the other one.
 bool Foresight::would_meet(Foresight& other) {
+    const std::uint32_t near = moments_near(other);
     const double radii = roomy_radius_ + other.radius_;
     const double its_closing = other.speed_ * other.most_moved_;
     const std::array<double, 2> closing{(tried_speed(0) * most_moved_ + its_closing) * sample,
@@ -94,9 +128,10 @@ bool Foresight::would_meet(Foresight& other) {
                                     1 + sure_samples(gap_now, closing[1])};
     for (;;) {
         const std::size_t which = next[1] < next[0] ? 1 : 0;
-        const std::size_t i = next[which];
-        if (i >= samples)
+        const std::size_t sure = next[which];
+        if (sure >= samples || near >> sure == 0)
             return false;
+        const std::size_t i = sure + static_cast<std::size_t>(std::countr_zero(near >> sure));
         const BodyBox& own = soon(which, i);
         const BodyBox& its = other.drives(i);
         const double gap = gap_between(own, its, radii);

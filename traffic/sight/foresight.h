@@ -31,7 +31,10 @@ class Foresight {
     const BodyBox& now() const { return now_; }
 
     /// Around all that it will cover, with room beside.
-    const BodyBox& corridor() const { return corridor_; }
+    const BodyBox& corridor();
+
+    /// False: they touch neither now nor at any moment that is looked at. Quick.
+    bool may_touch(const Foresight& other) const { return moments_near(other) != 0; }
 
     /// The first of the bodies along its way, as first_on_way_of compares them.
     const BodyBox& way_start() { return sweep().front(); }
@@ -58,6 +61,8 @@ class Foresight {
     Entry first_on_way_of(Foresight& other);
 
   private:
+    static constexpr std::size_t stretches = 5;  ///< of time, each with as many of the samples
+
     /// Bodies at the same distances from each other; worked out at most once.
     struct Row {
         std::array<BodyBox, samples> bodies;
@@ -67,12 +72,15 @@ class Foresight {
     const BodyBox& drives(std::size_t i);
     const BodyBox& soon(std::size_t which, std::size_t i);
     double tried_speed(std::size_t which) const;
+    std::uint32_t moments_near(const Foresight& other) const;
     std::span<const BodyBox> sweep();
     Entry first_on(std::span<const BodyBox> others, double radius);
 
     WayAhead way_;
     BodyBox now_;
     BodyBox corridor_;
+    bool has_corridor_ = false;
+    std::array<WayAhead::Stretch, stretches> stretches_;
     double speed_ = 0;
     double reach_ = 0;
     double radius_ = 0;        ///< [m] from the middle of its body to a corner,

@@ -295,7 +295,9 @@ bool Meetings::is_all_on_its_lane(const Driver& driver) {
 void Meetings::meet(Driver& one, Driver& other) {
     prepare(one);
     prepare(other);
-    if (!overlap(one.seen->corridor(), other.seen->corridor()))
+    const bool pushes = one.car->pushes_until > tick_ || other.car->pushes_until > tick_;
+    if ((!pushes && !one.seen->may_touch(*other.seen)) ||
+        !overlap(one.seen->corridor(), other.seen->corridor()))
         return;
     const bool one_follows = follows(one, other);
     const bool other_follows = follows(other, one);

@@ -6,6 +6,7 @@
 #include "traffic/cars/fleet.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
+#include "world/units.h"
 
 namespace reprise::traffic {
 
@@ -22,6 +23,23 @@ constexpr std::size_t most_lanes = 16;  // nobody drives over more of them in se
 double bulge_of(double to_axle, const Eigen::Vector2d& front_to_rear) {
     return std::sqrt(std::max(0.0, to_axle * to_axle - front_to_rear.squaredNorm())) / 2;
 }
+
+/// Grows to hold what it takes, number by number: quicker than by vectors.
+struct Bounds {
+    double west = world::infinity, east = -world::infinity;
+    double south = world::infinity, north = -world::infinity;
+
+    void take(const Eigen::Vector2d& p) {
+        west = std::min(west, p.x());
+        east = std::max(east, p.x());
+        south = std::min(south, p.y());
+        north = std::max(north, p.y());
+    }
+
+    world::Box widened(double margin) const {
+        return {{west - margin, south - margin}, {east + margin, north + margin}};
+    }
+};
 
 }  // namespace
 
@@ -82,7 +100,7 @@ world::Box area_ahead(const Car& car,
     const double to_axle = origin_to_front(car.model);
     const Eigen::Vector2d front = car.trail.front().head<2>();
     const Eigen::Vector2d rear = car.trail.rear().head<2>();
-    world::Box box;
+    Bounds box;
     box.take(front);
     box.take(rear);
     const double bulge = bulge_of(to_axle, front - rear);
@@ -112,9 +130,21 @@ world::Box area_ahead(const Car& car,
     const double rolled = (car.rear.head<2>() - rear).norm();
     const double beside = std::hypot(model.rear_overhang, model.width / 2) + rolled +
                           std::max(bulge, aside) + rounding;
-    box.low -= Eigen::Vector2d::Constant(beside);
-    box.high += Eigen::Vector2d::Constant(beside);
-    return box;
+    return box.widened(beside);
+}
+
+/// Where the bumper has driven so far, between the point before this one and this one.
+inline Eigen::Vector2d WayAhead::between(std::size_t i, double driven) const {
+    const double piece = std::max(ends_[i] - ends_[i - 1], 1e-9);
+    const double share = std::min((driven - ends_[i - 1]) / piece, 1.0);
+    return points_[i - 1] + (points_[i] - points_[i - 1]) * share;
+}
+
+inline Eigen::Vector2d WayAhead::bumper_at(double driven) const {
+    std::size_t i = 1;  // of few points: quicker one by one
+    for (const std::size_t last = ends_.size() - 1; i < last && ends_[i] <= driven; ++i) {
+    }
+    return between(i, driven);
 }
 
 void WayAhead::look(const Car& car, const LaneLines& lines, const RoadGraph& graph, double reach) {
@@ -160,15 +190,6 @@ void WayAhead::add(const Eigen::Vector2d& p) {
     points_.push_back(p);
 }
 
-Eigen::Vector2d WayAhead::bumper_at(double driven) const {
-    std::size_t i = 1;  // of few points: quicker one by one
-    for (const std::size_t last = ends_.size() - 1; i < last && ends_[i] <= driven; ++i) {
-    }
-    const double piece = std::max(ends_[i] - ends_[i - 1], 1e-9);
-    const double share = std::min((driven - ends_[i - 1]) / piece, 1.0);
-    return points_[i - 1] + (points_[i] - points_[i - 1]) * share;
-}
-
 BodyBox WayAhead::at(double driven) const {
     driven = std::min(driven, length());
     const Eigen::Vector2d front = bumper_at(driven);
@@ -189,7 +210,7 @@ BodyBox WayAhead::corridor(double driven, const Eigen::Vector2d& ahead) const {
     constexpr double rounding = 0.01;  // [m]
     const Eigen::Vector2d& front = points_.front();
     const Eigen::Vector2d rear = car_->trail.rear().head<2>();
-    world::Box box;  // in the frame of today's body, from its bumper
+    Bounds box;  // in the frame of today's body, from its bumper
     const auto take = [&](const Eigen::Vector2d& p) {
         const Eigen::Vector2d offset = p - front;
         box.take({offset.dot(ahead), world::cross(ahead, offset)});
@@ -200,15 +221,44 @@ BodyBox WayAhead::corridor(double driven, const Eigen::Vector2d& ahead) const {
     take(bumper_at(std::min(driven, length())));
     const double off = bulge_of(to_axle_, front - rear) + rolled_.norm() + rounding;
     // A body that stands askew in the corridor has its tail further out.
-    const Eigen::Vector2d extent = box.high - box.low;
+    const Eigen::Vector2d extent(box.east - box.west, box.north - box.south);
     const double askew = std::min(1.0, (extent.y() + 2 * off) / (least_chord * to_axle_));
-    const Eigen::Vector2d middle = (box.low + box.high) / 2;
+    const Eigen::Vector2d middle((box.west + box.east) / 2, (box.south + box.north) / 2);
     BodyBox around;
     around.ahead = ahead;
     around.middle = front + middle.x() * ahead + middle.y() * world::turned_left(ahead);
     around.half_length = extent.x() / 2 + off + std::hypot(rear_overhang_, half_width_);
     around.half_width = extent.y() / 2 + off + half_width_ + askew * rear_overhang_;
     return around;
+}
+
+void WayAhead::surround(std::span<Stretch> stretches) const {
+    constexpr double rounding = 0.01;  // [m]
+    const double end = length();
+    const Eigen::Vector2d& front = points_.front();
+    const Eigen::Vector2d rear = car_->trail.rear().head<2>();
+    const double beside = std::hypot(rear_overhang_, half_width_) + rolled_.norm() + rounding;
+    const double behind = beside + bulge_of(to_axle_, front - rear);
+    const std::size_t last = points_.size() - 1;
+    std::size_t first = 1;  // of the points ahead of where the axle begins
+    for (Stretch& stretch : stretches) {
+        const double from = std::min(stretch.from, end) - to_axle_;
+        const double to = std::min(stretch.to, end);
+        Bounds bounds;
+        if (from < 0) {  // its axle comes along where the bumper has been
+            bounds.take(rear);
+            bounds.take(front);
+        } else {
+            while (first < last && ends_[first] <= from)
+                ++first;
+            bounds.take(between(first, from));
+        }
+        std::size_t next = first;
+        for (; next < last && ends_[next] < to; ++next)
+            bounds.take(points_[next]);
+        bounds.take(between(next, to));
+        stretch.area = bounds.widened(from < 0 ? behind : beside);
+    }
 }
 
 /// Where both axle and bumper move by a metre the middle between them moves by no more, but that a

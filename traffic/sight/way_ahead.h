@@ -63,6 +63,16 @@ class WayAhead {
     /// [m] ahead; somewhat too large, and tight beside who drives straight on.
     BodyBox corridor(double driven, const Eigen::Vector2d& ahead) const;
 
+    /// Boxes that the body does not leave while the bumper is between `from` and `to` [m] ahead, in
+    /// the order of both; somewhat too large.
+    struct Stretch {
+        double from = 0;
+        double to = 0;
+        world::Box area;
+    };
+
+    void surround(std::span<Stretch> stretches) const;
+
     /// [m] that the middle of the body moves at most for each metre driven.
     double most_moved() const;
 
@@ -74,6 +84,7 @@ class WayAhead {
   private:
     void add(const Eigen::Vector2d& p);
     Eigen::Vector2d bumper_at(double driven) const;
+    Eigen::Vector2d between(std::size_t i, double driven) const;
 
     const Car* car_ = nullptr;
     double to_axle_ = 0;  ///< [m] from the bumper
