@@ -169,6 +169,8 @@ std::string coco_annotations(const std::string& boxes, const world::SensorFrame&
             {"size", {instances.height, instances.width}},
             {"counts", run_lengths(instances, box["instance"].get<std::uint16_t>())}};
         one["actor"] = box["actor"];
+        if (box.contains("thing"))
+            one["thing"] = box["thing"];
     }
     return all.dump() + "\n";
 }

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <set>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/dataset/labels.h"
@@ -49,18 +50,27 @@ class Parked {
     std::set<std::uint32_t> actors_;
 };
 
+/// An actor by its id, or a vehicle that stands in the town.
+using Who = std::uint32_t;
+constexpr Who first_thing = 1U << 31U;
+
+Who who(const Json& box) {
+    return box.contains("thing") ? first_thing + box["thing"].get<std::uint32_t>()
+                                 : box.at("actor").get<std::uint32_t>();
+}
+
 /// Of one actor in all cameras: pixels that show it, and that would if nothing hid it.
 struct Pixels {
     double seen = 0;
     double whole = 0;
 };
 
-void count_pixels(const std::filesystem::path& path, std::map<std::uint32_t, Pixels>& counts) {
+void count_pixels(const std::filesystem::path& path, std::map<Who, Pixels>& counts) {
     std::ifstream file(path, std::ios::binary);
     const Json json = Json::parse(file, nullptr, false);
     try {
         for (const Json& box : json.at("boxes")) {
-            Pixels& pixels = counts[box.at("actor").get<std::uint32_t>()];
+            Pixels& pixels = counts[who(box)];
             const auto seen = box.at("pixels").get<double>();
             pixels.seen += seen;
             pixels.whole += seen / std::max(1e-6, shown_share(box.dump()));
@@ -71,18 +81,39 @@ void count_pixels(const std::filesystem::path& path, std::map<std::uint32_t, Pix
 }
 
 /// Whom cameras see, or beams meet, and which share of them cameras see.
-std::map<std::uint32_t, double> seen_in(const DatasetLayout& layout, std::size_t id) {
-    std::map<std::uint32_t, Pixels> counts;
+std::map<Who, double> seen_in(const DatasetLayout& layout, std::size_t id) {
+    std::map<Who, Pixels> counts;
     for (std::size_t i = 0; i < layout.cameras().size(); ++i)
         if (layout.is_rgb(i))
             count_pixels(layout.boxes(i, id), counts);
-    std::map<std::uint32_t, double> shares;
+    std::map<Who, double> shares;
     for (const auto& [actor, pixels] : counts)
         shares[actor] = std::min(1.0, pixels.seen / std::max(1.0, pixels.whole));
     if (layout.velodyne())
         for (const auto& [actor, beams] : read_beams(layout.beams(id)))
             shares.emplace(actor, 0);
     return shares;
+}
+
+/// What stands in a town, in order of its number.
+NuscenesObject parked_object(const std::vector<render::ParkedVehicle>& town,
+                             Who who,
+                             double share) {
+    const auto found = std::lower_bound(
+        town.begin(), town.end(), who - first_thing, [](const auto& vehicle, std::uint32_t thing) {
+            return vehicle.thing < thing;
+        });
+    if (found == town.end() || found->thing != who - first_thing)
+        throw world::Error(fmt::format(
+            "labels/: no vehicle stands in the town as thing {}: was changed; remove the folder",
+            who - first_thing));
+    const world::VehicleModel& model = world::vehicle_models()[found->model];
+    return {who,
+            nuscenes_category(model),
+            nuscenes_attribute(model),
+            share,
+            found->box.pose_world,
+            found->box.size};
 }
 
 }  // namespace
@@ -94,6 +125,7 @@ std::vector<NuscenesFrame> nuscenes_frames(const DatasetLayout& layout,
     auto source = sources.begin();
     std::size_t number = 0;
     std::optional<Parked> parked;
+    std::vector<render::ParkedVehicle> town;
     for (std::size_t id = 0; id < frames.size(); ++id) {
         const DatasetFrame& frame = frames[id];
         if (frame.trace != number) {
@@ -101,8 +133,10 @@ std::vector<NuscenesFrame> nuscenes_frames(const DatasetLayout& layout,
             number = frame.trace;
             parked.reset();
         }
-        if (!parked)
+        if (!parked) {
             parked.emplace(source->trace());
+            town = render::parked_vehicles(source->trace().recording().town);
+        }
         parked->hear_to(frame.tick);
         const world::TickView tick = source->trace().tick(frame.tick).view;
         const std::uint32_t ego = source->ego(tick);
@@ -112,6 +146,10 @@ std::vector<NuscenesFrame> nuscenes_frames(const DatasetLayout& layout,
         made.split = frame.split;
         made.pose_world_ego = *world::find_pose(tick, ego);
         for (const auto& [actor, share] : seen_in(layout, id)) {
+            if (actor >= first_thing) {
+                made.objects.push_back(parked_object(town, actor, share));
+                continue;
+            }
             const auto category = nuscenes_category(tick, actor);
             const auto box = render::actor_box(tick, actor);
             if (actor == ego || !category || !box)

@@ -15,9 +15,9 @@
 
 namespace reprise::cli {
 
-/// An actor that cameras or the first LiDAR see.
+/// An actor that cameras or the first LiDAR see, or a vehicle that stands in the town.
 struct NuscenesObject {
-    std::uint32_t actor = 0;
+    std::uint32_t actor = 0;               ///< from 2^31 on: things of the town, by their number
     std::size_t category = 0;              ///< in nuscenes_categories()
     std::optional<std::size_t> attribute;  ///< in nuscenes_attributes()
     double share = 0;                      ///< of it that cameras see

@@ -166,6 +166,15 @@ std::optional<std::size_t> nuscenes_attribute(const world::TickView& tick,
     return static_cast<double>(walker->speed()) > stands ? walking : standing;
 }
 
+std::size_t nuscenes_category(const world::VehicleModel& parked) {
+    return taxon_of(parked);
+}
+
+std::optional<std::size_t> nuscenes_attribute(const world::VehicleModel& parked) {
+    return world::is_two_wheeler(parked.body) ? std::nullopt
+                                              : std::optional<std::size_t>(parked_vehicle);
+}
+
 std::string nuscenes_visibility(double share) {
     return share < 0.4 ? "1" : share < 0.6 ? "2" : share < 0.8 ? "3" : "4";
 }

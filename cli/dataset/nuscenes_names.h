@@ -6,6 +6,7 @@
 #include <string>
 
 #include "world/external/sensor.h"
+#include "world/models/catalogue.h"
 #include "world/tick.h"
 
 namespace reprise::cli {
@@ -28,6 +29,10 @@ std::string nuscenes_channel(const world::SensorSpec& sensor, bool first_lidar);
 
 /// Index in nuscenes_categories(); nothing for what nuScenes has no category for.
 std::optional<std::size_t> nuscenes_category(const world::TickView& tick, std::uint32_t actor);
+
+/// Of a vehicle that stands in the town.
+std::size_t nuscenes_category(const world::VehicleModel& parked);
+std::optional<std::size_t> nuscenes_attribute(const world::VehicleModel& parked);
 
 /// Index in nuscenes_attributes(); nothing for things. `parked`: nobody ever moves it.
 std::optional<std::size_t> nuscenes_attribute(const world::TickView& tick,

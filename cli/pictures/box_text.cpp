@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "render/labels/boxes.h"
 #include "world/check.h"
 #include "world/models/actors.h"
 
@@ -30,6 +29,7 @@ Json numbers(const Eigen::Isometry3d& pose) {
 }  // namespace
 
 std::string box_text(const world::TickView& tick,
+                     std::span<const render::ParkedVehicle> parked,
                      const world::SensorSpec& camera,
                      const world::SensorFrame& instances,
                      const world::SensorFrame& classes) {
@@ -48,9 +48,11 @@ std::string box_text(const world::TickView& tick,
     json["sensor"] = camera.name;
     json["world_from_camera"] = numbers(pose_world_camera);
     json["boxes"] = Json::array();
-    for (const render::LabelBox& box : render::boxes_of(tick, eye, instances, classes)) {
+    for (const render::LabelBox& box : render::boxes_of(tick, parked, eye, instances, classes)) {
         Json& one = json["boxes"].emplace_back();
         one["actor"] = box.actor;
+        if (box.thing)
+            one["thing"] = *box.thing;
         one["instance"] = box.instance;
         one["class"] = static_cast<int>(box.what);
         one["pixels"] = box.pixels;

@@ -60,6 +60,7 @@ void LookAtTick::seen(std::vector<world::SensorFrame> frames) {
             output_.take_boxes(looking_[i],
                                tick().index(),
                                box_text(tick(),
+                                        *boxes_,
                                         rig_[i],
                                         frames_[first_of_boxes_ + i],
                                         frames_[first_of_boxes_ + looking_.size() + i]),

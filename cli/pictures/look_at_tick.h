@@ -8,6 +8,7 @@
 #include "cli/pictures/cameras.h"
 #include "cli/pictures/kept_ticks.h"
 #include "cli/pictures/picture_output.h"
+#include "render/labels/boxes.h"
 #include "render/sensors.h"
 
 namespace reprise::cli {
@@ -24,7 +25,11 @@ std::optional<render::Neighbour> neighbour(const Cameras& cameras,
 /// it is looked at.
 class LookAtTick : public render::Observation {
   public:
-    LookAtTick(KeptTicks ticks, const Annotation& annotation, PictureOutput& output, bool boxes)
+    /// `boxes`: of these parked vehicles and of all actors, where boxes are wished at all.
+    LookAtTick(KeptTicks ticks,
+               const Annotation& annotation,
+               PictureOutput& output,
+               const std::vector<render::ParkedVehicle>* boxes)
         : ticks_(std::move(ticks)),
           annotation_(annotation),
           output_(output),
@@ -56,7 +61,7 @@ class LookAtTick : public render::Observation {
     KeptTicks ticks_;
     const Annotation& annotation_;
     PictureOutput& output_;
-    bool boxes_;
+    const std::vector<render::ParkedVehicle>* boxes_;
     std::size_t first_of_boxes_ = 0;  ///< of rig_: the instances, behind them the classes
     render::Neighbours neighbours_;
     std::vector<std::size_t> looking_;

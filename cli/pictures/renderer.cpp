@@ -15,8 +15,9 @@ Renderer::Renderer(const RenderOptions& options,
     : trace_(trace),
       cameras_(cameras),
       output_(output),
-      annotation_(options, trace),
-      boxes_(options.boxes) {
+      annotation_(options, trace) {
+    if (options.boxes)
+        parked_ = render::parked_vehicles(trace.recording().town);
     const double step = static_cast<double>(trace.episode().step_ns) * 1e-9;
     for (const std::string& weather : weathers)
         weathers_.emplace_back(weather, step);
@@ -35,8 +36,10 @@ std::unique_ptr<LookAtTick> Renderer::look(std::uint64_t index,
     if (looking.empty())
         return nullptr;
     annotation_.read_to(last ? trace_.last() : index);
-    auto look = std::make_unique<LookAtTick>(
-        KeptTicks(trace_, index, cameras_.see_motion()), annotation_, output_, boxes_);
+    auto look = std::make_unique<LookAtTick>(KeptTicks(trace_, index, cameras_.see_motion()),
+                                             annotation_,
+                                             output_,
+                                             parked_ ? &*parked_ : nullptr);
     const auto actor = cameras_.actor(look->tick());
     std::erase_if(looking, [&](std::size_t i) { return !cameras_.is_there(i, look->tick()); });
     if (!actor || looking.empty())

@@ -34,7 +34,7 @@ class Renderer {
     const Cameras& cameras_;
     PictureOutput& output_;
     Annotation annotation_;
-    bool boxes_;
+    std::optional<std::vector<render::ParkedVehicle>> parked_;  ///< where boxes are wished
     std::vector<ChosenWeather> weathers_;
     std::size_t pictures_ = 0;
     bool carried_ = false;

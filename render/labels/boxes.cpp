@@ -35,15 +35,22 @@ struct Count {
     }
 };
 
+/// Of those that have a box.
 std::map<std::uint16_t, Count> count_pixels(const world::SensorFrame& instances,
-                                            const world::SensorFrame& classes) {
+                                            const world::SensorFrame& classes,
+                                            std::span<const ParkedVehicle> parked) {
+    std::vector<bool> counts_at_all(0x10000, false);
+    std::fill(
+        counts_at_all.begin() + 1, counts_at_all.begin() + world::first_static_instance, true);
+    for (const ParkedVehicle& vehicle : parked)
+        counts_at_all[world::instance_of_thing(vehicle.thing)] = true;
     std::map<std::uint16_t, Count> counts;
     for (int y = 0; y < instances.height; ++y)
         for (int x = 0; x < instances.width; ++x) {
             const auto index = static_cast<std::size_t>(y * instances.width + x);
             std::uint16_t instance = 0;
             std::memcpy(&instance, instances.data.data() + 2 * index, sizeof(instance));
-            if (instance == 0 || instance >= world::first_static_instance)
+            if (!counts_at_all[instance])
                 continue;
             Count& count = counts[instance];
             ++count.pixels;
@@ -81,11 +88,31 @@ std::optional<ActorBox> actor_box(const world::TickView& tick, std::uint32_t act
                     {extent->front - extent->rear, 2 * extent->half_width, extent->height}};
 }
 
+std::vector<ParkedVehicle> parked_vehicles(const world::TownT& town) {
+    const auto models = world::vehicle_models();
+    const std::size_t first = world::TownThings(town).props;
+    std::vector<ParkedVehicle> parked;
+    for (std::size_t i = 0; i < town.props.size(); ++i) {
+        const world::Prop& prop = town.props[i];
+        if (prop.kind() != world::PropKind::parked_vehicle)
+            continue;
+        REPRISE_CHECK(prop.value() < models.size(), "thing " + std::to_string(first + i));
+        const world::VehicleModel& model = models[prop.value()];
+        parked.push_back({static_cast<std::uint32_t>(first + i),
+                          static_cast<std::uint16_t>(prop.value()),
+                          {world::pose(prop.position(), prop.yaw(), 0) *
+                               Eigen::Translation3d(0, 0, model.height / 2),
+                           {model.length, model.width, model.height}}});
+    }
+    return parked;
+}
+
 std::vector<LabelBox> boxes_of(const world::TickView& tick,
+                               std::span<const ParkedVehicle> parked,
                                const Camera& camera,
                                const world::SensorFrame& instances,
                                const world::SensorFrame& classes) {
-    const std::map<std::uint16_t, Count> counts = count_pixels(instances, classes);
+    const std::map<std::uint16_t, Count> counts = count_pixels(instances, classes, parked);
     std::vector<std::uint32_t> actors;
     const auto note = [&](const auto& those) {
         for (const auto& one : those)
@@ -100,21 +127,28 @@ std::vector<LabelBox> boxes_of(const world::TickView& tick,
     pose_world_camera.linear() = camera.rotation_scene_camera();
     pose_world_camera.translation() = camera.position();
     std::vector<LabelBox> boxes;
-    for (const std::uint32_t actor : actors) {
-        const auto count = counts.find(world::instance_of_actor(actor));
-        const auto around = actor_box(tick, actor);
-        if (count == counts.end() || !around)
-            continue;
+    /// The new one, of an instance that is seen.
+    const auto add = [&](std::uint16_t instance, const ActorBox& around) -> LabelBox& {
+        const Count& count = counts.at(instance);
         LabelBox& box = boxes.emplace_back();
-        box.actor = actor;
-        box.instance = count->first;
-        box.what = count->second.most();
-        box.pixels = count->second.pixels;
-        box.seen = count->second.around;
-        box.size = around->size;
-        box.whole = box_in_picture(camera, around->pose_world, box.size).value_or(box.seen);
-        box.pose_camera = pose_world_camera.inverse() * around->pose_world;
-    }
+        box.instance = instance;
+        box.what = count.most();
+        box.pixels = count.pixels;
+        box.seen = count.around;
+        box.size = around.size;
+        box.whole = box_in_picture(camera, around.pose_world, box.size).value_or(box.seen);
+        box.pose_camera = pose_world_camera.inverse() * around.pose_world;
+        return box;
+    };
+    for (const std::uint32_t actor : actors)
+        if (const std::uint16_t instance = world::instance_of_actor(actor);
+            counts.contains(instance))
+            if (const auto around = actor_box(tick, actor))
+                add(instance, *around).actor = actor;
+    for (const ParkedVehicle& vehicle : parked)
+        if (const std::uint16_t instance = world::instance_of_thing(vehicle.thing);
+            counts.contains(instance))
+            add(instance, vehicle.box).thing = vehicle.thing;
     return boxes;
 }
 

@@ -75,8 +75,11 @@ TEST(Labels, ABoxInSpaceEndsWhereSomebodyOnFootEnds) {
     for (std::uint32_t number = 0; number < 12; ++number) {
         const world::SealedTick tick = person(number);
         const auto frames = sensors.observe(tick.view(), {spec, classes}, test::noon());
-        const auto boxes = render::boxes_of(
-            tick.view(), render::Camera(spec, Eigen::Isometry3d::Identity()), frames[0], frames[1]);
+        const auto boxes = render::boxes_of(tick.view(),
+                                            {},
+                                            render::Camera(spec, Eigen::Isometry3d::Identity()),
+                                            frames[0],
+                                            frames[1]);
         ASSERT_EQ(boxes.size(), 1U) << number;
         constexpr double rounding = 2;  // [px] of a centimetre each
         EXPECT_NEAR(boxes[0].whole.left, boxes[0].seen.left, rounding) << number;
@@ -84,6 +87,38 @@ TEST(Labels, ABoxInSpaceEndsWhereSomebodyOnFootEnds) {
         EXPECT_NEAR(boxes[0].whole.top, boxes[0].seen.top, rounding) << number;
         EXPECT_NEAR(boxes[0].whole.bottom, boxes[0].seen.bottom, rounding) << number;
     }
+}
+
+TEST(Labels, ACarThatStandsInTheTownHasABox) {
+    world::TownT town = test::street();
+    const auto prop = [](double x, world::PropKind kind, std::uint16_t value) {
+        return world::Prop(world::Vec3(x, -5, 0.1), 0, 4, 1.8, 1.4, 5, value, kind, 0);
+    };
+    town.props = {prop(40, world::PropKind::bench, 0),
+                  prop(48, world::PropKind::parked_vehicle, 1)};
+    const auto parked = render::parked_vehicles(town);
+    ASSERT_EQ(parked.size(), 1U);
+    EXPECT_EQ(parked[0].thing, world::TownThings(town).props + 1);
+    EXPECT_EQ(parked[0].model, 1);
+    render::Sensors sensors(town);
+    const world::SealedTick tick = test::tick_with({}, {});
+    const world::SensorSpec spec = camera(SensorKind::instance, {40, 0, 1.4});
+    world::SensorSpec classes = spec;
+    classes.kind = SensorKind::semantic;
+    const auto frames = sensors.observe(tick.view(), {spec, classes}, test::noon());
+    const auto boxes = render::boxes_of(tick.view(),
+                                        parked,
+                                        render::Camera(spec, Eigen::Isometry3d::Identity()),
+                                        frames[0],
+                                        frames[1]);
+    ASSERT_EQ(boxes.size(), 1U);
+    EXPECT_EQ(boxes[0].thing, parked[0].thing);
+    EXPECT_EQ(boxes[0].actor, 0U);
+    EXPECT_EQ(boxes[0].what, world::SemanticClass::car);
+    EXPECT_GT(boxes[0].pixels, 100U);
+    EXPECT_GE(boxes[0].seen.left, boxes[0].whole.left - 1);
+    EXPECT_LE(boxes[0].seen.right, boxes[0].whole.right + 1);
+    EXPECT_LE(boxes[0].seen.bottom, boxes[0].whole.bottom + 1);
 }
 
 TEST(Labels, InstancesAreThoseOfActorsAndOfTheTownsThings) {
