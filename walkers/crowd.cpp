@@ -27,6 +27,8 @@ struct WalkerDigest {
 
 static_assert(sizeof(WalkerDigest) == 152, "no padding");
 
+constexpr std::uint64_t meets_bit = std::uint64_t{1} << 32;
+
 }  // namespace
 
 Crowd::Crowd(const world::EpisodeT& episode,
@@ -161,7 +163,7 @@ void Crowd::add_to(world::Hasher& hasher) const {
                           walker.corner,
                           4 * walker.gate + (walker.entered ? 2U : 0U) + (walker.gave_up ? 1U : 0U),
                           walker.waited,
-                          walker.stuck,
+                          walker.stuck + (walker.meets ? meets_bit : 0),
                           walker.pause_until,
                           walker.was_at_tick,
                           walker.down_until,

@@ -80,6 +80,7 @@ class Crowd {
         std::uint64_t down_until = 0;   ///< 0: on his feet; else the tick of his removal
         std::uint64_t draws = 0;        ///< of goals so far
         std::uint32_t friend_of = 0;    ///< whom he walks beside; 0: nobody
+        bool meets = false;             ///< goes back to him, who is far behind
         Eigen::Vector2d wanted{0, 0};   ///< [m/s] in this tick
         bool flees = false;             ///< in this tick
         std::size_t body = 0;           ///< his of neighbours_
@@ -99,6 +100,7 @@ class Crowd {
 
     void plan(Walker& walker, std::uint64_t tick);
     bool take_way(Walker& walker, const WalkMap::Place& goal);
+    static bool is_near_friend(const Walker& walker, const Walker& leader, double distance);
     static void keep_to_side(const WalkMap& map,
                              const WalkMap::Place& start,
                              double side,

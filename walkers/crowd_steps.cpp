@@ -46,12 +46,16 @@ bool Crowd::is_out_of_patience(const Walker& walker) {
 /// Where he would go if he were alone: along his way, as far as the next gate lets him.
 void Crowd::want(Walker& walker, std::uint64_t tick) {
     constexpr std::uint32_t hopeless = 160;  // ticks in somebody's way
+    constexpr double met = 4;                // [m]
     walker.wanted.setZero();
     walker.may_enter = false;
     if (walker.down_until != 0 || tick < walker.pause_until)
         return;
     const Eigen::Vector2d p = walker.place.position.head<2>();
     const std::uint64_t idle = tick - walker.was_at_tick;
+    const Walker* other = walker.meets && !walker.on_road ? find(walker.friend_of) : nullptr;
+    if (other != nullptr && is_near_friend(walker, *other, met))
+        walker.corner = walker.way.size();  // from here on together
     if (walker.corner >= walker.way.size() || is_out_of_patience(walker) ||
         walker.stuck > hopeless || (idle > 0 && idle % hopeless == 0))
         plan(walker, tick);

@@ -64,31 +64,41 @@ bool Crowd::take_way(Walker& walker, const WalkMap::Place& goal) {
     return true;
 }
 
+bool Crowd::is_near_friend(const Walker& walker, const Walker& leader, double distance) {
+    return (leader.place.position - walker.place.position).head<2>().norm() < distance;
+}
+
 /// A new way, of those that the seed draws the first that leads somewhere; later if there is none.
 void Crowd::plan(Walker& walker, std::uint64_t tick) {
     constexpr double nearest_goal = 40;  // [m]
     constexpr double farthest_goal = 300;
     constexpr int most_tries = 12;
+    constexpr double in_sight = 20;  // [m]
     if (tick > 1 && ++plans_ > plans_a_tick)
         return;
     walker.gave_up = walker.person.jaywalks && walker.waited > patience_elsewhere;
     walker.way.clear();
     walker.gates.clear();
+    walker.meets = false;
     const Walker* leader = walker.friend_of != 0 ? find(walker.friend_of) : nullptr;
     if (leader != nullptr && leader->down_until == 0) {
         if (leader->way.empty())
             return;
         const Eigen::Vector3d& there = leader->way.back().position;
-        if ((there - walker.place.position).norm() < 3) {  // the other one comes
+        const bool is_there = (there - walker.place.position).norm() < 3;
+        walker.meets = is_there && !is_near_friend(walker, *leader, in_sight);
+        if (is_there && !walker.meets) {  // the other one comes
             walker.pause_until = tick + static_cast<std::uint64_t>(1 / step_);
             return;
         }
-        const auto goal = map_of(walker.person).nearest(there);
+        const auto goal =
+            map_of(walker.person).nearest(walker.meets ? leader->place.position : there);
         walker.person.side = leader->person.side - beside;
         if (goal && take_way(walker, *goal))
             return;
     }
     walker.friend_of = 0;
+    walker.meets = false;
     const auto drawn = [&] {
         return world::draw(episode_->walker_seed, walker.draws++, Purpose::walker_goal, walker.id);
     };

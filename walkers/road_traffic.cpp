@@ -19,6 +19,7 @@ constexpr double painless = 2.0;   // [m/s^2] braking that nobody minds
 constexpr double before_us = 0.7;  // [s] that somebody wants to be off before a car comes
 constexpr double behind_it = 0.3;  // [s] and to step on behind it
 constexpr double stop_short = 2;   // [m] that a car stops before a walker
+constexpr double at_bumper = 0.5;  // [m] before one that stands there is room to walk
 
 bool seems_to_yield(double speed, double acceleration) {
     constexpr double slow = 2;        // [m/s]
@@ -169,7 +170,7 @@ bool RoadTraffic::is_free(const Conflict& conflict,
             const double left = approach.distance - comer->s;  // [m] of its front to the place
             if (left + comer->length < -1)
                 continue;  // is past it
-            if (comer->speed < standing && (left >= 1 || around_standing))
+            if (comer->speed < standing && (left >= at_bumper || around_standing))
                 continue;
             if (comer->speed < standing)
                 return false;  // stands on it

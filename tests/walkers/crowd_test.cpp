@@ -236,6 +236,33 @@ TEST(Crowd, NobodyStandsOnACrossingForLong) {
     }
 }
 
+/// The longest wait at the lights here is 40 s. Two who walk together may be parted, by a light or
+/// as one of them changes his mind: who is there first does not stand until the other comes across
+/// the town.
+TEST(Crowd, NobodyStandsForMinutes) {
+    constexpr int patience = 1300;  // [ticks]
+
+    struct Seen {
+        Eigen::Vector3d place;
+        int tick = 0;
+    };
+
+    for (const std::uint64_t seed : {4U, 6U}) {
+        Scene scene(100, 0.1, seed);
+        std::map<std::uint32_t, Seen> seen;
+        int longest = 0;
+        for (int tick = 1; tick <= 12000; ++tick)
+            for (const world::WalkerState& walker : scene.step()) {
+                const auto [known, is_new] =
+                    seen.try_emplace(walker.id(), Seen{place_of(walker), tick});
+                if ((place_of(walker) - known->second.place).norm() > 0.5)
+                    known->second = {place_of(walker), tick};
+                longest = std::max(longest, tick - known->second.tick);
+            }
+        EXPECT_LT(longest, patience) << "seed " << seed;
+    }
+}
+
 TEST(Crowd, LosesNobodyInTwoMinutes) {
     Scene scene(150);
     for (int i = 0; i < 2400; ++i) {

@@ -73,6 +73,9 @@ TEST(RoadTraffic, LetsNobodyStepInFrontOfACar) {
     EXPECT_TRUE(crossing.is_free({crossing.car(215, 14)})) << "past";
     EXPECT_FALSE(crossing.is_free({crossing.car(201, 0)})) << "stands on it";
     EXPECT_TRUE(crossing.is_free({crossing.car(190, 0)})) << "stands before it";
+    // As at the stop lines of small junctions, whose crossings are 0.9 m away.
+    EXPECT_TRUE(crossing.is_free({crossing.car(199.3, 0)})) << "stands close before it";
+    EXPECT_FALSE(crossing.is_free({crossing.car(199.7, 0)})) << "leaves no room";
 }
 
 TEST(RoadTraffic, WhoIsOnTheRoadWaitsForNoCarThatStands) {
