@@ -21,8 +21,29 @@ struct Touch {
     double impulse = 0;
 };
 
+/// Of a place on it, ahead and to the left of its rear axle: a bus's tail swings out sideways.
+/// [m/s]
+Eigen::Vector2d velocity_at(const Eigen::Vector2d& p_car,
+                            const world::CarState& car,
+                            const world::CarState* before,
+                            double step_seconds) {
+    const auto place = [&](const world::CarState& state) -> Eigen::Vector2d {
+        const Eigen::Vector2d ahead = world::ahead_of(static_cast<double>(state.yaw()));
+        return world::in_plan(state.position()) + p_car.x() * ahead +
+               p_car.y() * world::turned_left(ahead);
+    };
+    const double speed = static_cast<double>(car.speed());
+    const Eigen::Vector2d along = speed * world::ahead_of(static_cast<double>(car.yaw()));
+    if (before == nullptr)
+        return along;
+    const Eigen::Vector2d driven = (place(car) - place(*before)) / step_seconds;
+    return driven.norm() < 2 * speed + 1 ? driven : along;  // or it was put elsewhere
+}
+
 /// Does the car's box hold part of the walker's circle, and push it?
 std::optional<Touch> touch(const world::CarState& car,
+                           const world::TickView& last,
+                           double step_seconds,
                            const world::WalkerState& walker,
                            const Eigen::Vector2d& walker_velocity) {
     const world::VehicleModel& model = world::vehicle_models()[car.model()];
@@ -47,7 +68,8 @@ std::optional<Touch> touch(const world::CarState& car,
     // Outwards from the box; ahead when the walker is inside already.
     const Eigen::Vector2d outwards =
         distance > 0 ? Eigen::Vector2d((out.x() * ahead + out.y() * left) / distance) : ahead;
-    const double car_speed = static_cast<double>(car.speed()) * ahead.dot(outwards);
+    const world::CarState* before = world::find(last.cars(), car.id());
+    const double car_speed = velocity_at(nearest, car, before, step_seconds).dot(outwards);
     const double closing = car_speed - walker_velocity.dot(outwards);
     if (car_speed < least_car_speed || closing <= 0)
         return std::nullopt;
@@ -106,7 +128,7 @@ void note_hit_walkers(double step_seconds, const world::TickView& last, world::T
                 continue;
             const Eigen::Vector2d velocity = static_cast<double>(walker.speed()) *
                                              world::ahead_of(static_cast<double>(walker.yaw()));
-            const auto hit = touch(**at, walker, velocity);
+            const auto hit = touch(**at, last, step_seconds, walker, velocity);
             if (!hit)
                 continue;
             world::EventT event;

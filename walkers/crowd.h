@@ -111,6 +111,7 @@ class Crowd {
     void make_way(Walker& walker);
     void avoid(Walker& walker);
     void flee();
+    bool walks_into_threat(const Walker& walker) const;
     bool give_room_to(const Walker& fleeing);
     void step(Walker& walker, std::uint64_t tick);
     bool is_allowed(const Walker& walker, const WalkMap::Place& place);

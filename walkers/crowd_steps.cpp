@@ -192,6 +192,15 @@ void Crowd::avoid(Walker& walker) {
         walker.wanted = steering_.choose(self, walker.wanted, around_);
 }
 
+/// Who got out of a bus's way does not walk back while its tail still comes over the kerb.
+bool Crowd::walks_into_threat(const Walker& walker) const {
+    constexpr double stops_within = 0.3;  // [s]
+    if (walker.wanted.isZero())
+        return false;
+    const Eigen::Vector2d p = walker.place.position.head<2>();
+    return threats_.come_near(p + stops_within * walker.wanted, walker.person.radius);
+}
+
 /// Nobody stands still, or goes on, where a car is about to be; and those behind him let him.
 void Crowd::flee() {
     constexpr double hurry = 2.5;  // [m/s]
@@ -211,6 +220,8 @@ void Crowd::flee() {
                 threats_.way_out(walker.place.position.head<2>(), walker.person.radius, reach)) {
             walker.wanted = hurry * *way;
             walker.flees = any = true;
+        } else if (!walker.on_road && walks_into_threat(walker)) {
+            walker.wanted.setZero();
         }
     }
     for (int rank = 0; rank < ranks && any; ++rank) {

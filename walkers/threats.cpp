@@ -17,7 +17,7 @@ namespace {
 constexpr double foresight = 1;     // [s]
 constexpr double margin = 0.3;      // [m] that nobody likes a car to come nearer
 constexpr double rolls = 0.3;       // [m/s]
-constexpr double turns = 0.1;       // [rad/s]
+constexpr double turns = 0.07;      // [rad] within that time
 constexpr double widest = 1;        // [m] radius of anybody on foot
 constexpr double step_aside = 0.7;  // [m] that one thinks of
 
@@ -33,16 +33,23 @@ void Threats::add(const Rolling& car) {
     const auto way = [&](double t) {
         return std::copysign(std::abs(car.speed) * t - braking * t * t / 2, car.speed);
     };
-    if (std::abs(car.yaw_rate) < turns) {
+    // Who starts in a bend turns faster the faster he is: his tail comes before it is seen to.
+    const double gaining = car.speed * car.acceleration > 0 ? std::abs(car.acceleration) : 0;
+    const auto way_in_bend = [&](double t) {
+        return way(t) + std::copysign(gaining * t * t / 2, car.speed);
+    };
+    const double curvature = car.yaw_rate / car.speed;
+    if (std::abs(curvature * way_in_bend(time)) < turns) {
         add_box(car, std::min(0.0, way(time)), std::max(0.0, way(time)));
         return;
     }
     // Who turns does not go where he points to, and the tail swings out: a bus's by more than a
     // metre, over the kerb.
     for (const double t : {0.0, time / 4, time / 2, 3 * time / 4, time}) {
+        const double turned = curvature * way_in_bend(t);
         Rolling then = car;
-        then.yaw += car.yaw_rate * t;
-        then.rear_axle += way(t) * world::ahead_of(car.course + car.yaw_rate * t / 2);
+        then.yaw += turned;
+        then.rear_axle += way_in_bend(t) * world::ahead_of(car.course + turned / 2);
         add_box(then, 0, 0);
     }
 }
@@ -136,6 +143,18 @@ double Threats::clearance(const Eigen::Vector2d& p) const {
         least = std::min(least, outside > 0 ? outside : std::max(beyond, beside));
     });
     return least;
+}
+
+bool Threats::come_near(const Eigen::Vector2d& p, double radius) const {
+    const double room = radius + margin;
+    bool any = false;
+    near(p, 0, [&](const Threat& threat, std::uint32_t) {
+        const Eigen::Vector2d from = p - threat.middle;
+        const double along = from.dot(threat.ahead);
+        any = any || (along >= threat.rear - room && along <= threat.front + room &&
+                      std::abs(world::cross(threat.ahead, from)) < threat.half_width + room);
+    });
+    return any;
 }
 
 std::optional<Eigen::Vector2d> Threats::way_out(const Eigen::Vector2d& p, double radius) const {

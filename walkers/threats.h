@@ -33,6 +33,9 @@ class Threats {
                                            const Reach& reach) const;
     std::optional<Eigen::Vector2d> way_out(const Eigen::Vector2d& p, double radius) const;
 
+    /// Does anything come that close to `p`? Then way_out(p) is one.
+    bool come_near(const Eigen::Vector2d& p, double radius) const;
+
   private:
     struct Threat {
         Eigen::Vector2d middle;

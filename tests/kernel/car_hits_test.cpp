@@ -104,5 +104,40 @@ TEST(CarHits, AWalkerWhoBumpsIntoAStandingCarIsNoEvent) {
     EXPECT_EQ(draft.tick.events.front().other, 5U);
 }
 
+/// Its tail goes sideways, while the bus drives on; a walker beside one that drives straight on is
+/// only passed.
+TEST(CarHits, TheTailOfABusThatTurnsHits) {
+    const auto model = *world::find_vehicle_model("bus");
+    const world::VehicleModel& bus = world::vehicle_models()[model];
+    const double turned = 0.25 * 0.05;  // [rad] in a tick, to the left
+    const auto at = [&](double x, double yaw) {
+        world::CarState car = test::car_at(1'000'000, x, 0, yaw, 2);
+        car.mutate_model(model);
+        return car;
+    };
+    for (const double before : {0.0, -turned}) {
+        const world::SealedTick last = test::tick_with({}, {at(-0.1, before)});
+        world::TickDraft draft;
+        draft.traffic.cars = {at(0, 0)};
+        draft.traffic.walkers = {{world::Vec3(0.2 - bus.rear_overhang, -bus.width / 2 - 0.1, 0),
+                                  0,
+                                  0,
+                                  0,
+                                  5,
+                                  0,
+                                  false,
+                                  std::uint8_t{0},
+                                  0}};
+        note_hit_walkers(0.05, last.view(), draft);
+        ASSERT_EQ(draft.tick.events.size(), before < 0 ? 1U : 0U);
+        if (before < 0) {
+            EXPECT_EQ(draft.tick.events.front().other, 5U);
+            EXPECT_NEAR(draft.tick.events.front().value,
+                        world::walker_models()[0].mass * 0.25 * (bus.rear_overhang - 0.2),
+                        0.05 * world::walker_models()[0].mass);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace reprise::kernel

@@ -54,6 +54,7 @@ class Scene {
                                                              : world::SignalColor::red);
         }
         draft.tick.props = props;
+        draft.traffic.cars = cars;
         crowd_->advance(last_->view(), draft);
         next = std::move(draft);
         return next.traffic.walkers;
@@ -83,6 +84,7 @@ class Scene {
     world::EpisodeT episode = test::episode();
     world::TickDraft next;
     std::vector<world::PropState> props;  ///< that stand there
+    std::vector<world::CarState> cars;    ///< as traffic has them
 };
 
 Eigen::Vector3d place_of(const world::WalkerState& walker) {
@@ -306,6 +308,47 @@ TEST(Crowd, GoesAroundWhatStandsOnThePavement) {
                 beside += gap.norm() < 2;
             }
     EXPECT_EQ(inside, 0);
+    EXPECT_GT(beside, 500) << "it is no proof where nobody passes";
+}
+
+/// A bus's tail comes over the kerb while it turns, as here a whole bus does that rolls along it.
+TEST(Crowd, NobodyWalksIntoWhatRollsOverTheKerb) {
+    Scene scene(200);
+    constexpr double speed = 1.2;
+    constexpr double bow = 1.5;  // [m] before which there may be no room to get away
+    const auto model = *world::find_vehicle_model("bus");
+    const world::VehicleModel& bus = world::vehicle_models()[model];
+    int inside = 0;
+    int beside = 0;
+    for (int tick = 1; tick <= 1600; ++tick) {
+        scene.cars.clear();
+        std::uint32_t id = 10;
+        for (const world::LaneT& lane : scene.town().lanes) {
+            if (lane.kind != world::LaneKind::sidewalk || lane.length < 40)
+                continue;
+            const double s = 4 + tick * tick_seconds * speed;
+            if (s > lane.length - 12)
+                continue;
+            const world::LanePoint at = world::point_at(lane, s);
+            const Eigen::Vector2d p = at.position.head<2>() + 2.1 * world::left_of(at.yaw);
+            world::CarState car = test::car_at(id++, p.x(), p.y(), at.yaw, speed);
+            car.mutate_model(model);
+            scene.cars.push_back(car);
+        }
+        for (const world::WalkerState& walker : scene.step())
+            for (const world::CarState& car : scene.cars) {
+                const Eigen::Vector2d gap =
+                    world::in_plan(walker.position()) - world::in_plan(car.position());
+                const Eigen::Vector2d ahead = world::ahead_of(double{car.yaw()});
+                const double along = gap.dot(ahead);
+                const double across = std::abs(world::cross(ahead, gap)) - bus.width / 2;
+                const bool is_level =
+                    along > -bus.rear_overhang && along < bus.length - bus.rear_overhang - bow;
+                inside += tick > 100 && is_level && across < 0.1;
+                beside += is_level && across < 1.5;
+            }
+    }
+    EXPECT_LT(inside, 6) << "27 ticks for who walks back to where he was once he is out of reach";
     EXPECT_GT(beside, 500) << "it is no proof where nobody passes";
 }
 

@@ -87,6 +87,27 @@ TEST(Threats, ComeFromTheTailOfABusThatTurns) {
     EXPECT_LT(way->y(), 0);
 }
 
+/// One that stood in its bend, and starts: by the time that it is seen to turn fast it is too late.
+TEST(Threats, ComeFromTheTailOfABusThatStartsInABend) {
+    constexpr std::uint16_t bus = 5;
+    constexpr double speed = 0.45;
+    constexpr double bend = 0.105;  // [1/m]
+    const world::VehicleModel& model = world::vehicle_models()[bus];
+    const Eigen::Vector2d beside_its_tail(1 - model.rear_overhang,
+                                          -(model.width / 2 + shoulders + 0.35));
+    world::TickDraft before;
+    world::TickDraft starts;
+    world::TickDraft rolls;
+    put(before, 0, speed, 0, bus);
+    put(starts, bend * speed * 0.05, speed, 1.1, bus);
+    put(rolls, bend * speed * 0.05, speed, 0, bus);
+    const auto way = threats_of(before, starts).way_out(beside_its_tail, shoulders);
+    ASSERT_TRUE(way);
+    EXPECT_LT(way->y(), 0);
+    EXPECT_EQ(threats_of(before, rolls).way_out(beside_its_tail, shoulders), std::nullopt)
+        << "half a metre on, as it goes on like this";
+}
+
 TEST(Threats, ComeFromWhoReversesAsWell) {
     const double rear = -world::vehicle_models()[0].rear_overhang;
     EXPECT_TRUE(one_car(-3).way_out({rear - 2, 0.1}, shoulders));
