@@ -6,7 +6,7 @@
 
 #include "ground/mesh/ground.h"
 #include "ground/mesh/terrain.h"
-#include "towns/furnish/swept_area.h"
+#include "ground/swept_area.h"
 #include "world/digest.h"
 #include "world/lane_starts.h"
 
@@ -85,7 +85,7 @@ void PlacementContext::add_lanes() {
 /// Two strips side by side a body: quicker than polygons, and 0.15 m short of their corners.
 void PlacementContext::add_swept_area() {
     constexpr double from_end = 0.45;  // [m]
-    for (const Footprint& body : bus_bodies(town)) {
+    for (const ground::SweptBody& body : ground::bus_bodies(town)) {
         const double half_strip = body.width / 4;
         const Vector2d along = world::ahead_of(body.yaw) * (body.length / 2 - from_end);
         const Vector2d aside = world::left_of(body.yaw) * half_strip;

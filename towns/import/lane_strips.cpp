@@ -1,7 +1,7 @@
 #include "towns/import/lane_strips.h"
 
 #include "ground/mesh/ribbon.h"
-#include "towns/furnish/swept_area.h"
+#include "ground/swept_area.h"
 
 namespace reprise::towns {
 
@@ -25,10 +25,10 @@ LaneStrips::LaneStrips(const world::TownT& roads) : roads_(roads) {
     }
     grid_ = world::BoxGrid(entries);
     entries.clear();
-    for (const Footprint& body : bus_bodies(roads)) {
+    for (const ground::SweptBody& body : ground::bus_bodies(roads)) {
+        buses_.push_back(body.corners());
         entries.push_back(
-            {world::box_around(corners(body)), static_cast<std::uint32_t>(buses_.size())});
-        buses_.push_back(corners(body));
+            {world::box_around(buses_.back()), static_cast<std::uint32_t>(buses_.size() - 1)});
     }
     bus_grid_ = world::BoxGrid(entries);
 }

@@ -42,7 +42,7 @@ TEST(TownCheck, ADriveThatALibraryEndsIsAFailWithItsWords) {
     EXPECT_THAT(result.out,
                 HasSubstr("drive 1: microsim/MSLane.cpp:4258: getBidiLane() const: Assertion "
                           "`size() == 1' failed."));
-    EXPECT_THAT(result.out, HasSubstr("1 of 20 criteria do not hold"));
+    EXPECT_THAT(result.out, HasSubstr("1 of 21 criteria do not hold"));
     EXPECT_THAT(result.out, Not(HasSubstr("a note")));
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ground/swept_area.h"
 #include "tests/support/places.h"
 #include "tests/support/worlds.h"
 #include "world/town.h"
@@ -15,6 +16,7 @@ using world::TownT;
 constexpr std::size_t heads = 0;
 constexpr std::size_t spawn_points = 1;
 constexpr std::size_t ways = 2;
+constexpr std::size_t bends = 3;
 
 std::uint32_t at(const TownT& town, const char* name) {
     return *world::find_lane(town, name);
@@ -87,6 +89,48 @@ TEST(FurnitureCheck, FindsWhatStandsOnALane) {
     EXPECT_EQ(wall.worst[0].name, "building 0 on west_out_0");
     town.spawn_points = {spawn(town, "west_out_1", 20)};
     EXPECT_EQ(towns::check_furniture(town)[spawn_points].figure, 1);
+}
+
+/// Where no lane is, nor a sidewalk's middle: only a long vehicle comes there.
+TEST(FurnitureCheck, FindsWhatABusSweepsAwayInABend) {
+    TownT town = test::straight_road();
+    EXPECT_TRUE(ground::bus_bodies(town).empty()) << "straight on it stays in its lane";
+    world::LaneT& lane = town.lanes[at(town, "east_1")];
+    lane.centre = {{0, 0, 0}, {60, 0, 0}, {60, 60, 0}};
+    lane.length = 120;
+    ASSERT_TRUE(towns::check_furniture(town)[bends].passed());
+    const std::vector<ground::SweptBody> bodies = ground::bus_bodies(town);
+    ASSERT_FALSE(bodies.empty());
+    const ground::SweptBody& body = bodies[bodies.size() / 2];
+    const auto place = [&](double inwards) {
+        const Eigen::Vector2d corner = body.corners(inwards)[0];
+        world::Prop pole;
+        pole.mutate_kind(world::PropKind::street_light);
+        pole.mutate_height(7);
+        pole.mutable_position() = world::Vec3(corner.x(), corner.y(), body.z);
+        town.props = {pole};
+        return towns::check_furniture(town)[bends];
+    };
+    const Criterion swept = place(0.3);
+    EXPECT_EQ(swept.figure, 1);
+    EXPECT_EQ(swept.worst[0].name, "street_light 0");
+    town.props[0].mutable_position() =
+        world::Vec3(town.props[0].position().x(), town.props[0].position().y(), body.z - 8);
+    EXPECT_TRUE(towns::check_furniture(town)[bends].passed()) << "a storey below";
+    // A fence through a body: neither's corner is in the other one.
+    world::Prop fence;
+    fence.mutate_kind(world::PropKind::fence);
+    fence.mutate_length(40);
+    fence.mutate_width(0.1F);
+    fence.mutate_height(1);
+    fence.mutate_yaw(static_cast<float>(body.yaw + M_PI / 2));
+    fence.mutable_position() = world::Vec3(body.centre.x(), body.centre.y(), body.z);
+    town.props = {fence};
+    EXPECT_EQ(towns::check_furniture(town)[bends].figure, 1);
+    town.buildings = {house(body.centre.x(), body.centre.y())};
+    EXPECT_EQ(towns::check_furniture(town)[bends].figure, 2) << "a house in the middle of it";
+    town.buildings.clear();
+    EXPECT_TRUE(place(-40).passed());
 }
 
 TEST(FurnitureCheck, LetsPolesStandAtTheEdgeOfASidewalk) {

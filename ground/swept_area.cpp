@@ -1,4 +1,4 @@
-#include "towns/furnish/swept_area.h"
+#include "ground/swept_area.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,17 +6,17 @@
 #include "world/models/catalogue.h"
 #include "world/town.h"
 
-namespace reprise::towns {
+namespace reprise::ground {
 
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double pace = 0.25;       ///< [m] of the bumper
-constexpr int steps_a_body = 3;     ///< what moves by less is covered by the body before
-constexpr double steepest = 0.45;   ///< [m] aside for each metre driven, of the axle: CarReader's
-constexpr double slight = 0.06;     ///< sine of an angle at which its tail stays in its lane
-constexpr double axle_behind = 12;  ///< [m] until its axle is out of the bend as well
+constexpr double pace = 0.25;        ///< [m] of the bumper
+constexpr int steps_a_body = 3;      ///< what moves by less is covered by the body before
+constexpr double most_aside = 0.45;  ///< [m] aside for each metre driven, of the axle: CarReader's
+constexpr double slight = 0.06;      ///< sine of an angle at which its tail stays in its lane
+constexpr double axle_behind = 12;   ///< [m] until its axle is out of the bend as well
 
 /// A line, and places on it by metres.
 class Way {
@@ -29,6 +29,7 @@ class Way {
                 continue;
             ends_.push_back(points_.empty() ? 0 : ends_.back() + step);
             points_.push_back(p);
+            heights_.push_back(point.z());
         }
     }
 
@@ -44,6 +45,12 @@ class Way {
 
     Vector2d ahead_at(double s) const { return ahead(piece(s)); }
 
+    double height_at(double s) const {
+        const std::size_t i = piece(s);
+        return heights_[i - 1] +
+               (s - ends_[i - 1]) * (heights_[i] - heights_[i - 1]) / (ends_[i] - ends_[i - 1]);
+    }
+
   private:
     std::size_t piece(double s) const {
         return static_cast<std::size_t>(std::upper_bound(ends_.begin() + 1, ends_.end() - 1, s) -
@@ -55,7 +62,8 @@ class Way {
     }
 
     std::vector<Vector2d> points_;
-    std::vector<double> ends_;  ///< [i] metres to points_[i]
+    std::vector<double> heights_;  ///< [m] of them
+    std::vector<double> ends_;     ///< [i] metres to points_[i]
 };
 
 /// The way, on over a link to the end of the lane there.
@@ -71,7 +79,7 @@ Way way_over(const world::TownT& town, Way way, const world::Link& link) {
 }
 
 /// Of a bus whose bumper drives from one place of the way to another.
-void add_bodies(const Way& way, double from, double to, std::vector<Footprint>& bodies) {
+void add_bodies(const Way& way, double from, double to, std::vector<SweptBody>& bodies) {
     const world::VehicleModel& bus =
         world::vehicle_models()[world::find_vehicle_model("bus").value()];
     const double to_axle = bus.length - bus.rear_overhang;
@@ -82,7 +90,7 @@ void add_bodies(const Way& way, double from, double to, std::vector<Footprint>& 
         // On the tightest bends the axle follows only as far as wheels roll.
         const Vector2d wanted = way.at(front - to_axle);
         const double aside = world::cross(ahead, wanted - rear);
-        const double rolled = std::clamp(aside, -steepest * pace, steepest * pace);
+        const double rolled = std::clamp(aside, -most_aside * pace, most_aside * pace);
         rear = wanted - world::turned_left(ahead) * (aside - rolled);
         ahead = (way.at(front) - rear).normalized();
         const double crooked =
@@ -92,7 +100,8 @@ void add_bodies(const Way& way, double from, double to, std::vector<Footprint>& 
             bodies.push_back({rear + ahead * (bus.length / 2 - bus.rear_overhang),
                               std::atan2(ahead.y(), ahead.x()),
                               bus.length,
-                              bus.width});
+                              bus.width,
+                              way.height_at(front)});
     }
 }
 
@@ -104,7 +113,7 @@ void drive_on(const world::TownT& town,
               const Way& way,
               double end,
               int junctions,
-              std::vector<Footprint>& bodies) {
+              std::vector<SweptBody>& bodies) {
     for (const world::Link& link : lane.links) {
         if (link.turn() == world::Turn::around && lane.links.size() > 1)
             continue;  // nobody turns a bus around where it can go on
@@ -121,9 +130,18 @@ void drive_on(const world::TownT& town,
 
 }  // namespace
 
-std::vector<Footprint> bus_bodies(const world::TownT& town) {
+world::Loop SweptBody::corners(double smaller) const {
+    const Vector2d along = world::ahead_of(yaw) * (length / 2 - smaller);
+    const Vector2d across = world::left_of(yaw) * (width / 2 - smaller);
+    return {centre - along - across,
+            centre + along - across,
+            centre + along + across,
+            centre - along + across};
+}
+
+std::vector<SweptBody> bus_bodies(const world::TownT& town) {
     constexpr int most_junctions = 4;  // until its axle is through the first one
-    std::vector<Footprint> bodies;
+    std::vector<SweptBody> bodies;
     for (const world::LaneT& lane : town.lanes) {
         if (lane.kind != world::LaneKind::driving)
             continue;
@@ -137,4 +155,4 @@ std::vector<Footprint> bus_bodies(const world::TownT& town) {
     return bodies;
 }
 
-}  // namespace reprise::towns
+}  // namespace reprise::ground
