@@ -51,6 +51,15 @@ std::uint64_t branch_tick(const BranchOptions& options, const replay::TraceReade
         parse_tick("--at", options.at, trace.episode().step_ns, 0, BareNumber::refused);
     const auto& branches = trace.episode().branches;
     const std::uint64_t first = branches.empty() ? 1 : branches.back().tick + 1;
+    if (first >= trace.ticks())
+        throw world::Error(
+            fmt::format("{}: too short to branch: it holds {} tick{}{}",
+                        options.trace,
+                        trace.ticks(),
+                        trace.ticks() == 1 ? "" : "s",
+                        branches.empty()
+                            ? ""
+                            : fmt::format(" and branched off itself at {}", branches.back().tick)));
     if (tick < first || tick >= trace.ticks())
         throw world::Error(
             fmt::format("--at {}: expected a tick from {} to {}: {} holds {} ticks{}",

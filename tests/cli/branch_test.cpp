@@ -179,6 +179,14 @@ TEST_F(Branch, SaysWhatIsWrongAndLeavesNothing) {
     EXPECT_THAT(
         run({"branch", "parent.mcap", "--at", "9s", "--script", "brake.lua", "-o", "x.mcap"}, 2),
         HasSubstr("--at 9s: expected a tick from 1 to "));
+    write_script("over", "");
+    run({"branch", "parent.mcap", "--at", "119t", "--script", "over.lua", "-o", "short.mcap"}, 0);
+    EXPECT_THAT(
+        run({"branch", "short.mcap", "--at", "50t", "--script", "over.lua", "-o", "x.mcap"}, 2),
+        HasSubstr(
+            "short.mcap: too short to branch: it holds 120 ticks and branched off itself at 119"));
+    std::filesystem::remove(folder_ / "short.mcap");
+    std::filesystem::remove(folder_ / "over.lua");
     run({"run", "drive.lua", "-o", "nudged.mcap", "--nudge", "30:ego.velocity.x"}, 0);
     EXPECT_THAT(
         run({"branch", "nudged.mcap", "--at", "50t", "--script", "brake.lua", "-o", "x.mcap"}, 1),
