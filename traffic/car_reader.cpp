@@ -1,8 +1,8 @@
 // What it must do: read SUMO's cars after its step, and write them into the tick.
 // What it assumes: between two steps a car moves by speed times step along its lane (SUMO's Euler
 //   update); what it does beside that is no driving.
-// How it goes: libsumo's getters, about 30 ns each (SUMO finds the car by its name each time), and
-//   none for what cannot have changed or follows from the speed.
+// How it goes: libsumo's getters, about 30 ns each (SUMO finds the car by its name once), and none
+//   for what cannot have changed or follows from the speed.
 // What it keeps: nothing beside the cars.
 #include "traffic/car_reader.h"
 
@@ -13,6 +13,7 @@
 
 #include <libsumo/libsumo.h>
 
+#include "traffic/vehicle_lookup.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/units.h"
@@ -265,6 +266,7 @@ void CarReader::read_car(Car& car, std::uint64_t tick) const {
 }
 
 void CarReader::read(Cars& cars, std::uint64_t tick) const {
+    const OneLookup one_a_car;
     for (Car& car : cars.all())
         if (car.origin != Origin::parked && !car.sumo.empty())
             read_car(car, tick);
