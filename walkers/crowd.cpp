@@ -83,20 +83,25 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
                          world::walker_models()[walker.model()].shoulder_width / 2,
                          walker.id()},
                         false);
+    people_.clear();
     on_road_.clear();
     for (Walker& walker : walkers_) {
         const Eigen::Vector2d place = walker.place.position.head<2>();
-        neighbours_.add({place, walker.velocity, walker.person.radius, walker.id}, false);
+        walker.body =
+            neighbours_.add({place, walker.velocity, walker.person.radius, walker.id}, false);
+        people_.add(place);
         walker.on_road = map_of(walker.person).surface(walker.place) != Surface::sidewalk;
         if (walker.on_road)
-            on_road_.push_back(place);
+            on_road_.add(place);
     }
-    add_things(last, next, step_, on_road_, neighbours_);
+    people_.sort();
+    on_road_.sort();
+    add_things(last, next, step_, on_road_, people_, neighbours_);
     neighbours_.sort();
 
     // Where to, around whom, and the step.
     for (Walker& walker : walkers_) {
-        walker.body = neighbours_.index_of(walker.id);
+        walker.body = neighbours_.index_of(walker.body);
         want(walker, tick);
     }
     for (Walker& walker : walkers_) {

@@ -8,6 +8,7 @@
 #include "walkers/gate.h"
 #include "walkers/neighbours.h"
 #include "walkers/person.h"
+#include "walkers/places.h"
 #include "walkers/road_traffic.h"
 #include "walkers/steering.h"
 #include "walkers/threats.h"
@@ -84,6 +85,7 @@ class Crowd {
         Eigen::Vector2d wanted{0, 0};   ///< [m/s] in this tick
         bool flees = false;             ///< in this tick
         std::size_t body = 0;           ///< his of neighbours_
+        ground::GroundProbe::Around underfoot;
     };
 
     const WalkMap& map_of(const Person& person);
@@ -129,9 +131,10 @@ class Crowd {
     WalkerLights lights_;
     Steering steering_;
     Neighbours neighbours_;
-    std::vector<Eigen::Vector2d> on_road_;  ///< places of those who are, in this tick
-    std::vector<Body> around_;              ///< of one, while looking
-    std::vector<Walker> walkers_;           ///< by id
+    Places people_;                ///< of this crowd, in this tick
+    Places on_road_;               ///< those of them who are
+    std::vector<Body> around_;     ///< of one, while looking
+    std::vector<Walker> walkers_;  ///< by id
     std::uint32_t next_id_ = first_walker_id;
     std::uint64_t tries_ = 0;  ///< of places to appear at
     unsigned plans_ = 0;       ///< made in this tick

@@ -160,7 +160,7 @@ bool Crowd::add_friend(world::TickDraft& next) {
 }
 
 void Crowd::appear(Walker walker, world::TickDraft& next) {
-    walker.place.position.z() = ground_->height(walker.place.position);
+    walker.place.position.z() = ground_->height(walker.place.position, walker.underfoot);
     walker.was_at_tick = next.tick.index;
     walker.was_at = walker.place.position.head<2>();
     ++next_id_;

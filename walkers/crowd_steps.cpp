@@ -297,7 +297,7 @@ void Crowd::step(Walker& walker, std::uint64_t tick) {
             world::wrap_angle(walker.yaw + std::clamp(turn, -turn_rate * step_, turn_rate * step_));
     }
     if (moved) {
-        walker.place.position.z() = ground_->height(walker.place.position);
+        walker.place.position.z() = ground_->height(walker.place.position, walker.underfoot);
         const double height = world::walker_models()[walker.person.model].height;
         if (speed > 1e-3)
             walker.phase += way.norm() / world::walk_cycle_length(speed, height);

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/check.h"
-
 namespace reprise::walkers {
 
-void Neighbours::add(const Body& body, bool of_car) {
+std::size_t Neighbours::add(const Body& body, bool of_car) {
     if (added_.empty())
         widest_ = 0;
     added_.push_back({body, body.place.x(), of_car});
     widest_ = std::max(widest_, body.radius);
+    return added_.size() - 1;
 }
 
 void Neighbours::sort() {
@@ -20,25 +19,11 @@ void Neighbours::sort() {
         keys_.push_back({added_[i].x, added_[i].body.id, i});
     std::sort(keys_.begin(), keys_.end());
     bodies_.clear();
-    for (const Key& key : keys_)
+    index_.resize(added_.size());
+    for (const Key& key : keys_) {
+        index_[key.index] = static_cast<std::uint32_t>(bodies_.size());
         bodies_.push_back(added_[key.index]);
-    by_id_.clear();
-    for (std::uint32_t i = 0; i < bodies_.size(); ++i)
-        if (!bodies_[i].of_car)
-            by_id_.push_back(i);
-    std::sort(by_id_.begin(), by_id_.end(), [&](std::uint32_t one, std::uint32_t other) {
-        return bodies_[one].body.id < bodies_[other].body.id;
-    });
-}
-
-std::size_t Neighbours::index_of(std::uint32_t id) const {
-    const auto found = std::lower_bound(
-        by_id_.begin(), by_id_.end(), id, [&](std::uint32_t index, std::uint32_t wanted) {
-            return bodies_[index].body.id < wanted;
-        });
-    REPRISE_CHECK(found != by_id_.end() && bodies_[*found].body.id == id,
-                  "walker " + std::to_string(id));
-    return *found;
+    }
 }
 
 template <typename Visit>

@@ -17,13 +17,13 @@ class Neighbours {
     void clear() { added_.clear(); }
 
     /// `of_car`: only who is on the road keeps away from it.
-    void add(const Body& body, bool of_car);
+    std::size_t add(const Body& body, bool of_car);
 
     /// By place. Behind it nobody is added.
     void sort();
 
-    /// Of a body by its id; there is one.
-    std::size_t index_of(std::uint32_t id) const;
+    /// Of a body by what add() returned for it; behind sort().
+    std::size_t index_of(std::size_t added) const { return index_[added]; }
 
     void move(std::size_t index, const Eigen::Vector2d& place) {
         bodies_[index].body.place = place;
@@ -57,7 +57,7 @@ class Neighbours {
     std::vector<Entry> added_;          ///< as they were added
     std::vector<Key> keys_;             ///< of them
     std::vector<Entry> bodies_;         ///< by (x, id)
-    std::vector<std::uint32_t> by_id_;  ///< indices of those that are no cars'
+    std::vector<std::uint32_t> index_;  ///< [as it was added] in bodies_
     double widest_ = 0;                 ///< [m] radius
 };
 

@@ -81,26 +81,24 @@ Thing car_of(const Eigen::Vector2d& rear_axle, double yaw, std::uint16_t model, 
 }
 
 /// Can any of them come close to a car within a tick?
-bool is_near(const world::CarState& car, std::span<const Eigen::Vector2d> people) {
+bool is_near(const world::CarState& car, const Places& people) {
     constexpr double close = 5;  // [m] more than anybody looks around himself
     const double reach = world::vehicle_models()[car.model()].length + close;
-    const Eigen::Vector2d place = world::in_plan(car.position());
-    return std::any_of(people.begin(), people.end(), [&](const Eigen::Vector2d& one) {
-        return (one - place).squaredNorm() < reach * reach;
-    });
+    return people.any_within(world::in_plan(car.position()), reach);
 }
 
 void add_cars(const world::TickView& last,
               const world::TickDraft& next,
               double step,
-              std::span<const Eigen::Vector2d> on_road,
+              const Places& on_road,
+              const Places& people,
               Neighbours& neighbours) {
     for (const world::CarState& car : next.traffic.cars) {
         const double yaw = static_cast<double>(car.yaw());
         const auto speed = static_cast<double>(car.speed());
         // One that stands may reach over the kerb with a corner: nobody walks through it there.
         const bool drives = speed > stands;
-        if (drives && !is_near(car, on_road))
+        if (!is_near(car, drives ? on_road : people))
             continue;
         Thing thing = car_of(world::in_plan(car.position()), yaw, car.model(), car.id());
         thing.velocity = speed * thing.ahead;
@@ -173,9 +171,10 @@ void add_doors(const world::TickView& last, const world::TickDraft& next, Neighb
 void add_things(const world::TickView& last,
                 const world::TickDraft& next,
                 double step,
-                std::span<const Eigen::Vector2d> on_road,
+                const Places& on_road,
+                const Places& people,
                 Neighbours& neighbours) {
-    add_cars(last, next, step, on_road, neighbours);
+    add_cars(last, next, step, on_road, people, neighbours);
     add_props(last, neighbours);
     add_doors(last, next, neighbours);
 }

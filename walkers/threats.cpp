@@ -73,20 +73,25 @@ void Threats::add_box(const Rolling& car, double rear, double front) {
 
 void Threats::look(const world::TickView& last, const world::TickDraft& next, double step) {
     threats_.clear();
+    const std::span<const world::CarState> old = last.cars();
+    std::size_t before = 0;  // both are by id
     for (const world::CarState& car : next.traffic.cars) {
-        const auto yaw = static_cast<double>(car.yaw());
-        const world::CarState* before = world::find(last.cars(), car.id());
-        double turned = 0;
-        double course = yaw;
         const auto speed = static_cast<double>(car.speed());
-        if (before != nullptr && speed > rolls) {
-            turned = world::wrap_angle(yaw - static_cast<double>(before->yaw()));
-            course = std::atan2(car.position().y() - before->position().y(),
-                                car.position().x() - before->position().x());
+        if (std::abs(speed) < rolls)
+            continue;
+        const auto yaw = static_cast<double>(car.yaw());
+        while (before < old.size() && old[before].id() < car.id())
+            ++before;
+        double yaw_rate = 0;
+        double course = yaw;
+        if (before < old.size() && old[before].id() == car.id() && speed > rolls) {
+            yaw_rate = world::wrap_angle(yaw - static_cast<double>(old[before].yaw())) / step;
+            course = std::atan2(car.position().y() - old[before].position().y(),
+                                car.position().x() - old[before].position().x());
         }
         add({{car.position().x(), car.position().y()},
              yaw,
-             turned / step,
+             yaw_rate,
              course,
              speed,
              static_cast<double>(car.acceleration()),

@@ -78,9 +78,10 @@ const WalkMap& WalkingGround::streets() {
     return *streets_;
 }
 
-double WalkingGround::height(const Eigen::Vector3d& p_world) const {
+double WalkingGround::height(const Eigen::Vector3d& p_world,
+                             ground::GroundProbe::Around& around) const {
     constexpr double step_up = 0.6;  // [m] more than a kerb, less than a bridge
-    const auto hit = probe_.below(p_world + step_up * Eigen::Vector3d::UnitZ());
+    const auto hit = probe_.below(p_world + step_up * Eigen::Vector3d::UnitZ(), around);
     return hit ? hit->z : p_world.z();
 }
 

@@ -26,8 +26,9 @@ class WalkingGround {
     const WalkMap& pavement();
     const WalkMap& streets();
 
-    /// [m] of the ground at or just below this place; its own height where there is none.
-    double height(const Eigen::Vector3d& p_world) const;
+    /// [m] of the ground at or just below this place; its own height where there is none. `around`:
+    /// of the one who asks, kept from step to step.
+    double height(const Eigen::Vector3d& p_world, ground::GroundProbe::Around& around) const;
 
   private:
     WalkMap make(bool roads) const;

@@ -45,6 +45,22 @@ std::optional<double> height_at(const GroundMesh& mesh,
            whole;
 }
 
+/// May a triangle be over any place of a box? By its sides: many are long, and far from the box.
+bool may_cover(const GroundMesh& mesh, std::size_t triangle, const world::Box& box) {
+    constexpr double rounding = 1e-6;  // [m2]
+    const auto& vertices = mesh.triangles[triangle];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Eigen::Vector2d start = mesh.vertices[vertices[i]].head<2>();
+        const Eigen::Vector2d along = mesh.vertices[vertices[(i + 1) % 3]].head<2>() - start;
+        // Left of it the furthest corner of the box.
+        const Eigen::Vector2d corner(along.y() > 0 ? box.low.x() : box.high.x(),
+                                     along.x() > 0 ? box.high.y() : box.low.y());
+        if (world::cross(along, corner - start) < -rounding)
+            return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 /// Where height_at() may find something. Of what carries nobody: nowhere.
@@ -77,10 +93,11 @@ GroundProbe::GroundProbe(const GroundMesh& mesh) : mesh_(&mesh) {
     by_place_ = world::BoxGrid(entries, cell);
 }
 
-std::optional<GroundProbe::Hit> GroundProbe::below(const Eigen::Vector3d& from_world) const {
+std::optional<GroundProbe::Hit> GroundProbe::highest_of(std::span<const std::uint32_t> triangles,
+                                                        const Eigen::Vector3d& from_world) const {
     const Eigen::Vector2d p = from_world.head<2>();
     std::optional<Hit> highest;
-    for (const std::uint32_t triangle : by_place_.at(p)) {
+    for (const std::uint32_t triangle : triangles) {
         const Extent& extent = extents_[triangle];
         if (p.x() < static_cast<double>(extent.west) || p.x() > static_cast<double>(extent.east) ||
             p.y() < static_cast<double>(extent.south) || p.y() > static_cast<double>(extent.north))
@@ -90,6 +107,30 @@ std::optional<GroundProbe::Hit> GroundProbe::below(const Eigen::Vector3d& from_w
             highest = Hit{*z, mesh_->surfaces[triangle]};
     }
     return highest;
+}
+
+std::optional<GroundProbe::Hit> GroundProbe::below(const Eigen::Vector3d& from_world) const {
+    return highest_of(by_place_.at(from_world.head<2>()), from_world);
+}
+
+std::optional<GroundProbe::Hit> GroundProbe::below(const Eigen::Vector3d& from_world,
+                                                   Around& around) const {
+    constexpr double reach = 0.8;  // [m] half a second's walk
+    const Eigen::Vector2d p = from_world.head<2>();
+    const std::span<const std::uint32_t> cell = by_place_.at(p);
+    const bool is_known = cell.data() == around.cell.data() && cell.size() == around.cell.size();
+    if (!is_known || p.x() < around.box.low.x() || p.x() > around.box.high.x() ||
+        p.y() < around.box.low.y() || p.y() > around.box.high.y()) {
+        around.cell = cell;
+        around.box = {};
+        around.box.take(p, reach);
+        around.triangles.clear();
+        for (const std::uint32_t triangle : cell)
+            if (extents_[triangle].west <= extents_[triangle].east &&
+                may_cover(*mesh_, triangle, around.box))
+                around.triangles.push_back(triangle);
+    }
+    return highest_of(around.triangles, from_world);
 }
 
 std::optional<GroundProbe::Hit> GroundProbe::nearest(const Eigen::Vector3d& near_world) const {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "ground/mesh/ground.h"
@@ -26,6 +27,16 @@ class GroundProbe {
     /// the town's terrain.
     std::optional<Hit> below(const Eigen::Vector3d& from_world) const;
 
+    /// What lies around a place, remembered from question to question of one who goes on in steps.
+    struct Around {
+        world::Box box{};
+        std::span<const std::uint32_t> cell;   ///< of the grid, that the box counts in
+        std::vector<std::uint32_t> triangles;  ///< that may be over a place in both
+    };
+
+    /// As that one, but asks the grid again only where `from_world` has left what is remembered.
+    std::optional<Hit> below(const Eigen::Vector3d& from_world, Around& around) const;
+
     /// The ground of the level that a thing at `near_world` is on: of the levels that have headroom
     /// over them, the nearest one above or below. None: a hole, or beyond the town's terrain.
     std::optional<Hit> nearest(const Eigen::Vector3d& near_world) const;
@@ -42,6 +53,8 @@ class GroundProbe {
         float north = -1;
     };
 
+    std::optional<Hit> highest_of(std::span<const std::uint32_t> triangles,
+                                  const Eigen::Vector3d& from_world) const;
     static Extent extent_of(const GroundMesh& mesh, std::size_t triangle);
 
     const GroundMesh* mesh_;

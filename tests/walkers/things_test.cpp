@@ -32,7 +32,9 @@ std::vector<Body> bodies_of(std::uint16_t model, float turned, float speed, doub
     const world::SealedTick last = world::seal(before, {});
     Neighbours neighbours;
     const Eigen::Vector2d somebody(0, -3);
-    add_things(last.view(), now, step, std::vector<Eigen::Vector2d>{somebody}, neighbours);
+    Places places;
+    places.add(somebody);
+    add_things(last.view(), now, step, places, places, neighbours);
     neighbours.sort();
     std::vector<Body> found;
     neighbours.around({somebody, {0, 0}, 0.25, 1}, 30, true, found);

@@ -249,6 +249,25 @@ TEST(GroundProbe, AgreesWithAPlumbLineThatAsksEveryTriangle) {
     EXPECT_GT(hits, 500);
 }
 
+TEST(GroundProbe, TellsWhoWalksOnWhatItTellsEverybody) {
+    const GroundMesh ground = ground::build_ground(test::t_junction(0.04));
+    const ground::GroundProbe probe(ground);
+    ground::GroundProbe::Around around;
+    int hits = 0;
+    for (double y = -61.13; y < 10; y += 2.9)
+        for (double x = -3.3; x < 105; x += 0.13) {
+            const Eigen::Vector3d from(x, y + 0.3 * x / 105, 1);
+            const auto asked = probe.below(from);
+            const auto remembered = probe.below(from, around);
+            ASSERT_EQ(asked.has_value(), remembered.has_value()) << x << ' ' << y;
+            if (!asked)
+                continue;
+            ASSERT_EQ(asked->z, remembered->z) << x << ' ' << y;
+            ++hits;
+        }
+    EXPECT_GT(hits, 3000);
+}
+
 TEST(GroundProbe, FindsTheNearestLevel) {
     const GroundMesh ground = ground::build_ground(test::bridge());
     const ground::GroundProbe probe(ground);
