@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 #include "traffic/cars/fleet.h"
+#include "world/frames.h"
+#include "world/geometry2d.h"
+#include "world/models/actors.h"
 #include "world/models/catalogue.h"
 
 namespace reprise::traffic {
@@ -20,6 +23,8 @@ constexpr double not_beside = 30;     // [m]
 // Nobody waits so long inside of a junction but for one who waits for him, or who never moves.
 constexpr double far_too_long_in_junction = 50;  // [s] of standing, whoever sees it,
 constexpr double at_its_edge = 1;  // [m] where one who waited to go in is no hindrance
+// But in a row before lights behind it: beside a vehicle with mass only who is first of it goes.
+constexpr double in_a_row = 100;  // [s] of standing, in case that the row is a ring
 
 /// A speed at which a car may appear there without anybody braking hard; `room` [m] ahead. [m/s]
 double entry_speed(const world::LaneT& lane, const InsertionPoint& point, double room) {
@@ -39,6 +44,40 @@ InsertionSearch search_in(std::uint64_t tick) {
     search.sight = first ? 0 : 60;
     search.everywhere = first;
     return search;
+}
+
+/// Is there somebody close before its bumper who stands, and points where it points?
+bool stands_behind_another(const Car& car, const Cars& cars, const world::TickView& last) {
+    constexpr double stands = 0.5;       // [m/s]
+    constexpr double close = 5;          // [m]
+    constexpr double beside = 1;         // [m]
+    constexpr double same_course = 0.7;  // cosine
+    const world::Extent body = world::extent_of(world::vehicle_models()[car.model]);
+    const Eigen::Vector2d bumper = car.rear.head<2>() + body.front * car.ahead;
+    const auto is_before_it =
+        [&](const Eigen::Vector2d& rear, const Eigen::Vector2d& ahead, std::uint16_t model) {
+            const world::Extent other = world::extent_of(world::vehicle_models()[model]);
+            const Eigen::Vector2d gap = rear + other.rear * ahead - bumper;
+            const double along = gap.dot(car.ahead);
+            return along > -beside && along < close &&
+                   std::abs(world::cross(car.ahead, gap)) < beside &&
+                   ahead.dot(car.ahead) > same_course;
+        };
+    const auto vehicles = last.vehicles();
+    const auto all = cars.all();
+    return std::any_of(all.begin(),
+                       all.end(),
+                       [&](const Car& other) {
+                           return other.id != car.id && other.speed < stands &&
+                                  is_before_it(other.rear.head<2>(), other.ahead, other.model);
+                       }) ||
+           std::any_of(vehicles.begin(), vehicles.end(), [&](const world::VehicleState& other) {
+               const Eigen::Vector3d ahead =
+                   world::to_eigen(other.orientation()) * Eigen::Vector3d::UnitX();
+               return std::hypot(other.velocity().x(), other.velocity().y()) < stands &&
+                      is_before_it(
+                          world::in_plan(other.position()), ahead.head<2>(), other.model());
+           });
 }
 
 }  // namespace
@@ -130,12 +169,15 @@ bool Demand::is_seen(const Eigen::Vector3d& p, const world::TickView& last, doub
     });
 }
 
-bool Demand::is_stuck(const Car& car, const world::TickView& last) const {
+bool Demand::is_stuck(const Car& car, const Cars& cars, const world::TickView& last) const {
     const double stood = car.stuck_ticks * step_;
-    return (stood > too_long && !is_seen(car.rear, last, out_of_sight)) ||
-           (stood > far_too_long && !is_seen(car.rear, last, not_beside)) ||
-           (stood > far_too_long_in_junction && car.lane_position > at_its_edge &&
-            town_->lanes[car.lane].kind == world::LaneKind::internal);
+    if ((stood > too_long && !is_seen(car.rear, last, out_of_sight)) ||
+        (stood > far_too_long && !is_seen(car.rear, last, not_beside)))
+        return true;
+    return stood > far_too_long_in_junction && car.lane_position > at_its_edge &&
+           town_->lanes[car.lane].kind == world::LaneKind::internal &&
+           (stood > in_a_row || !is_seen(car.rear, last, not_beside) ||
+            !stands_behind_another(car, cars, last));
 }
 
 void Demand::remove_leaving(Cars& cars, const world::TickView& last, world::TickDraft& next) {
@@ -149,7 +191,7 @@ void Demand::remove_leaving(Cars& cars, const world::TickView& last, world::Tick
         const bool arrives = car.dead_end && car.route.size() == 1 &&
                              car.route.front() == graph_->edge_of(car.lane) &&
                              left < 2 * step_ * (car.speed + 1) + 1;
-        if (arrives || is_stuck(car, last))
+        if (arrives || is_stuck(car, cars, last))
             cars.remove_from_sumo(i, next);
     }
 }

@@ -39,7 +39,7 @@ class Demand {
     bool is_seen(const Eigen::Vector3d& p, const world::TickView& last, double sight) const;
 
     /// For so long that it counts for more than who sees it go.
-    bool is_stuck(const Car& car, const world::TickView& last) const;
+    bool is_stuck(const Car& car, const Cars& cars, const world::TickView& last) const;
 
     bool add_car(Cars& cars,
                  std::span<const OccupiedBox> occupied,

@@ -118,6 +118,31 @@ TEST(Flow, WhoIsStuckInAJunctionIsTakenOutInTheEndWhoeverIsBeside) {
     }
 }
 
+/// He is in a row, as before a light: it would be the ego's neighbour who vanishes. In a ring of
+/// those he is taken out in the end as well.
+TEST(Flow, WhoStandsInAJunctionRightBehindTheEgoStaysTwiceAsLong) {
+    const test::Loaded& town2 = own_town("town2");
+    const std::uint32_t across = test::lane(town2.town, ":a1_1_0");
+    const world::LaneT& way = town2.town.lanes[across];
+    const world::LanePoint end = world::point_at(way, way.length);
+    const auto ego = test::vehicle_at(2, end.position.x(), end.position.y(), end.yaw);
+    Stage stage(town2, 60, 3);
+    std::vector<world::VehicleState> vehicles;  // the ego comes behind somebody drove in
+    std::map<std::uint32_t, int> halted;
+    int longest = 0;
+    for (int tick = 0; tick < 8 * minute; ++tick)
+        for (const world::CarState& car : stage.step({}, vehicles).traffic.cars) {
+            const bool inside = car.lane() == across;
+            if (inside && car.lane_s() < 6)
+                vehicles = {ego};
+            int& ticks = halted[car.id()];
+            ticks = inside && car.speed() < 0.1F ? ticks + 1 : 0;
+            longest = std::max(longest, ticks);
+        }
+    EXPECT_GT(longest, 1.5 * minute);
+    EXPECT_LT(longest, 1.8 * minute);
+}
+
 /// Of a full town, where a minor road waits for a minute. Town 1 has no dead end, at which cars
 /// leave.
 TEST(Flow, NobodyWhoWaitedForLongIsTakenOutAsHeDrivesIntoAJunction) {
