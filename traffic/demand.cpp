@@ -46,10 +46,10 @@ InsertionSearch search_in(std::uint64_t tick) {
     return search;
 }
 
-/// Is there somebody close before its bumper who stands, and points where it points?
-bool stands_behind_another(const Car& car, const Cars& cars, const world::TickView& last) {
-    constexpr double stands = 0.5;       // [m/s]
-    constexpr double close = 5;          // [m]
+/// Is there somebody close before its bumper who points where it points? He may have just started:
+/// then it goes next.
+bool is_right_behind_another(const Car& car, const Cars& cars, const world::TickView& last) {
+    constexpr double close = 8;          // [m]
     constexpr double beside = 1;         // [m]
     constexpr double same_course = 0.7;  // cosine
     const world::Extent body = world::extent_of(world::vehicle_models()[car.model]);
@@ -63,21 +63,16 @@ bool stands_behind_another(const Car& car, const Cars& cars, const world::TickVi
                    std::abs(world::cross(car.ahead, gap)) < beside &&
                    ahead.dot(car.ahead) > same_course;
         };
-    const auto vehicles = last.vehicles();
-    const auto all = cars.all();
-    return std::any_of(all.begin(),
-                       all.end(),
-                       [&](const Car& other) {
-                           return other.id != car.id && other.speed < stands &&
-                                  is_before_it(other.rear.head<2>(), other.ahead, other.model);
-                       }) ||
-           std::any_of(vehicles.begin(), vehicles.end(), [&](const world::VehicleState& other) {
-               const Eigen::Vector3d ahead =
-                   world::to_eigen(other.orientation()) * Eigen::Vector3d::UnitX();
-               return std::hypot(other.velocity().x(), other.velocity().y()) < stands &&
-                      is_before_it(
-                          world::in_plan(other.position()), ahead.head<2>(), other.model());
-           });
+    for (const Car& other : cars.all())
+        if (other.id != car.id && is_before_it(other.rear.head<2>(), other.ahead, other.model))
+            return true;
+    for (const world::VehicleState& other : last.vehicles()) {
+        const Eigen::Vector3d ahead =
+            world::to_eigen(other.orientation()) * Eigen::Vector3d::UnitX();
+        if (is_before_it(world::in_plan(other.position()), ahead.head<2>(), other.model()))
+            return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -177,7 +172,7 @@ bool Demand::is_stuck(const Car& car, const Cars& cars, const world::TickView& l
     return stood > far_too_long_in_junction && car.lane_position > at_its_edge &&
            town_->lanes[car.lane].kind == world::LaneKind::internal &&
            (stood > in_a_row || !is_seen(car.rear, last, not_beside) ||
-            !stands_behind_another(car, cars, last));
+            !is_right_behind_another(car, cars, last));
 }
 
 void Demand::remove_leaving(Cars& cars, const world::TickView& last, world::TickDraft& next) {
