@@ -17,11 +17,14 @@ class Color {
 
     explicit Color(__m128 lanes) : lanes_(lanes) {}
 
+    // NOLINTBEGIN(readability-identifier-naming): as Eigen's vectors have them
     static Color Constant(float value) { return Color(_mm_set1_ps(value)); }
 
     static Color Zero() { return Color(_mm_setzero_ps()); }
 
     static Color Ones() { return Constant(1); }
+
+    // NOLINTEND(readability-identifier-naming)
 
     float x() const { return _mm_cvtss_f32(lanes_); }
 
@@ -42,9 +45,12 @@ class Color {
 
     Color min(float most) const { return min(Constant(most)); }
 
+    // NOLINTBEGIN(readability-identifier-naming): as Eigen's vectors have them
     float maxCoeff() const { return std::max(x(), std::max(y(), z())); }
 
     float minCoeff() const { return std::min(x(), std::min(y(), z())); }
+
+    // NOLINTEND(readability-identifier-naming)
 
     float mean() const { return (x() + (y() + z())) / 3; }
 
