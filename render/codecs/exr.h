@@ -7,7 +7,7 @@
 
 namespace reprise::render {
 
-/// 32-bit floats of one channel (Y) or three (R, G, B), ZIP packed.
+/// 32-bit floats of one channel (Y) or three (R, G, B), ZIP packed, as https://openexr.com has it.
 std::vector<std::uint8_t> encode_exr(const Numbers& numbers);
 
 /// Of a file's bytes, which may be anybody's: its channels as floats, by their names. Nothing where

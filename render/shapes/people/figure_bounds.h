@@ -8,7 +8,7 @@
 namespace reprise::render {
 
 /// Around what is drawn of a walker: limbs at his phase of the walk, clothes, what he carries. In
-/// the frame of `figure`. The first call makes all meshes of people, 10 ms; then 20 us.
+/// the frame of `figure`, [m]; nothing below the ground. The first call makes all meshes of people.
 Eigen::AlignedBox3d figure_bounds(const world::WalkerModel& model,
                                   const world::WalkerState& walker,
                                   bool rains);
