@@ -13,6 +13,7 @@
 #include <pugixml.hpp>
 #include <zlib.h>
 
+#include "towns/network/joined_lanes.h"
 #include "towns/network/mended_lanes.h"
 #include "towns/network/network_check.h"
 #include "towns/network/network_xml.h"
@@ -350,6 +351,12 @@ Network load_network(const std::filesystem::path& path) {
     network.notes += notes_on(mend_lanes(root), path);
     if (!has_car_lane(root))
         fail_at(path, root_line, "has no edge that a passenger car may use, but lanes of no width");
+    if (const std::size_t joined = part_joined_lanes(root); joined > 0)
+        network.notes += fmt::format(
+            "{}: {} of ways onto different lanes of one road that gave way to each other for "
+            "nothing: they do not now\n",
+            path.string(),
+            world::count_of(joined, "pair"));
     const std::size_t moved = move_waiting_places(root);
     if (moved > 0 || !network.notes.empty())
         network.xml = to_text(document);
