@@ -19,11 +19,11 @@
 #include "traffic/car_reader.h"
 #include "traffic/cars/bends.h"
 #include "traffic/cars/cars.h"
-#include "traffic/cars/lane_change_pace.h"
 #include "traffic/demand.h"
 #include "traffic/detours.h"
 #include "traffic/insertion.h"
 #include "traffic/insertion_points.h"
+#include "traffic/lane_change_pace.h"
 #include "traffic/lookout.h"
 #include "traffic/mirrors.h"
 #include "traffic/orders.h"
@@ -225,7 +225,8 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     parts.routes.keep_ahead(parts.cars);
     parts.orders.follow(parts.cars, next.tick.index);
     parts.bends.follow(parts.cars);
-    parts.lane_change_pace.follow(parts.cars, next.tick.index);
+    parts.lookout.look(last, parts.cars);
+    parts.lane_change_pace.follow(parts.cars, parts.lookout.obstructions(), next.tick.index);
     parts.rescue_lane.advance(last, parts.cars, parts.mirrors, next.tick.index);
     parts.blue_lamps.advance(last, parts.cars, next.tick.index);
     parts.lookout.advance(last, parts.cars, next.tick.index);

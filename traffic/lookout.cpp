@@ -146,6 +146,24 @@ void Lookout::look_at_cars(const Cars& cars, double s, const Car& car, Corridor&
     }
 }
 
+/// Who changes lanes goes aside by SUMO's pace, which is less than a car could: to the middle of
+/// the lane beside until it is over the line, to that of its own then.
+void Lookout::follow_lane_change(const Car& car, Corridor& corridor) const {
+    using libsumo::Vehicle;
+    constexpr double moves = 0.1;   // [m/s] sideways
+    constexpr double crawls = 0.5;  // [m/s]
+    const double sideways = Vehicle::getLateralSpeed(car.sumo);
+    if (std::abs(sideways) < moves)
+        return;
+    const world::LaneT& lane = town_->lanes[car.lane];
+    const std::uint32_t beside = corridor.aside > 0 ? lane.left : lane.right;
+    if (sideways * Vehicle::getLateralLanePosition(car.sumo) > 0 && beside != none)
+        corridor.wanted_aside =
+            std::copysign((lane.width + town_->lanes[beside].width) / 2, corridor.aside);
+    corridor.steepest =
+        std::min(std::abs(sideways) / std::max(car.speed, crawls), corridor.steepest);
+}
+
 double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     constexpr double easy_braking = 2;  // [m/s^2] nobody begins to brake earlier
     const world::VehicleModel& model = world::vehicle_models()[car.model];
@@ -167,6 +185,8 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     const world::LaneT& lane = town_->lanes[car.lane];
     const world::LaneProjection at = world::project(lane, front);
     corridor.aside = at.t;
+    if (!car.pass && !car.offset_order && (lane.left != none || lane.right != none))
+        follow_lane_change(car, corridor);
     visit_way(car.lane, -at.s, corridor.reach, car, [&](std::uint32_t ahead, double start) {
         look_on(ahead, start, 0, corridor);
     });
@@ -245,12 +265,15 @@ void Lookout::hold_back(Car& car, double speed, std::uint64_t tick) const {
     car.held_back = true;
 }
 
-void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tick) {
+void Lookout::look(const world::TickView& last, const Cars& cars) {
     obstructions_.look(last, cars.all());
     driving_.clear();
     for (const Footprint& one : obstructions_.footprints())
         if (one.drives)
             driving_.push_back(one);
+}
+
+void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tick) {
     stand_ins_.advance(obstructions_.all(), cars, tick);
     meetings_.look(cars, tick);
     for (std::size_t i = 0; i < cars.size(); ++i) {

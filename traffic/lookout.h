@@ -21,7 +21,8 @@ namespace reprise::traffic {
 ///
 /// MUST    stop before everything that is in the way of a car's body, as well as its brakes allow;
 ///         change nothing where nothing is in the way.
-/// ASSUMES that a car follows its lane, and comes back to its middle within a few metres.
+/// ASSUMES that a car follows its lane, comes back to its middle within a few metres, and changes
+///         lanes as slowly as SUMO moves it aside.
 /// GOES    from the lane of each car along the lanes of its route, as far as it needs to stop; of
 ///         what is there each allows a speed (Krauss: to stop behind it with a second's reaction),
 ///         and the least is told to SUMO when it is less than the car would drive.
@@ -47,6 +48,11 @@ class Lookout {
     Lookout(const Lookout&) = delete;
     Lookout& operator=(const Lookout&) = delete;
 
+    /// At what is there, as of the last tick, and `cars`: first.
+    void look(const world::TickView& last, const Cars& cars);
+
+    const Obstructions& obstructions() const { return obstructions_; }
+
     /// Before SUMO's step, behind the orders.
     void advance(const world::TickView& last, Cars& cars, std::uint64_t tick);
 
@@ -65,6 +71,7 @@ class Lookout {
     void visit_way(
         std::uint32_t lane, double start, double reach, const Car& car, const Visit& visit) const;
     bool is_clear(const Car& car, double reach) const;
+    void follow_lane_change(const Car& car, Corridor& corridor) const;
     double before_swept(Car& car, std::uint64_t tick) const;
     void look_on(std::uint32_t lane, double start, double aside, Corridor& corridor) const;
     void hold_back(Car& car, double speed, std::uint64_t tick) const;

@@ -101,7 +101,8 @@ class Scene {
     }
 
     void put_walker(double s, double offset, bool down = false) {
-        stage.walkers = {walker_on(road(), s, offset, down)};
+        stage.walkers.push_back(walker_on(road(), s, offset, down));
+        stage.walkers.back().mutate_id(obstacle + static_cast<std::uint32_t>(boxes_.size()));
         const world::WalkerModel& model = world::walker_models()[0];
         boxes_.push_back(box_on(s, offset, down ? model.height : 0.4, 0.4));
         end_ = s;
@@ -237,6 +238,20 @@ TEST(Lookout, ABusDoesNotSwingOutPastWhatStandsCloseBeforeIt) {
     scene.park("van", scene.free_place(one_lane.s, one_lane.before), 0);
     scene.watch(two_minutes);
     EXPECT_TRUE(scene.touched.empty());
+}
+
+/// Who keeps to its lane passes them by half a metre; who changes lanes there would not.
+TEST(Lookout, NobodyChangesLanesOverWhoStandsOnTheLineBetween) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        SCOPED_TRACE(seed);
+        Scene scene(three_lanes.town, three_lanes.lane, 100, seed);
+        const double line = scene.road().width / 2;
+        for (double s = 300; s < 3500; s += 160)
+            scene.put_walker(scene.free_place(s, 60), line);
+        scene.watch(two_minutes);
+        EXPECT_TRUE(scene.touched.empty()) << scene.touched.size() << " cars";
+        EXPECT_GE(scene.passed.size(), 10U);
+    }
 }
 
 /// One on every sidewalk that is long enough, in its middle, walking along it.

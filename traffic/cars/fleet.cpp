@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "traffic/cars/lane_change_pace.h"
+#include "traffic/lane_change_pace.h"
 #include "world/models/catalogue.h"
 #include "world/models/vehicle_classes.h"
 

@@ -181,6 +181,7 @@ void Obstructions::add(const Footprint& footprint) {
                         ? std::max(footprint.clearance - least_clearance, 0.0)
                         : 0;
         one.gap = gap_behind(footprint, one.lasts);
+        one.drives = footprint.drives;
         one.id = footprint.id;
         all_.push_back(one);
     }

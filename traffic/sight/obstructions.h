@@ -27,6 +27,7 @@ struct Obstruction {
     double gap = 0;      ///< [m] that one who stops behind it leaves
     double spare =
         0;  ///< [m] on both sides, of what is left beside it, that one who creeps needs not
+    bool drives = false;  ///< SUMO has a copy of it
     std::uint32_t id = 0;
 
     /// [m] along the lane where the body begins that lies between two lines along it, each left of

@@ -1,4 +1,4 @@
-#include "traffic/cars/lane_change_pace.h"
+#include "traffic/lane_change_pace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,20 +54,51 @@ std::vector<LaneChangePace::Waiting> LaneChangePace::waiting(const Cars& cars) {
     return found;
 }
 
+/// [m] for all of a change.
+double LaneChangePace::wanted_way(const Car& car) const {
+    constexpr double margin = 4;  // [m]
+    const double width = town_->lanes[car.lane].width;
+    return std::max(width / steepest, width / usual * car.speed) + margin;
+}
+
+/// Does nothing lie, stand or walk beside the car's way within that of a change, on the line or on
+/// the next lane? What stands before it is no reason to stay.
+bool LaneChangePace::is_clear(const Car& car, const Obstructions& obstructions) const {
+    const world::LaneT& lane = town_->lanes[car.lane];
+    const world::VehicleModel& model = world::vehicle_models()[car.model];
+    const double half_width = model.width / 2;
+    const double bumper = car.lane_position * lane.length / lane.sumo_length;
+    const double begin = bumper - model.length;
+    const double end = bumper + wanted_way(car);
+    const auto is_between = [&](const Obstruction& one) {
+        return !one.drives && one.end > begin && one.begin < end;
+    };
+    for (const Obstruction& one : obstructions.on(car.lane))
+        if (is_between(one) && (one.right > half_width || one.left < -half_width))
+            return false;
+    for (const std::uint32_t beside : {lane.left, lane.right})
+        if (beside != world::none) {
+            const auto there = obstructions.on(beside);
+            if (std::any_of(there.begin(), there.end(), is_between))
+                return false;
+        }
+    return true;
+}
+
 /// Is there way enough for all of a change, before the lane ends and before those who wait on it?
 /// Who begins without would stand across two lanes.
 bool LaneChangePace::has_way(const Car& car, const std::vector<Waiting>& waiting) const {
-    constexpr double margin = 4;  // [m]
     const world::LaneT& lane = town_->lanes[car.lane];
-    const double wanted = std::max(lane.width / steepest, lane.width / usual * car.speed) + margin;
     double way = lane.sumo_length - car.lane_position;
     for (const Waiting& other : waiting)
         if (other.lane == car.lane && other.lane_position > car.lane_position)
             way = std::min(way, other.lane_position - car.lane_position - other.length);
-    return way > wanted;
+    return way > wanted_way(car);
 }
 
-void LaneChangePace::follow(Cars& cars, std::uint64_t tick) const {
+void LaneChangePace::follow(Cars& cars,
+                            const Obstructions& obstructions,
+                            std::uint64_t tick) const {
     constexpr int as_it_likes = 1621;  // SUMO's default
     constexpr int as_asked = 512;      // as RescueLane asks, where nobody is hindered
     constexpr int never = 0;
@@ -78,7 +109,8 @@ void LaneChangePace::follow(Cars& cars, std::uint64_t tick) const {
         const world::LaneT& lane = town_->lanes[car.lane];
         // A quarter of the cars is asked in each tick.
         if (has_neighbour_[car.lane] && car.origin == Origin::demand && (tick + car.id) % 4 == 0) {
-            const bool may = car.speed > crawl && has_way(car, queues);
+            const bool may =
+                car.speed > crawl && has_way(car, queues) && is_clear(car, obstructions);
             const int mode = !may ? never : car.makes_way ? as_asked : as_it_likes;
             if (mode != car.lane_change_mode)
                 libsumo::Vehicle::setLaneChangeMode(car.sumo, mode);
