@@ -77,15 +77,16 @@ std::optional<replay::Divergence> idle_branch(const replay::TraceReader& recorde
     return divergence;
 }
 
-/// Behind the last tick: whether the run ends there, and so. Of a part of a run, of one that was
-/// cut off, and of one whose driver was lost, only that it goes on.
+/// Behind the last tick: whether the run ends there, and so. Of a part of a run, and of one whose
+/// driver was lost, only that it goes on; one that was cut off says nothing of that: it may have
+/// lost no tick, but how it ended.
 std::optional<replay::Divergence> compare_end(const replay::TraceReader& recorded,
                                               const Kernel& kernel,
                                               const world::ExternalDrivers& drivers) {
     const world::Outcome& expected = recorded.outcome();
     const std::uint64_t ticks = recorded.ticks();
+    const bool is_cut_off = expected == world::outcome_of_cut_off(ticks);
     const bool goes_on = expected == world::outcome_of_part(ticks) ||
-                         expected == world::outcome_of_cut_off(ticks) ||
                          (expected.ticks == ticks && drivers.explain(expected));
     replay::Divergence divergence;
     divergence.tick = ticks;
@@ -93,7 +94,7 @@ std::optional<replay::Divergence> compare_end(const replay::TraceReader& recorde
     divergence.field = "outcome";
     divergence.expected = replay::to_text(expected);
     divergence.found = kernel.finished() ? replay::to_text(kernel.outcome()) : "the run goes on";
-    if (kernel.finished() ? kernel.outcome() == expected : goes_on)
+    if (is_cut_off || (kernel.finished() ? kernel.outcome() == expected : goes_on))
         return idle_branch(recorded, kernel);
     divergence.note = "all ticks are equal";
     return divergence;

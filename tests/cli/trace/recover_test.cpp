@@ -209,6 +209,18 @@ TEST_F(Damaged, TraceKeepsTheTicksBeforeAFlippedBitAndSaysWhere) {
     EXPECT_THAT(reprise({"info", folder_ / "out.mcap"}).out, HasSubstr("cut off"));
 }
 
+TEST_F(Damaged, TraceThatLostOnlyHowItEndedVerifies) {
+    // As above: in front of it everything but the outcome is whole.
+    const std::size_t outcome =
+        whole_.rfind("reprise.outcome", whole_.rfind("reprise.outcome") - 1);
+    const Result report = recover(whole_.substr(0, outcome));
+    EXPECT_EQ(report.code, 3) << report.out;
+    EXPECT_THAT(report.out, HasSubstr("181 ticks (9.05 s"));  // all of them
+    const Result verify = reprise({"verify", folder_ / "out.mcap"});
+    EXPECT_EQ(verify.code, 0) << verify.out;
+    EXPECT_THAT(verify.out, HasSubstr("equal at every one of 181 ticks"));
+}
+
 TEST_F(Damaged, TraceOfWhichNothingIsLeftIsExitOneAndNoFile) {
     for (const std::size_t size : {std::size_t{0}, std::size_t{9}, whole_.size() / 2}) {
         std::string bytes = whole_.substr(0, size);
