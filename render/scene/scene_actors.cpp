@@ -107,7 +107,7 @@ void Scene::place_things(const world::TickView& tick) {
                       "prop " + std::to_string(prop.id()));
         Instance instance;
         instance.kind = Kind::thing;
-        instance.prototype = town_.prototypes().things[prop.model()];
+        instance.prototype = town_.prototypes().things[prop.model()].get();
         instance.actor = prop.id();
         add_instance(instance, Eigen::Affine3d(world::pose(prop.position(), prop.orientation())));
     }
@@ -128,7 +128,7 @@ void Scene::place_doors(const world::TickView& tick) {
         const world::DoorLeaf leaf =
             world::door_leaf(world::vehicle_models()[part.model], *pose, door.door(), door.angle());
         part.kind = Kind::car_body;
-        part.prototype = town_.prototypes().door;
+        part.prototype = town_.prototypes().door->get();
         Eigen::Affine3d stretched(leaf.pose);
         stretched.scale(2 * leaf.half);
         add_instance(part, stretched);

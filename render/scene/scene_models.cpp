@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "render/scene/town_scene.h"
@@ -24,22 +25,27 @@ double mean_length(std::span<const world::WheelState> wheels) {
 
 }  // namespace
 
-void TownScene::build_models() {
-    for (const world::VehicleModel& model : world::vehicle_models()) {
-        const CarShape& shape = prototypes_.car_shapes.emplace_back(model);
-        const bool thin = world::is_two_wheeler(model.body);
-        const bool pedalled = thin && seat_of(shape).crank > 0;
-        prototypes_.car_bodies.push_back(
-            add_prototype(thin ? two_wheeler_mesh(shape) : car_body_mesh(shape)));
-        prototypes_.wheels.push_back(
-            add_prototype(thin ? thin_wheel_mesh(shape) : wheel_mesh(shape)));
-        prototypes_.forks.push_back(thin ? add_prototype(fork_mesh(shape)) : nullptr);
-        prototypes_.cranks.push_back(pedalled ? add_prototype(crank_mesh(shape)) : nullptr);
+template <typename MakeMesh>
+std::function<Prototype()> TownScene::maker(const MakeMesh& make_mesh) const {
+    return [this, make_mesh] { return make_prototype(make_mesh()); };
+}
+
+void TownScene::name_models() {
+    for (const world::VehicleModel& model : world::vehicle_models())
+        prototypes_.car_shapes.emplace_back(model);
+    for (const CarShape& shape : prototypes_.car_shapes) {
+        const bool thin = world::is_two_wheeler(shape.model->body);
+        prototypes_.car_bodies.emplace_back(maker(
+            [&shape, thin] { return thin ? two_wheeler_mesh(shape) : car_body_mesh(shape); }));
+        prototypes_.wheels.emplace_back(
+            maker([&shape, thin] { return thin ? thin_wheel_mesh(shape) : wheel_mesh(shape); }));
+        prototypes_.forks.emplace_back(maker([&shape] { return fork_mesh(shape); }));
+        prototypes_.cranks.emplace_back(maker([&shape] { return crank_mesh(shape); }));
     }
     for (const world::PropModel& model : world::prop_models())
-        prototypes_.things.push_back(add_prototype(thing_mesh(model)));
-    prototypes_.door = add_prototype(door_mesh());
-    build_people();
+        prototypes_.things.emplace_back(maker([&model] { return thing_mesh(model); }));
+    prototypes_.door.emplace(maker(door_mesh));
+    name_people();
 }
 
 void TownScene::add_car(std::vector<Instance>& instances,
@@ -51,10 +57,10 @@ void TownScene::add_car(std::vector<Instance>& instances,
     const world::VehicleModel& model = *prototypes_.car_shapes[body.model].model;
     Instance part = body;
     part.kind = Kind::car_body;
-    part.prototype = prototypes_.car_bodies[body.model];
+    part.prototype = prototypes_.car_bodies[body.model].get();
     add_instance(instances, part, pose_world_car);
     part.kind = Kind::wheel;
-    part.prototype = prototypes_.wheels[body.model];
+    part.prototype = prototypes_.wheels[body.model].get();
     for (std::size_t i = 0; i < 4; ++i) {
         const bool ahead = i < 2;
         const double side = i % 2 == 0 ? 1 : -1;
@@ -90,21 +96,21 @@ double TownScene::steering_of(const world::CarState& car) const {
     return std::abs(turn) > 1.2 ? 0 : std::clamp(turn, -most, most);
 }
 
-void TownScene::build_people() {
+void TownScene::name_people() {
+    const auto part = [this](FigurePart::Shape shape, const world::WalkerModel& model) {
+        return maker([shape, &model] { return figure_part_mesh(shape, model); });
+    };
     const auto add = [&](const world::WalkerModel& model) {
-        prototypes_.trunks.push_back(
-            add_prototype(figure_part_mesh(FigurePart::Shape::trunk, model)));
-        prototypes_.hems.push_back(add_prototype(figure_part_mesh(FigurePart::Shape::hem, model)));
+        prototypes_.trunks.emplace_back(part(FigurePart::Shape::trunk, model));
+        prototypes_.hems.emplace_back(part(FigurePart::Shape::hem, model));
     };
     for (const world::WalkerModel& model : world::walker_models())
         add(model);
     add(rider_of(world::BodyStyle::motorcycle));
     add(rider_of(world::BodyStyle::bicycle));
     const world::WalkerModel& any = world::walker_models().front();
-    for (auto shape = static_cast<std::size_t>(FigurePart::Shape::ball); shape < figure_part_shapes;
-         ++shape)
-        prototypes_.figure_parts.at(shape) =
-            add_prototype(figure_part_mesh(static_cast<FigurePart::Shape>(shape), any));
+    for (std::size_t shape = 0; shape < figure_part_shapes; ++shape)
+        prototypes_.figure_parts.emplace_back(part(static_cast<FigurePart::Shape>(shape), any));
 }
 
 }  // namespace reprise::render

@@ -17,10 +17,10 @@ void Scene::place_figure(std::span<const FigurePart> figure,
     for (const FigurePart& piece : figure) {
         part.material = piece.material;
         part.prototype =
-            piece.shape == FigurePart::Shape::trunk ? town_.prototypes().trunks[person]
+            piece.shape == FigurePart::Shape::trunk ? town_.prototypes().trunks[person].get()
             : piece.shape == FigurePart::Shape::hem
-                ? town_.prototypes().hems[person]
-                : town_.prototypes().figure_parts.at(static_cast<std::size_t>(piece.shape));
+                ? town_.prototypes().hems[person].get()
+                : town_.prototypes().figure_parts.at(static_cast<std::size_t>(piece.shape)).get();
         add_instance(part, pose * piece.pose);
     }
 }
@@ -47,16 +47,16 @@ void Scene::place_two_wheeler(const Eigen::Isometry3d& pose_world_vehicle,
     const world::VehicleModel& model = *shape.model;
     Instance part = body;
     part.kind = Kind::car_body;
-    part.prototype = town_.prototypes().car_bodies[body.model];
+    part.prototype = town_.prototypes().car_bodies[body.model].get();
     add_instance(part, pose_world_vehicle);
     const Eigen::Isometry3d pose_world_fork = pose_world_vehicle *
                                               Eigen::Translation3d(model.wheelbase, 0, 0) *
                                               Eigen::AngleAxisd(steering, Eigen::Vector3d::UnitZ());
-    part.prototype = town_.prototypes().forks[body.model];
+    part.prototype = town_.prototypes().forks[body.model].get();
     add_instance(part, pose_world_fork);
 
     part.kind = Kind::wheel;
-    part.prototype = town_.prototypes().wheels[body.model];
+    part.prototype = town_.prototypes().wheels[body.model].get();
     const Eigen::Isometry3d turned =
         Eigen::Translation3d(0, 0, model.wheel_radius) *
         Eigen::AngleAxisd(rolled / model.wheel_radius, Eigen::Vector3d::UnitY()) *
@@ -69,7 +69,7 @@ void Scene::place_two_wheeler(const Eigen::Isometry3d& pose_world_vehicle,
     const double crank = seat.crank > 0 ? 2 * std::numbers::pi * rolled / development : 0;
     if (seat.crank > 0) {
         part.kind = Kind::car_body;
-        part.prototype = town_.prototypes().cranks[body.model];
+        part.prototype = town_.prototypes().cranks[body.model].get();
         for (const double side : {1.0, -1.0}) {
             const Eigen::Vector3d middle(seat.foot.x(), side * 0.05, seat.foot.z());
             const double angle = crank + (side > 0 ? 0 : std::numbers::pi);

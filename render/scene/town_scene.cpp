@@ -5,6 +5,7 @@
 //   are not numbers must never reach it.
 // How it goes: one tree for each distinct mesh, and one of the town's placed meshes, built once.
 //   Who moves gets a tree of its own at each tick, see scene.h: a ray looks into both.
+//   Shapes of what moves are made when the first of their kind comes by.
 // What it keeps: the device, the meshes, the town's instances.
 #include "render/scene/town_scene.h"
 
@@ -14,6 +15,7 @@
 
 #include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include "world/check.h"
 
@@ -90,7 +92,7 @@ TownScene::TownScene(const world::TownT& town, bool portable)
       ground_(static_cast<float>(town.low.z() - origin_.z())),
       lanes_(town, origin_),
       headings_(town) {
-    build_models();
+    name_models();
     build_town(town);
     tree_ = tree_of(instances_);
     if (portable)
@@ -101,33 +103,41 @@ TownScene::~TownScene() {
     if (!device_)
         return;
     rtcReleaseScene(tree_);
-    for (const Prototype& prototype : meshes_)
-        rtcReleaseScene(prototype.tree);
+}
+
+void ReleaseTree::operator()(RTCSceneTy* tree) const {
+    rtcReleaseScene(tree);
 }
 
 const Prototype* TownScene::add_prototype(Mesh mesh) {
-    Prototype& prototype = meshes_.emplace_back(Prototype{std::move(mesh), nullptr, nullptr});
+    return &meshes_.emplace_back(make_prototype(std::move(mesh)));
+}
+
+Prototype TownScene::make_prototype(Mesh mesh) const {
+    Prototype prototype{std::move(mesh), nullptr, nullptr};
     for (const Eigen::Vector3f& vertex : prototype.mesh.vertices)
         prototype.radius = std::max(prototype.radius, vertex.cast<double>().norm());
     if (!device_) {
         prototype.plain_tree = std::make_unique<MeshTree>(prototype.mesh);
-        return &prototype;
+        return prototype;
     }
-    prototype.tree = rtcNewScene(device_->handle);
-    rtcSetSceneBuildQuality(prototype.tree, RTC_BUILD_QUALITY_MEDIUM);
+    RTCScene tree = rtcNewScene(device_->handle);
+    prototype.tree.reset(tree);
+    rtcSetSceneBuildQuality(tree, RTC_BUILD_QUALITY_MEDIUM);
     // Watertight: else some rays in a picture slip through between two triangles of the ground.
-    rtcSetSceneFlags(prototype.tree, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
     if (!prototype.mesh.triangles.empty()) {
         RTCGeometry geometry = rtcNewGeometry(device_->handle, RTC_GEOMETRY_TYPE_TRIANGLE);
         share(geometry, prototype.mesh);
         // Rays choose by the instance; everything inside one is visible to all.
         rtcSetGeometryMask(geometry, 0xffffffffu);
         rtcCommitGeometry(geometry);
-        rtcAttachGeometry(prototype.tree, geometry);
+        rtcAttachGeometry(tree, geometry);
         rtcReleaseGeometry(geometry);
     }
-    rtcCommitScene(prototype.tree);
-    return &prototype;
+    // Who waits here must not begin with another's work, which may ask for the same prototype.
+    tbb::this_task_arena::isolate([&] { rtcCommitScene(tree); });
+    return prototype;
 }
 
 void TownScene::add_instance(std::vector<Instance>& instances,
@@ -158,7 +168,7 @@ RTCSceneTy* TownScene::new_tree() const {
 
 void TownScene::attach(RTCSceneTy* tree, const Instance& instance, unsigned id) const {
     RTCGeometry geometry = rtcNewGeometry(device_->handle, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, instance.prototype->tree);
+    rtcSetGeometryInstancedScene(geometry, instance.prototype->tree.get());
     set_pose(geometry, instance);
     rtcSetGeometryMask(geometry, instance.mask);
     rtcCommitGeometry(geometry);

@@ -13,6 +13,7 @@
 
 #include "render/scene/lane_headings.h"
 #include "render/scene/lane_raster.h"
+#include "render/scene/late_prototype.h"
 #include "render/scene/shelter.h"
 #include "render/scene/town_lamps.h"
 #include "render/shapes/buildings/building_mesh.h"
@@ -42,16 +43,16 @@ struct BuildingFrame {
 /// The shapes of all that can be anywhere: what is placed is an instance of one of these.
 struct Prototypes {
     std::vector<CarShape> car_shapes;  // by model, as those that follow
-    std::vector<const Prototype*> car_bodies;
-    std::vector<const Prototype*> wheels;
-    std::vector<const Prototype*> forks;   // of two-wheelers, else none
-    std::vector<const Prototype*> cranks;  // of bicycles, else none
-    const Prototype* door = nullptr;
-    std::vector<const Prototype*> things;  // by model of a scenario's props
+    std::deque<LatePrototype> car_bodies;
+    std::deque<LatePrototype> wheels;
+    std::deque<LatePrototype> forks;   // of two-wheelers; nobody asks for the others'
+    std::deque<LatePrototype> cranks;  // likewise of bicycles
+    std::optional<LatePrototype> door;
+    std::deque<LatePrototype> things;  // by model of a scenario's props
     // Of the pedestrian models, then of the riders of a motorcycle and a bicycle.
-    std::vector<const Prototype*> trunks;
-    std::vector<const Prototype*> hems;
-    std::array<const Prototype*, figure_part_shapes> figure_parts{};  // by FigurePart::Shape
+    std::deque<LatePrototype> trunks;
+    std::deque<LatePrototype> hems;
+    std::deque<LatePrototype> figure_parts;  // by FigurePart::Shape
 };
 
 /// Tells Embree where an instance's geometry is.
@@ -146,9 +147,12 @@ class TownScene {
   private:
     struct Device;
 
+    Prototype make_prototype(Mesh mesh) const;
     const Prototype* add_prototype(Mesh mesh);
-    void build_models();
-    void build_people();
+    template <typename MakeMesh>
+    std::function<Prototype()> maker(const MakeMesh& make_mesh) const;
+    void name_models();
+    void name_people();
     void build_town(const world::TownT& town);
     void place_trees(const world::TownT& town);
     void place_props(const world::TownT& town);

@@ -165,7 +165,7 @@ void Collection::add_car_lens(const Instance& car,
 void Collection::add_car(const Instance& car) {
     const CarShape& shape = input_.scene.car_shape(car.model);
     if (car.kind != Kind::car_body ||
-        car.prototype != input_.scene.town().prototypes().car_bodies[car.model])
+        car.prototype != input_.scene.town().prototypes().car_bodies[car.model].get())
         return;  // a door, a fork
     // By day they shine as well, but light up nothing.
     const float dark = input_.sky.lamplight();

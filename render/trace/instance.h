@@ -29,10 +29,14 @@ enum class Kind : std::uint8_t {
     thing  ///< a scenario's prop
 };
 
+struct ReleaseTree {
+    void operator()(RTCSceneTy* tree) const;
+};
+
 /// A mesh with a tree over it, Embree's or our own, placed by any number of instances.
 struct Prototype {
     Mesh mesh;
-    RTCSceneTy* tree = nullptr;
+    std::unique_ptr<RTCSceneTy, ReleaseTree> tree;
     std::unique_ptr<MeshTree> plain_tree;
     double radius = 0;  ///< [m] from the mesh's origin to its farthest corner
 };
