@@ -19,6 +19,54 @@ using PolygonWithHoles = bp::polygon_with_holes_data<int>;
 
 constexpr double units_per_metre = 1000;
 
+__extension__ using Wide = __int128;
+
+Wide cross(const GridPoint& origin, const GridPoint& first, const GridPoint& second) {
+    return Wide(first.x() - origin.x()) * (second.y() - origin.y()) -
+           Wide(first.y() - origin.y()) * (second.x() - origin.x());
+}
+
+/// Every corner lies inside of every side that it is not on, by two units: Boost leaves such a
+/// polygon as it is, since none of its sides comes within rounding of another corner.
+bool is_plainly_convex(const std::vector<GridPoint>& points) {
+    constexpr std::size_t most = 8;
+    constexpr int clearance = 2;
+    if (points.size() > most)
+        return false;
+    const bool left = cross(points[0], points[1], points[2]) > 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::size_t next = (i + 1) % points.size();
+        const Wide squared_length = bp::distance_squared(points[i], points[next]);
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            if (k == i || k == next)
+                continue;
+            const Wide side = cross(points[i], points[next], points[k]);
+            if ((side > 0) != left || side * side < clearance * clearance * squared_length)
+                return false;
+        }
+    }
+    return true;
+}
+
+/// Twice the area, exact.
+Wide doubled_area(const std::vector<GridPoint>& points) {
+    Wide sum = 0;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i)
+        sum += cross(points[0], points[i], points[i + 1]);
+    return sum < 0 ? -sum : sum;
+}
+
+/// Likewise of a clean set, whose edges are there once each.
+Wide doubled_area(const bp::polygon_set_data<int>& clean) {
+    if (clean.begin() == clean.end())
+        return 0;
+    const GridPoint origin = clean.begin()->first.first;
+    Wide sum = 0;
+    for (const auto& [edge, direction] : clean)
+        sum += direction * cross(origin, edge.first, edge.second);
+    return sum < 0 ? -sum : sum;
+}
+
 }  // namespace
 
 struct Area::Set {
@@ -72,12 +120,19 @@ void Area::add(const world::Loop& loop) {
         points.pop_back();
     if (points.size() < 3)
         return;
-    // On its own first: a lobe that turns the other way would cancel what is there already.
     const Polygon polygon(points.begin(), points.end());
+    if (is_plainly_convex(points)) {
+        set_->polygons.insert(polygon);
+        return;
+    }
+    // On its own first: a lobe that turns the other way would cancel what is there already.
     bp::polygon_set_data<int> turned_with;
     turned_with.insert(polygon);
     turned_with.clean();
     set_->polygons.insert(turned_with);
+    // One that does not cross itself has no lobes. Boost's area takes as long as all the rest.
+    if (doubled_area(turned_with) == doubled_area(points))
+        return;
     // Where the lobes that turn with the whole are more than the whole, others turn against it.
     const auto whole = std::abs(static_cast<double>(bp::area(polygon)));
     constexpr double rounding = 1000;  // [mm2]

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "world/geometry2d.h"
@@ -128,6 +129,30 @@ TEST(Area, GivesPiecesThatAreConvexAndDisjoint) {
     }
     // Corners of the pieces lie on whole millimetres: a border of 30 m may move by one.
     EXPECT_NEAR(sum, area.size(), 0.03);
+}
+
+TEST(Area, TakesPlainShapesAsItTakesThoseWithASpike) {
+    // Quads on a ring, each turned by some more; with a spike of no area they go the long way.
+    for (int turn = 0; turn < 2; ++turn) {
+        Area plain(origin);
+        Area spiked(origin);
+        for (int i = 0; i < 12; ++i) {
+            const Eigen::Rotation2Dd turned(0.53 * i);
+            Loop quad;
+            for (const Eigen::Vector2d& p :
+                 {Eigen::Vector2d(3, -1), {7, -1.5}, {7.5, 1.25}, {3.25, 1}})
+                quad.push_back(turned * p);
+            Loop with_spike = quad;
+            with_spike.push_back(turned * Eigen::Vector2d(3, 5));
+            with_spike.push_back(quad[3]);
+            if (turn == 1)
+                std::reverse(quad.begin(), quad.end());
+            plain.add(quad);
+            spiked.add(with_spike);
+        }
+        EXPECT_GT(plain.size(), 70);
+        EXPECT_EQ(plain.pieces(), spiked.pieces());
+    }
 }
 
 TEST(Area, IsExactFarFromItsOrigin) {
