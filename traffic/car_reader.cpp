@@ -266,10 +266,12 @@ void CarReader::read_car(Car& car, std::uint64_t tick) const {
 }
 
 void CarReader::read(Cars& cars, std::uint64_t tick) const {
-    const OneLookup one_a_car;
-    for (Car& car : cars.all())
-        if (car.origin != Origin::parked && !car.sumo.empty())
-            read_car(car, tick);
+    for (Car& car : cars.all()) {
+        if (car.origin == Origin::parked || car.sumo.empty())
+            continue;
+        const KnownVehicle known(car.sumo, car.in_sumo);
+        read_car(car, tick);
+    }
 }
 
 void CarReader::write(const Cars& cars, world::TickDraft& next) const {

@@ -40,6 +40,7 @@ void Insertion::insert(Car& car, const InsertionPoint& point, const std::string&
     car.sumo = sumo_id(car.id);
     if (car.entries++ > 0)
         car.sumo += fmt::format(".{}", car.entries);
+    car.in_sumo = nullptr;
     libsumo::Route::add(car.sumo, graph_->names(car.route));
     Vehicle::add(car.sumo, car.sumo, type, "now");
     // Put there by force: SUMO's own insertion waits in a queue for as long as it likes.

@@ -67,6 +67,7 @@ void Placements::leave_sumo(Car& car) const {
     if (!car.sumo.empty())
         Vehicle::remove(car.sumo);
     car.sumo.clear();
+    car.in_sumo = nullptr;
     car.slip.setZero();
     car.lane_order.reset();
 }

@@ -2,8 +2,9 @@
 // What it assumes: libsumo asks libsumo::Helper::getVehicle, by a name that the program may take
 //   over, as it takes gettext (sumo.cpp). Where a libsumo does not, nothing here is called, and
 //   nothing but the time differs.
-// How it goes: the same name again, in one OneLookup's life: the same vehicle. Else libsumo's own.
-// What it keeps: the vehicle that was asked for last.
+// How it goes: by the one name that is known, which is told apart by where it lies in memory, the
+//   vehicle that was found for it before. Else libsumo's own.
+// What it keeps: the name that is known, and where its vehicle is kept.
 #include "traffic/vehicle_lookup.h"
 
 #include <dlfcn.h>
@@ -20,13 +21,9 @@ namespace {
 
 using Lookup = void* (*)(const std::string& name);
 
-struct Last {
-    bool counts = false;  // libsumo is a global of the process, and so is this
-    std::string name;
-    void* vehicle = nullptr;
-};
-
-Last last;
+// libsumo is a global of the process, and so are these.
+const std::string* known_name = nullptr;
+void** known_vehicle = nullptr;
 
 /// Throws libsumo's own exception where there is none of this name.
 void* look_up(const std::string& name) {
@@ -41,23 +38,20 @@ void* look_up(const std::string& name) {
 void* get_vehicle(const std::string& name) asm(REPRISE_GET_VEHICLE);
 
 void* get_vehicle(const std::string& name) {
-    if (!last.counts)
+    if (&name != known_name)
         return look_up(name);
-    if (last.vehicle == nullptr || last.name != name) {
-        last.vehicle = nullptr;
-        last.vehicle = look_up(name);
-        last.name = name;
-    }
-    return last.vehicle;
+    if (*known_vehicle == nullptr)
+        *known_vehicle = look_up(name);
+    return *known_vehicle;
 }
 
-OneLookup::OneLookup() {
-    last.vehicle = nullptr;
-    last.counts = true;
+KnownVehicle::KnownVehicle(const std::string& name, void*& vehicle) {
+    known_name = &name;
+    known_vehicle = &vehicle;
 }
 
-OneLookup::~OneLookup() {
-    last.counts = false;
+KnownVehicle::~KnownVehicle() {
+    known_name = nullptr;
 }
 
 }  // namespace reprise::traffic

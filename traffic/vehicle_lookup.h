@@ -1,16 +1,19 @@
 #pragma once
 
+#include <string>
+
 namespace reprise::traffic {
 
-/// While one of these lives, SUMO does not look again for the vehicle that it was asked about last:
-/// each getter finds it by its name, in a tree of all names, which costs as much as ten of them
-/// need for the answer. No vehicle may be added or removed meanwhile, nor a step be made.
-class OneLookup {
+/// While this lives, SUMO does not look for the vehicle of this name: each getter finds it in a
+/// tree of all names, which costs as much as ten of them need for the answer. It is looked up once
+/// in the vehicle's life, and kept with the car. No step may be made meanwhile.
+class KnownVehicle {
   public:
-    OneLookup();
-    ~OneLookup();
-    OneLookup(const OneLookup&) = delete;
-    OneLookup& operator=(const OneLookup&) = delete;
+    /// Both must outlive this. `vehicle` is SUMO's; null until the first look.
+    KnownVehicle(const std::string& name, void*& vehicle);
+    ~KnownVehicle();
+    KnownVehicle(const KnownVehicle&) = delete;
+    KnownVehicle& operator=(const KnownVehicle&) = delete;
 };
 
 }  // namespace reprise::traffic

@@ -56,6 +56,7 @@ struct Car {
     std::uint16_t model = 0;
     Origin origin = Origin::demand;
     std::string sumo;  ///< SUMO's id; empty when SUMO does not drive it (parked, on a trajectory)
+    void* in_sumo = nullptr;    ///< what it is there, once looked up: see vehicle_lookup.h
     std::uint32_t entries = 0;  ///< times that it was put into SUMO, under another id each time
 
     // As of the last SUMO step.
