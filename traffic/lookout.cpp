@@ -225,10 +225,11 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
     std::vector<BodyBox> others;
     const std::span<const Footprint> seen = is_long ? obstructions_.footprints() : driving_;
     for (const Footprint& one : seen) {
-        const double speed = one.velocity.norm();
-        if (one.id == car.id || speed > (one.drives ? hardly_faster : slow) ||
-            (one.centre - car.rear.head<2>()).squaredNorm() > around * around ||
+        if ((one.centre - car.rear.head<2>()).squaredNorm() > around * around || one.id == car.id ||
             std::abs(one.z - car.rear.z()) > world::level_clearance)
+            continue;
+        const double speed = one.velocity.norm();
+        if (speed > (one.drives ? hardly_faster : slow))
             continue;
         const BodyBox box{one.centre, one.direction, one.half_length, one.half_width};
         others.push_back(box.widened(is_long || speed > stands ? hair : finest_hair));
@@ -236,6 +237,10 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
     if (others.empty())
         return world::infinity;
     const WayAhead way(car, meetings_.lines(), *graph_, looked_at);
+    const BodyBox corridor = way.corridor(looked_at, way.at(0).ahead);
+    std::erase_if(others, [&](const BodyBox& other) { return !overlap(corridor, other); });
+    if (others.empty())
+        return world::infinity;
     const auto touches = [&](double driven) {
         const BodyBox body = way.at(driven);
         return std::any_of(others.begin(), others.end(), [&](const BodyBox& other) {

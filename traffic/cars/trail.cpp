@@ -60,12 +60,16 @@ Eigen::Vector3d Trail::rear() const {
 
 Eigen::Vector3d Trail::behind(double distance) const {
     const double wanted = travelled_ - std::min(distance, distance_);
-    const auto behind_axle = points_.begin() + static_cast<std::ptrdiff_t>(at_);
-    const auto after = std::upper_bound(
-        behind_axle + 1, points_.end(), wanted, [](double travelled, const Point& point) {
-            return travelled < point.travelled;
-        });
-    return between(static_cast<std::size_t>(after - points_.begin()) - 1, wanted);
+    // The first point after the axle's that lies beyond, by halving what is left without a branch:
+    // a processor cannot foretell them.
+    std::size_t after = at_ + 1;
+    for (std::size_t left = points_.size() - after; left > 0;) {
+        const std::size_t half = left / 2;
+        const bool is_beyond = wanted < points_[after + half].travelled;
+        after = is_beyond ? after : after + half + 1;
+        left = is_beyond ? half : left - half - 1;
+    }
+    return between(after - 1, wanted);
 }
 
 /// Where it was, by then `travelled` [m] from the start, between points_[at] and the one after it.
