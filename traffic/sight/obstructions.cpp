@@ -109,6 +109,22 @@ double Obstructions::gap_behind(const Footprint& footprint, bool lasts) const {
     return stood(footprint.id) > halts_shortly ? 4.5 : 1.5;
 }
 
+/// All that come within `reach` [m], and some beside: looked for once for all that is a step away.
+std::span<const std::uint32_t> Obstructions::lanes_around(const Footprint& footprint,
+                                                          double reach) {
+    constexpr double spare = 1.5;  // [m]
+    Around& around = around_[footprint.id % around_.size()];
+    if (!((footprint.centre - around.place).norm() + reach <= around.reach)) {
+        around.place = footprint.centre;
+        around.reach = reach + spare;
+        around.lanes = lanes_->near({footprint.centre.x(), footprint.centre.y(), 0}, around.reach);
+        std::erase_if(around.lanes, [this](std::uint32_t lane) {
+            return !world::is_for_cars(town_->lanes[lane]);
+        });
+    }
+    return around.lanes;
+}
+
 void Obstructions::add(const Footprint& footprint) {
     const Eigen::Vector3d place(footprint.centre.x(), footprint.centre.y(), footprint.z);
     const Eigen::Vector2d way = footprint.velocity.norm() < least_walk
@@ -125,16 +141,15 @@ void Obstructions::add(const Footprint& footprint) {
     const double step = way.norm();
     double clear = most_clear;
     const std::size_t before = all_.size();
-    for (const std::uint32_t index : lanes_->near(place, reach + (is_small ? most_clear : 0))) {
+    for (const std::uint32_t index : lanes_around(footprint, reach + (is_small ? most_clear : 0))) {
         const world::LaneT& lane = town_->lanes[index];
-        if (!world::is_for_cars(lane))
-            continue;
         const world::LaneProjection at = world::project(lane, place);
         if (is_small) {
             // Nearer than that no lane's surface is, at the place itself and at the tip.
             const double room = lane.width / 2 + radius + 2 * beside_the_lane;
             clear = std::min(clear, at.distance - room);
-            if (at.distance - step - room < clear) {  // else the tip is no nearer than others are
+            // Else the tip is no nearer than others are, or he is too near to be left alone anyway.
+            if (clear > 0 && at.distance - step - room < clear) {
                 const Eigen::Vector3d p_tip(tip.x(), tip.y(), place.z());
                 clear = std::min(clear, world::project(lane, p_tip).distance - room);
             }

@@ -42,6 +42,7 @@ struct Obstruction {
 /// ASSUMES a lane is straight over the length of a footprint (see gather_footprints).
 /// GOES    who was off every lane is not looked at again before he could be on one; the others are
 ///         seen from the direction of each lane around. About 1 us a look.
+///         Lanes around a place are looked for once for all that is a step away.
 /// KEEPS   since when each vehicle with mass has stood: after a while it is taken for one that will
 ///         not drive on.
 class Obstructions {
@@ -90,6 +91,14 @@ class Obstructions {
         std::uint32_t ticks = 0;
     };
 
+    /// Lanes for cars, as they were found around a place.
+    struct Around {
+        Eigen::Vector2d place = Eigen::Vector2d::Zero();
+        double reach = -1;  ///< [m] each side of it
+        std::vector<std::uint32_t> lanes;
+    };
+
+    std::span<const std::uint32_t> lanes_around(const Footprint& footprint, double reach);
     void count_halts(std::span<const world::VehicleState> vehicles);
     double stood(std::uint32_t id) const;
     double gap_behind(const Footprint& footprint, bool lasts) const;
@@ -106,6 +115,7 @@ class Obstructions {
     std::vector<Eigen::Vector2d> places_;  ///< of the footprints on lanes, by x
     std::vector<Off> off_;                 ///< sorted by id; decides nothing but the cost
     std::vector<Off> next_off_;
+    std::array<Around, 256> around_;  ///< [id % size] likewise
 };
 
 }  // namespace reprise::traffic
