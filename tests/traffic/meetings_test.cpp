@@ -278,6 +278,73 @@ TEST(Meetings, OneOfTwoWhoseWaysCrossWaits) {
     EXPECT_GT(crossed, 10);
 }
 
+/// What was worked out for who stands is the same as if it were worked out anew: two routes.
+TEST(Meetings, WhoStandsIsSeenAsIfHeWereSeenForTheFirstTime) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const RightOfWay right_of_way(town, {});
+    const std::vector<Entry> entries = entries_of(town);
+    Meetings kept(town, graph, right_of_way, meeting_step);
+    int held = 0;
+    std::uint64_t tick = 1;
+    const auto look = [&](const Cars& cars) {
+        Cars its = cars;
+        Cars anew = cars;
+        kept.look(its, ++tick);
+        Meetings fresh(town, graph, right_of_way, meeting_step);
+        fresh.look(anew, tick);
+        for (std::size_t i = 0; i < its.size(); ++i) {
+            held += static_cast<int>(std::isfinite(fresh.allowed_speed(i)));
+            EXPECT_EQ(kept.allowed_speed(i), fresh.allowed_speed(i)) << "car " << its[i].id;
+            EXPECT_EQ(its[i].waits_for, anew[i].waits_for) << "car " << its[i].id;
+        }
+    };
+    for (const Entry& one : entries)
+        for (const Entry& other : entries) {
+            if (graph.edge_of(one.first) >= graph.edge_of(other.first) ||
+                town.lanes[one.second].junction != town.lanes[other.second].junction)
+                continue;
+            // One stands at its line, the other one comes, stands and goes on; so does the first.
+            for (const auto& [before, speed] : {std::pair{3.0, 0.0}, {3.0, 0.0}, {3.0, 5.0}})
+                for (const double its_before : {8.0, 2.0, 2.0}) {
+                    Cars cars;
+                    world::TickDraft draft;
+                    cars.add(
+                        car_before(town, graph, 7, "sedan", one.first, one.second, before, speed),
+                        "",
+                        0,
+                        draft);
+                    const double its_speed = its_before > 2 ? 6 : 0;
+                    cars.add(car_before(town,
+                                        graph,
+                                        8,
+                                        "bus",
+                                        other.first,
+                                        other.second,
+                                        its_before,
+                                        its_speed),
+                             "",
+                             0,
+                             draft);
+                    look(cars);
+                    // Who comes before the others in the order of ids takes nobody's place.
+                    Cars more = cars;
+                    more.add(car_before(town, graph, 5, "sedan", other.first, other.second, 20, 3),
+                             "",
+                             0,
+                             draft);
+                    look(more);
+                    // Another way, from where it stands.
+                    for (const Entry& third : entries)
+                        if (third.first == one.first)
+                            cars[0].route = {graph.edge_of(one.first),
+                                             graph.edge_after(third.second)};
+                    look(cars);
+                }
+        }
+    EXPECT_GT(held, 100);
+}
+
 /// In the junction, so far [m] along its lane, and there for long.
 Car car_inside(
     const TownT& town, const RoadGraph& graph, std::uint32_t id, const Entry& entry, double s) {

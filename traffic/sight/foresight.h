@@ -26,6 +26,9 @@ class Foresight {
     /// questions.
     void look(const Car& car, const LaneLines& lines, const RoadGraph& graph, double reach);
 
+    /// The same car, which is as it was; it may lie elsewhere in memory by now.
+    void stay(const Car& car) { way_.stay(car); }
+
     const WayAhead& way() const { return way_; }
 
     const BodyBox& now() const { return now_; }

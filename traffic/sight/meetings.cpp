@@ -74,11 +74,70 @@ bool Meetings::is_between_lanes(const Car& car) const {
     return false;
 }
 
+bool Meetings::Pose::is_of(const Car& car) const {
+    return lane_position == car.lane_position && speed == car.speed && lane == car.lane &&
+           model == car.model && yaw == car.yaw && travelled == car.trail.travelled() &&
+           trail == car.trail.points_digest() && front == car.trail.front() && rear == car.rear &&
+           route == car.route;
+}
+
+void Meetings::Pose::take(const Car& car) {
+    lane = car.lane;
+    model = car.model;
+    lane_position = car.lane_position;
+    speed = car.speed;
+    yaw = car.yaw;
+    travelled = car.trail.travelled();
+    trail = car.trail.points_digest();
+    front = car.trail.front();
+    rear = car.rear;
+    route = car.route;
+}
+
+/// One for each of them, in their order: of who was there before, his own.
+void Meetings::remember(std::span<const Car> cars) {
+    const auto is_its = [](const Car& car, const std::unique_ptr<Memory>& memory) {
+        return memory != nullptr && memory->id == car.id;
+    };
+    if (std::equal(cars.begin(), cars.end(), memories_.begin(), memories_.end(), is_its))
+        return;
+    std::vector<std::unique_ptr<Memory>> before = std::move(memories_);
+    memories_.clear();
+    auto at = before.begin();
+    for (const Car& car : cars) {
+        while (at != before.end() && (*at)->id < car.id)
+            ++at;
+        if (at != before.end() && (*at)->id == car.id) {
+            memories_.push_back(std::move(*at++));
+            continue;
+        }
+        memories_.push_back(std::make_unique<Memory>());
+        memories_.back()->id = car.id;
+    }
+}
+
+Meetings::Place Meetings::place_of(const Car& car, const Driver& driver) const {
+    const world::LaneT& lane = lines_.town().lanes[car.lane];
+    const double left = (lane.sumo_length - car.lane_position) * lane.length / lane.sumo_length;
+    const double length = 2 * driver.half_length;
+    Place place;
+    place.x = driver.middle.x();
+    place.reach = driver.reach;
+    place.area = area_ahead(car, lines_, *graph_, driver.reach);
+    place.area.take(place.area.low, Foresight::room);
+    place.area.take(place.area.high, Foresight::room);
+    place.lane = car.lane;
+    place.is_turning = lane.kind == world::LaneKind::internal || left < driver.reach ||
+                       length > longest_short_car || car.lane_position < length ||
+                       is_between_lanes(car);
+    return place;
+}
+
 void Meetings::gather(Cars& cars) {
     const auto all = cars.all();
+    remember(all);
     drivers_.resize(all.size());
     places_.clear();
-    foreseen_ = 0;
     allowed_.assign(all.size(), world::infinity);
     for (std::size_t i = 0; i < all.size(); ++i) {
         Car& car = all[i];
@@ -95,20 +154,14 @@ void Meetings::gather(Cars& cars) {
         driver.middle = car.rear.head<2>() + (driver.half_length - model.rear_overhang) * car.ahead;
         driver.reach = std::max(Foresight::look_ahead * (car.speed + Foresight::speeding_up),
                                 least_sweep + model.length);
-        const world::LaneT& lane = lines_.town().lanes[car.lane];
-        const double left = (lane.sumo_length - car.lane_position) * lane.length / lane.sumo_length;
-        Place place;
-        place.x = driver.middle.x();
-        place.reach = driver.reach;
-        place.area = area_ahead(car, lines_, *graph_, driver.reach);
-        place.area.take(place.area.low, Foresight::room);
-        place.area.take(place.area.high, Foresight::room);
-        place.lane = car.lane;
-        place.driver = static_cast<std::uint32_t>(i);
-        place.is_turning = lane.kind == world::LaneKind::internal || left < driver.reach ||
-                           model.length > longest_short_car || car.lane_position < model.length ||
-                           is_between_lanes(car);
-        places_.push_back(place);
+        Memory& memory = *memories_[i];
+        if (!memory.pose.is_of(car)) {
+            memory.pose.take(car);
+            memory.place = place_of(car, driver);
+            memory.is_foreseen = false;
+        }
+        places_.push_back(memory.place);
+        places_.back().driver = static_cast<std::uint32_t>(i);
     }
     std::sort(places_.begin(), places_.end(), [](const Place& one, const Place& other) {
         return std::pair(one.x, one.driver) < std::pair(other.x, other.driver);
@@ -127,10 +180,12 @@ bool Meetings::could_meet(const Driver& one, const Driver& other) const {
 void Meetings::prepare(Driver& driver) {
     if (driver.seen != nullptr)
         return;
-    if (foreseen_ == foresights_.size())
-        foresights_.push_back(std::make_unique<Foresight>());
-    driver.seen = foresights_[foreseen_++].get();
+    Memory& memory = *memories_[static_cast<std::size_t>(&driver - drivers_.data())];
+    driver.seen = &memory.foresight;
+    if (memory.is_foreseen)
+        return driver.seen->stay(*driver.car);
     driver.seen->look(*driver.car, lines_, *graph_, driver.reach);
+    memory.is_foreseen = true;
 }
 
 bool Meetings::has_stood(const Driver& driver) const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "traffic/cars/cars.h"
@@ -25,7 +26,9 @@ namespace reprise::traffic {
 ///         begun to wait keeps to it. When both have stood for long the other one tries, and where
 ///         they block each other for good, one pushes past, for which the other one stands still;
 ///         not where it would be through the other one. Who lies in another one gets no deeper in.
-/// KEEPS   with each car, whom it waits for, and whom it pushes past until when.
+/// KEEPS   with each car, whom it waits for, and whom it pushes past until when. What was worked
+/// out
+///         for who stands decides nothing but the cost: a quarter of the cars stands.
 class Meetings {
   public:
     /// All three must outlive this. `step` [s] of a tick.
@@ -64,6 +67,32 @@ class Meetings {
         bool is_turning = false;   ///< or will be in a moment
     };
 
+    /// All of a car that its place and its way follow from.
+    struct Pose {
+        std::uint32_t lane = 0;
+        std::uint16_t model = 0;
+        double lane_position = 0;
+        double speed = 0;
+        double yaw = 0;
+        double travelled = 0;
+        std::uint64_t trail = 0;  ///< digest of its points
+        Eigen::Vector3d front = Eigen::Vector3d::Zero();
+        Eigen::Vector3d rear = Eigen::Vector3d::Zero();
+        std::vector<std::uint32_t> route;
+
+        bool is_of(const Car& car) const;
+        void take(const Car& car);
+    };
+
+    /// Of a car, for as long as it stays where it is.
+    struct Memory {
+        std::uint32_t id = 0;
+        Pose pose;
+        Place place;
+        Foresight foresight;
+        bool is_foreseen = false;
+    };
+
     /// Where one can stop before another's way.
     struct Stop {
         double distance = 0;  ///< [m] that its bumper may go on
@@ -73,6 +102,8 @@ class Meetings {
     };
 
     void gather(Cars& cars);
+    void remember(std::span<const Car> cars);
+    Place place_of(const Car& car, const Driver& driver) const;
     bool is_between_lanes(const Car& car) const;
     bool could_meet(const Driver& one, const Driver& other) const;
     void meet(Driver& one, Driver& other);
@@ -105,8 +136,7 @@ class Meetings {
     std::vector<double> allowed_;
     std::vector<Driver> drivers_;  ///< [i] of cars[i]; without a car who takes no part
     std::vector<Place> places_;
-    std::vector<std::unique_ptr<Foresight>> foresights_;  ///< of drivers, kept for their memory
-    std::size_t foreseen_ = 0;                            ///< that are in use in this tick
+    std::vector<std::unique_ptr<Memory>> memories_;  ///< [i] of cars[i]
     std::uint64_t tick_ = 0;
 };
 

@@ -56,6 +56,9 @@ class WayAhead {
     /// The car must outlive what is asked of this; the others are read here only.
     void look(const Car& car, const LaneLines& lines, const RoadGraph& graph, double reach);
 
+    /// As if it looked again, at a car that has not changed but may lie elsewhere in memory.
+    void stay(const Car& car) { car_ = &car; }
+
     /// When the bumper is `driven` [m] ahead of where it is now; beyond the end of the way, there.
     BodyBox at(double driven) const;
 
