@@ -68,12 +68,17 @@ Navigator::Found Navigator::follow(Ego& ego, double beside) {
         found = Found::another;
         start_over(ego, {*lane}, 10);
     }
-    if (new_keeping_)
-        take_keeping(ego);
-    if (new_route_)
-        take_route(ego);
-    if (new_lane_)
+    if (new_lane_ && new_lane_at_once_)
         take_change(ego);
+    // A new way begins on a lane's middle: one who is between two gets there first.
+    if (!is_changing_lanes(ego)) {
+        if (new_keeping_)
+            take_keeping(ego);
+        if (new_route_)
+            take_route(ego);
+        if (new_lane_)
+            take_change(ego);
+    }
     const double braking = ego.speed * ego.speed / (2 * comfortable_braking_);
     way_.extend(ego.front_s(), std::max(shortest_way, braking + braking_reserve));
     way_.drop_before(rear_axle_s_, way_behind);
@@ -132,16 +137,20 @@ void Navigator::start_over(Ego& ego,
     jump_ += rear_axle_s_ - before;
 }
 
+/// By the plan, not by where it is.
+bool Navigator::is_changing_lanes(const Ego& ego) const {
+    return std::any_of(way_.changes().begin(), way_.changes().end(), [&](const LaneChange& change) {
+        return change.start < ego.rear_axle_s && ego.rear_axle_s < change.end;
+    });
+}
+
 /// Lanes that we can no longer choose: those under the car, and what lies behind a junction that is
 /// so near that we could not brake for another way_. A change of lanes that has not begun need not
 /// be.
 std::vector<std::uint32_t> Navigator::committed_lanes(const Ego& ego) const {
     const double braking = ego.speed * ego.speed / (2 * comfortable_braking_);
     double until = ego.front_s() + braking;
-    double from = ego.rear_axle_s;
-    for (const LaneChange& change : way_.changes())
-        if (change.start < from && from < change.end)
-            from = change.end;  // half across: go on to the new lane
+    const double from = ego.rear_axle_s;
     for (const LaneChange& change : way_.changes())
         if (change.start >= from)
             until = std::min(until, change.start);

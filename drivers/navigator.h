@@ -81,6 +81,7 @@ class Navigator {
     };
 
     std::optional<std::uint32_t> lane_under(const Ego& ego) const;
+    bool is_changing_lanes(const Ego& ego) const;
     bool is_lost(const Ego& ego, double beside) const;
     void start_over(Ego& ego, const std::vector<std::uint32_t>& lanes_ahead, double change_room);
     std::vector<std::uint32_t> committed_lanes(const Ego& ego) const;

@@ -236,6 +236,44 @@ TEST(Autopilot, SharesTheRoomAmongAllChangesOfLanes) {
     EXPECT_LT(hardest, 4) << "[m/s^2] to the side";
 }
 
+/// Every order of a scenario that makes a new way, given while the car is between two lanes: it
+/// goes on evenly, and ends up where the order sends it.
+TEST(Autopilot, GoesOnWithAChangeOfLanesWhateverItIsToldMeanwhile) {
+    struct Order {
+        const char* what;
+        void (*give)(drivers::Autopilot& autopilot);
+        std::uint32_t ends_on;
+    };
+
+    const std::uint32_t own = 1, second = 2, third = 3;
+    for (const Order& order :
+         {Order{"the same again", [](auto& car) { car.change_lane(second); }, second},
+          Order{"back", [](auto& car) { car.change_lane(own); }, own},
+          Order{"one further", [](auto& car) { car.change_lane(third); }, third},
+          Order{"a route", [](auto& car) { car.set_route({second}, 550); }, second},
+          Order{"keep", [](auto& car) { car.keep_lane(true); }, second}})
+        for (const double after : {1.2, 1.8, 2.5}) {
+            SCOPED_TRACE(std::string(order.what) + " after " + std::to_string(after) + " s");
+            Drive drive(straight_road(600, 4));
+            drive.place(own, 5, 13);
+            drive.step();
+            drive.autopilot->change_lane(second);
+            bool is_given = false;
+            double hardest = 0;
+            while (drive.seconds() < 20) {
+                if (!is_given && drive.seconds() > after) {
+                    order.give(*drive.autopilot);
+                    is_given = true;
+                }
+                const double yaw = drive.car.yaw;
+                drive.step();
+                hardest = std::max(hardest, std::abs(drive.car.yaw - yaw) / 0.05 * drive.car.speed);
+            }
+            EXPECT_LT(hardest, 4) << "[m/s^2] to the side";
+            EXPECT_NEAR(drive.car.y, drive.town.lanes[order.ends_on].centre.front().y(), 0.3);
+        }
+}
+
 /// Drives until the car is on `lane`; the lanes on its way there.
 std::set<std::uint32_t> lanes_until(Drive& drive, std::uint32_t lane) {
     std::set<std::uint32_t> seen;
