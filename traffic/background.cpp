@@ -223,9 +223,12 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     const auto beside_sumo = parts.place(next.tick.index);
     parts.detours.take(parts.cars, next.tick.index);
     parts.routes.keep_ahead(parts.cars);
-    parts.orders.follow(parts.cars, next.tick.index);
-    parts.bends.follow(parts.cars);
     parts.lookout.look(last, parts.cars);
+    const auto may_change = [&](const Car& car) {
+        return parts.lane_change_pace.is_clear(car, parts.lookout.obstructions());
+    };
+    parts.orders.follow(parts.cars, may_change, next.tick.index);
+    parts.bends.follow(parts.cars);
     parts.lane_change_pace.follow(parts.cars, parts.lookout.obstructions(), next.tick.index);
     parts.rescue_lane.advance(last, parts.cars, parts.mirrors, next.tick.index);
     parts.blue_lamps.advance(last, parts.cars, next.tick.index);

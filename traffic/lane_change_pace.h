@@ -23,6 +23,9 @@ class LaneChangePace {
     /// `obstructions` as of the last tick.
     void follow(Cars& cars, const Obstructions& obstructions, std::uint64_t tick) const;
 
+    /// Is nobody and nothing in the way of a change that begins now? `obstructions` likewise.
+    bool is_clear(const Car& car, const Obstructions& obstructions) const;
+
     /// [m/s] sideways of one that is free to choose: a lane in three seconds.
     static constexpr double usual = 1.1;
 
@@ -37,7 +40,6 @@ class LaneChangePace {
     static std::vector<Waiting> waiting(const Cars& cars);
     double wanted_way(const Car& car) const;
     bool has_way(const Car& car, const std::vector<Waiting>& waiting) const;
-    bool is_clear(const Car& car, const Obstructions& obstructions) const;
 
     const world::TownT* town_;
     std::vector<bool> has_neighbour_;  ///< [lane]

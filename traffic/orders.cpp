@@ -255,7 +255,9 @@ void Orders::take_route(const world::CommandT& command, Car& car) const {
     routes_->send(car);
 }
 
-void Orders::follow_lane_order(Car& car, std::uint64_t tick) const {
+void Orders::follow_lane_order(Car& car,
+                               const std::function<bool(const Car&)>& may_change,
+                               std::uint64_t tick) const {
     const LaneOrder& order = *car.lane_order;
     const bool is_there = car.lane == order.lane;
     if (is_there || tick > order.until) {
@@ -268,7 +270,8 @@ void Orders::follow_lane_order(Car& car, std::uint64_t tick) const {
     }
     const world::LaneT& target = town_->lanes[order.lane];
     const world::LaneT& here = town_->lanes[car.lane];
-    if (target.edge != here.edge)
+    // Within a time it is changed at once, else when there is room.
+    if (target.edge != here.edge || (order.duration == 0 && !may_change(car)))
         return;
     Vehicle::changeLane(car.sumo, target.index, 1.0);
 }
@@ -290,7 +293,9 @@ bool Orders::waits_in_the_wrong_lane(const Car& car) const {
            car.lane_position > town_->lanes[car.lane].sumo_length - end;
 }
 
-void Orders::follow(Cars& cars, std::uint64_t tick) const {
+void Orders::follow(Cars& cars,
+                    const std::function<bool(const Car&)>& may_change,
+                    std::uint64_t tick) const {
     for (Car& car : cars.all()) {
         if (car.sumo.empty())
             continue;
@@ -299,7 +304,7 @@ void Orders::follow(Cars& cars, std::uint64_t tick) const {
         if (car.speed_order && car.held_in != tick)
             Vehicle::setSpeed(car.sumo, ordered_speed(car, tick));
         if (car.lane_order && car.lane != none)
-            follow_lane_order(car, tick);
+            follow_lane_order(car, may_change, tick);
         else if ((car.keeps_lane || waits_in_the_wrong_lane(car)) && is_off_its_route(car)) {
             routes_->start(car.lane, car);
             routes_->send(car);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "traffic/cars/cars.h"
@@ -44,7 +45,10 @@ class Orders {
     void let_go(const Car& car, std::uint64_t tick) const;
 
     /// Asks of SUMO what the orders want in this tick; ends those that are carried out.
-    void follow(Cars& cars, std::uint64_t tick) const;
+    /// `may_change(car)`: is nothing in the way of a change of lanes that begins now?
+    void follow(Cars& cars,
+                const std::function<bool(const Car&)>& may_change,
+                std::uint64_t tick) const;
 
   private:
     void take_speed(const world::CommandT& command, Car& car, std::uint64_t tick) const;
@@ -56,7 +60,9 @@ class Orders {
     void take_route(const world::CommandT& command, Car& car) const;
     std::vector<std::uint32_t> way_to(const world::CommandT& command, Car& car) const;
     std::vector<std::uint32_t> way_on_lane(const world::CommandT& command, Car& car) const;
-    void follow_lane_order(Car& car, std::uint64_t tick) const;
+    void follow_lane_order(Car& car,
+                           const std::function<bool(const Car&)>& may_change,
+                           std::uint64_t tick) const;
     bool is_off_its_route(const Car& car) const;
     bool waits_in_the_wrong_lane(const Car& car) const;
 

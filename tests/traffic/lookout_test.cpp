@@ -254,6 +254,25 @@ TEST(Lookout, NobodyChangesLanesOverWhoStandsOnTheLineBetween) {
     }
 }
 
+/// A scenario's car that is to change lanes when there is room: not next to him, but beyond.
+TEST(Lookout, WhoIsToldToChangeLanesDoesSoPastWhoStandsOnTheLine) {
+    constexpr std::uint32_t actor = 3;
+    for (const double begin : {955.0, 970.0, 985.0, 993.0}) {
+        SCOPED_TRACE(begin);
+        Scene scene(three_lanes.town, three_lanes.lane, 0);
+        scene.put_walker(1000, scene.road().width / 2);
+        world::CommandT bus = spawn(actor, lane(own_town("straight").town, "east_1"), begin, 4);
+        bus.model = world::find_vehicle_model("bus").value();
+        world::CommandT change = test::command(world::CommandKind::change_lane, actor);
+        change.lanes = {lane(own_town("straight").town, "east_2")};
+        scene.stage.step({bus});
+        scene.stage.step({change});
+        scene.watch(240);
+        EXPECT_TRUE(scene.touched.empty());
+        EXPECT_EQ(scene.stage.car(actor)->lane(), change.lanes.front());
+    }
+}
+
 /// One on every sidewalk that is long enough, in its middle, walking along it.
 std::vector<world::WalkerState> walkers_on_sidewalks(const world::TownT& town, std::size_t count) {
     std::vector<world::WalkerState> walkers;
