@@ -12,6 +12,7 @@ namespace reprise::traffic {
 
 namespace {
 
+constexpr double lost = 0.001;           // [m] more than rounding takes
 constexpr double beside_the_lane = 0.2;  // [m] beyond its edge it takes no room of it
 constexpr double foresight = 0.7;        // [s] of a walker's way
 constexpr double least_walk = 0.3;       // [m/s] slower ones stand
@@ -110,19 +111,20 @@ double Obstructions::gap_behind(const Footprint& footprint, bool lasts) const {
 }
 
 /// All that come within `reach` [m], and some beside: looked for once for all that is a step away.
-std::span<const std::uint32_t> Obstructions::lanes_around(const Footprint& footprint,
-                                                          double reach) {
+const Obstructions::Around& Obstructions::lanes_around(const Eigen::Vector3d& place,
+                                                       std::uint32_t id,
+                                                       double reach) {
     constexpr double spare = 1.5;  // [m]
-    Around& around = around_[footprint.id % around_.size()];
-    if (!((footprint.centre - around.place).norm() + reach <= around.reach)) {
-        around.place = footprint.centre;
-        around.reach = reach + spare;
-        around.lanes = lanes_->near({footprint.centre.x(), footprint.centre.y(), 0}, around.reach);
-        std::erase_if(around.lanes, [this](std::uint32_t lane) {
-            return !world::is_for_cars(town_->lanes[lane]);
-        });
-    }
-    return around.lanes;
+    Around& around = around_[id % around_.size()];
+    if ((place - around.place).norm() + reach <= around.reach)
+        return around;
+    around.place = place;
+    around.reach = reach + spare;
+    around.lanes.clear();
+    for (const std::uint32_t lane : lanes_->near(place, around.reach))
+        if (world::is_for_cars(town_->lanes[lane]))
+            around.lanes.push_back({lane, world::project(town_->lanes[lane], place).distance});
+    return around;
 }
 
 void Obstructions::add(const Footprint& footprint) {
@@ -141,12 +143,20 @@ void Obstructions::add(const Footprint& footprint) {
     const double step = way.norm();
     double clear = most_clear;
     const std::size_t before = all_.size();
-    for (const std::uint32_t index : lanes_around(footprint, reach + (is_small ? most_clear : 0))) {
+    const Around& around = lanes_around(place, footprint.id, reach + (is_small ? most_clear : 0));
+    const double moved = (place - around.place).norm() + lost;
+    for (const auto& [index, distance_before] : around.lanes) {
         const world::LaneT& lane = town_->lanes[index];
+        // Too far to lie on it and, of who may be left alone for a while, to say for how long.
+        const double least = distance_before - moved;
+        const double room = lane.width / 2 + radius + 2 * beside_the_lane;
+        const double beside = lane.width / 2 + reach + radius;
+        if ((!is_small || least - step - room > clear) && least > 0 &&
+            least * least > beside * beside + world::level_clearance * world::level_clearance)
+            continue;
         const world::LaneProjection at = world::project(lane, place);
         if (is_small) {
             // Nearer than that no lane's surface is, at the place itself and at the tip.
-            const double room = lane.width / 2 + radius + 2 * beside_the_lane;
             clear = std::min(clear, at.distance - room);
             // Else the tip is no nearer than others are, or he is too near to be left alone anyway.
             if (clear > 0 && at.distance - step - room < clear) {

@@ -91,14 +91,20 @@ class Obstructions {
         std::uint32_t ticks = 0;
     };
 
-    /// Lanes for cars, as they were found around a place.
-    struct Around {
-        Eigen::Vector2d place = Eigen::Vector2d::Zero();
-        double reach = -1;  ///< [m] each side of it
-        std::vector<std::uint32_t> lanes;
+    /// A lane for cars, and how far its centre line is from where it was looked for.
+    struct Beside {
+        std::uint32_t lane = 0;
+        double distance = 0;  ///< [m]
     };
 
-    std::span<const std::uint32_t> lanes_around(const Footprint& footprint, double reach);
+    /// Lanes for cars, as they were found around a place.
+    struct Around {
+        Eigen::Vector3d place = Eigen::Vector3d::Zero();
+        double reach = -1;  ///< [m] each side of it
+        std::vector<Beside> lanes;
+    };
+
+    const Around& lanes_around(const Eigen::Vector3d& place, std::uint32_t id, double reach);
     void count_halts(std::span<const world::VehicleState> vehicles);
     double stood(std::uint32_t id) const;
     double gap_behind(const Footprint& footprint, bool lasts) const;

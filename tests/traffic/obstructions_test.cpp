@@ -1,0 +1,78 @@
+#include "traffic/sight/obstructions.h"
+
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/towns.h"
+#include "world/frames.h"
+#include "world/geometry2d.h"
+
+namespace reprise::traffic {
+namespace {
+
+constexpr double tick_length = 0.05;
+constexpr double walking = 1.4;  // [m/s]
+
+/// One on foot beside every fourth lane for cars, up to 7 m from its middle, each another way.
+std::vector<world::WalkerState> people_beside(const world::TownT& town) {
+    std::vector<world::WalkerState> people;
+    for (std::uint32_t i = 0; i < town.lanes.size(); i += 4) {
+        const world::LaneT& lane = town.lanes[i];
+        if (!world::is_for_cars(lane))
+            continue;
+        const world::LanePoint at = world::point_at(lane, lane.length / 2);
+        const Eigen::Vector2d place =
+            at.position.head<2>() + (1 + i % 7) * world::left_of(at.yaw) * (i % 8 < 4 ? 1 : -1);
+        const auto yaw = static_cast<float>(at.yaw + 0.1 * (i % 60));
+        const auto speed = static_cast<float>(i % 5 == 0 ? 0 : walking);
+        people.emplace_back(world::Vec3(place.x(), place.y(), at.position.z()),
+                            yaw,
+                            speed,
+                            0.0F,
+                            1000 + i,
+                            std::uint16_t{0},
+                            false,
+                            std::uint8_t{0},
+                            0U);
+    }
+    return people;
+}
+
+/// Two routes: what is remembered of lanes around, and of who is off them, and a look without.
+TEST(Obstructions, WhoWalksOnIsSeenAsIfHeWereSeenForTheFirstTime) {
+    const world::TownT& town = test::own_town("town1").town;
+    const world::LaneMap lanes(town);
+    Obstructions kept(town, lanes, tick_length);
+    std::vector<world::WalkerState> people = people_beside(town);
+    std::size_t seen = 0;
+    for (int tick = 0; tick < 200; ++tick) {
+        world::TickDraft draft;
+        draft.traffic.walkers = people;
+        const world::SealedTick last = world::seal(draft, {});
+        kept.look(last.view(), {});
+        Obstructions fresh(town, lanes, tick_length);
+        fresh.look(last.view(), {});
+        ASSERT_EQ(kept.all().size(), fresh.all().size()) << "tick " << tick;
+        for (std::size_t i = 0; i < fresh.all().size(); ++i) {
+            const Obstruction& one = kept.all()[i];
+            const Obstruction& other = fresh.all()[i];
+            ASSERT_TRUE(one.id == other.id && one.lane == other.lane && one.begin == other.begin &&
+                        one.right == other.right && one.left == other.left)
+                << "tick " << tick << ": " << other.id << " on " << town.lanes[other.lane].name;
+        }
+        seen += fresh.all().size();
+        for (world::WalkerState& walker : people) {
+            const Eigen::Vector2d way = tick_length * static_cast<double>(walker.speed()) *
+                                        world::ahead_of(static_cast<double>(walker.yaw()));
+            const world::Vec3& from = walker.position();
+            walker.mutable_position() =
+                world::Vec3(from.x() + way.x(), from.y() + way.y(), from.z());
+        }
+    }
+    EXPECT_GT(seen, 1000U) << "nothing is shown";
+}
+
+}  // namespace
+}  // namespace reprise::traffic
