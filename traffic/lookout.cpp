@@ -206,7 +206,9 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
 /// and a middle cuts in where one turns. A long vehicle looks at all who stand or lie there, and
 /// not for ever: who stands there for long may never go away, and then brushing past is the
 /// driver's business. A short one does so beside vehicles with mass, and brushes past none; it
-/// would stand before one that stands for ever if it wanted more than it needs.
+/// would stand before one that stands for ever if it wanted more than it needs. Of people who walk
+/// about nobody stays under a tail (walkers/threats.h): to wait for those who wait themselves, in
+/// the middle of a junction, is to block it.
 double Lookout::before_swept(Car& car, std::uint64_t tick) const {
     constexpr double looked_at = 14;            // [m] of way
     constexpr double spacing = 0.5;             // [m]
@@ -216,6 +218,7 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
     constexpr double slow = 1.5;                // [m/s] of who stays about where he is,
     constexpr double hardly_faster = 5;         // and of one with mass that drives past
     constexpr double waits = 40;                // [s]
+    constexpr double crawl = 0.6;               // [m/s] people step back from a tail that comes so
     constexpr std::uint64_t goes_on_for = 200;  // [ticks]
     const world::VehicleModel& model = world::vehicle_models()[car.model];
     const bool is_long = model.length > longest_short_car;
@@ -223,6 +226,7 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
         return world::infinity;
     const double around = looked_at + 2 * model.length;
     std::vector<BodyBox> others;
+    std::vector<BodyBox> people;
     const std::span<const Footprint> seen = is_long ? obstructions_.footprints() : driving_;
     for (const Footprint& one : seen) {
         if ((one.centre - car.rear.head<2>()).squaredNorm() > around * around || one.id == car.id ||
@@ -232,32 +236,37 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
         if (speed > (one.drives ? hardly_faster : slow))
             continue;
         const BodyBox box{one.centre, one.direction, one.half_length, one.half_width};
-        others.push_back(box.widened(is_long || speed > stands ? hair : finest_hair));
+        (one.is_afoot ? people : others)
+            .push_back(box.widened(is_long || speed > stands ? hair : finest_hair));
     }
-    if (others.empty())
+    if (others.empty() && people.empty())
         return world::infinity;
     const WayAhead way(car, meetings_.lines(), *graph_, looked_at);
     const BodyBox corridor = way.corridor(looked_at, way.at(0).ahead);
-    std::erase_if(others, [&](const BodyBox& other) { return !overlap(corridor, other); });
-    if (others.empty())
+    for (std::vector<BodyBox>* boxes : {&others, &people})
+        std::erase_if(*boxes, [&](const BodyBox& other) { return !overlap(corridor, other); });
+    if (others.empty() && people.empty())
         return world::infinity;
-    const auto touches = [&](double driven) {
+    const auto touches = [&](const std::vector<BodyBox>& boxes, double driven) {
         const BodyBox body = way.at(driven);
-        return std::any_of(others.begin(), others.end(), [&](const BodyBox& other) {
-            return overlap(body, other);
-        });
+        return std::any_of(
+            boxes.begin(), boxes.end(), [&](const BodyBox& other) { return overlap(body, other); });
     };
-    if (touches(0))  // it cannot help it by standing
+    if (touches(others, 0))  // it cannot help it by standing
         return world::infinity;
     const Braking braking{
         car.speed, comfortable_braking(car.model), emergency_braking(car.model), step_};
-    for (double driven = spacing; driven <= std::min(looked_at, way.length()); driven += spacing)
-        if (touches(driven)) {
+    double allowed = touches(people, 0) ? crawl : world::infinity;
+    for (double driven = spacing; driven <= std::min(looked_at, way.length()); driven += spacing) {
+        if (!std::isfinite(allowed) && touches(people, driven))
+            allowed = std::max(crawl, braking.speed_before(driven - spacing, 0, 0));
+        if (touches(others, driven)) {
             if (is_long && car.standing_ticks * step_ > waits && driven <= 2 * spacing)
                 car.brushes_until = tick + goes_on_for;
-            return braking.speed_before(driven - spacing, 0, 0);
+            return std::min(allowed, braking.speed_before(driven - spacing, 0, 0));
         }
-    return world::infinity;
+    }
+    return allowed;
 }
 
 void Lookout::hold_back(Car& car, double speed, std::uint64_t tick) const {

@@ -236,6 +236,51 @@ TEST(Meetings, NobodyDrivesThroughTheTailOfWhoStandsBetweenTwoLanes) {
     EXPECT_GT(shown, 3);
 }
 
+/// The light of one has turned green when the other one is not out of the junction yet.
+TEST(Meetings, WhoIsStillInTheJunctionIsLetOut) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const std::vector<Entry> entries = entries_of(town);
+    int let_out = 0;
+    for (const Entry& one : entries) {
+        std::uint32_t last = one.second;  // behind the place where it waits, if there is one
+        while (!town.lanes[last].links.empty() &&
+               town.lanes[last].links.front().via() != world::none)
+            last = town.lanes[last].links.front().via();
+        if (town.lanes[last].length < 6)
+            continue;
+        for (const Entry& other : entries) {
+            if (graph.edge_of(one.first) == graph.edge_of(other.first) ||
+                town.lanes[one.second].junction != town.lanes[other.second].junction)
+                continue;
+            for (const double speed : {0.3, 1.5})
+                for (const double to_line : {0.5, 2.0}) {
+                    Cars cars;
+                    world::TickDraft draft;
+                    cars.add(
+                        car_before(
+                            town, graph, 7, "bus", last, last, town.lanes[last].length - 2, speed),
+                        "",
+                        0,
+                        draft);
+                    cars.add(car_before(
+                                 town, graph, 8, "sedan", other.first, other.second, to_line, 2.5),
+                             "",
+                             0,
+                             draft);
+                    const RightOfWay right_of_way(town, {});
+                    Meetings meetings(town, graph, right_of_way, meeting_step);
+                    meetings.look(cars, 2);
+                    EXPECT_FALSE(std::isfinite(meetings.allowed_speed(0)))
+                        << town.lanes[last].name << " waits for who comes from "
+                        << town.lanes[other.first].name;
+                    let_out += std::isfinite(meetings.allowed_speed(1));
+                }
+        }
+    }
+    EXPECT_GT(let_out, 10);
+}
+
 /// Of two whose bodies would come into each other one waits, and only one.
 TEST(Meetings, OneOfTwoWhoseWaysCrossWaits) {
     const TownT& town = own_town("town1").town;

@@ -37,6 +37,8 @@ struct BusDrive {
     int touched = 0;   ///< ticks
     int in_walls = 0;  ///< ticks in which a pole, a trunk or a house stands in it
     bool came_through = false;
+    double stood = 0;              ///< [s] at a stretch
+    double fastest_in_reach = 0;   ///< [m/s] while it swings over who stands there
     double farthest = 0;           ///< [m] of a rear corner beyond its lane's edge
     Eigen::Vector2d corner{0, 0};  ///< where that was
 };
@@ -48,8 +50,11 @@ bool stands_in(const world::Obstacle& wall, const BodyBox& body) {
     return beyond.cwiseMax(0.0).norm() < std::min(wall.half.x(), wall.half.y());
 }
 
-/// A bus from this lane over the next junction, past somebody who stands at `place` for a minute.
-BusDrive drive_bus(const char* name, std::optional<Eigen::Vector2d> place) {
+/// A bus from this lane over the next junction, past somebody who stands at `place` for a minute:
+/// a cyclist, or on foot with this id.
+BusDrive drive_bus(const char* name,
+                   std::optional<Eigen::Vector2d> place,
+                   std::uint32_t on_foot = 0) {
     const auto& loaded = own_town("town1");
     const world::TownT& town = loaded.town;
     Stage stage(loaded, 0);
@@ -59,15 +64,28 @@ BusDrive drive_bus(const char* name, std::optional<Eigen::Vector2d> place) {
     BusDrive drive;
     const std::vector<world::Obstacle> walls = ground::obstacles_of(town);
     std::vector<world::VehicleState> vehicles;
-    if (place) {
+    if (place && on_foot != 0) {
+        stage.walkers.emplace_back(world::Vec3(place->x(), place->y(), 0),
+                                   0.0F,
+                                   0.0F,
+                                   0.0F,
+                                   on_foot,
+                                   std::uint16_t{0},
+                                   false,
+                                   std::uint8_t{0},
+                                   1U);
+    } else if (place) {
         vehicles.push_back(test::vehicle_at(beside, place->x(), place->y(), 0, 0));
         vehicles[0].mutate_model(world::find_vehicle_model("bicycle").value());
     }
     const world::VehicleModel& bicycle =
         world::vehicle_models()[world::find_vehicle_model("bicycle").value()];
+    double stood = 0;
     for (int tick = 0; tick < 2400 && !drive.came_through; ++tick) {
-        if (tick == 900)  // it goes away
+        if (tick == 900) {  // they go away
             vehicles.clear();
+            stage.walkers.clear();
+        }
         stage.step(tick == 0 ? std::vector<world::CommandT>{bus} : std::vector<world::CommandT>(),
                    vehicles);
         const world::CarState* car = stage.car(the_bus);
@@ -76,6 +94,14 @@ BusDrive drive_bus(const char* name, std::optional<Eigen::Vector2d> place) {
         const BodyBox body = bus_body(*car);
         drive.in_walls += std::any_of(
             walls.begin(), walls.end(), [&](const auto& wall) { return stands_in(wall, body); });
+        // Where the lane behind is short it comes round again, and stands elsewhere.
+        stood = car->speed() < 0.05F && tick < 500 ? stood + 0.05 : 0;
+        drive.stood = std::max(drive.stood, stood);
+        if (!stage.walkers.empty() && overlap(body, {*place, Eigen::Vector2d::UnitX(), 0.2, 0.2})) {
+            ++drive.touched;
+            drive.fastest_in_reach =
+                std::max(drive.fastest_in_reach, static_cast<double>(car->speed()));
+        }
         if (!vehicles.empty()) {
             const Eigen::Vector2d middle(place->x() + bicycle.length / 2 - bicycle.rear_overhang,
                                          place->y());
@@ -127,6 +153,29 @@ TEST(SweptArea, ABusWaitsForWhoStandsWhereItsTailSwingsOut) {
         EXPECT_TRUE(past.came_through) << name;
     }
     EXPECT_GT(shown, 2) << "no tail swings out: nothing is shown";
+}
+
+/// Of the town's people nobody stays under a tail (walkers/threats.h): here they do, to be seen.
+TEST(SweptArea, ABusRollsSlowlyPastPeopleAtTheKerbAndBlocksNoJunctionForThem) {
+    constexpr std::uint32_t townsman = 100'000'007;
+    constexpr std::uint32_t of_scenario = 50;
+    int shown = 0;
+    for (const char* name : bends) {
+        const BusDrive alone = drive_bus(name, std::nullopt);
+        if (alone.farthest < 0.25)
+            continue;
+        const BusDrive waits = drive_bus(name, alone.corner, of_scenario);
+        EXPECT_EQ(waits.touched, 0) << name << ": a scenario's walker stays where he is told";
+        if (waits.stood < alone.stood + 5)
+            continue;
+        ++shown;
+        const BusDrive past = drive_bus(name, alone.corner, townsman);
+        EXPECT_TRUE(past.came_through) << name;
+        EXPECT_LT(past.stood, alone.stood + 3) << name;
+        EXPECT_GT(past.touched, 0) << name;
+        EXPECT_LT(past.fastest_in_reach, 0.8) << name;
+    }
+    EXPECT_GT(shown, 0) << "nobody is in its way: nothing is shown";
 }
 
 }  // namespace

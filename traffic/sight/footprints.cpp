@@ -71,6 +71,7 @@ void add_walkers(std::span<const world::WalkerState> walkers, std::vector<Footpr
         body.half_length = walker.down() ? model.height / 2 : body.half_width;
         body.velocity = static_cast<double>(walker.speed()) * body.direction;
         body.clearance = beside_walkers;
+        body.is_afoot = !walker.down() && walker.id() >= world::first_background_id;
         body.id = walker.id();
         footprints.push_back(body);
     }

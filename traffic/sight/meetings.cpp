@@ -22,7 +22,7 @@ constexpr double beside_its_lane = 0.6;    // [m] from its lane: seen as an obst
 constexpr double lets_go_first = 6;        // [s] of one who stands; then the other one waits
 constexpr std::uint64_t pushes_for = 240;  // [ticks]
 constexpr double deepest_push = 0.35;      // [m] in the other one's body, which mirrors give way to
-constexpr double halt = 0.1;               // [m/s]
+constexpr double has_just_started = 3;     // [m/s]
 constexpr double hard = 0.8;               // of the hardest braking, that one plans with
 constexpr double longest_body = 12;        // [m]
 constexpr double off_its_lane = 0.6;       // [m] of bumper or tail, from the middle of its lane
@@ -292,6 +292,21 @@ void Meetings::part(const Driver& one, const Driver& other) {
         hold(other, {});
 }
 
+/// In a junction, behind the last place in it where one waits.
+bool Meetings::leaves_junction(const Driver& driver) const {
+    const world::LaneT& lane = lines_.town().lanes[driver.car->lane];
+    return lane.kind == world::LaneKind::internal &&
+           (lane.links.empty() || lane.links.front().via() == none);
+}
+
+/// Who is still in a junction when another one's light turns green gets out of it first. He who has
+/// just started would come as far as to a place where he waits, and often that is in the way out.
+bool Meetings::lets_out(const Driver& driver, const Driver& other) const {
+    return driver.car->speed < has_just_started && !leaves_junction(driver) &&
+           leaves_junction(other) && !has_stood(other) &&
+           stop_before_way(driver, other).is_possible;
+}
+
 bool Meetings::first_waits(const Driver& one, const Driver& other) const {
     const auto waits = [](const Driver& driver, const Driver& for_whom) {
         const auto& ids = driver.car->waits_for;
@@ -369,7 +384,9 @@ void Meetings::meet(Driver& one, Driver& other) {
     const bool second = !one_follows && other.seen->would_meet(*one.seen);
     if (!first && !second)
         return;
-    if (first && (!second || first_waits(one, other)))
+    const bool one_lets = !other_follows && lets_out(one, other);
+    const bool other_lets = !one_follows && lets_out(other, one);
+    if (one_lets || (!other_lets && first && (!second || first_waits(one, other))))
         wait(one, other, stop_before_way(one, other));
     else
         wait(other, one, stop_before_way(other, one));

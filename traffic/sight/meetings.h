@@ -117,6 +117,8 @@ class Meetings {
     bool has_stood(const Driver& driver) const;
     bool is_stuck(const Driver& driver) const;
     std::uint32_t in_junction(const Driver& driver) const;
+    bool leaves_junction(const Driver& driver) const;
+    bool lets_out(const Driver& driver, const Driver& other) const;
     bool first_waits(const Driver& one, const Driver& other) const;
     static bool follows(const Driver& driver, const Driver& leader);
     static bool is_all_on_its_lane(const Driver& driver);
