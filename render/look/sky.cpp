@@ -37,27 +37,48 @@ float air_mass(float sine) {
 /// The lowest sun that gives single scattering its shape; below, only its strength falls. [rad]
 constexpr float lowest_glow = -0.11F;
 
+/// Shares of the ground's air and haze that are left at a height.
+struct Thinned {
+    explicit Thinned(float height) {
+        const Color shares = fast_exp(Color(-height / rayleigh_height, -height / haze_height, 0));
+        air = shares.x();
+        haze = shares.y();
+    }
+
+    float air;
+    float haze;
+};
+
+/// Vertical optical depth of what is above. `haze`: scattering at the ground. [1/m]
+Color column(const Thinned& thinned, float haze) {
+    return rayleigh * rayleigh_height * thinned.air + haze * 1.1F * haze_height * thinned.haze;
+}
+
+/// Where the sun stands over a place.
+struct Standing {
+    explicit Standing(float sine_of_altitude)
+        : sine(sine_of_altitude),
+          mass(air_mass(std::abs(sine_of_altitude))) {}
+
+    float sine;
+    float mass;  ///< of the air on the way to it, or to the lowest place of that
+};
+
 /// Optical depth of a ray that comes from below the horizon: past the lowest place of its way, and
 /// up again.
-Color grazing_depth(float sine, float height, float haze) {
-    const float lowest = (earth + height) * std::sqrt(1 - sine * sine) - earth;
-    const auto column = [&](float at) -> Color {
-        return rayleigh * rayleigh_height * fast_exp(-at / rayleigh_height) +
-               haze * 1.1F * haze_height * fast_exp(-at / haze_height);
-    };
-    const float level = air_mass(0);
-    return (2 * level * column(lowest) - air_mass(-sine) * column(height)).max(0.0F) +
+Color grazing_depth(const Standing& sun, float height, const Thinned& thinned, float haze) {
+    const float lowest = (earth + height) * std::sqrt(1 - sun.sine * sun.sine) - earth;
+    static const float level = air_mass(0);
+    return (2 * level * column(Thinned(lowest), haze) - sun.mass * column(thinned, haze))
+               .max(0.0F) +
            ozone_depth * level;
 }
 
 /// How much of the sunlight arrives at a height.
-Color sunlight(float sine, float height, float haze) {
-    if (sine < 0)
-        return solar * fast_exp(Color(-grazing_depth(sine, height, haze)));
-    const float mass = air_mass(sine);
-    const Color depth = rayleigh * rayleigh_height * fast_exp(-height / rayleigh_height) +
-                        haze * 1.1F * haze_height * fast_exp(-height / haze_height) + ozone_depth;
-    return solar * fast_exp(Color(-depth * mass));
+Color sunlight(const Standing& sun, float height, const Thinned& thinned, float haze) {
+    if (sun.sine < 0)
+        return solar * fast_exp(Color(-grazing_depth(sun, height, thinned, haze)));
+    return solar * fast_exp(Color(-(column(thinned, haze) + ozone_depth) * sun.mass));
 }
 
 float rayleigh_phase(float cosine) {
@@ -106,7 +127,8 @@ Sky::Sky(const world::Weather& weather)
     // Kasten and Czeplak, 1980: global radiation under N oktas of cloud.
     const float squared = cover * cover;
     overcast_ = 1 - 0.75F * squared * cover * std::sqrt(std::sqrt(std::sqrt(cover)));
-    const Color arriving = sunlight(std::max(to_sun_.z(), 0.0F), 0, haze_scattering_);
+    const Color arriving =
+        sunlight(Standing(std::max(to_sun_.z(), 0.0F)), 0, Thinned(0), haze_scattering_);
     sun_above_clouds_ = arriving * daylight_;
     // Clouds redden with the last sun; deep in twilight none reaches them.
     sun_tint_ = mix(Color(0.9F, 0.95F, 1.15F),
@@ -117,6 +139,7 @@ Sky::Sky(const world::Weather& weather)
     sun_radius_ = mix(0.006F, 0.06F, squared);
     const Color sun_above_fog = sun_;
     fill_table();
+    std::vector<Color> without_fog = table_;
     add_fog();
     project_ambient();
     choose_exposure();
@@ -125,7 +148,7 @@ Sky::Sky(const world::Weather& weather)
         return;
     // Exposure goes by daylight alone; what else lights the sky shines through the same fog.
     sun_ = sun_above_fog;
-    fill_table();
+    table_ = std::move(without_fog);
     add_night();
     add_fog();
     project_ambient();
@@ -137,6 +160,7 @@ Color Sky::clear_radiance(const Vector3f& direction) const {
     // Over far places a low sun stands higher or lower: only twilight shows it.
     const float bend = smooth_step(0.05F, -0.03F, to_glow_.z()) *
                        direction.head<2>().dot(to_glow_.head<2>()) / earth;
+    Standing sun(to_glow_.z());
     // To the top of the air, at most as far as the earth's curve lets one see into it.
     const float top = 60e3F;
     const float far = -earth * up + std::sqrt(earth * earth * up * up + 2 * earth * top);
@@ -152,10 +176,13 @@ Color Sky::clear_radiance(const Vector3f& direction) const {
         const float next = far * share * share;
         const float middle = 0.5F * (last + next);
         const float height = middle * up + middle * middle * (1 - up * up) / (2 * earth);
-        const Color air = rayleigh * fast_exp(-height / rayleigh_height);
-        const float haze = haze_scattering_ * fast_exp(-height / haze_height);
+        const Thinned thinned(height);
+        const Color air = rayleigh * thinned.air;
+        const float haze = haze_scattering_ * thinned.haze;
         const Color step_depth = (air + 1.1F * haze) * (next - last);
-        const Color light = sunlight(to_glow_.z() + bend * middle, height, haze_scattering_);
+        if (bend != 0)
+            sun = Standing(to_glow_.z() + bend * middle);
+        const Color light = sunlight(sun, height, thinned, haze_scattering_);
         const Color through = fast_exp(Color(-(depth + 0.5F * step_depth)));
         // Light scattered more than once is about as strong again, from everywhere.
         const Color twice = 0.16F * light.mean() * Color(1.0F, 1.02F, 1.06F) * (0.35F + up);

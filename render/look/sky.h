@@ -18,9 +18,9 @@ namespace reprise::render {
 /// for a sun anywhere between nadir and zenith.
 class Sky {
   public:
-    /// 20 ms: single scattering by air and haze for every direction (Nishita et al., "Display of
-    /// the Earth Taking into Account Atmospheric Scattering", 1993), clouds after Kasten and
-    /// Czeplak.
+    /// 20 ms, by night 90: single scattering by air and haze for every direction (Nishita et al.,
+    /// "Display of the Earth Taking into Account Atmospheric Scattering", 1993), clouds after
+    /// Kasten and Czeplak.
     explicit Sky(const world::Weather& weather);
 
     /// Before a picture is made: from where, when, and how high the town's lowest ground is. All in

@@ -1,11 +1,15 @@
 #include "render/shapes/color.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
+
+#include "render/shapes/fast_math.h"
 
 namespace reprise::render {
 namespace {
@@ -82,6 +86,19 @@ TEST(Color, WhatIsNoNumberIsNotHiddenByBounds) {
         EXPECT_TRUE(std::isnan(color.min(1)[channel]));
         EXPECT_FALSE(color.is_finite());
     }
+}
+
+TEST(Color, ItsPowersOfEAreThoseOfItsChannels) {
+    const auto bits = [](float number) { return std::bit_cast<std::uint32_t>(number); };
+    for (int i = -20'000; i < 20'000; ++i) {
+        const float x = static_cast<float>(i) * 4.6875e-3F;
+        const std::array<float, 3> powers{x, -0.37F * x, 1e-3F * x};
+        const Color color = fast_exp(Color(powers[0], powers[1], powers[2]));
+        for (std::size_t k = 0; k < 3; ++k)
+            ASSERT_EQ(bits(color[static_cast<int>(k)]), bits(fast_exp(powers[k]))) << powers[k];
+    }
+    for (const float number : numbers)
+        EXPECT_EQ(bits(fast_exp(Color::Constant(number)).y()), bits(fast_exp(number))) << number;
 }
 
 }  // namespace
