@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
@@ -14,6 +17,21 @@ namespace {
 
 constexpr int capital = 24;  // [px] height of a capital letter in the picture
 constexpr int finer = 4;     // drawn so much larger, then averaged: smooth edges, and integers only
+
+/// Drawn when it is first read, by any thread: a picture shows few of all words.
+class LateLettering {
+  public:
+    /// `word()` says what it reads.
+    template <typename Word>
+    const Lettering& of(const Word& word) {
+        std::call_once(asked_, [&] { lettering_.emplace(word()); });
+        return *lettering_;
+    }
+
+  private:
+    std::once_flag asked_;
+    std::optional<Lettering> lettering_;
+};
 
 }  // namespace
 
@@ -29,13 +47,17 @@ Lettering::Lettering(std::string_view text) {
     cv::Mat large = cv::Mat::zeros(rows_ * finer, columns_ * finer, CV_8U);
     const cv::Point start((columns_ * finer - size.width) / 2, (rows_ + capital) / 2 * finer);
     cv::putText(large, word, start, font, scale, cv::Scalar(255), thickness, cv::LINE_8);
+    std::vector<int> sums;
     for (int row = 0; row < rows_; ++row) {
-        for (int column = 0; column < columns_; ++column) {
-            int sum = 0;
-            for (int i = 0; i < finer * finer; ++i)
-                sum += large.at<std::uint8_t>(row * finer + i / finer, column * finer + i % finer);
-            ink_.push_back(static_cast<std::uint8_t>(sum / (finer * finer)));
+        sums.assign(static_cast<std::size_t>(columns_), 0);
+        for (int fine_row = row * finer; fine_row < (row + 1) * finer; ++fine_row) {
+            const std::uint8_t* fine = large.ptr(fine_row);
+            for (int& sum : sums)
+                for (int i = 0; i < finer; ++i)
+                    sum += *fine++;
         }
+        for (const int sum : sums)
+            ink_.push_back(static_cast<std::uint8_t>(sum / (finer * finer)));
     }
 }
 
@@ -63,23 +85,19 @@ float Lettering::width() const {
 }
 
 const Lettering& shop_name(std::uint32_t seed) {
-    static const std::array<Lettering, 20> names{
-        Lettering("BAKERY"),   Lettering("CAFE"),  Lettering("BOOKS"),      Lettering("PHARMACY"),
-        Lettering("FLOWERS"),  Lettering("SHOES"), Lettering("OPTICIAN"),   Lettering("BARBER"),
-        Lettering("BISTRO"),   Lettering("TOYS"),  Lettering("CYCLES"),     Lettering("GROCERY"),
-        Lettering("TAILOR"),   Lettering("MUSIC"), Lettering("WINE & TEA"), Lettering("HARDWARE"),
-        Lettering("PIZZERIA"), Lettering("PHOTO"), Lettering("DELI"),       Lettering("LAUNDRY")};
-    return names[seed % names.size()];
+    static constexpr std::array<std::string_view, 20> names{
+        "BAKERY",     "CAFE",     "BOOKS",    "PHARMACY", "FLOWERS", "SHOES",  "OPTICIAN",
+        "BARBER",     "BISTRO",   "TOYS",     "CYCLES",   "GROCERY", "TAILOR", "MUSIC",
+        "WINE & TEA", "HARDWARE", "PIZZERIA", "PHOTO",    "DELI",    "LAUNDRY"};
+    static std::array<LateLettering, names.size()> drawn;
+    const std::size_t number = seed % names.size();
+    return drawn[number].of([&] { return names[number]; });
 }
 
 const Lettering& number(std::uint32_t value) {
-    static const std::vector<Lettering> numbers = [] {
-        std::vector<Lettering> all;
-        for (int i = 0; i < 200; ++i)
-            all.emplace_back(std::to_string(i));
-        return all;
-    }();
-    return numbers[std::min<std::size_t>(value, numbers.size() - 1)];
+    static std::array<LateLettering, 200> drawn;
+    const std::size_t written = std::min<std::size_t>(value, drawn.size() - 1);
+    return drawn[written].of([&] { return std::to_string(written); });
 }
 
 const Lettering& stop_word() {
