@@ -114,7 +114,7 @@ std::vector<world::SensorFrame> Observer::look(const world::TickView& tick,
                 placed, moves && neighbours.last ? &last_ : nullptr, tick, mounts, rig[first].step),
             sight_of(rig[first], first, cameras[first], placed.mask_hiding(hidden), neighbours),
             bands_of(rig[first]),
-            {}};
+            hits_};
         for (std::size_t i = first; i < rig.size(); ++i) {
             if (done[i] || rig[i].actor != rig[first].actor || !(cameras[i] == cameras[first]) ||
                 hidden_from(tick, rig[i]) != hidden ||
@@ -159,6 +159,8 @@ Sight Observer::sight_of(const world::SensorSpec& spec,
 void Observer::label(Look& look, std::vector<world::SensorFrame>& frames) {
     const bool whole = look.bands.size() == 1;
     std::vector<Hit> rows;
+    if (!whole)
+        look.hits.clear();
     for (const Band& band : look.bands) {
         look.stage.go_back(band.ago);
         const Camera camera =

@@ -47,7 +47,7 @@ class Observer {
         Stage stage;
         Sight sight;
         std::vector<Band> bands;
-        std::vector<Hit> hits;
+        std::vector<Hit>& hits;
     };
 
     void label(Look& look, std::vector<world::SensorFrame>& frames);
@@ -82,6 +82,7 @@ class Observer {
     std::optional<Sky> sky_;
     Frame frame_;
     Frame work_;
+    std::vector<Hit> hits_;  ///< kept for their memory, as frames are
 };
 
 }  // namespace reprise::render

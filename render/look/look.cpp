@@ -151,13 +151,13 @@ Surface surface_at(const Scene& scene,
     const float length = direction.norm();
     at.view = direction / length;
     at.distance = hit.distance * length;
-    at.flat = flat;
     at.normal = at.local_normal;
     if (instance.moved) {
-        at.flat = instance.normal_to_scene * flat;
+        at.flat = (instance.normal_to_scene * flat).normalized();
         at.normal = instance.normal_to_scene * at.local_normal;
+    } else {
+        at.flat = mesh.normals.empty() ? at.local_normal : flat.normalized();
     }
-    at.flat.normalize();
     at.normal.normalize();
     if (at.flat.dot(at.view) > 0)
         at.flat = -at.flat;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include <embree3/rtcore.h>
+#include <emmintrin.h>
 #include <tbb/parallel_for.h>
 
 #include "render/trace/default_float_mode.h"
@@ -27,26 +29,59 @@ struct FilledPacket {
     bool any;
 };
 
+/// Four numbers, one of each of four rays.
+struct FourRays {
+    explicit FourRays(const std::array<const Ray*, 4>& rays) {
+        // A ray is eight numbers in a row: two quarters, turned from rows into columns.
+        static_assert(sizeof(Ray) == 8 * sizeof(float) && offsetof(Ray, mask) == 28);
+        const auto quarter = [&](std::size_t i, int first) {
+            return _mm_loadu_ps(reinterpret_cast<const float*>(rays[i]) + first);
+        };
+        org_x = quarter(0, 0), org_y = quarter(1, 0), org_z = quarter(2, 0), dir_x = quarter(3, 0);
+        _MM_TRANSPOSE4_PS(org_x, org_y, org_z, dir_x);
+        dir_y = quarter(0, 4), dir_z = quarter(1, 4), far = quarter(2, 4), mask = quarter(3, 4);
+        _MM_TRANSPOSE4_PS(dir_y, dir_z, far, mask);
+    }
+
+    /// All bits of those that is_valid() takes.
+    __m128i valid() const {
+        const auto within = [](__m128 x) {
+            return _mm_cmplt_ps(_mm_andnot_ps(_mm_set1_ps(-0.0F), x), _mm_set1_ps(1e18F));
+        };
+        const __m128 squared = dir_x * dir_x + (dir_y * dir_y + dir_z * dir_z);
+        const __m128 places = _mm_and_ps(_mm_and_ps(within(org_x), within(org_y)), within(org_z));
+        const __m128 ways = _mm_and_ps(_mm_and_ps(within(dir_x), within(dir_y)), within(dir_z));
+        const __m128 lengths = _mm_and_ps(_mm_cmpgt_ps(squared, _mm_set1_ps(1e-12F)),
+                                          _mm_cmpge_ps(far, _mm_setzero_ps()));
+        return _mm_castps_si128(_mm_and_ps(_mm_and_ps(places, ways), lengths));
+    }
+
+    __m128 org_x, org_y, org_z, dir_x, dir_y, dir_z, far, mask;
+};
+
 /// In a direction along an axis of the world Embree's coherent packets lose all of their rays.
-float off_axis(float component) {
-    constexpr float least = 1e-12F;
-    return std::abs(component) < least ? std::copysign(least, component) : component;
+__m128 off_axis(__m128 components) {
+    const __m128 sign = _mm_set1_ps(-0.0F);
+    const __m128 least = _mm_set1_ps(1e-12F);
+    const __m128 on_axis = _mm_cmplt_ps(_mm_andnot_ps(sign, components), least);
+    return _mm_or_ps(_mm_and_ps(on_axis, _mm_or_ps(least, _mm_and_ps(sign, components))),
+                     _mm_andnot_ps(on_axis, components));
 }
 
 template <typename Packet>
-void fill_lane(Packet& packet, std::size_t lane, const Ray& ray) {
-    packet.org_x[lane] = ray.origin.x();
-    packet.org_y[lane] = ray.origin.y();
-    packet.org_z[lane] = ray.origin.z();
-    packet.dir_x[lane] = off_axis(ray.direction.x());
-    packet.dir_y[lane] = off_axis(ray.direction.y());
-    packet.dir_z[lane] = off_axis(ray.direction.z());
-    packet.tnear[lane] = 0;
-    packet.tfar[lane] = ray.far;
-    packet.time[lane] = 0;
-    packet.mask[lane] = ray.mask;
-    packet.id[lane] = 0;
-    packet.flags[lane] = 0;
+void fill_lanes(Packet& packet, std::size_t lane, const FourRays& rays) {
+    _mm_store_ps(&packet.org_x[lane], rays.org_x);
+    _mm_store_ps(&packet.org_y[lane], rays.org_y);
+    _mm_store_ps(&packet.org_z[lane], rays.org_z);
+    _mm_store_ps(&packet.dir_x[lane], off_axis(rays.dir_x));
+    _mm_store_ps(&packet.dir_y[lane], off_axis(rays.dir_y));
+    _mm_store_ps(&packet.dir_z[lane], off_axis(rays.dir_z));
+    _mm_store_ps(&packet.tnear[lane], _mm_setzero_ps());
+    _mm_store_ps(&packet.tfar[lane], rays.far);
+    _mm_store_ps(&packet.time[lane], _mm_setzero_ps());
+    _mm_store_ps(reinterpret_cast<float*>(&packet.mask[lane]), rays.mask);
+    std::fill_n(&packet.id[lane], 4, 0U);
+    std::fill_n(&packet.flags[lane], 4, 0U);
 }
 
 /// The rays from the one numbered `first` on; -1 in `valid` for those to trace. Says whether there
@@ -56,14 +91,21 @@ bool fill_packet(Packet& packet,
                  std::array<int, lanes>& valid,
                  std::span<const Ray> rays,
                  std::size_t first) {
-    bool any = false;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const Ray& ray = rays[std::min(first + lane, rays.size() - 1)];
-        valid[lane] = first + lane < rays.size() && is_valid(ray) ? -1 : 0;
-        any |= valid[lane] != 0;
-        fill_lane(packet, lane, ray);
+    int any = 0;
+    for (std::size_t lane = 0; lane < lanes; lane += 4) {
+        const auto ray = [&](std::size_t i) {
+            return &rays[std::min(first + lane + i, rays.size() - 1)];
+        };
+        const FourRays four({ray(0), ray(1), ray(2), ray(3)});
+        fill_lanes(packet, lane, four);
+        // Beyond the last ray there are copies of it.
+        const int left = static_cast<int>(rays.size() - std::min(first + lane, rays.size()));
+        const __m128i there = _mm_cmplt_epi32(_mm_setr_epi32(0, 1, 2, 3), _mm_set1_epi32(left));
+        const __m128i traced = _mm_and_si128(four.valid(), there);
+        _mm_store_si128(reinterpret_cast<__m128i*>(&valid[lane]), traced);
+        any |= _mm_movemask_epi8(traced);
     }
-    return any;
+    return any != 0;
 }
 
 RTCIntersectContext context_of(bool coherent) {
