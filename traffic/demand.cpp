@@ -22,6 +22,8 @@ constexpr double far_too_long = 150;  // [s] of standing
 constexpr double not_beside = 30;     // [m]
 // Nobody waits so long inside of a junction but for one who waits for him, or who never moves.
 constexpr double far_too_long_in_junction = 50;  // [s] of standing, whoever sees it,
+// Two in a bend, each with its body in the other one's way, stood before an ego for 26 minutes.
+constexpr double for_ever = 200;   // [s] of standing for another car, whoever sees it
 constexpr double at_its_edge = 1;  // [m] where one who waited to go in is no hindrance
 // But in a row before lights behind it: beside a vehicle with mass only who is first of it goes.
 constexpr double in_a_row = 100;  // [s] of standing, in case that the row is a ring
@@ -164,10 +166,15 @@ bool Demand::is_seen(const Eigen::Vector3d& p, const world::TickView& last, doub
     });
 }
 
+bool Demand::waits_for_ever(const Car& car, double step) {
+    return car.stuck_ticks * step > for_ever && !car.waits_for.empty();
+}
+
 bool Demand::is_stuck(const Car& car, const Cars& cars, const world::TickView& last) const {
     const double stood = car.stuck_ticks * step_;
     if ((stood > too_long && !is_seen(car.rear, last, out_of_sight)) ||
-        (stood > far_too_long && !is_seen(car.rear, last, not_beside)))
+        (stood > far_too_long && !is_seen(car.rear, last, not_beside)) ||
+        waits_for_ever(car, step_))
         return true;
     return stood > far_too_long_in_junction && car.lane_position > at_its_edge &&
            town_->lanes[car.lane].kind == world::LaneKind::internal &&

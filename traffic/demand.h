@@ -34,6 +34,10 @@ class Demand {
 
     void add_to(world::Hasher& hasher) const;
 
+    /// Has it stood for minutes for another car, in whose way it stands itself, perhaps? Then it is
+    /// taken out whoever sees it: nobody else will solve it. `step` [s] of a tick.
+    static bool waits_for_ever(const Car& car, double step);
+
   private:
     void hear_of_wrecks(const world::TickView& last);
     bool is_seen(const Eigen::Vector3d& p, const world::TickView& last, double sight) const;

@@ -5,6 +5,7 @@
 
 #include "tests/support/worlds.h"
 #include "tests/traffic/stage.h"
+#include "traffic/demand.h"
 #include "world/geometry2d.h"
 #include "world/lanes/density.h"
 
@@ -141,6 +142,18 @@ TEST(Flow, WhoStandsInAJunctionRightBehindTheEgoStaysTwiceAsLong) {
         }
     EXPECT_GT(longest, 1.5 * minute);
     EXPECT_LT(longest, 1.8 * minute);
+}
+
+/// As two do that meet in a bend, each with its body in the other one's way: nobody solves it.
+TEST(Flow, WhoStandsForAnotherCarForMinutesIsTakenOutWhoeverSeesIt) {
+    constexpr double step = 0.05;  // [s]
+    Car car;
+    car.stuck_ticks = 4 * minute;
+    EXPECT_FALSE(Demand::waits_for_ever(car, step)) << "a queue before the ego";
+    car.waits_for = {1000008};
+    EXPECT_TRUE(Demand::waits_for_ever(car, step));
+    car.stuck_ticks = 3 * minute;
+    EXPECT_FALSE(Demand::waits_for_ever(car, step));
 }
 
 /// Of a full town, where a minor road waits for a minute. Town 1 has no dead end, at which cars
