@@ -77,16 +77,16 @@ std::optional<replay::Divergence> idle_branch(const replay::TraceReader& recorde
     return divergence;
 }
 
-/// Behind the last tick: whether the run ends there, and so. Of a part of a run, and of one whose
-/// driver was lost, only that it goes on; one that was cut off says nothing of that: it may have
-/// lost no tick, but how it ended.
+/// Behind the last tick: whether the run ends there, and so. Of a part of a run, of one that was
+/// cut off, and of one whose driver was lost, only that it goes on: nobody makes another verdict of
+/// a run by taking the last one away.
 std::optional<replay::Divergence> compare_end(const replay::TraceReader& recorded,
                                               const Kernel& kernel,
                                               const world::ExternalDrivers& drivers) {
     const world::Outcome& expected = recorded.outcome();
     const std::uint64_t ticks = recorded.ticks();
     const bool is_cut_off = expected == world::outcome_of_cut_off(ticks);
-    const bool goes_on = expected == world::outcome_of_part(ticks) ||
+    const bool goes_on = expected == world::outcome_of_part(ticks) || is_cut_off ||
                          (expected.ticks == ticks && drivers.explain(expected));
     replay::Divergence divergence;
     divergence.tick = ticks;
@@ -94,9 +94,12 @@ std::optional<replay::Divergence> compare_end(const replay::TraceReader& recorde
     divergence.field = "outcome";
     divergence.expected = replay::to_text(expected);
     divergence.found = kernel.finished() ? replay::to_text(kernel.outcome()) : "the run goes on";
-    if (is_cut_off || (kernel.finished() ? kernel.outcome() == expected : goes_on))
+    if (kernel.finished() ? kernel.outcome() == expected : goes_on)
         return idle_branch(recorded, kernel);
     divergence.note = "all ticks are equal";
+    if (is_cut_off)
+        divergence.note += "; nothing but how it ended was cut off: `reprise run` of the trace makes "
+                           "that, too";
     return divergence;
 }
 
