@@ -171,12 +171,41 @@ void Mirrors::set_route(const Mirror& mirror, const std::vector<std::uint32_t>& 
     Vehicle::setRouteID(mirror.sumo, name);
 }
 
+/// Bound to its route, SUMO takes the nearest lane of all of that: where a dead end's way back begins
+/// beside the way there, one in a junction that the vehicle is not at, while its place in the route
+/// stays behind. In the next step SUMO would abort (an assertion of
+/// MSVehicle::adaptBestLanesOccupation). So it is put back to the road that it is on.
+void Mirrors::bring_back(const Mirror& mirror, const Target& target) const {
+    using libsumo::Vehicle;
+    const std::string lane = Vehicle::getLaneID(mirror.sumo);
+    if (mirror.edge == world::none || lane.empty() || lane.front() != ':')
+        return;
+    const auto at =
+        std::find_if(town_->lanes.begin(), town_->lanes.end(), [&](const world::LaneT& one) {
+            return one.name == lane;
+        });
+    if (at == town_->lanes.end() ||
+        graph_->edge_of(static_cast<std::uint32_t>(at - town_->lanes.begin())) == mirror.edge)
+        return;
+    const RoadGraph::Edge& road = graph_->edge(mirror.edge);
+    const std::vector<std::string> route = Vehicle::getRoute(mirror.sumo);
+    const int from = std::max(Vehicle::getRouteIndex(mirror.sumo), 0);
+    if (std::find(route.begin() + from, route.end(), road.name) == route.end())
+        return;
+    const bool stays = target.lane != world::none && graph_->edge_of(target.lane) == mirror.edge &&
+                       town_->lanes[target.lane].kind != world::LaneKind::internal;
+    Vehicle::moveTo(mirror.sumo,
+                    town_->lanes[stays ? target.lane : road.lanes.front()].name,
+                    stays ? target.lane_position : 0);
+}
+
 void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Target& target) {
     using libsumo::Vehicle;
     auto place = [&](const std::string& edge, int index, int keep_route) {
         Vehicle::moveToXY(
             mirror.sumo, edge, index, target.x, target.y, target.angle_deg, keep_route, reach + 2);
     };
+    bring_back(mirror, target);
     if (target.lane == world::none) {
         place("", -1, anywhere);
         mirror.edge = mirror.after = world::none;

@@ -71,6 +71,7 @@ class Mirrors {
     void set_route(const Mirror& mirror, const std::vector<std::uint32_t>& way);
     void move(Mirror& mirror, const world::VehicleState& vehicle, const Target& target);
     bool start_where_sumo_has_it(const Mirror& mirror, std::vector<std::uint32_t>& way) const;
+    void bring_back(const Mirror& mirror, const Target& target) const;
     void enter_again(const Mirror& mirror, const world::VehicleState& vehicle) const;
     void keep_order(const Mirror& mirror, const Target& target, std::span<const Car> cars) const;
     std::vector<std::uint32_t> likely_way(std::uint32_t lane, std::uint16_t lamps) const;

@@ -183,17 +183,17 @@ TEST(Mirrors, ATailOverATinyEdgeIsSeenAllTheWay) {
     EXPECT_GT(x, 200) << "behind both junctions";
 }
 
-TEST(Mirrors, ACarMayGoToAndFroAtADeadEnd) {
-    const test::Loaded loaded = converted(
-        "dead_end",
-        R"(<nodes> <node id="a" x="0" y="0"/> <node id="b" x="150" y="0"/> </nodes>)",
-        R"(<edges> <edge id="ab" from="a" to="b"/> <edge id="ba" from="b" to="a"/> </edges>)");
+/// Drives as somebody who cannot make up his mind, in a box around (x, y) [m]. The seed decides.
+void go_to_and_fro(const test::Loaded& loaded,
+                   const Eigen::Vector2d& middle,
+                   const Eigen::Vector2d& half,
+                   std::uint64_t seed) {
     Stage stage(loaded, 0);
-    // As somebody who cannot make up his mind; the seed is one that SUMO once aborted with.
-    double x = 8, y = 1.6, yaw = std::numbers::pi, speed = 0, wanted = 1.3, lock = 0;
+    double x = middle.x(), y = middle.y(), yaw = std::numbers::pi, speed = 0, wanted = 1.3,
+           lock = 0;
     for (std::uint64_t i = 0; i < 3000; ++i) {
-        const auto dice = [i](std::uint64_t item) {
-            return world::draw(23, i, world::Purpose::scenario, item);
+        const auto dice = [i, seed](std::uint64_t item) {
+            return world::draw(seed, i, world::Purpose::scenario, item);
         };
         if (dice(0) < 0.02)
             wanted = dice(1) < 0.5 ? 1.3 : -1.3;
@@ -202,7 +202,7 @@ TEST(Mirrors, ACarMayGoToAndFroAtADeadEnd) {
         speed += wanted > speed ? 0.05 : -0.05;
         const double next_x = x + 0.05 * speed * std::cos(yaw);
         const double next_y = y + 0.05 * speed * std::sin(yaw);
-        if (std::abs(next_x) > 12 || std::abs(next_y) > 2.2) {
+        if (std::abs(next_x - middle.x()) > half.x() || std::abs(next_y - middle.y()) > half.y()) {
             wanted = -wanted;
             speed = 0;
         } else {
@@ -215,6 +215,28 @@ TEST(Mirrors, ACarMayGoToAndFroAtADeadEnd) {
         ASSERT_NO_THROW(stage.step({}, {test::vehicle_at(ego, x, y, yaw, speed)})) << "tick " << i;
         ASSERT_EQ(stage.car(ego), nullptr);
     }
+}
+
+/// The seed is one that SUMO once aborted with.
+TEST(Mirrors, ACarMayGoToAndFroAtADeadEnd) {
+    const test::Loaded loaded = converted(
+        "dead_end",
+        R"(<nodes> <node id="a" x="0" y="0"/> <node id="b" x="150" y="0"/> </nodes>)",
+        R"(<edges> <edge id="ab" from="a" to="b"/> <edge id="ba" from="b" to="a"/> </edges>)");
+    go_to_and_fro(loaded, {0, 0}, {12, 2.2}, 23);
+}
+
+/// The way back from a dead end gets a second lane there, which comes near the way there.
+TEST(Mirrors, ACarMayGoToAndFroWhereALaneBegins) {
+    const test::Loaded loaded = converted(
+        "lane_begins",
+        R"(<nodes> <node id="a" x="0" y="0"/> <node id="b" x="85" y="0"/> <node id="c" x="100" y="0"/>
+        <node id="d" x="200" y="0"/> </nodes>)",
+        R"(<edges> <edge id="ca" from="c" to="a"/> <edge id="ab" from="a" to="b"/>
+        <edge id="bc" from="b" to="c" numLanes="2" shape="85,3.2 100,3.2"/>
+        <edge id="cd" from="c" to="d"/> <edge id="dc" from="d" to="c"/> </edges>)");
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U})
+        go_to_and_fro(loaded, {83, 0}, {15, 3}, seed);
 }
 
 /// The lanes that lead along these edges, those in the junctions between them, too.
