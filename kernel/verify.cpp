@@ -98,8 +98,9 @@ std::optional<replay::Divergence> compare_end(const replay::TraceReader& recorde
         return idle_branch(recorded, kernel);
     divergence.note = "all ticks are equal";
     if (is_cut_off)
-        divergence.note += "; nothing but how it ended was cut off: `reprise run` of the trace makes "
-                           "that, too";
+        divergence.note +=
+            "; nothing but how it ended was cut off: `reprise run` of the trace makes "
+            "that, too";
     return divergence;
 }
 

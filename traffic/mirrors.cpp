@@ -171,19 +171,18 @@ void Mirrors::set_route(const Mirror& mirror, const std::vector<std::uint32_t>& 
     Vehicle::setRouteID(mirror.sumo, name);
 }
 
-/// Bound to its route, SUMO takes the nearest lane of all of that: where a dead end's way back begins
-/// beside the way there, one in a junction that the vehicle is not at, while its place in the route
-/// stays behind. In the next step SUMO would abort (an assertion of
+/// Bound to its route, SUMO takes the nearest lane of all of that: where a dead end's way back
+/// begins beside the way there, one in a junction that the vehicle is not at, while its place in
+/// the route stays behind. In the next step SUMO would abort (an assertion of
 /// MSVehicle::adaptBestLanesOccupation). So it is put back to the road that it is on.
 void Mirrors::bring_back(const Mirror& mirror, const Target& target) const {
     using libsumo::Vehicle;
     const std::string lane = Vehicle::getLaneID(mirror.sumo);
     if (mirror.edge == world::none || lane.empty() || lane.front() != ':')
         return;
-    const auto at =
-        std::find_if(town_->lanes.begin(), town_->lanes.end(), [&](const world::LaneT& one) {
-            return one.name == lane;
-        });
+    const auto at = std::find_if(town_->lanes.begin(),
+                                 town_->lanes.end(),
+                                 [&](const world::LaneT& one) { return one.name == lane; });
     if (at == town_->lanes.end() ||
         graph_->edge_of(static_cast<std::uint32_t>(at - town_->lanes.begin())) == mirror.edge)
         return;
