@@ -17,6 +17,8 @@ constexpr double manoeuvre_reaction = 0.15;  // [s]
 constexpr double aligned = 0.35;             // [rad] the path does the rest
 constexpr double straight_enough = 0.15;     // [rad] backwards
 constexpr double looks_ahead = 1.2;          // [m]
+constexpr double looks_ahead_at_last = 0.3;  // [m] of one who has waited,
+constexpr std::uint32_t patience = 60;       // for so many ticks
 constexpr double keeps_clear = 0.5;          // [m]
 constexpr std::uint32_t most_changes = 16;   // of gear: then the street is narrower than it seemed
 constexpr double spare = 0.6;                // [m] of a street's width beyond the car's length
@@ -38,15 +40,17 @@ Eigen::Vector2d turned(const Eigen::Vector2d& v, double angle) {
     return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
-/// Is a body of this length and width near the box that the car fills and will fill?
+/// Is a body of this length and width near the box that the car fills and will fill? Who is behind
+/// the end that follows is not.
 bool is_near(const Ego& ego,
              double ahead,
              const Eigen::Vector2d& rear_axle,
              const Eigen::Vector2d& direction,
              const world::VehicleModel& model) {
-    const double rear = -ego.model->rear_overhang + std::min(ahead, 0.0);
-    const double front = ego.model->length - ego.model->rear_overhang + std::max(ahead, 0.0);
     const double reach = model.width / 2 + keeps_clear;
+    const double rear = -ego.model->rear_overhang + (ahead > 0 ? reach : ahead);
+    const double front =
+        ego.model->length - ego.model->rear_overhang + (ahead > 0 ? ahead : -reach);
     for (double along = -model.rear_overhang; along < model.length - model.rear_overhang;
          along += 1) {
         const Eigen::Vector2d offset = rear_axle + along * direction - ego.position.head<2>();
@@ -135,19 +139,19 @@ void TurnAround::begin(const Street& street, const Ego& ego) {
     side_ = -std::sin(street.yaw) * offset.x() + std::cos(street.yaw) * offset.y() > 0 ? 1 : -1;
     forward_ = true;
     done_ = false;
-    gear_changes_ = 0;
+    gear_changes_ = waiting_ticks_ = 0;
 }
 
-/// How far the end that leads is beyond the kerb that it turns towards, after so many metres with
-/// full lock. [m]
-double TurnAround::beyond_kerbs(const Ego& ego, double distance) const {
-    const double lock = (forward_ ? side_ : -side_) * ego.model->max_steering_angle;
+/// How far the end that leads, in that gear, is beyond the kerb that it turns towards, after so
+/// many metres with full lock. [m]
+double TurnAround::beyond_kerbs(const Ego& ego, double distance, bool forward) const {
+    const double lock = (forward ? side_ : -side_) * ego.model->max_steering_angle;
     const double turn = distance * std::tan(lock) / ego.model->wheelbase;
     const Eigen::Vector2d direction = turned(ego.direction, turn);
     const Eigen::Vector2d rear_axle =
         ego.position.head<2>() + distance * turned(ego.direction, turn / 2);
     const double end =
-        forward_ ? ego.model->length - ego.model->rear_overhang : -ego.model->rear_overhang;
+        forward ? ego.model->length - ego.model->rear_overhang : -ego.model->rear_overhang;
     const Eigen::Vector2d normal(-std::sin(street_.yaw), std::cos(street_.yaw));
     double most = -1e9;
     for (const double half_width : {-ego.model->width / 2, ego.model->width / 2}) {
@@ -155,10 +159,25 @@ double TurnAround::beyond_kerbs(const Ego& ego, double distance) const {
             rear_axle + end * direction + half_width * turned(direction, std::numbers::pi / 2);
         const double y = normal.dot(corner - street_.origin);
         // Ahead it goes to the kerb of the new lane, back to that of the old one.
-        const bool to_right = forward_ == (side_ > 0);
+        const bool to_right = forward == (side_ > 0);
         most = std::max(most, to_right ? -y - street_.right : y - street_.left);
     }
     return most;
+}
+
+/// Has it waited for long enough, and is there room the other way?
+bool TurnAround::goes_the_other_way(const world::TickView& last, const Ego& ego) const {
+    constexpr double worth_it = 0.3;  // [m]
+    const double sign = forward_ ? -1 : 1;
+    return waiting_ticks_ > patience && std::abs(ego.speed) < 0.1 &&
+           beyond_kerbs(ego, sign * worth_it, !forward_) <= 0 &&
+           !somebody_is_near(last, ego, sign * looks_ahead);
+}
+
+void TurnAround::change_gear() {
+    forward_ = !forward_;
+    ++gear_changes_;
+    waiting_ticks_ = 0;
 }
 
 TurnAround::Move TurnAround::next(const world::TickView& last, const Ego& ego) {
@@ -168,18 +187,24 @@ TurnAround::Move TurnAround::next(const world::TickView& last, const Ego& ego) {
     const double stopping = 0.05 + manoeuvre_reaction * speed + speed * speed / (2 * braking);
     const double sign = forward_ ? 1 : -1;
     done_ = (forward_ && error < aligned) || gear_changes_ > most_changes;
-    const bool at_kerb = beyond_kerbs(ego, sign * stopping) > 0;
+    const bool at_kerb = beyond_kerbs(ego, sign * stopping, forward_) > 0;
     if (at_kerb || (!forward_ && error < straight_enough)) {
-        if (std::abs(ego.speed) < 0.1) {
-            forward_ = !forward_;
-            ++gear_changes_;
-        }
+        if (std::abs(ego.speed) < 0.1)
+            change_gear();
         return {0, sign * side_};
     }
     const double steer = sign * side_;
     const bool wheels_turned =
         std::abs(ego.steering_angle - steer * ego.model->max_steering_angle) < 0.1;
-    if (somebody_is_near(last, ego, sign * looks_ahead) || (!wheels_turned && along < 0.3))
+    bool is_blocked = somebody_is_near(last, ego, sign * looks_ahead);
+    if (is_blocked && goes_the_other_way(last, ego)) {
+        change_gear();
+        return {0, -steer};
+    }
+    waiting_ticks_ += is_blocked ? 1 : 0;
+    if (waiting_ticks_ > patience)
+        is_blocked = somebody_is_near(last, ego, sign * looks_ahead_at_last);
+    if (is_blocked || (!wheels_turned && along < 0.3))
         return {0, steer};
     return {sign * creep, steer};
 }
@@ -198,6 +223,8 @@ void TurnAround::add_to(world::Hasher& hasher) const {
         hasher.add(number);
     hasher.add(forward_);
     hasher.add(gear_changes_);
+    if (waiting_ticks_ > 0)
+        hasher.add(waiting_ticks_);
 }
 
 }  // namespace reprise::drivers

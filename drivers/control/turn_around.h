@@ -18,7 +18,10 @@ namespace reprise::drivers {
 ///
 /// MUST    keep all corners of the car between the kerbs; stop for everybody within a metre.
 /// ASSUMES that the street is straight for a car's length.
-/// KEEPS   the street, the gear, and how often it was changed.
+/// GOES    to and fro between the kerbs; the other way as well where somebody stands in this one,
+/// who
+///         may wait for us.
+/// KEEPS   the street, the gear, how often it was changed, and since when somebody is in the way.
 class TurnAround {
   public:
     /// How far back from the end of its lane the car begins. [m]
@@ -58,13 +61,16 @@ class TurnAround {
     void add_to(world::Hasher& hasher) const;
 
   private:
-    double beyond_kerbs(const Ego& ego, double distance) const;
+    double beyond_kerbs(const Ego& ego, double distance, bool forward) const;
+    void change_gear();
+    bool goes_the_other_way(const world::TickView& last, const Ego& ego) const;
 
     Street street_;
     double side_ = 1;  ///< 1: turns left, -1: right
     bool forward_ = true;
     bool done_ = true;
     std::uint32_t gear_changes_ = 0;
+    std::uint32_t waiting_ticks_ = 0;  ///< for somebody, in this gear
 };
 
 }  // namespace reprise::drivers

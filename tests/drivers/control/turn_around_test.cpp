@@ -123,17 +123,49 @@ TEST(TurnAround, IsForStreetsThatAreTooNarrowToDriveAroundIn) {
     EXPECT_FALSE(street(3.5, "bus")) << "never";
 }
 
-TEST(TurnAround, WaitsForSomebodyBehindIt) {
+/// It has driven back so many ticks, and somebody stands so far behind its rear axle [m].
+Drive with_somebody_behind(int ticks_back, double distance) {
     Drive drive(dead_end(3.5));
     drive.place(1, 60, 8);
     while (!drive.control.reverse() && drive.seconds() < 60)
         drive.step();
-    ASSERT_TRUE(drive.control.reverse());
-    const double x = drive.car.x - 1.9 * std::cos(drive.car.yaw);
-    const double y = drive.car.y - 1.9 * std::sin(drive.car.yaw);
+    for (int i = 0; i < ticks_back; ++i)
+        drive.step();
+    EXPECT_TRUE(drive.control.reverse());
+    const double x = drive.car.x - distance * std::cos(drive.car.yaw);
+    const double y = drive.car.y - distance * std::sin(drive.car.yaw);
     drive.walkers = {world::WalkerState(world::Vec3(x, y, 0), 0, 0, 0, 9, 1, false, 0, 0)};
+    return drive;
+}
+
+/// [m] from a place to the car's body.
+double distance_to(const KinematicCar& car, const world::Vec3& place) {
+    const world::VehicleModel& model = world::vehicle_models()[car.model];
+    const double dx = place.x() - car.x;
+    const double dy = place.y() - car.y;
+    const double along = dx * std::cos(car.yaw) + dy * std::sin(car.yaw);
+    const double across = dy * std::cos(car.yaw) - dx * std::sin(car.yaw);
+    const double front = model.length - model.rear_overhang;
+    return std::hypot(std::max({-model.rear_overhang - along, along - front, 0.0}),
+                      std::max(std::abs(across) - model.width / 2, 0.0));
+}
+
+/// Two who wait for each other there would wait for ever.
+TEST(TurnAround, ComesAroundBeforeSomebodyWhoStaysBehindIt) {
+    Drive drive = with_somebody_behind(20, 2.8);
+    double nearest = 10;
+    while (drive.car.x > 50 && drive.seconds() < 240) {
+        drive.step();
+        nearest = std::min(nearest, distance_to(drive.car, drive.walkers.front().position()));
+    }
+    EXPECT_LE(drive.car.x, 50);
+    EXPECT_GT(nearest, 0.4) << "[m]";
+}
+
+TEST(TurnAround, WaitsForSomebodyBehindIt) {
+    Drive drive = with_somebody_behind(0, 1.9);
     const KinematicCar before = drive.car;
-    for (int i = 0; i < 100; ++i)
+    for (int i = 0; i < 50; ++i)
         drive.step();
     EXPECT_LT(std::hypot(drive.car.x - before.x, drive.car.y - before.y), 0.3);
     drive.walkers.clear();
