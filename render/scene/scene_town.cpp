@@ -3,15 +3,12 @@
 #include <cmath>
 #include <map>
 
-#include <tbb/parallel_invoke.h>
-
 #include "ground/mesh/build_ground.h"
 #include "ground/paint/markings.h"
 #include "render/scene/land.h"
 #include "render/scene/town_scene.h"
 #include "render/shapes/street/plant_mesh.h"
 #include "render/shapes/street/signal_parts.h"
-#include "render/trace/default_float_mode.h"
 #include "world/external/instance_id.h"
 #include "world/frames.h"
 
@@ -61,50 +58,32 @@ BuildingFrame frame_of(const world::Building& building, const Vector3d& origin) 
 }  // namespace
 
 void TownScene::build_town(const world::TownT& town) {
-    // Neither needs the other: both at once, where there are threads for it.
-    Prototype houses;
-    tbb::parallel_invoke(
-        [&] {
-            const DefaultFloatMode plain;
-            Mesh things = build_things(town);
-            if (!things.triangles.empty())
-                houses = make_prototype(std::move(things));
-        },
-        [&] {
-            const DefaultFloatMode plain;
-            lay_ground(town);
-        });
-    if (!houses.mesh.triangles.empty())
-        place_as_it_is(std::move(houses), Kind::town, solid_bit);
-    place_trees(town);
-    place_props(town);
-    lamps_ = TownLamps(town, facades_, origin_);
-}
-
-/// A mesh in the scene's frame.
-void TownScene::place_as_it_is(Prototype prototype, Kind kind, std::uint32_t mask) {
-    Instance& instance = instances_.emplace_back();
-    instance.prototype = &meshes_.emplace_back(std::move(prototype));
-    instance.kind = kind;
-    instance.mask = mask;
-}
-
-void TownScene::lay_ground(const world::TownT& town) {
-    const auto place = [&](Mesh mesh, Kind kind, std::uint32_t mask) {
-        place_as_it_is(make_prototype(std::move(mesh)), kind, mask);
+    const auto add = [&](Mesh mesh, Kind kind, std::uint32_t mask) {
+        Instance& instance = instances_.emplace_back();
+        instance.prototype = add_prototype(std::move(mesh));
+        instance.kind = kind;
+        instance.mask = mask;
     };
-    place(land_mesh(town, origin_), Kind::ground, solid_bit);  // the first: see shelter()
+    add(land_mesh(town, origin_), Kind::ground, solid_bit);  // the first: see shelter()
     const ground::GroundMesh levels = ground::build_ground(town);
-    place(mesh_of(levels, origin_), Kind::ground, solid_bit);
+    Mesh ground = mesh_of(levels, origin_);
+    add(std::move(ground), Kind::ground, solid_bit);
     Mesh markings = mesh_of(ground::build_markings(town), origin_);
     if (!markings.triangles.empty())
-        place(std::move(markings), Kind::marking, marking_bit);
+        add(std::move(markings), Kind::marking, marking_bit);
 
     Mesh plots = plot_mesh(town, levels, origin_);
     for (const world::PlotT& plot : town.plots)
         plots_.emplace_back(plot, origin_);
     if (!plots.triangles.empty())
-        place(std::move(plots), Kind::ground, solid_bit);
+        add(std::move(plots), Kind::ground, solid_bit);
+
+    Mesh houses = build_things(town);
+    if (!houses.triangles.empty())
+        add(std::move(houses), Kind::town, solid_bit);
+    place_trees(town);
+    place_props(town);
+    lamps_ = TownLamps(town, facades_, origin_);
 }
 
 /// Buildings and signals, and which triangles are of which.

@@ -154,8 +154,6 @@ class TownScene {
     void name_models();
     void name_people();
     void build_town(const world::TownT& town);
-    void lay_ground(const world::TownT& town);
-    void place_as_it_is(Prototype prototype, Kind kind, std::uint32_t mask);
     void place_trees(const world::TownT& town);
     void place_props(const world::TownT& town);
     void park(const world::Prop& prop, std::uint32_t thing);
