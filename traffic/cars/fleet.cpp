@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "traffic/lane_change_pace.h"
 #include "world/models/catalogue.h"
 #include "world/models/vehicle_classes.h"
 
@@ -69,7 +68,7 @@ std::string type_xml(const std::string& id,
         manner.deceleration,
         manner.emergency,
         manner.top_speed,
-        LaneChangePace::usual,
+        usual_aside,
         moods);
 }
 

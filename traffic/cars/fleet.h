@@ -19,6 +19,9 @@ std::string scripted_type(std::uint16_t model);
 std::string stand_in_type();
 inline constexpr double stand_in_length = 0.5;  ///< [m]
 
+/// [m/s] sideways of one that changes lanes and is free to choose: a lane in three seconds.
+inline constexpr double usual_aside = 1.1;
+
 /// What a driver of the model brakes with when nothing hurries, and at most. [m/s^2]
 double comfortable_braking(std::uint16_t model);
 double emergency_braking(std::uint16_t model);

@@ -26,9 +26,6 @@ class LaneChangePace {
     /// Is nobody and nothing in the way of a change that begins now? `obstructions` likewise.
     bool is_clear(const Car& car, const Obstructions& obstructions) const;
 
-    /// [m/s] sideways of one that is free to choose: a lane in three seconds.
-    static constexpr double usual = 1.1;
-
   private:
     /// A car that stands or crawls.
     struct Waiting {

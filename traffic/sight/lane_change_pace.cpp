@@ -1,10 +1,11 @@
-#include "traffic/lane_change_pace.h"
+#include "traffic/sight/lane_change_pace.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <libsumo/libsumo.h>
 
+#include "traffic/cars/fleet.h"
 #include "world/models/catalogue.h"
 
 namespace reprise::traffic {
@@ -58,7 +59,7 @@ std::vector<LaneChangePace::Waiting> LaneChangePace::waiting(const Cars& cars) {
 double LaneChangePace::wanted_way(const Car& car) const {
     constexpr double margin = 4;  // [m]
     const double width = town_->lanes[car.lane].width;
-    return std::max(width / steepest, width / usual * car.speed) + margin;
+    return std::max(width / steepest, width / usual_aside * car.speed) + margin;
 }
 
 /// Does nothing lie, stand or walk beside the car's way within that of a change, on the line or on
@@ -118,12 +119,12 @@ void LaneChangePace::follow(Cars& cars,
         }
         if (car.lane_order)
             car.aside_wanted = lane.width / std::max(car.lane_order->duration, 1.0);
-        double limit = car.aside_wanted == 0 ? usual : car.aside_wanted;
+        double limit = car.aside_wanted == 0 ? usual_aside : car.aside_wanted;
         if (has_neighbour_[car.lane])
             limit = std::min(
                 limit,
                 car.speed < crawl ? aside_while_waiting(car, lane, limit) : steerable(car.speed));
-        if (limit == (car.aside_limit < 0 ? usual : car.aside_limit))
+        if (limit == (car.aside_limit < 0 ? usual_aside : car.aside_limit))
             continue;
         libsumo::Vehicle::setMaxSpeedLat(car.sumo, limit);
         car.aside_limit = limit;
