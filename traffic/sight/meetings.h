@@ -26,9 +26,8 @@ namespace reprise::traffic {
 ///         begun to wait keeps to it. When both have stood for long the other one tries, and where
 ///         they block each other for good, one pushes past, for which the other one stands still;
 ///         not where it would be through the other one. Who lies in another one gets no deeper in.
-/// KEEPS   with each car, whom it waits for, and whom it pushes past until when. What was worked
-/// out
-///         for who stands decides nothing but the cost: a quarter of the cars stands.
+/// KEEPS   with each car, whom it waits for, and whom it pushes past until when; what was worked
+///         out for who stands, which decides nothing but the cost: a quarter of the cars stands.
 class Meetings {
   public:
     /// All three must outlive this. `step` [s] of a tick.
