@@ -74,7 +74,7 @@ struct Background::Parts {
           routes(graph, episode.seed),
           detours(town, graph, routes, world::seconds(1, episode.step_ns)),
           insertion(town, graph, routes),
-          demand(episode, town, graph, points, insertion),
+          demand(episode, town, graph, right_of_way, points, insertion),
           placements(episode, town, lanes, graph, routes, insertion),
           spawns(episode, town, graph, points, insertion, placements),
           orders(episode, town, graph, routes),

@@ -82,11 +82,13 @@ bool is_right_behind_another(const Car& car, const Cars& cars, const world::Tick
 Demand::Demand(const world::EpisodeT& episode,
                const world::TownT& town,
                const RoadGraph& graph,
+               const RightOfWay& right_of_way,
                const InsertionPoints& points,
                const Insertion& insertion)
     : episode_(&episode),
       town_(&town),
       graph_(&graph),
+      right_of_way_(&right_of_way),
       points_(&points),
       insertion_(&insertion),
       step_(world::seconds(1, episode.step_ns)),
@@ -177,7 +179,7 @@ bool Demand::is_stuck(const Car& car, const Cars& cars, const world::TickView& l
         waits_for_ever(car, step_))
         return true;
     return stood > far_too_long_in_junction && car.lane_position > at_its_edge &&
-           town_->lanes[car.lane].kind == world::LaneKind::internal &&
+           right_of_way_->is_crossed(car.lane) &&
            (stood > in_a_row || !is_seen(car.rear, last, not_beside) ||
             !is_right_behind_another(car, cars, last));
 }

@@ -7,6 +7,7 @@
 #include "traffic/cars/cars.h"
 #include "traffic/insertion.h"
 #include "traffic/insertion_points.h"
+#include "traffic/roads/right_of_way.h"
 #include "traffic/roads/road_graph.h"
 #include "world/digest.h"
 #include "world/episode_generated.h"
@@ -23,6 +24,7 @@ class Demand {
     Demand(const world::EpisodeT& episode,
            const world::TownT& town,
            const RoadGraph& graph,
+           const RightOfWay& right_of_way,
            const InsertionPoints& points,
            const Insertion& insertion);
 
@@ -53,6 +55,7 @@ class Demand {
     const world::EpisodeT* episode_;
     const world::TownT* town_;
     const RoadGraph* graph_;
+    const RightOfWay* right_of_way_;
     const InsertionPoints* points_;
     const Insertion* insertion_;
     double step_;              ///< [s]

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -63,6 +64,69 @@ TEST(Standoffs, OneOfTwoWhoWaitForEachOtherGoes) {
     EXPECT_GT(longest, 100) << "nobody waited: nothing is shown";
     EXPECT_LT(longest, 800) << "[ticks]";
     EXPECT_GE(gone, 1U);
+}
+
+/// One road that goes on as another one around a corner: a junction on the map. Of more `lanes`
+/// only the left one leads around it.
+test::Loaded corner(int lanes = 1) {
+    const std::filesystem::path folder =
+        std::filesystem::path(testing::TempDir()) / ("corner" + std::to_string(lanes));
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "nodes.xml")
+        << R"(<nodes> <node id="w" x="-200" y="0"/> <node id="c" x="0" y="0" type="priority"/>
+        <node id="n" x="0" y="200"/> </nodes>)";
+    std::ofstream(folder / "edges.xml")
+        << R"(<edges> <edge id="wc" from="w" to="c" shape="-200,0 -12,0" numLanes=")" << lanes
+        << R"("/>
+        <edge id="cn" from="c" to="n" shape="0,12 0,200"/> </edges>)";
+    std::ofstream(folder / "ways.xml")
+        << R"(<connections> <connection from="wc" to="cn" fromLane=")" << lanes - 1
+        << R"(" toLane="0"/> </connections>)";
+    const process::ProgramResult made = process::run_program({.name = "netconvert",
+                                                              .words = {"-X",
+                                                                        "never",
+                                                                        "-n",
+                                                                        "nodes.xml",
+                                                                        "-e",
+                                                                        "edges.xml",
+                                                                        "-x",
+                                                                        "ways.xml",
+                                                                        "-o",
+                                                                        "corner.net.xml"},
+                                                              .folder = folder});
+    EXPECT_EQ(made.code, 0) << made.said;
+    return test::load(folder / "corner.net.xml");
+}
+
+/// Behind somebody with mass, as before a light.
+TEST(Standoffs, WhoStandsInARowWhereNobodyCrossesIsInNobodysWay) {
+    const test::Loaded loaded = corner();
+    const world::LaneT& on = loaded.town.lanes[lane(loaded.town, "cn_0")];
+    const std::uint32_t around = loaded.town.lanes[lane(loaded.town, "wc_0")].links.front().via();
+    ASSERT_NE(around, world::none);
+    ASSERT_GT(loaded.town.lanes[around].length, 5);
+    const world::VehicleState ego = test::vehicle_on(on, 1, 4);
+    Stage stage(loaded, 4, 3);
+    std::set<std::uint32_t> stood;  // in the corner, after half a minute
+    for (int i = 0; i < 2400; ++i) {
+        stage.step({}, {ego});
+        for (const world::CarState& car : stage.draft().traffic.cars)
+            if (i == 600 && car.lane() == around && car.speed() < 0.1F)
+                stood.insert(car.id());
+    }
+    EXPECT_FALSE(stood.empty()) << "nobody stood: nothing is shown";
+    for (const std::uint32_t id : stood)
+        EXPECT_NE(stage.car(id), nullptr) << id;
+}
+
+TEST(RightOfWay, KnowsWhereWaysCross) {
+    for (const bool cross : {true, false}) {
+        const test::Loaded loaded = cross ? crossing_roads() : corner();
+        const Stage stage(loaded, 0);
+        const RightOfWay right_of_way = right_of_way_in_sumo(loaded.town);
+        const auto& from = loaded.town.lanes[lane(loaded.town, cross ? "wj_0" : "wc_0")];
+        EXPECT_EQ(right_of_way.is_crossed(from.links.front().via()), cross);
+    }
 }
 
 /// Two routes that must agree: what SUMO says, and how the roads were made.

@@ -12,10 +12,12 @@ namespace reprise::traffic {
 
 using world::none;
 
-RightOfWay::RightOfWay(const world::TownT& town, Firsts firsts)
+RightOfWay::RightOfWay(const world::TownT& town, Firsts firsts, std::vector<bool> crossed)
     : firsts_(std::move(firsts)),
+      crossed_(std::move(crossed)),
       ways_(town.lanes.size()) {
     firsts_.resize(town.lanes.size());
+    crossed_.resize(town.lanes.size(), false);
     for (std::uint32_t from = 0; from < town.lanes.size(); ++from) {
         if (town.lanes[from].kind == world::LaneKind::internal)
             continue;
@@ -45,10 +47,21 @@ RightOfWay right_of_way_in_sumo(const world::TownT& town) {
     std::map<std::string_view, std::uint32_t> by_name;
     for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
         by_name.emplace(town.lanes[i].name, i);
+    const auto is_on_wheels = [&](const std::string& name) {
+        const auto found = by_name.find(name);
+        return found != by_name.end() && world::is_for_cars(town.lanes[found->second]);
+    };
+    std::vector<bool> crossed(town.lanes.size(), false);
     RightOfWay::Firsts firsts(town.lanes.size());
-    for (const world::LaneT& lane : town.lanes) {
-        if (!world::is_for_cars(lane) || lane.kind == world::LaneKind::internal)
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
+        const world::LaneT& lane = town.lanes[i];
+        if (!world::is_for_cars(lane))
             continue;
+        if (lane.kind == world::LaneKind::internal) {
+            const auto foes = libsumo::Lane::getInternalFoes(lane.name);
+            crossed[i] = std::any_of(foes.begin(), foes.end(), is_on_wheels);
+            continue;
+        }
         for (const world::Link& link : lane.links) {
             if (link.via() == none || link.to() == none)
                 continue;
@@ -60,7 +73,7 @@ RightOfWay right_of_way_in_sumo(const world::TownT& town) {
             std::sort(before_us.begin(), before_us.end());
         }
     }
-    return {town, std::move(firsts)};
+    return {town, std::move(firsts), std::move(crossed)};
 }
 
 }  // namespace reprise::traffic

@@ -15,11 +15,16 @@ class RightOfWay {
     /// traffic goes before its own; sorted.
     using Firsts = std::vector<std::vector<std::uint32_t>>;
 
-    RightOfWay(const world::TownT& town, Firsts firsts);
+    /// `crossed`: see is_crossed(), by lane; empty: none.
+    RightOfWay(const world::TownT& town, Firsts firsts, std::vector<bool> crossed = {});
 
     /// Of two lanes of one junction: does who is on the first let who is on the other go, and not
     /// the other one him?
     bool lets_go(std::uint32_t lane, std::uint32_t other) const;
+
+    /// Does somebody else on wheels drive over this lane of a junction? Where one road goes on as
+    /// another there is a junction on the map, but none to those who drive there.
+    bool is_crossed(std::uint32_t lane) const { return crossed_[lane]; }
 
   private:
     struct Way {
@@ -30,6 +35,7 @@ class RightOfWay {
     bool lets_all_of(const Way& way, std::uint32_t from) const;
 
     Firsts firsts_;
+    std::vector<bool> crossed_;
     std::vector<Way> ways_;  ///< [lane] of a junction
 };
 
