@@ -17,9 +17,39 @@ constexpr double free_at_start = 1;  // [m] kept free at the start of a lane
 constexpr double free_at_end = 4;    // [m] and before its end
 constexpr double person = 0.6;       // [m] through somebody on his feet
 constexpr double least_margin = 3;   // [m] between cars that stand in line
+constexpr double to_change = 80;     // [m] before a lane ends beside one that leads on
 
 Eigen::Vector2d direction(double yaw) {
     return {std::cos(yaw), std::sin(yaw)};
+}
+
+/// [m] behind the end of a lane until its road goes on for this car and it does not: it is a
+/// parking lane, or one that ends, and who is at its end waits there for a gap beside him. At most
+/// `far`.
+double way_of_its_own(std::uint32_t lane,
+                      world::ClassSet car,
+                      double far,
+                      const world::TownT& town,
+                      const RoadGraph& graph) {
+    if (far <= 0)
+        return 0;
+    const auto is_way = [&](const world::Link& link) {
+        return graph.edge_of(link.to()) != world::none && graph.may_use(link.to(), car);
+    };
+    const auto leads_on = [&](std::uint32_t one) {
+        return std::ranges::any_of(town.lanes[one].links, is_way);
+    };
+    if (!leads_on(lane))
+        return std::ranges::any_of(graph.edge(graph.edge_of(lane)).lanes, leads_on) ? 0 : far;
+    double longest = 0;
+    for (const world::Link& link : town.lanes[lane].links) {
+        if (longest >= far || !is_way(link))
+            continue;
+        const double length = std::min(town.lanes[link.to()].length, far);
+        longest =
+            std::max(longest, length + way_of_its_own(link.to(), car, far - length, town, graph));
+    }
+    return longest;
 }
 
 }  // namespace
@@ -56,6 +86,9 @@ std::optional<InsertionPoint> InsertionPoints::at(double drawn,
     const double length = town_->lanes[lane].length;
     const double s = metre - (ends_[index] - length);
     if (s < car_length + free_at_start || s > length - free_at_end || !graph_->may_use(lane, car))
+        return std::nullopt;
+    if (length - s < to_change &&
+        length - s + way_of_its_own(lane, car, to_change, *town_, *graph_) < to_change)
         return std::nullopt;
     return InsertionPoint{lane, s};
 }

@@ -119,6 +119,22 @@ TEST(Standoffs, WhoStandsInARowWhereNobodyCrossesIsInNobodysWay) {
         EXPECT_NE(stage.car(id), nullptr) << id;
 }
 
+/// He would stand at its end until somebody lets him in.
+TEST(InsertionPoints, NobodyAppearsRightBeforeTheEndOfALaneThatLeadsNowhere) {
+    const test::Loaded loaded = corner(2);
+    const std::uint32_t ends = lane(loaded.town, "wc_0");
+    ASSERT_TRUE(loaded.town.lanes[ends].links.empty());
+    Stage stage(loaded, 40, 3);
+    int seen = 0;
+    for (const world::CarState& car : stage.step().traffic.cars) {
+        if (car.lane() != ends)
+            continue;
+        ++seen;
+        EXPECT_LT(car.lane_s(), loaded.town.lanes[ends].length - 75) << car.id();
+    }
+    EXPECT_GT(seen, 2);
+}
+
 TEST(RightOfWay, KnowsWhereWaysCross) {
     for (const bool cross : {true, false}) {
         const test::Loaded loaded = cross ? crossing_roads() : corner();
