@@ -225,7 +225,7 @@ double DriverState::obedient_acceleration(const world::TickView& last, Ego& ego)
 double DriverState::careful_acceleration(const world::TickView& last, Ego& ego) {
     double acceleration = pid ? ended_acceleration(ego) : cruise(ego);
     acceleration = std::min(acceleration, change_lanes(last, ego));
-    acceleration = std::min(acceleration, approach_turn(ego));
+    acceleration = std::min(acceleration, approach_turn(last, ego));
     take_jump(ego);
     plan_wide_turns(ego);
     passing.follow(last, ego, way());
@@ -420,6 +420,8 @@ std::uint64_t Autopilot::digest() const {
         hasher.add(state.standoffs);
     if (state.held_ticks > 0)
         hasher.add(state.held_ticks);
+    if (state.turner_ticks > 0)
+        hasher.add(state.turner_ticks);
     if (state.wedged_ticks > 0)
         hasher.add(state.wedged_ticks);
     hasher.add(state.has_wide_turn);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/control/turning_room.h"
 #include "drivers/driver_state.h"
 #include "drivers/lane_change.h"
 #include "world/units.h"
@@ -82,8 +83,10 @@ double DriverState::ended_acceleration(const Ego& ego) const {
 }
 
 /// Stops where a turn begins that takes going back and forth, and begins it. [m/s^2]
-double DriverState::approach_turn(const Ego& ego) {
-    constexpr double sight = 80;  // [m]
+double DriverState::approach_turn(const world::TickView& last, const Ego& ego) {
+    constexpr double sight = 80;             // [m]
+    constexpr double room_for_another = 7;   // [m] to and fro
+    constexpr std::uint32_t patience = 600;  // ticks: who stands for longer may be a wreck
     const auto ahead = std::find_if(way().gates().begin(),
                                     way().gates().end(),
                                     [&](const Gate& gate) { return gate.s > ego.front_s() - 1; });
@@ -95,6 +98,13 @@ double DriverState::approach_turn(const Ego& ego) {
     if (!street)
         return world::infinity;
     const double distance = ahead->s - TurnAround::before_end - ego.front_s();
+    if (!turns_around_at(last, ego, street->origin, street->yaw)) {
+        turner_ticks = 0;
+    } else if (turner_ticks < patience) {
+        turner_ticks += ego.speed < 0.5 ? 1 : 0;
+        return stop_acceleration(
+            distance - room_for_another, ego.speed, style.comfortable_braking, style);
+    }
     if (distance < 0.7 && ego.speed < 0.2) {
         turn_around.begin(*street, ego);
         turns_into = ahead->to;

@@ -49,7 +49,7 @@ struct DriverState {
     double careful_acceleration(const world::TickView& last, Ego& ego);
     double ended_acceleration(const Ego& ego) const;
     std::span<const SweptWidth> corridor(const Ego& ego);
-    double approach_turn(const Ego& ego);
+    double approach_turn(const world::TickView& last, const Ego& ego);
     void turn(const world::TickView& last, Ego& ego, world::Control& control);
     std::uint16_t lamps(const world::TickView& last, const Ego& ego) const;
     void creep(double speed, double along, double climb, world::Control& control);
@@ -92,6 +92,7 @@ struct DriverState {
     std::uint32_t standoff_ticks = 0;      ///< before somebody who cannot go on before we do
     std::uint32_t standoffs = 0;           ///< in which it made room, since it drove on
     std::uint32_t held_ticks = 0;          ///< before what its wheels lead into
+    std::uint32_t turner_ticks = 0;        ///< before somebody who turns where we want to
     std::uint32_t wedged_ticks = 0;        ///< beside somebody whom it could creep past
     bool at_end = false;                   ///< follows from the last tick and the way: not digested
 };

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "drivers/control/turning_room.h"
 #include "world/frames.h"
-#include "world/models/catalogue.h"
 
 namespace reprise::drivers {
 
@@ -17,9 +17,12 @@ constexpr double manoeuvre_reaction = 0.15;  // [s]
 constexpr double aligned = 0.35;             // [rad] the path does the rest
 constexpr double straight_enough = 0.15;     // [rad] backwards
 constexpr double looks_ahead = 1.2;          // [m]
-constexpr double looks_ahead_at_last = 0.3;  // [m] of one who has waited,
-constexpr std::uint32_t patience = 60;       // for so many ticks
+constexpr double creep_at_last = 0.5;        // [m/s] of one who has waited
+constexpr double looks_ahead_at_last = 0.4;  // [m]
+constexpr std::uint32_t patience = 60;       // ticks
 constexpr double keeps_clear = 0.5;          // [m]
+constexpr double clear_at_last = 0.07;       // [m] beside who stays,
+constexpr double clear_in_need = 0.02;       // [m] and of one who has waited for longer still
 constexpr std::uint32_t most_changes = 16;   // of gear: then the street is narrower than it seemed
 constexpr double spare = 0.6;                // [m] of a street's width beyond the car's length
 
@@ -38,66 +41,6 @@ Eigen::Vector2d turned(const Eigen::Vector2d& v, double angle) {
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
-
-/// Is a body of this length and width near the box that the car fills and will fill? Who is behind
-/// the end that follows is not.
-bool is_near(const Ego& ego,
-             double ahead,
-             const Eigen::Vector2d& rear_axle,
-             const Eigen::Vector2d& direction,
-             const world::VehicleModel& model) {
-    const double reach = model.width / 2 + keeps_clear;
-    const double rear = -ego.model->rear_overhang + (ahead > 0 ? reach : ahead);
-    const double front =
-        ego.model->length - ego.model->rear_overhang + (ahead > 0 ? ahead : -reach);
-    for (double along = -model.rear_overhang; along < model.length - model.rear_overhang;
-         along += 1) {
-        const Eigen::Vector2d offset = rear_axle + along * direction - ego.position.head<2>();
-        const double x = ego.direction.dot(offset);
-        const double y = ego.direction.x() * offset.y() - ego.direction.y() * offset.x();
-        const double dx = std::max({rear - x, x - front, 0.0});
-        const double dy = std::max(std::abs(y) - ego.model->width / 2, 0.0);
-        if (dx * dx + dy * dy < reach * reach)
-            return true;
-    }
-    return false;
-}
-
-bool somebody_is_near(const world::TickView& last, const Ego& ego, double ahead) {
-    constexpr double far = 15;
-    const auto near = [&](const world::Vec3& p,
-                          const Eigen::Vector2d& direction,
-                          const world::VehicleModel& model) {
-        const Eigen::Vector3d position = world::to_eigen(p);
-        return (position - ego.position).squaredNorm() < far * far &&
-               is_near(ego, ahead, position.head<2>(), direction, model);
-    };
-    const auto heading = [](float yaw) {
-        return Eigen::Vector2d(std::cos(static_cast<double>(yaw)),
-                               std::sin(static_cast<double>(yaw)));
-    };
-    world::VehicleModel walker{};
-    walker.length = walker.width = 0.6;
-    walker.rear_overhang = 0.3;
-    return std::any_of(last.vehicles().begin(),
-                       last.vehicles().end(),
-                       [&](const world::VehicleState& other) {
-                           const Ego seen = ego_of(other);
-                           return seen.id != ego.id &&
-                                  near(other.position(), seen.direction, *seen.model);
-                       }) ||
-           std::any_of(last.cars().begin(),
-                       last.cars().end(),
-                       [&](const world::CarState& car) {
-                           return near(car.position(),
-                                       heading(car.yaw()),
-                                       world::vehicle_models()[car.model()]);
-                       }) ||
-           std::any_of(
-               last.walkers().begin(), last.walkers().end(), [&](const world::WalkerState& one) {
-                   return near(one.position(), heading(one.yaw()), walker);
-               });
 }
 
 }  // namespace
@@ -142,10 +85,15 @@ void TurnAround::begin(const Street& street, const Ego& ego) {
     gear_changes_ = waiting_ticks_ = 0;
 }
 
+/// [rad] of the front wheels, with so much of full lock in that gear.
+double TurnAround::lock(const Ego& ego, bool forward, double share) const {
+    return (forward ? share : -share) * side_ * ego.model->max_steering_angle;
+}
+
 /// How far the end that leads, in that gear, is beyond the kerb that it turns towards, after so
-/// many metres with full lock. [m]
-double TurnAround::beyond_kerbs(const Ego& ego, double distance, bool forward) const {
-    const double lock = (forward ? side_ : -side_) * ego.model->max_steering_angle;
+/// many metres with so much of full lock. [m]
+double TurnAround::beyond_kerbs(const Ego& ego, double distance, bool forward, double share) const {
+    const double lock = this->lock(ego, forward, share);
     const double turn = distance * std::tan(lock) / ego.model->wheelbase;
     const Eigen::Vector2d direction = turned(ego.direction, turn);
     const Eigen::Vector2d rear_axle =
@@ -165,19 +113,50 @@ double TurnAround::beyond_kerbs(const Ego& ego, double distance, bool forward) c
     return most;
 }
 
+/// [m] that it can drive in that gear, with so much of full lock, before its leading end is at the
+/// kerb; at most `most`.
+double TurnAround::room(const Ego& ego, bool forward, double share, double most) const {
+    constexpr double pace = 0.1;  // [m]
+    double room = 0;
+    while (room < most &&
+           beyond_kerbs(ego, forward ? room + pace : -room - pace, forward, share) <= 0)
+        room += pace;
+    return std::min(room, most);
+}
+
+/// Is somebody in the way of what it can drive in that gear?
+bool TurnAround::meets_somebody(const world::TickView& last, const Ego& ego, bool forward) const {
+    const double distance = room(ego, forward, 1, looks_ahead);
+    return comes_near(
+        last, ego, forward ? distance : -distance, lock(ego, forward, 1), keeps_clear);
+}
+
 /// Has it waited for long enough, and is there room the other way?
 bool TurnAround::goes_the_other_way(const world::TickView& last, const Ego& ego) const {
     constexpr double worth_it = 0.3;  // [m]
-    const double sign = forward_ ? -1 : 1;
     return waiting_ticks_ > patience && std::abs(ego.speed) < 0.1 &&
-           beyond_kerbs(ego, sign * worth_it, !forward_) <= 0 &&
-           !somebody_is_near(last, ego, sign * looks_ahead);
+           room(ego, !forward_, 1, worth_it) >= worth_it && !meets_somebody(last, ego, !forward_);
 }
 
 void TurnAround::change_gear() {
     forward_ = !forward_;
     ++gear_changes_;
     waiting_ticks_ = 0;
+}
+
+/// Who stays may leave room for less than full lock: how much of it, the more the better. None:
+/// there is no room.
+std::optional<double> TurnAround::lock_that_passes(const world::TickView& last,
+                                                   const Ego& ego) const {
+    const double clear = waiting_ticks_ > 3 * patience ? clear_in_need : clear_at_last;
+    for (const double share : {1.0, 0.5, 0.0}) {
+        const double distance = room(ego, forward_, share, looks_ahead_at_last);
+        if (distance > 0 &&
+            !comes_near(
+                last, ego, forward_ ? distance : -distance, lock(ego, forward_, share), clear))
+            return share;
+    }
+    return std::nullopt;
 }
 
 TurnAround::Move TurnAround::next(const world::TickView& last, const Ego& ego) {
@@ -187,26 +166,31 @@ TurnAround::Move TurnAround::next(const world::TickView& last, const Ego& ego) {
     const double stopping = 0.05 + manoeuvre_reaction * speed + speed * speed / (2 * braking);
     const double sign = forward_ ? 1 : -1;
     done_ = (forward_ && error < aligned) || gear_changes_ > most_changes;
-    const bool at_kerb = beyond_kerbs(ego, sign * stopping, forward_) > 0;
+    const bool at_kerb = beyond_kerbs(ego, sign * stopping, forward_, 1) > 0;
     if (at_kerb || (!forward_ && error < straight_enough)) {
         if (std::abs(ego.speed) < 0.1)
             change_gear();
         return {0, sign * side_};
     }
-    const double steer = sign * side_;
-    const bool wheels_turned =
-        std::abs(ego.steering_angle - steer * ego.model->max_steering_angle) < 0.1;
-    bool is_blocked = somebody_is_near(last, ego, sign * looks_ahead);
+    double steer = sign * side_;
+    double wanted = creep;
+    bool is_blocked = meets_somebody(last, ego, forward_);
     if (is_blocked && goes_the_other_way(last, ego)) {
         change_gear();
         return {0, -steer};
     }
     waiting_ticks_ += is_blocked ? 1 : 0;
-    if (waiting_ticks_ > patience)
-        is_blocked = somebody_is_near(last, ego, sign * looks_ahead_at_last);
+    if (is_blocked && waiting_ticks_ > patience) {
+        const std::optional<double> share = lock_that_passes(last, ego);
+        is_blocked = !share;
+        steer *= share.value_or(1);
+        wanted = creep_at_last;
+    }
+    const bool wheels_turned =
+        std::abs(ego.steering_angle - steer * ego.model->max_steering_angle) < 0.1;
     if (is_blocked || (!wheels_turned && along < 0.3))
         return {0, steer};
-    return {sign * creep, steer};
+    return {sign * wanted, steer};
 }
 
 double TurnAround::climb(const Ego& ego) const {

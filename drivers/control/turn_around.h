@@ -16,11 +16,10 @@ namespace reprise::drivers {
 /// ahead with full lock until the front is at one kerb, back with the other lock until the rear is
 /// at the other one, and so on (a three-point turn).
 ///
-/// MUST    keep all corners of the car between the kerbs; stop for everybody within a metre.
+/// MUST    keep all corners of the car between the kerbs; stop for everybody whom it comes near.
 /// ASSUMES that the street is straight for a car's length.
 /// GOES    to and fro between the kerbs; the other way as well where somebody stands in this one,
-/// who
-///         may wait for us.
+///         who may wait for us.
 /// KEEPS   the street, the gear, how often it was changed, and since when somebody is in the way.
 class TurnAround {
   public:
@@ -61,9 +60,13 @@ class TurnAround {
     void add_to(world::Hasher& hasher) const;
 
   private:
-    double beyond_kerbs(const Ego& ego, double distance, bool forward) const;
+    double lock(const Ego& ego, bool forward, double share) const;
+    double beyond_kerbs(const Ego& ego, double distance, bool forward, double share) const;
+    double room(const Ego& ego, bool forward, double share, double most) const;
+    bool meets_somebody(const world::TickView& last, const Ego& ego, bool forward) const;
     void change_gear();
     bool goes_the_other_way(const world::TickView& last, const Ego& ego) const;
+    std::optional<double> lock_that_passes(const world::TickView& last, const Ego& ego) const;
 
     Street street_;
     double side_ = 1;  ///< 1: turns left, -1: right

@@ -162,6 +162,75 @@ TEST(TurnAround, ComesAroundBeforeSomebodyWhoStaysBehindIt) {
     EXPECT_GT(nearest, 0.4) << "[m]";
 }
 
+/// [m] between two bodies seen from above, by the corners of either: they are never nearer
+/// elsewhere.
+double distance_between(const KinematicCar& one, const KinematicCar& other) {
+    double least = 1e9;
+    const auto corners_of = [&](const KinematicCar& car, const KinematicCar& from) {
+        const world::VehicleModel& model = world::vehicle_models()[car.model];
+        for (const double x : {-model.rear_overhang, model.length - model.rear_overhang})
+            for (const double y : {-model.width / 2, model.width / 2})
+                least = std::min(least,
+                                 distance_to(from,
+                                             {car.x + x * std::cos(car.yaw) - y * std::sin(car.yaw),
+                                              car.y + x * std::sin(car.yaw) + y * std::cos(car.yaw),
+                                              0}));
+    };
+    corners_of(one, other);
+    corners_of(other, one);
+    return least;
+}
+
+class TurnAroundBeforeQueue : public testing::TestWithParam<double> {};
+
+/// The first of those behind it drives up to where it turns, and waits for it there.
+TEST_P(TurnAroundBeforeQueue, PassesWhoWaitsBehindIt) {
+    Drive drive(dead_end(3.2));
+    drive.place(1, 60, 8);
+    while (!drive.control.reverse() && drive.seconds() < 60)
+        drive.step();
+    KinematicCar first;
+    first.x = road_end - GetParam();
+    first.y = -1.6;
+    drive.cars = {car_at(1'000'000, first.x, first.y)};
+    double nearest = 10;
+    while (drive.car.x > 50 && drive.seconds() < 120) {
+        drive.step();
+        nearest = std::min(nearest, distance_between(drive.car, first));
+    }
+    EXPECT_LE(drive.car.x, 50) << "it drives back";
+    EXPECT_GT(nearest, 0.02) << "[m]: touches nobody";
+}
+
+INSTANTIATE_TEST_SUITE_P(MetresBeforeTheEnd,
+                         TurnAroundBeforeQueue,
+                         testing::Range(11.7, 14.0, 0.1));
+
+/// Who goes to and fro there needs the room behind it.
+TEST(TurnAround, StaysAwayWhileAnotherTurnsAroundThere) {
+    Drive drive(dead_end(3.2));
+    drive.place(1, 60, 8);
+    drive.cars = {car_at(1'000'000, road_end - 2, 0, 2)};
+    for (int i = 0; i < 400; ++i)
+        drive.step();
+    EXPECT_LT(drive.car.x + drive.car.front(), road_end - 10);
+    EXPECT_GT(drive.car.x + drive.car.front(), road_end - 14);
+    drive.cars.clear();
+    while (drive.car.x > 50 && drive.seconds() < 120)
+        drive.step();
+    EXPECT_LE(drive.car.x, 50) << "its turn comes";
+}
+
+/// A wreck across the end must not keep it for ever.
+TEST(TurnAround, StaysAwayForHalfAMinuteAtMost) {
+    Drive drive(dead_end(3.2));
+    drive.place(1, 60, 8);
+    drive.cars = {car_at(1'000'000, road_end + 2, -1.5, 2)};
+    while (drive.car.x > 50 && drive.seconds() < 120)
+        drive.step();
+    EXPECT_LE(drive.car.x, 50);
+}
+
 TEST(TurnAround, WaitsForSomebodyBehindIt) {
     Drive drive = with_somebody_behind(0, 1.9);
     const KinematicCar before = drive.car;
