@@ -146,14 +146,16 @@ struct Client::Parts {
     world::Outcome outcome;
 };
 
-Client::Client(const std::string& address)
-    : Client(FrameChannel(open_channel(address), largest_message)) {
+Client::Client(const std::string& address, double polling)
+    : Client(FrameChannel(open_channel(address), largest_message), polling) {
     parts_->channel.read_whole_messages();
 }
 
-Client::Client(FrameChannel channel) : parts_(std::make_unique<Parts>(std::move(channel))) {
+Client::Client(FrameChannel channel, double polling)
+    : parts_(std::make_unique<Parts>(std::move(channel))) {
     try {
         parts_->begin();
+        parts_->channel.poll_for(polling);
     } catch (const ChannelFault& fault) {
         throw world::Error(std::string("the run ") + fault.what());
     }

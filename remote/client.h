@@ -37,10 +37,12 @@ class Client {
     /// Connects, and waits for the run's hello. `address` is a socket's path or HOST:PORT, or what
     /// the variable REPRISE_DRIVER says where it is empty. Throws world::Error, also when the place
     /// is taken.
-    explicit Client(const std::string& address = {});
+    /// `polling`: [s] for so long it stays awake for each tick, and looks again and again, before
+    /// it sleeps. That keeps a processor busy, and spares the run to wake it; see docs/drivers.md.
+    explicit Client(const std::string& address = {}, double polling = 0);
 
     /// Of a connection that is open: waits for hello.
-    explicit Client(FrameChannel channel);
+    explicit Client(FrameChannel channel, double polling = 0);
     ~Client();
     Client(const Client&) = delete;
     Client& operator=(const Client&) = delete;

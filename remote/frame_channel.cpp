@@ -153,6 +153,7 @@ FrameChannel::FrameChannel(int descriptor, std::size_t largest)
 FrameChannel::FrameChannel(FrameChannel&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
       largest_(other.largest_),
+      polling_(other.polling_),
       reads_whole_messages_(other.reads_whole_messages_),
       last_size_(other.last_size_),
       room_(std::move(other.room_)),
@@ -213,12 +214,20 @@ bool FrameChannel::has_input() const {
     return ahead_begin_ < ahead_end_ || poll(&one, 1, 0) > 0;
 }
 
+/// Never sleeps in recvmsg(): there it would be woken for nothing when the other end reads what we
+/// said, at the cost of that one, some 15 us. poll() is told what it is to be woken for.
+void FrameChannel::await_input(const Wait& wait) {
+    if (!polling_.finds([&] { return has_input(); }))
+        wait.until_ready(descriptor_, POLLIN);
+}
+
 std::size_t FrameChannel::read_some(void* target,
                                     std::size_t most,
                                     const Wait& wait,
                                     Descriptor& came_along) {
-    // Who waits for ever needs no second call to wait in, and no third one to read.
-    const int flags = MSG_CMSG_CLOEXEC | (wait.is_endless() ? 0 : MSG_DONTWAIT);
+    // A driver has to wait for each tick, a run has done its own part and mostly finds the answer.
+    if (wait.is_endless())
+        await_input(wait);
     for (;;) {
         iovec part{target, most};
         msghdr message{};
@@ -226,12 +235,12 @@ std::size_t FrameChannel::read_some(void* target,
         message.msg_iovlen = 1;
         DescriptorRoom room;
         room.offer(message);
-        const ssize_t came = recvmsg(descriptor_, &message, flags);
+        const ssize_t came = recvmsg(descriptor_, &message, MSG_CMSG_CLOEXEC | MSG_DONTWAIT);
         if (came == 0)
             throw ChannelFault("has hung up");
         if (came < 0) {
             if (errno == EAGAIN)
-                wait.until_ready(descriptor_, POLLIN);
+                await_input(wait);
             else if (errno != EINTR)
                 throw ChannelFault(errno == ECONNRESET ? "has hung up" : std::strerror(errno));
             continue;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "remote/descriptor.h"
+#include "remote/polling.h"
 #include "remote/wire_generated.h"
 
 namespace reprise::remote {
@@ -74,6 +75,9 @@ class FrameChannel {
         last_size_ = 0;
     }
 
+    /// For so long [s] receive() polls from now on, before it sleeps.
+    void poll_for(double longest) { polling_ = Polling(longest); }
+
     /// Whether there is something to receive.
     bool has_input() const;
 
@@ -86,12 +90,16 @@ class FrameChannel {
     friend void wait_for_any_input(std::span<const int> descriptors, const Patience& patience);
     struct Wait;
 
+    /// Until there is something to read.
+    void await_input(const Wait& wait);
+
     /// What there is, once there is something. `came_along` gets a descriptor that comes with it.
     std::size_t read_some(void* target, std::size_t most, const Wait& wait, Descriptor& came_along);
     void read(void* target, std::size_t size, const Wait& wait, Descriptor& came_along);
 
     int descriptor_;
     std::size_t largest_;
+    Polling polling_;
     bool reads_whole_messages_ = false;
     std::size_t last_size_ = 0;       ///< [bytes] of the last body, as far as it is read ahead
     std::vector<std::uint8_t> room_;  ///< holds what is read, and of no message yet:

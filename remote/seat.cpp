@@ -33,6 +33,9 @@ namespace {
 
 constexpr std::size_t largest_answer = 64 << 10;  // [bytes]
 
+// Twice what it takes to be woken.
+constexpr double polling = 100e-6;  // [s] for an answer
+
 }  // namespace
 
 struct Seat::Parts {
@@ -235,6 +238,7 @@ std::optional<Lost> Seat::take(std::uint32_t id,
         if (const auto version = frame.as<Ready>().version(); version != wire_version)
             return parts.lost(
                 fmt::format("speaks version {} of the wire, this is {}", version, wire_version));
+        parts.channel->poll_for(polling);
     } catch (const ChannelFault& fault) {
         return parts.lost(fault.what());
     }

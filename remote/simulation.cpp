@@ -126,7 +126,8 @@ Builder pack(const EpisodePlan& plan) {
 struct Simulation::Connection {
     explicit Connection(const Server& server)
         : channel(server.address.empty() ? start(server) : open_connection(server.address),
-                  largest_from_server) {}
+                  largest_from_server),
+          polling(server.polling) {}
 
     /// A server of our own, for one client, at the other end of a socket pair.
     int start(const Server& server) {
@@ -180,6 +181,7 @@ struct Simulation::Connection {
 
     std::optional<process::Companion> own;  // waited for once the channel is closed
     FrameChannel channel;
+    double polling;  ///< [s] in episodes
 };
 
 Simulation::Simulation(const Server& server) : connection_(std::make_unique<Connection>(server)) {
@@ -217,7 +219,7 @@ std::optional<world::TickView> Simulation::reset(const EpisodePlan& plan) {
     const int copy = fcntl(connection_->channel.descriptor(), F_DUPFD_CLOEXEC, 0);
     if (copy < 0)
         throw world::Error(std::string("no descriptor is left: ") + std::strerror(errno));
-    run_ = std::make_unique<Client>(FrameChannel(copy, largest_from_server));
+    run_ = std::make_unique<Client>(FrameChannel(copy, largest_from_server), connection_->polling);
     return look();
 }
 

@@ -98,14 +98,15 @@ def _sensor(said: Mapping[str, Any]) -> dict[str, Any]:
 class Client:
     """A connection with a server of episodes, and the plan of the next one: what Simulation and MultiSimulation share."""
 
-    def __init__(self, plan: dict[str, Any], server: str | None, token: str | None, folder: str | os.PathLike) -> None:
+    def __init__(self, plan: dict[str, Any], server: str | None, token: str | None, folder: str | os.PathLike,
+                 polling: float = 0.0) -> None:  # fmt: skip
         self.outcome: Outcome | None = None  #: of the last episode, once it has ended
         self._plan = plan
         self._check_plan()
         self._wire: Wire | None = None
         self._server = None if server else _Server(os.fspath(folder))
         try:
-            self._wire = Wire(self._server.channel if self._server else server)
+            self._wire = Wire(self._server.channel if self._server else server, polling)
             self._say("open", version=VERSION, schema=self._wire.digest, token=token)
             kind, answer = self._hear()
             if kind != "open" or answer.version != VERSION:
@@ -227,19 +228,22 @@ class Simulation(Client):
 
     `server` is the socket of a `reprise serve` that runs already, 'PATH' or 'HOST:PORT' (then with its `token`, if
     it wants one); without it this starts one of its own, in `folder`, and ends it with close() or the `with`.
+
+    `polling` [s]: for so long it stays awake for each tick, and looks again and again, before it sleeps; see
+    docs/drivers.md.
     """
 
     def __init__(self, town: str = "town1", *, cars: int = 0, seed: int | None = None, weather: str = "clear_noon",
                  start: Place = None, goal: Place = None, model: str = "sedan", scenario: str | os.PathLike | None = None,
                  settings: Mapping[str, Any] | None = None, seconds: float = 0.0, trace: str | None = None,
                  rig: Sequence[Mapping[str, Any]] = (), walkers: int = 0, walker_seed: int | None = None, server: str | None = None,
-                 token: str | None = None, folder: str | os.PathLike = ".") -> None:  # fmt: skip
+                 token: str | None = None, folder: str | os.PathLike = ".", polling: float = 0.0) -> None:  # fmt: skip
         self.run_info: Run | None = None  #: what stays the same in this episode; also `seen.run`
         self._seen: Observation | None = None
         super().__init__(
             dict(town=town, cars=cars, walkers=walkers, walker_seed=walker_seed, seed=seed, weather=weather, start=start, goal=goal, model=model,
                  scenario=scenario, settings=settings, seconds=seconds, trace=trace, rig=rig),
-            server, token, folder)  # fmt: skip
+            server, token, folder, polling)  # fmt: skip
 
     def _hear(self, first: bool = False) -> tuple[str, Noun]:
         try:

@@ -1,4 +1,9 @@
-"""The least that a driver in Python can do: it looks at its speed, and at a pixel of each camera, and answers."""
+"""The least that a driver in Python can do: it looks at its speed, and at a pixel of each camera, and answers.
+
+usage: idle_driver.py [POLLING]
+"""
+import sys
+
 import reprise
 
 
@@ -8,4 +13,4 @@ def decide(seen):
     return reprise.Control(throttle=0.4 if seen.ego.speed < 5 else 0.0)
 
 
-reprise.drive(decide)
+reprise.drive(decide, polling=float((sys.argv + ["0"])[1]))

@@ -30,6 +30,17 @@ TEST_P(OneDriver, DrivesARunThatVerifiesAndIsTheSameOnceMore) {
     EXPECT_GT(trace.tick(100).view.vehicles()[0].odometer(), 3) << "it drove";
 }
 
+TEST_P(OneDriver, DrivesTheSameWhetherItPollsOrSleeps) {
+    drive("one", driver(), "sleeps.mcap");
+    std::string polling = read_file(folder_ / "driver.py");
+    polling.insert(polling.rfind(')'), ", polling=10");
+    write_file(folder_ / "polling.py", polling);
+    drive("one",
+          driver() == python_driver ? PYTHON " -B polling.py" : odd_driver + " polls",
+          "polls.mcap");
+    EXPECT_TRUE(bytes("polls.mcap") == bytes("sleeps.mcap"));
+}
+
 TEST_P(OneDriver, IsNotNeededForItsTrace) {
     drive("one", driver(), "a.mcap");
     fs::remove(folder_ / "driver.py");

@@ -4,12 +4,19 @@ usage: driver_test.py REPRISE WORK
 """
 import os
 import pathlib
+import socket
+import struct
 import subprocess
 import sys
+import threading
 import unittest
 
 import numpy as np
 import reprise
+from reprise.nouns import Noun
+from reprise.packing import pack
+from reprise.schema import ENUMS
+from reprise.wire import Wire
 
 PROGRAM, WORK = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
 SOURCE = pathlib.Path(__file__).parents[2]
@@ -73,6 +80,35 @@ class Mistakes(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, rf"^Control\({next(iter(wrong))}=.*expected .* in \["):
                 reprise.Control(**wrong)
         reprise.Control(throttle=True, brake=np.float32(1), steer=-1, lamps=np.uint16(65535), reverse=np.bool_(True), hand_brake=1)
+
+    def test_a_control_says_what_a_built_one_says(self):
+        for value in (dict(tick=9, throttle=0.25, brake=0.5, steer=-1.0, hand_brake=True, reverse=True, lamps=0xFFFF),
+                      dict(tick=0, throttle=0.0, brake=0.0, steer=0.0, hand_brake=False, reverse=False, lamps=0)):  # fmt: skip
+            ours, theirs = socket.socketpair()
+            with theirs, ours:
+                Wire(ours).control(**value)
+                size, kind = struct.unpack("<II", theirs.recv(8))
+                body = theirs.recv(1000)
+            self.assertEqual((size, kind), (len(body), ENUMS["remote.Kind"][1]["control"]))
+            if value["tick"]:  # a builder leaves zeros out, where we say them
+                self.assertEqual(body, bytes(pack("remote.Control", value)))
+            said = Noun(body, "remote.Control")
+            self.assertEqual({name: getattr(said, name) for name in value}, value)
+
+    def test_waiting_asleep_and_awake_hear_the_same(self):
+        for polling in (0.0, 10.0):
+            ours, theirs = socket.socketpair()
+            with theirs, ours, self.subTest(polling):
+                wire = Wire(ours, polling)
+                Wire(theirs).say("fault", text="before it waits")
+                saying = threading.Timer(0.01, Wire(theirs).say, ("fault",), dict(text="while it waits"))
+                saying.start()
+                for text in ("before it waits", "while it waits"):
+                    self.assertEqual(wire.receive()[1].text, text)
+                saying.join()
+                theirs.close()
+                with self.assertRaisesRegex(reprise.WireError, "hung up"):
+                    wire.receive()
 
     def test_in_what_an_episode_starts_from_are_told_and_the_simulation_lives_on(self):
         wrong = (dict(cars=1.5), dict(cars="many"), dict(seed=-1), dict(seed=1 << 64), dict(seed="7"), dict(walkers=-1),
