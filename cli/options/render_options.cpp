@@ -132,6 +132,17 @@ void part_kinds(RenderOptions& render) {
     render.cameras = std::move(cameras);
 }
 
+/// What only cameras have.
+void check_view(const CLI::App& command, const RenderOptions& render) {
+    if (!render.cameras.empty() || render.measured.empty())
+        return;
+    for (const char* option : {"--size", "--fov", "--own-car"})
+        if (command.count(option) > 0)
+            throw CLI::ValidationError(
+                option,
+                "is of cameras, and of --sensor " + joined(render.measured) + " none is one");
+}
+
 /// What programs read: how it is coded, and what comes with it.
 void add_labels(CLI::App& command, RenderOptions& render) {
     command.add_option("--rig", render.rig, "Sensors of a file, see docs/rendering.md")
@@ -439,6 +450,7 @@ void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions&
         throw CLI::ValidationError(
             "--sensor",
             "a film shows a camera, no " + render.measured.front() + ": give -o a folder");
+    check_view(command, render);
     if (render.cameras.empty() && render.measured.empty())
         render.cameras = {"rgb"};
     read_attributes(words.attributes, render);

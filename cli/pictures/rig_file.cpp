@@ -168,7 +168,7 @@ void read_view(const Table& table, const std::string& type, world::SensorSpec& s
         for (const char* key : {"fov_deg", "size"})
             if (table.find(key) != nullptr)
                 table.refuse(fmt::format(
-                    "'{}' is of cameras; what a {} sees, its 'attributes' say", key, type));
+                    "'{}' is of cameras; what a {} measures, its 'attributes' say", key, type));
         return;
     }
     sensor.fov = table.number("fov_deg", 90, world::narrowest_view_deg, world::widest_fisheye_deg) *

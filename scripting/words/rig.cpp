@@ -50,9 +50,9 @@ constexpr Key sensor_key_rows[] = {
      "'rgb'|'depth'|'semantic'|'instance'|'flow'|'normals'|'dvs'|'lidar'|'semantic_lidar'|'radar'|"
      "'gnss'|'imu'|'collision'|'lane_invasion'|'obstacle'",
      "default 'rgb'; docs/rendering.md and docs/sensors.md say what each is"},
-    {"width", "integer", "[px] 1 to 4096, default 800"},
-    {"height", "integer", "[px] 1 to 4096, default 600"},
-    {"fov_deg", "number", "[deg] 1 to 170 across, of a fisheye to 200; default 90"},
+    {"width", "integer", "[px] of cameras, 1 to 4096, default 800"},
+    {"height", "integer", "[px] of cameras, 1 to 4096, default 600"},
+    {"fov_deg", "number", "[deg] of cameras, 1 to 170 across, of a fisheye to 200; default 90"},
     {"x", "number", "[m] ahead of the rear axle, default 1"},
     {"y", "number", "[m] to the left, default 0"},
     {"z", "number", "[m] above the ground, default 1.4"},
@@ -102,6 +102,18 @@ std::vector<std::unique_ptr<world::SensorAttributeT>> read_attributes(
     return attributes;
 }
 
+/// What only cameras have.
+void refuse_view(const Fields& fields, world::SensorKind kind) {
+    if (world::is_camera(kind))
+        return;
+    for (const char* key : {"width", "height", "fov_deg"})
+        if (fields.mentions(key))
+            refuse(fields.who(),
+                   fmt::format("'{}' is of cameras; what a {} measures, its 'attributes' say",
+                               key,
+                               world::EnumNameSensorKind(kind)));
+}
+
 /// The table on top of the stack as the sensor with this number.
 std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number) {
     const Fields fields(
@@ -127,6 +139,7 @@ std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number) {
                            world::did_you_mean(kind, world::sensor_kinds()),
                            fmt::join(world::sensor_kinds(), ", ")));
     sensor->kind = *known;
+    refuse_view(fields, sensor->kind);
     const auto side = [&](const char* key, int pixels) {
         return static_cast<std::uint16_t>(
             whole_within(fields, key, pixels, 1, world::largest_picture_side));

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/cli/program.h"
+#include "world/external/sensor.h"
 
 namespace reprise::test {
 namespace {
@@ -304,7 +305,7 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     EXPECT_THAT(of_sensor("\"actor\": \"ega\""), HasSubstr("(did you mean 'ego'?)"));
     EXPECT_THAT(of_sensor("\"rate_hz\": 3"), HasSubstr("20 over a whole number"));
     EXPECT_THAT(of_sensor("\"type\": \"lidar\", \"size\": [64, 64]"),
-                HasSubstr("'size' is of cameras; what a lidar sees, its 'attributes' say"));
+                HasSubstr("'size' is of cameras; what a lidar measures, its 'attributes' say"));
     EXPECT_THAT(of_sensor("\"type\": \"collision\", \"actor\": \"world\""),
                 HasSubstr("a collision tells what its 'actor' does, who cannot be the world"));
     EXPECT_THAT(of_sensor("\"attributes\": { \"own_cat\": 1 }"),
@@ -315,6 +316,44 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     EXPECT_THAT(
         reprise({"render", folder_ / "t.mcap", "-o", folder_ / "none", "--sensor", "instnce"}).out,
         HasSubstr("did you mean 'instance'"));
+}
+
+TEST_F(Rendering, WhatAKindOfSensorDoesNotHaveIsRefusedInARigFileAndAmongOptions) {
+    const auto refused = [&](std::vector<std::string> words, const std::string& why) {
+        words.insert(words.begin(), {"render", folder_ / "t.mcap", "-o", folder_ / "none"});
+        const Result result = reprise(words);
+        EXPECT_EQ(result.code, 2) << why;
+        EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+        EXPECT_THAT(result.out, testing::HasSubstr(why));
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "none")) << why;
+    };
+    const std::string file = folder_ / "rig.json";
+    const auto refused_in_file =
+        [&](const std::string& kind, const std::string& keys, const std::string& why) {
+            write_file(file,
+                       "{ \"sensors\": [ { \"name\": \"a\", \"type\": \"" + kind + "\", " + keys +
+                           " } ] }");
+            refused({"--rig", file}, "rig.json: sensor 1 'a': " + why);
+        };
+    for (const std::string& kind : world::sensor_kinds()) {
+        if (world::is_camera(*world::find_sensor_kind(kind))) {
+            refused_in_file(
+                kind, R"("attributes": { "channels": 3 })", "'attributes': unknown key 'channels'");
+            continue;
+        }
+        const std::string is_of_cameras =
+            " is of cameras; what a " + kind + " measures, its 'attributes' say";
+        refused_in_file(kind, R"("size": [5, 5])", "'size'" + is_of_cameras);
+        refused_in_file(kind, R"("fov_deg": 5)", "'fov_deg'" + is_of_cameras);
+        refused_in_file(
+            kind, R"("attributes": { "own_car": 1 })", "'attributes': unknown key 'own_car'");
+        for (const std::string option : {"--size=5x5", "--fov=5", "--own-car"})
+            refused({"--sensor", kind, option},
+                    option.substr(0, option.find('=')) + ": is of cameras, and of --sensor " +
+                        kind + " none is one");
+        refused({"--sensor", kind, "--attribute", "own_car=1"},
+                "--attribute: none of these sensors has an attribute 'own_car'");
+    }
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "tests/scripting/stage.h"
+#include "world/external/sensor_attributes.h"
 
 namespace reprise::test {
 namespace {
@@ -132,6 +134,37 @@ TEST(RigWords, MistakesAreOneLineThatNamesTheSensor) {
     EXPECT_EQ(mistake(std::string(external) + "sees = 'sensor' }"),
               "test.lua:1: spawn: 'sees' must be 'everything' or 'sensors', got 'sensor' (did you "
               "mean 'sensors'?)");
+}
+
+std::string said(const world::AttributeRow& row) {
+    return row.words.empty() ? std::to_string(row.usual) : "'" + world::words_of(row).front() + "'";
+}
+
+TEST(RigWords, EveryKindOfSensorHasItsOwnKeysAndNoOthers) {
+    const std::string first = "test.lua:1: spawn: sensor 1 of 'rig': ";
+    for (const std::string& kind : world::sensor_kinds()) {
+        const std::string of_kind = "kind = '" + kind + "', ";
+        const std::vector<std::string> cameras = world::camera_kinds();
+        const bool camera = std::find(cameras.begin(), cameras.end(), kind) != cameras.end();
+        for (const std::string key : {"width", "height", "fov_deg"})
+            EXPECT_EQ(of_sensor(of_kind + key + " = 5"),
+                      camera ? ""
+                             : first + "'" + key + "' is of cameras; what a " + kind +
+                                   " measures, its 'attributes' say");
+        for (const std::string key : {"x", "y", "z", "yaw_deg", "pitch_deg", "roll_deg", "every"})
+            EXPECT_EQ(of_sensor(of_kind + key + " = 5"), "") << kind;
+        for (const world::AttributeRow& row : world::attribute_rows()) {
+            const std::string name(row.name);
+            const auto* own = world::find_attribute(*world::find_sensor_kind(kind), name);
+            const std::string why = of_sensor(of_kind + "attributes = { " + name + " = " +
+                                              said(own != nullptr ? *own : row) + " }");
+            if (own != nullptr)
+                EXPECT_EQ(why, "") << kind;
+            else
+                EXPECT_TRUE(why.starts_with(first + "'attributes': unknown key '" + name + "'"))
+                    << kind << ": " << why;
+        }
+    }
 }
 
 }  // namespace
