@@ -4,6 +4,7 @@
 //   by weather, frames at once; labels with the first weather; what is there is left alone.
 #include "cli/dataset/dataset.h"
 
+#include <algorithm>
 #include <chrono>
 #include <list>
 #include <map>
@@ -57,7 +58,8 @@ Made make_frames(DatasetSource& source,
                  const std::string& name,
                  const DatasetLayout& layout,
                  const std::vector<std::string>& weathers,
-                 const std::map<std::uint64_t, std::size_t>& ids) {
+                 const std::map<std::uint64_t, Moment>& frames,
+                 const std::map<std::uint64_t, Moment>& sweeps) {
     std::optional<render::Sensors> sensors;
     const auto look = [&]() -> render::Sensors& {
         const render::Sensors::Options how{.threads = source.options().threads,
@@ -65,16 +67,23 @@ Made make_frames(DatasetSource& source,
         return sensors ? *sensors : sensors.emplace(source.trace().recording().town, how);
     };
     Made made;
-    for (const std::string& weather : weathers) {
-        const bool first = weather == weathers.front();
-        source.options().boxes = first;
-        DatasetOutput output(layout, weather, ids, first);
+    const auto make = [&](const std::string& weather,
+                          const std::map<std::uint64_t, Moment>& moments,
+                          const Ticks& ticks,
+                          bool labels) {
+        source.options().boxes = labels;
+        DatasetOutput output(layout, weather, moments, labels);
         if (output.wants_any()) {
             Renderer renderer(
                 source.options(), source.trace(), source.cameras(), output, {weather});
-            renderer.look_at_all(look(), source.ticks(), fmt::format("{}, {}", name, weather));
+            renderer.look_at_all(look(), ticks, fmt::format("{}, {}", name, weather));
         }
-        DatasetPoints points(layout, weather, ids, source.rays().sensors().size(), first);
+        DatasetPoints points(layout,
+                             weather,
+                             moments,
+                             source.rays().sensors().size(),
+                             source.trace().recording().town,
+                             labels);
         if (points.wants_any())
             look_by_rays(source.rays(),
                          source.trace(),
@@ -84,6 +93,13 @@ Made make_frames(DatasetSource& source,
                          points);
         made.pictures += output.pictures();
         made.sweeps += points.sweeps();
+    };
+    Ticks between = source.ticks();
+    between.every = std::max<std::uint64_t>(1, source.sweep());
+    for (const std::string& weather : weathers) {
+        make(weather, frames, source.ticks(), weather == weathers.front());
+        if (!sweeps.empty())
+            make(weather, sweeps, between, false);
     }
     return made;
 }
@@ -112,7 +128,8 @@ int dataset(const DatasetOptions& options) {
     const DatasetLayout layout(root,
                                format_of(options.format),
                                sources.front().cameras().sensors(),
-                               sources.front().own_rays());
+                               sources.front().own_rays(),
+                               !options.sweeps.empty());
     nlohmann::ordered_json index = index_of(options, sources, weathers, frames, layout);
     check_index(root / "dataset.json", index);
 
@@ -124,12 +141,13 @@ int dataset(const DatasetOptions& options) {
     Made made;
     std::size_t number = 0;
     for (DatasetSource& source : sources) {
-        std::map<std::uint64_t, std::size_t> ids;
+        std::map<std::uint64_t, Moment> moments;
         for (std::size_t id = 0; id < frames.size(); ++id)
             if (frames[id].trace == number)
-                ids[frames[id].tick] = id;
+                moments[frames[id].tick] = id;
+        const std::map<std::uint64_t, Moment> sweeps = source.sweeps(number, frames);
         const std::string name = fmt::format("trace {} of {}", ++number, sources.size());
-        const Made more = make_frames(source, name, layout, weathers, ids);
+        const Made more = make_frames(source, name, layout, weathers, moments, sweeps);
         made.pictures += more.pictures;
         made.sweeps += more.sweeps;
     }

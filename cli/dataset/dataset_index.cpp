@@ -67,6 +67,7 @@ Json index_of(const DatasetOptions& options,
             json["traces"][i]["origin"] = {map_of(maps, i).origin().x(),
                                            map_of(maps, i).origin().y()};
     }
+    json["cameras"] = Json::array();
     for (std::size_t i = 0; i < layout.cameras().size(); ++i) {
         Json& one = json["cameras"].emplace_back(Json::parse(sensor_text(layout.cameras()[i])));
         one["files"] = file_pattern(layout, layout.picture(i, any_weather, 0));
@@ -81,6 +82,8 @@ Json index_of(const DatasetOptions& options,
         json["options"][name] = value;
     if (!options.rig.empty())
         json["rig"] = Json::parse(std::ifstream(options.rig, std::ios::binary));
+    if (sources.front().sweep() > 0)
+        json["sweeps"] = {{"every", sources.front().sweep()}};
     json["split"] = options.split;
     std::map<std::string, std::size_t> counts;
     for (const DatasetFrame& frame : frames)

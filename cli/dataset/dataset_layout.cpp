@@ -31,11 +31,13 @@ void make_link(const fs::path& target, const fs::path& link) {
 DatasetLayout::DatasetLayout(fs::path root,
                              DatasetFormat format,
                              world::SensorRig cameras,
-                             world::SensorRig rays)
+                             world::SensorRig rays,
+                             bool sweeps)
     : root_(std::move(root)),
       format_(format),
       cameras_(std::move(cameras)),
-      rays_(std::move(rays)) {}
+      rays_(std::move(rays)),
+      sweeps_(sweeps) {}
 
 bool DatasetLayout::is_rgb(std::size_t camera) const {
     return cameras_[camera].kind == world::SensorKind::rgb;
@@ -52,9 +54,22 @@ std::optional<std::size_t> DatasetLayout::velodyne() const {
     return std::nullopt;
 }
 
+/// nuScenes'.
+fs::path DatasetLayout::of_channel(const std::string& weather,
+                                   const std::string& channel,
+                                   const Moment& moment,
+                                   const char* ending) const {
+    const fs::path folder = root_ / folder_of(weather);
+    if (!moment.is_sweep())
+        return folder / "samples" / channel / numbered_file(moment.id, ending);
+    return folder / "sweeps" / channel /
+           fmt::format("{:06}-{:04}.{}", moment.id, moment.before, ending);
+}
+
 fs::path DatasetLayout::points(std::size_t sensor,
                                const std::string& weather,
-                               std::size_t id) const {
+                               const Moment& moment) const {
+    const std::size_t id = moment.id;
     const std::string& name = rays_[sensor].name;
     if (!is_weathered(sensor))
         return root_ / "labels" / name / numbered_file(id, "npy");
@@ -62,9 +77,10 @@ fs::path DatasetLayout::points(std::size_t sensor,
     if (format_ == DatasetFormat::coco)
         return root_ / "points" / folder / name / numbered_file(id, "npy");
     if (format_ == DatasetFormat::nuscenes)
-        return root_ / folder / "samples" / ray_channel(sensor) /
-               numbered_file(id,
-                             rays_[sensor].kind == world::SensorKind::radar ? "pcd" : "pcd.bin");
+        return of_channel(weather,
+                          ray_channel(sensor),
+                          moment,
+                          rays_[sensor].kind == world::SensorKind::radar ? "pcd" : "pcd.bin");
     const fs::path training = root_ / folder / "training";
     return sensor == velodyne() ? training / "velodyne" / numbered_file(id, "bin")
                                 : training / name / numbered_file(id, "npy");
@@ -104,7 +120,8 @@ std::string DatasetLayout::file_name(std::size_t camera, std::size_t id) const {
 
 fs::path DatasetLayout::picture(std::size_t camera,
                                 const std::string& weather,
-                                std::size_t id) const {
+                                const Moment& moment) const {
+    const std::size_t id = moment.id;
     if (!is_rgb(camera))
         return root_ / "labels" / file_name(camera, id);
     const fs::path folder = folder_of(weather);
@@ -112,7 +129,7 @@ fs::path DatasetLayout::picture(std::size_t camera,
         case DatasetFormat::coco:
             return root_ / "images" / folder / file_name(camera, id);
         case DatasetFormat::nuscenes:
-            return root_ / folder / "samples" / camera_channel(camera) / numbered_file(id, "png");
+            return of_channel(weather, camera_channel(camera), moment, "png");
         default:
             return root_ / folder / "training" / numbered("image", camera) /
                    numbered_file(id, "png");
@@ -165,6 +182,13 @@ std::vector<fs::path> DatasetLayout::folders(const std::vector<std::string>& wea
     for (std::size_t i = 0; i < rays_.size(); ++i)
         for (const std::string& weather : weathers)
             all.insert(points(i, weather, 0).parent_path());
+    const Moment sweep(0, 1);
+    for (const std::string& weather : weathers) {
+        for (std::size_t i = 0; sweeps_ && i < cameras_.size(); ++i)
+            all.insert(picture(i, weather, sweep).parent_path());
+        for (std::size_t i = 0; sweeps_ && i < rays_.size(); ++i)
+            all.insert(points(i, weather, sweep).parent_path());
+    }
     return {all.begin(), all.end()};
 }
 

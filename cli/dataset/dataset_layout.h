@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/dataset/frame_list.h"
 #include "cli/pictures/written_files.h"
 #include "world/external/sensor.h"
 
@@ -19,11 +20,12 @@ enum class DatasetFormat : std::uint8_t { kitti, coco, nuscenes };
 class DatasetLayout {
   public:
     /// `cameras`: by their order; of those of kind rgb KITTI has numbers, from 2. `rays`: what
-    /// measures by rays.
+    /// measures by rays. `sweeps`: there are some, which only nuScenes has room for.
     DatasetLayout(std::filesystem::path root,
                   DatasetFormat format,
                   world::SensorRig cameras,
-                  world::SensorRig rays);
+                  world::SensorRig rays,
+                  bool sweeps = false);
 
     DatasetFormat format() const { return format_; }
 
@@ -35,7 +37,7 @@ class DatasetLayout {
 
     std::filesystem::path picture(std::size_t camera,
                                   const std::string& weather,
-                                  std::size_t id) const;
+                                  const Moment& moment) const;
     std::filesystem::path boxes(std::size_t camera, std::size_t id) const;
 
     /// A label of KITTI's, or what COCO says of one picture; nuScenes' tables are made of boxes.
@@ -45,7 +47,7 @@ class DatasetLayout {
     /// Of rays.
     std::filesystem::path points(std::size_t sensor,
                                  const std::string& weather,
-                                 std::size_t id) const;
+                                 const Moment& moment) const;
 
     /// How many beams of the first LiDAR meet each actor.
     std::filesystem::path beams(std::size_t id) const;
@@ -81,11 +83,16 @@ class DatasetLayout {
 
   private:
     std::string numbered(const char* name, std::size_t camera) const;
+    std::filesystem::path of_channel(const std::string& weather,
+                                     const std::string& channel,
+                                     const Moment& moment,
+                                     const char* ending) const;
 
     std::filesystem::path root_;
     DatasetFormat format_;
     world::SensorRig cameras_;
     world::SensorRig rays_;
+    bool sweeps_;
 };
 
 }  // namespace reprise::cli

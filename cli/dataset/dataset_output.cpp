@@ -8,28 +8,28 @@ namespace reprise::cli {
 
 DatasetOutput::DatasetOutput(const DatasetLayout& layout,
                              std::string weather,
-                             std::map<std::uint64_t, std::size_t> ids,
+                             std::map<std::uint64_t, Moment> moments,
                              bool labels)
     : layout_(layout),
       weather_(std::move(weather)),
-      ids_(std::move(ids)),
+      moments_(std::move(moments)),
       labels_(labels) {}
 
 /// Files appear whole, so that what is there is done.
 bool DatasetOutput::wants(std::size_t sensor, std::uint64_t tick) const {
-    const auto found = ids_.find(tick);
-    if (found == ids_.end() || (!layout_.is_rgb(sensor) && !labels_))
+    const auto found = moments_.find(tick);
+    if (found == moments_.end() || (!layout_.is_rgb(sensor) && !labels_))
         return false;
-    const std::size_t id = found->second;
+    const Moment& moment = found->second;
     // The label is written last.
-    return !std::filesystem::exists(layout_.picture(sensor, weather_, id)) ||
+    return !std::filesystem::exists(layout_.picture(sensor, weather_, moment)) ||
            (labels_ && layout_.is_rgb(sensor) &&
-            !std::filesystem::exists(layout_.label(sensor, id)));
+            !std::filesystem::exists(layout_.label(sensor, moment.id)));
 }
 
 bool DatasetOutput::wants_any() const {
     for (std::size_t i = 0; i < layout_.cameras().size(); ++i)
-        for (const auto& [tick, id] : ids_)
+        for (const auto& [tick, moment] : moments_)
             if (wants(i, tick))
                 return true;
     return false;
@@ -39,7 +39,7 @@ void DatasetOutput::take(std::size_t sensor,
                          const world::SensorFrame& frame,
                          const world::SensorFrame& shown) {
     render::write_png(layout_.is_rgb(sensor) ? shown : frame,
-                      layout_.picture(sensor, weather_, ids_.at(frame.tick)),
+                      layout_.picture(sensor, weather_, moments_.at(frame.tick)),
                       render::Texture::grainy,
                       render::DepthCoding::kitti);
     ++pictures_;
@@ -51,7 +51,7 @@ void DatasetOutput::take_boxes(std::size_t sensor,
                                const world::SensorFrame& instances) {
     if (!layout_.is_rgb(sensor))
         return;
-    const std::size_t id = ids_.at(tick);
+    const std::size_t id = moments_.at(tick).id;
     const world::SensorSpec& camera = layout_.cameras()[sensor];
     const auto velodyne = layout_.velodyne();
     files::write_file(layout_.boxes(sensor, id), "the boxes", text);

@@ -14,10 +14,10 @@ namespace reprise::cli {
 /// not asked for again.
 class DatasetOutput : public PictureOutput {
   public:
-    /// `ids` of the trace's ticks. `labels`: those are made as well.
+    /// `moments` of the trace's ticks. `labels`: those are made as well.
     DatasetOutput(const DatasetLayout& layout,
                   std::string weather,
-                  std::map<std::uint64_t, std::size_t> ids,
+                  std::map<std::uint64_t, Moment> moments,
                   bool labels);
 
     bool in_order() const override { return false; }
@@ -42,7 +42,7 @@ class DatasetOutput : public PictureOutput {
   private:
     const DatasetLayout& layout_;
     std::string weather_;
-    std::map<std::uint64_t, std::size_t> ids_;
+    std::map<std::uint64_t, Moment> moments_;
     bool labels_;
     std::atomic<std::size_t> pictures_ = 0;
 };

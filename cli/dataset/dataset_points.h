@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "cli/dataset/dataset_layout.h"
 #include "cli/measured/ray_loop.h"
+#include "render/labels/boxes.h"
 
 namespace reprise::cli {
 
@@ -14,12 +16,14 @@ namespace reprise::cli {
 /// tick. What is there already is not asked for again.
 class DatasetPoints : public RayOutput {
   public:
-    /// `ids` of the trace's ticks. `sensors`: how many there are; one more than the layout's is the
-    /// twin of the first LiDAR. `labels`: what is the same under all weathers is made as well.
+    /// `moments` of the trace's ticks. `sensors`: how many there are; one more than the layout's is
+    /// the twin of the first LiDAR. `town`: of the trace. `labels`: what is the same under all
+    /// weathers is made as well.
     DatasetPoints(const DatasetLayout& layout,
                   std::string weather,
-                  std::map<std::uint64_t, std::size_t> ids,
+                  std::map<std::uint64_t, Moment> moments,
                   std::size_t sensors,
+                  const world::TownT& town,
                   bool labels);
 
     bool wants(std::size_t sensor, std::uint64_t tick) const override;
@@ -36,12 +40,13 @@ class DatasetPoints : public RayOutput {
 
   private:
     bool is_twin(std::size_t sensor) const;
-    std::filesystem::path path_of(std::size_t sensor, std::size_t id) const;
+    std::filesystem::path path_of(std::size_t sensor, const Moment& moment) const;
 
     const DatasetLayout& layout_;
     std::string weather_;
-    std::map<std::uint64_t, std::size_t> ids_;
+    std::map<std::uint64_t, Moment> moments_;
     std::size_t sensors_;
+    std::vector<render::ParkedVehicle> parked_;  ///< where there is a twin
     bool labels_;
     std::atomic<std::size_t> sweeps_ = 0;
 };

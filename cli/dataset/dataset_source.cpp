@@ -12,6 +12,7 @@
 #include "cli/pictures/rig_file.h"
 #include "render/trace/camera.h"
 #include "world/check.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 
@@ -83,6 +84,7 @@ DatasetSource::DatasetSource(const DatasetOptions& dataset, const std::string& p
     ticks_.every = parse_tick("--every", dataset.every, trace_->episode().step_ns, 0);
     if (ticks_.every < 1)
         throw world::Error("--every: expected 1 tick at least, got '" + dataset.every + "'");
+    read_sweeps(dataset);
     if (!options_.rig.empty())
         check_rig(dataset.format == "nuscenes");
     cameras_ = std::make_unique<Cameras>(options_, *trace_, ticks_);
@@ -92,8 +94,22 @@ DatasetSource::DatasetSource(const DatasetOptions& dataset, const std::string& p
         return one.kind == world::SensorKind::lidar;
     });
     has_twin_ = dataset.format == "nuscenes" && lidar != rays.end();
+    if (sweep_ > 0)
+        rays_->look_every(static_cast<std::uint32_t>(sweep_));
     if (has_twin_)
         rays_->add_semantic_twin(static_cast<std::size_t>(lidar - rays.begin()));
+}
+
+void DatasetSource::read_sweeps(const DatasetOptions& dataset) {
+    if (dataset.sweeps.empty())
+        return;
+    if (dataset.format != "nuscenes")
+        throw world::Error("--sweeps: only of --format nuscenes");
+    sweep_ = parse_tick("--sweeps", dataset.sweeps, trace_->episode().step_ns, 0);
+    if (sweep_ < 1 || sweep_ >= ticks_.every || ticks_.every % sweep_ != 0)
+        throw world::Error(fmt::format("--sweeps: --every, {}, must be a multiple of it, got '{}'",
+                                       world::count_of(ticks_.every, "tick"),
+                                       dataset.sweeps));
 }
 
 void DatasetSource::check_rig(bool nuscenes) const {
@@ -113,9 +129,12 @@ void DatasetSource::check_rig(bool nuscenes) const {
                 options_.rig,
                 sensor.name,
                 world::EnumNameSensorKind(sensor.kind)));
-    if (index_of(world::SensorKind::rgb) == sensors.size())
-        throw world::Error(options_.rig + ": a data set needs a camera of type rgb");
     const std::size_t lidar = index_of(world::SensorKind::lidar);
+    const bool sees = index_of(world::SensorKind::rgb) < sensors.size();
+    if (!sees && !nuscenes)
+        throw world::Error(options_.rig + ": a data set needs a camera of type rgb");
+    if (!sees && lidar == sensors.size())
+        throw world::Error(options_.rig + ": nuScenes needs a camera of type rgb, or a lidar");
     for (std::size_t i = 0; i < sensors.size() && lidar < sensors.size(); ++i)
         if (sensors[i].kind == world::SensorKind::rgb && file.carriers[i] != file.carriers[lidar])
             throw world::Error(
@@ -136,18 +155,38 @@ world::SensorRig DatasetSource::own_rays() const {
 }
 
 std::uint32_t DatasetSource::ego(const world::TickView& tick) const {
-    return cameras_->placed(0, cameras_->actor(tick).value_or(0), tick).actor;
+    return cameras_->sensors().empty()
+               ? rays_->carriers(tick).begin()->second
+               : cameras_->placed(0, cameras_->actor(tick).value_or(0), tick).actor;
+}
+
+bool DatasetSource::are_all_there(const world::TickView& tick) const {
+    bool all = (cameras_->sensors().empty() || cameras_->actor(tick).has_value()) &&
+               rays_->carriers(tick).size() == rays_->sensors().size();
+    for (std::size_t i = 0; all && i < cameras_->sensors().size(); ++i)
+        all = cameras_->is_there(i, tick);
+    return all;
+}
+
+std::map<std::uint64_t, Moment> DatasetSource::sweeps(
+    std::size_t number, const std::vector<DatasetFrame>& frames) const {
+    std::map<std::uint64_t, Moment> found;
+    for (std::size_t id = 1; sweep_ > 0 && id < frames.size(); ++id) {
+        const DatasetFrame& frame = frames[id];
+        const DatasetFrame& last = frames[id - 1];
+        if (frame.trace != number || last.trace != number || last.split != frame.split)
+            continue;
+        for (std::uint64_t tick = last.tick + sweep_; tick < frame.tick; tick += sweep_)
+            if (are_all_there(trace_->tick(tick).view))
+                found.emplace(tick, Moment(id, frame.tick - tick));
+    }
+    return found;
 }
 
 void DatasetSource::add_frames(std::size_t number, std::vector<DatasetFrame>& frames) const {
     const std::size_t before = frames.size();
     for (std::uint64_t tick = ticks_.from; tick <= ticks_.to; tick += ticks_.every) {
-        const world::TickView view = trace_->tick(tick).view;
-        bool all = cameras_->actor(view).has_value() &&
-                   rays_->carriers(view).size() == rays_->sensors().size();
-        for (std::size_t i = 0; all && i < cameras_->sensors().size(); ++i)
-            all = cameras_->is_there(i, view);
-        if (all)
+        if (are_all_there(trace_->tick(tick).view))
             frames.push_back({number, tick, ""});
     }
     if (frames.size() == before)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +33,9 @@ class DatasetSource {
 
     const Ticks& ticks() const { return ticks_; }
 
+    /// [ticks] from sweep to sweep; 0: there are none.
+    std::uint64_t sweep() const { return sweep_; }
+
     const Cameras& cameras() const { return *cameras_; }
 
     /// What measures by rays; for nuScenes the first LiDAR has a semantic twin behind them.
@@ -48,12 +53,20 @@ class DatasetSource {
     /// Adds the ticks in which all sensors are there. Throws world::Error where there are none.
     void add_frames(std::size_t number, std::vector<DatasetFrame>& frames) const;
 
+    /// The sweeps by their ticks: between two frames of this trace and of one part, where all
+    /// sensors are there. `number`: of the trace.
+    std::map<std::uint64_t, Moment> sweeps(std::size_t number,
+                                           const std::vector<DatasetFrame>& frames) const;
+
   private:
     void check_rig(bool nuscenes) const;
+    void read_sweeps(const DatasetOptions& dataset);
+    bool are_all_there(const world::TickView& tick) const;
 
     RenderOptions options_;
     std::unique_ptr<replay::TraceReader> trace_;
     Ticks ticks_;
+    std::uint64_t sweep_ = 0;
     std::unique_ptr<Cameras> cameras_;
     std::unique_ptr<MeasuredRig> rays_;
     bool has_twin_ = false;

@@ -13,6 +13,19 @@ struct DatasetFrame {
     std::string split;
 };
 
+/// What sensors see in a frame, or so many ticks before it: of such sweeps nobody asks for labels.
+struct Moment {
+    std::size_t id = 0;        ///< of the frame
+    std::uint64_t before = 0;  ///< [ticks]
+
+    Moment() = default;
+
+    // NOLINTNEXTLINE(google-explicit-constructor): a frame is a moment
+    Moment(std::size_t frame, std::uint64_t ticks_before = 0) : id(frame), before(ticks_before) {}
+
+    bool is_sweep() const { return before > 0; }
+};
+
 /// A part of a data set, such as train.
 struct Split {
     std::string name;

@@ -65,13 +65,25 @@ NuscenesContent::NuscenesContent(const DatasetLayout& dataset,
             frames[id - 1].split != frames[id].split)
             scenes.push_back(id);
         scene_of.push_back(scenes.size() - 1);
+        for (const NuscenesSweep& sweep : frames[id].sweeps)
+            moments.emplace_back(id, sweep.before);
+        moments.emplace_back(id);
     }
 }
 
-std::uint64_t NuscenesContent::time(std::size_t id) const {
+std::uint64_t NuscenesContent::time(const Moment& moment) const {
     constexpr std::uint64_t day = 86'400'000'000;
-    const NuscenesFrame& frame = frames[id];
-    return (frame.trace + 1) * day + frame.tick * logs[frame.trace].step_ns / 1000;
+    const NuscenesFrame& frame = frames[moment.id];
+    const std::uint64_t tick = frame.tick - moment.before;
+    return (frame.trace + 1) * day + tick * logs[frame.trace].step_ns / 1000;
+}
+
+const Eigen::Isometry3d& NuscenesContent::pose_world_ego(const Moment& moment) const {
+    const NuscenesFrame& frame = frames[moment.id];
+    for (const NuscenesSweep& sweep : frame.sweeps)
+        if (sweep.before == moment.before)
+            return sweep.pose_world_ego;
+    return frame.pose_world_ego;
 }
 
 std::string NuscenesContent::sample(std::size_t id) const {
@@ -83,8 +95,10 @@ std::string NuscenesContent::scene(std::size_t number) const {
     return nuscenes_token("scene", sample(scenes[number]));
 }
 
-std::string NuscenesContent::data(std::size_t id, const NuscenesChannel& channel) const {
-    return nuscenes_token("data", sample(id), channel.name);
+std::string NuscenesContent::data(const Moment& moment, const NuscenesChannel& channel) const {
+    const std::string own = sample(moment.id);
+    return moment.is_sweep() ? nuscenes_token("sweep", own, moment.before, channel.name)
+                             : nuscenes_token("data", own, channel.name);
 }
 
 std::string NuscenesContent::annotation(std::size_t id, std::uint32_t actor) const {
@@ -112,6 +126,13 @@ std::optional<std::size_t> NuscenesContent::beside(std::size_t id, bool next) co
         return std::nullopt;
     const std::size_t other = next ? id + 1 : id - 1;
     return scene_of[other] == scene_of[id] ? std::optional(other) : std::nullopt;
+}
+
+std::optional<Moment> NuscenesContent::beside_moment(std::size_t number, bool next) const {
+    if (next ? number + 1 == moments.size() : number == 0)
+        return std::nullopt;
+    const Moment& other = moments[next ? number + 1 : number - 1];
+    return scene_of[other.id] == scene_of[moments[number].id] ? std::optional(other) : std::nullopt;
 }
 
 }  // namespace reprise::cli

@@ -55,13 +55,19 @@ struct NuscenesContent {
     std::vector<std::size_t> scene_of;
     std::vector<std::size_t> scenes;  ///< the first frame of each
 
+    /// Of all frames: the sweeps since the last one, then itself. By time in each scene.
+    std::vector<Moment> moments;
+
     /// [us] Logs have days of their own, so that what is sorted by time stays in its log.
-    std::uint64_t time(std::size_t id) const;
+    std::uint64_t time(const Moment& moment) const;
+
+    /// Of who carries the sensors.
+    const Eigen::Isometry3d& pose_world_ego(const Moment& moment) const;
 
     // Tokens.
     std::string sample(std::size_t id) const;
     std::string scene(std::size_t number) const;
-    std::string data(std::size_t id, const NuscenesChannel& channel) const;
+    std::string data(const Moment& moment, const NuscenesChannel& channel) const;
     std::string annotation(std::size_t id, std::uint32_t actor) const;
     std::string instance(std::size_t scene, std::uint32_t actor) const;
     std::string log(std::size_t trace) const;
@@ -72,6 +78,9 @@ struct NuscenesContent {
 
     /// The frame beside one in its scene.
     std::optional<std::size_t> beside(std::size_t id, bool next) const;
+
+    /// The moment beside the one with that number in its scene.
+    std::optional<Moment> beside_moment(std::size_t number, bool next) const;
 };
 
 /// 32 hexadecimal digits that these words say.

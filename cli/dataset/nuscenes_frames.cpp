@@ -50,15 +50,6 @@ class Parked {
     std::set<std::uint32_t> actors_;
 };
 
-/// An actor by its id, or a vehicle that stands in the town.
-using Who = std::uint32_t;
-constexpr Who first_thing = 1U << 31U;
-
-Who who(const Json& box) {
-    return box.contains("thing") ? first_thing + box["thing"].get<std::uint32_t>()
-                                 : box.at("actor").get<std::uint32_t>();
-}
-
 /// Of one actor in all cameras: pixels that show it, and that would if nothing hid it.
 struct Pixels {
     double seen = 0;
@@ -126,6 +117,7 @@ std::vector<NuscenesFrame> nuscenes_frames(const DatasetLayout& layout,
     std::size_t number = 0;
     std::optional<Parked> parked;
     std::vector<render::ParkedVehicle> town;
+    std::map<std::uint64_t, Moment> sweeps;
     for (std::size_t id = 0; id < frames.size(); ++id) {
         const DatasetFrame& frame = frames[id];
         if (frame.trace != number) {
@@ -136,7 +128,14 @@ std::vector<NuscenesFrame> nuscenes_frames(const DatasetLayout& layout,
         if (!parked) {
             parked.emplace(source->trace());
             town = render::parked_vehicles(source->trace().recording().town);
+            sweeps = source->sweeps(number, frames);
         }
+        std::vector<NuscenesSweep> before;
+        for (const auto& [at, moment] : sweeps)
+            if (moment.id == id) {
+                const world::TickView view = source->trace().tick(at).view;
+                before.push_back({moment.before, *world::find_pose(view, source->ego(view))});
+            }
         parked->hear_to(frame.tick);
         const world::TickView tick = source->trace().tick(frame.tick).view;
         const std::uint32_t ego = source->ego(tick);
@@ -144,6 +143,7 @@ std::vector<NuscenesFrame> nuscenes_frames(const DatasetLayout& layout,
         made.trace = frame.trace;
         made.tick = frame.tick;
         made.split = frame.split;
+        made.sweeps = std::move(before);
         made.pose_world_ego = *world::find_pose(tick, ego);
         for (const auto& [actor, share] : seen_in(layout, id)) {
             if (actor >= first_thing) {

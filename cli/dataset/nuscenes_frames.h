@@ -25,6 +25,12 @@ struct NuscenesObject {
     Eigen::Vector3d size;                  ///< [m] along it, across, upwards
 };
 
+/// What they see between two samples.
+struct NuscenesSweep {
+    std::uint64_t before = 0;  ///< [ticks] the later sample
+    Eigen::Isometry3d pose_world_ego;
+};
+
 /// A sample: what the sensors see at a tick.
 struct NuscenesFrame {
     std::size_t trace = 0;  ///< by its index
@@ -32,6 +38,7 @@ struct NuscenesFrame {
     std::string split;
     Eigen::Isometry3d pose_world_ego;
     std::vector<NuscenesObject> objects;  ///< by actor
+    std::vector<NuscenesSweep> sweeps;    ///< since the last sample, by time
 };
 
 /// Of all frames, from the traces and from what labels/ holds: the same under every weather.

@@ -92,6 +92,28 @@ std::string detection_header(std::size_t count) {
         count);
 }
 
+bool is_vehicle(std::uint32_t tag) {
+    using enum world::SemanticClass;
+    const auto what = static_cast<world::SemanticClass>(tag);
+    return what == car || what == truck || what == bus || what == motorcycle || what == bicycle;
+}
+
+/// Whose box a place is in, or nearest to: mirrors and wheels stand out of it. Null: nobody's.
+const render::ParkedVehicle* owner_of(const Eigen::Vector3d& p_world,
+                                      std::span<const render::ParkedVehicle> parked) {
+    const render::ParkedVehicle* owner = nullptr;
+    double least = 0.5;  // [m]
+    for (const render::ParkedVehicle& one : parked) {
+        const Eigen::Vector3d p_box = one.box.pose_world.inverse() * p_world;
+        const double away = (p_box.cwiseAbs() - one.box.size / 2).cwiseMax(0).norm();
+        if (away < least) {
+            least = away;
+            owner = &one;
+        }
+    }
+    return owner;
+}
+
 }  // namespace
 
 Eigen::Isometry3d pose_sensor_nuscenes_lidar() {
@@ -165,27 +187,45 @@ std::vector<Eigen::Vector3f> read_nuscenes_places(const std::filesystem::path& p
     return places;
 }
 
-std::string beam_text(const world::SensorFrame& semantic) {
-    constexpr std::size_t object = 4;
-    const PointRows rows(semantic);
-    std::map<std::uint32_t, std::size_t> counts;
-    for (std::size_t i = 0; i < rows.count(); ++i)
-        if (const std::uint32_t actor = rows.whole(i, object))
+Who who(const nlohmann::ordered_json& one) {
+    return one.contains("thing") ? first_thing + one["thing"].get<std::uint32_t>()
+                                 : one.at("actor").get<std::uint32_t>();
+}
+
+std::string beam_text(const world::SensorFrame& frame,
+                      const world::TickView& tick,
+                      const world::SensorSpec& placed,
+                      std::span<const render::ParkedVehicle> parked) {
+    enum Column : std::size_t { x, y, z, cosine, object, tag };
+
+    const Eigen::Isometry3d pose = render::Mount(tick, placed, Eigen::Vector3d::Zero()).pose();
+    const PointRows rows(frame);
+    std::map<Who, std::size_t> counts;
+    for (std::size_t i = 0; i < rows.count(); ++i) {
+        if (const std::uint32_t actor = rows.whole(i, object)) {
             ++counts[actor];
-    nlohmann::ordered_json json{{"tick", semantic.tick},
-                                {"beams", nlohmann::ordered_json::array()}};
-    for (const auto& [actor, count] : counts)
-        json["beams"].push_back({{"actor", actor}, {"beams", count}});
+        } else if (is_vehicle(rows.whole(i, tag))) {
+            const Eigen::Vector3f place(rows.real(i, x), rows.real(i, y), rows.real(i, z));
+            if (const auto* vehicle = owner_of(pose * place.cast<double>(), parked))
+                ++counts[first_thing + vehicle->thing];
+        }
+    }
+    nlohmann::ordered_json json{{"tick", frame.tick}, {"beams", nlohmann::ordered_json::array()}};
+    for (const auto& [met, count] : counts) {
+        const bool thing = met >= first_thing;
+        json["beams"].push_back(
+            {{thing ? "thing" : "actor", thing ? met - first_thing : met}, {"beams", count}});
+    }
     return json.dump() + "\n";
 }
 
-std::map<std::uint32_t, std::size_t> read_beams(const std::filesystem::path& path) {
+std::map<Who, std::size_t> read_beams(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
-    const auto json = nlohmann::json::parse(file, nullptr, false);
-    std::map<std::uint32_t, std::size_t> counts;
+    const auto json = nlohmann::ordered_json::parse(file, nullptr, false);
+    std::map<Who, std::size_t> counts;
     try {
         for (const auto& one : json.at("beams"))
-            counts[one.at("actor").get<std::uint32_t>()] = one.at("beams").get<std::size_t>();
+            counts[who(one)] = one.at("beams").get<std::size_t>();
     } catch (const nlohmann::json::exception&) {
         throw world::Error(path.string() + ": was changed; remove it");
     }

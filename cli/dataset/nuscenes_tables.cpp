@@ -114,47 +114,55 @@ void add_scenes(const NuscenesContent& content,
     }
 }
 
-void add_samples(const NuscenesContent& content,
-                 const std::string& weather,
-                 NuscenesTables& tables) {
-    const auto neighbour = [&](std::size_t id, bool next, auto make) -> std::string {
+void add_samples(const NuscenesContent& content, NuscenesTables& tables) {
+    const auto neighbour = [&](std::size_t id, bool next) {
         const auto other = content.beside(id, next);
-        return other ? make(*other) : "";
+        return other ? content.sample(*other) : "";
     };
-    const DatasetLayout& layout = content.layout;
-    const fs::path root = layout.root() / DatasetLayout::folder_of(weather);
-    for (std::size_t id = 0; id < content.frames.size(); ++id) {
-        const auto sample = [&](std::size_t other) { return content.sample(other); };
+    for (std::size_t id = 0; id < content.frames.size(); ++id)
         tables["sample"].push_back({{"token", content.sample(id)},
                                     {"timestamp", content.time(id)},
-                                    {"prev", neighbour(id, false, sample)},
-                                    {"next", neighbour(id, true, sample)},
+                                    {"prev", neighbour(id, false)},
+                                    {"next", neighbour(id, true)},
                                     {"scene_token", content.scene(content.scene_of[id])}});
-        const Eigen::Isometry3d& pose = content.frames[id].pose_world_ego;
+}
+
+/// Of samples and sweeps; a sweep is of the sample that comes next.
+void add_data(const NuscenesContent& content, const std::string& weather, NuscenesTables& tables) {
+    const DatasetLayout& layout = content.layout;
+    const fs::path root = layout.root() / DatasetLayout::folder_of(weather);
+    for (std::size_t number = 0; number < content.moments.size(); ++number) {
+        const Moment& moment = content.moments[number];
+        const std::size_t id = moment.id;
+        const Eigen::Isometry3d& pose = content.pose_world_ego(moment);
         for (const NuscenesChannel& channel : content.channels) {
-            const auto data = [&](std::size_t other) { return content.data(other, channel); };
-            const fs::path path = channel.camera ? layout.picture(channel.number, weather, id)
-                                                 : layout.points(channel.number, weather, id);
+            const auto neighbour = [&](bool next) {
+                const auto other = content.beside_moment(number, next);
+                return other ? content.data(*other, channel) : "";
+            };
+            const std::string own = content.data(moment, channel);
+            const fs::path path = channel.camera ? layout.picture(channel.number, weather, moment)
+                                                 : layout.points(channel.number, weather, moment);
             const world::SensorSpec* camera =
                 channel.camera ? &layout.cameras()[channel.number] : nullptr;
-            tables["ego_pose"].push_back({{"token", data(id)},
-                                          {"timestamp", content.time(id)},
+            tables["ego_pose"].push_back({{"token", own},
+                                          {"timestamp", content.time(moment)},
                                           {"rotation", json_of(Eigen::Matrix3d(pose.linear()))},
                                           {"translation", json_of(content.place(id, pose))}});
             tables["sample_data"].push_back(
-                {{"token", data(id)},
+                {{"token", own},
                  {"sample_token", content.sample(id)},
-                 {"ego_pose_token", data(id)},
+                 {"ego_pose_token", own},
                  {"calibrated_sensor_token",
                   content.calibration(content.frames[id].trace, channel)},
-                 {"timestamp", content.time(id)},
+                 {"timestamp", content.time(moment)},
                  {"fileformat", camera != nullptr ? "png" : "pcd"},
-                 {"is_key_frame", true},
+                 {"is_key_frame", !moment.is_sweep()},
                  {"height", camera != nullptr ? camera->height : 0},
                  {"width", camera != nullptr ? camera->width : 0},
                  {"filename", path.lexically_relative(root).string()},
-                 {"prev", neighbour(id, false, data)},
-                 {"next", neighbour(id, true, data)}});
+                 {"prev", neighbour(false)},
+                 {"next", neighbour(true)}});
         }
     }
 }
@@ -178,7 +186,8 @@ void write_nuscenes(const DatasetLayout& layout,
         add_logs(content, tables);
         add_sensors(content, tables);
         add_scenes(content, weather, tables);
-        add_samples(content, weather, tables);
+        add_samples(content, tables);
+        add_data(content, weather, tables);
         add_annotations(content, weather, tables);
         for (const auto& [name, rows] : tables)
             files::write_file(

@@ -26,6 +26,9 @@ class MeasuredRig {
     /// beams meet.
     void add_semantic_twin(std::size_t lidar);
 
+    /// All of them look every so many ticks, and go on holding in a frame what they held.
+    void look_every(std::uint32_t ticks) { rig_.every.assign(rig_.sensors.size(), ticks); }
+
     /// For people.
     std::string names() const;
 

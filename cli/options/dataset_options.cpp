@@ -50,6 +50,12 @@ void add_dataset(CLI::App& app, DatasetOptions& dataset) {
     command.add_option("--every", dataset.every, "Every so many ticks, or time (default 0.5s)")
         ->type_name("N");
     command
+        .add_option("--sweeps",
+                    dataset.sweeps,
+                    "Of nuScenes: what sensors see between the samples, every so many ticks, or "
+                    "time, of which --every is a multiple")
+        ->type_name("N");
+    command
         .add_option("--actor",
                     dataset.actor,
                     "Who carries the sensors, in every trace: a name or an id (default: the first "

@@ -19,7 +19,8 @@ struct DatasetOptions {
     std::string split = "train:0.8,val:0.2";
     std::string ticks;  ///< A..B; empty: all
     std::string every = "0.5s";
-    std::string actor;  ///< its name or its id; empty: the first physics vehicle
+    std::string sweeps;  ///< of nuScenes, between the samples; empty: none
+    std::string actor;   ///< its name or its id; empty: the first physics vehicle
     std::string size = "1242x375";
     double fov_deg = 82;
     int threads = 0;

@@ -446,10 +446,93 @@ class Nuscenes(unittest.TestCase):
         said(*self.words)
         self.assertEqual(check().returncode, 0)
 
+    def test_a_lidar_alone_annotates_who_stands_parked_in_the_town(self):
+        subprocess.run(["rm", "-rf", WORK / "alone"], check=True)
+        (WORK / "alone.json").write_text(json.dumps({"sensors": [self.rig[3]]}))
+        said(*[{"nu": "alone", "nu.json": "alone.json", "clear_noon,hard_rain_noon": "clear_noon"}.get(one, one) for one in self.words])
+        alone = {row["token"]: row for row in json.loads((WORK / "alone/clear_noon/v1.0-mini/sample_annotation.json").read_text())}
+        parked = 0
+        # Whom cameras see as well is the same row but for how well they do; whom the LiDAR met has points.
+        for token, row in alone.items():
+            self.assertEqual(row["visibility_token"], "1")
+            other = self.noon["sample_annotation"][token]
+            for key in ("sample_token", "instance_token", "attribute_tokens", "translation", "size", "rotation", "num_lidar_pts"):
+                self.assertEqual(row[key], other[key])
+        for token, row in self.noon["sample_annotation"].items():
+            if row["num_lidar_pts"] > 0:
+                self.assertIn(token, alone)
+                parked += [self.noon["attribute"][one]["name"] for one in row["attribute_tokens"]] == ["vehicle.parked"]
+        beams = [one for path in sorted((WORK / "alone/labels/beams").iterdir()) for one in json.loads(path.read_text())["beams"]]
+        self.assertGreater(len([one for one in beams if "thing" in one]), 3)
+        self.assertGreater(parked, 3)
+        self.assertEqual(reprise.Dataset(WORK / "alone")[0]["roof"].shape[1], 5)
+
+    def test_sweeps_lie_between_samples_and_show_what_render_shows_there(self):
+        subprocess.run(["rm", "-rf", WORK / "swept_nu", WORK / "unswept_nu", WORK / "swept_by_render"], check=True)
+        rig = [{**one, "attributes": {**one.get("attributes", {}), "rolling": 0}} if one.get("type") == "lidar" else one for one in self.rig]
+        (WORK / "swept_nu.json").write_text(json.dumps({"sensors": rig}))
+        words = ["--format", "nuscenes", "--weathers", "clear_noon", "--rig", "swept_nu.json", "--every", "1s", "--split", "train:0.5", "--ticks", "1s..6s"]
+        said("dataset", "c.mcap", "-o", "swept_nu", "--sweeps", "0.25s", *words)
+        said("render", "c.mcap", "-o", "swept_by_render", "--weather", "clear_noon", "--rig", "swept_nu.json", "--ticks", "1s..6s", "--every", "5t", "--points", "npy", "--no-view", "--boxes")
+        folder = WORK / "swept_nu/clear_noon"
+        tables = {name: {row["token"]: row for row in json.loads((folder / f"v1.0-mini/{name}.json").read_text())} for name in SCHEMA}
+        index = json.loads((WORK / "swept_nu/dataset.json").read_text())
+        origin = np.eye(4)
+        origin[:2, 3] = index["traces"][0]["origin"]
+        rows = tables["sample_data"]
+        by_time = sorted(tables["sample"].values(), key=lambda row: row["timestamp"])
+        seen, chains = set(), 0
+        for first in [row for row in rows.values() if row["prev"] == ""]:
+            chains += 1
+            chain = [first]
+            while chain[-1]["next"]:
+                chain.append(rows[chain[-1]["next"]])
+            scene = tables["sample"][first["sample_token"]]["scene_token"]
+            # From sample to sample three more, the first and the last of a scene are samples.
+            self.assertEqual([row["is_key_frame"] for row in chain], [True] + [False, False, False, True] * (tables["scene"][scene]["nbr_samples"] - 1))
+            self.assertEqual({after["timestamp"] - row["timestamp"] for row, after in zip(chain, chain[1:])}, {250_000})
+            for row in chain:
+                seen.add(row["token"])
+                nearest = next(one for one in by_time if one["timestamp"] >= row["timestamp"])
+                self.assertEqual(row["sample_token"], nearest["token"])
+                mount = tables["calibrated_sensor"][row["calibrated_sensor_token"]]
+                channel = tables["sensor"][mount["sensor_token"]]["channel"]
+                self.assertEqual(pathlib.Path(row["filename"]).parts[:2], ("samples" if row["is_key_frame"] else "sweeps", channel))
+                tick = row["timestamp"] % 86_400_000_000 // 50_000
+                if channel.startswith("CAM"):
+                    name = {"CAM_FRONT": "front", "CAM_BACK": "cam_back"}[channel]
+                    np.testing.assert_array_equal(read_png(folder / row["filename"]), read_png(WORK / f"swept_by_render/{name}/{tick:06}.png"))
+                    boxes = json.loads((WORK / f"swept_by_render/{name}/boxes/{tick:06}.json").read_text())
+                    pose_ego = pose(tables["ego_pose"][row["ego_pose_token"]])
+                    np.testing.assert_allclose(origin @ pose_ego @ pose(mount), boxes["world_from_camera"], atol=1e-6)
+                elif channel == "LIDAR_TOP":
+                    points = reprise.dataset.read_points(folder / row["filename"])
+                    ours = np.load(WORK / f"swept_by_render/roof/{tick:06}.npy")
+                    np.testing.assert_array_equal(points[:, :3], np.stack([-ours[:, 1], ours[:, 0], ours[:, 2]], 1))
+        self.assertEqual((seen, chains), (set(rows), 4 * len(tables["scene"])))
+        # Nothing else is different from a set without them.
+        said("dataset", "c.mcap", "-o", "unswept_nu", *words)
+        for path in (WORK / "unswept_nu/labels").rglob("*"):
+            if path.is_file():
+                self.assertEqual(path.read_bytes(), (WORK / "swept_nu" / path.relative_to(WORK / "unswept_nu")).read_bytes())
+        for name in ("sample", "sample_annotation", "instance", "scene"):
+            self.assertEqual((WORK / f"unswept_nu/clear_noon/v1.0-mini/{name}.json").read_bytes(), (folder / f"v1.0-mini/{name}.json").read_bytes())
+        gone = sorted((folder / "sweeps/LIDAR_TOP").iterdir())[4]
+        kept = gone.read_bytes()
+        gone.unlink()
+        said("dataset", "c.mcap", "-o", "swept_nu", "--sweeps", "0.25s", *words)
+        self.assertEqual(gone.read_bytes(), kept)
+        for wrong, why in ((["--sweeps", "0.3s"], "--sweeps: --every, 20 ticks, must be a multiple of it, got '0.3s'"),
+                           (["--sweeps", "1s"], "--sweeps: --every, 20 ticks, must be a multiple of it, got '1s'"),
+                           (["--sweeps", "0.25s", "--format", "coco"], "--sweeps: only of --format nuscenes")):  # fmt: skip
+            odd = subprocess.run([PROGRAM, "dataset", "c.mcap", "-o", "odd", "--format", "nuscenes", "--every", "1s", *wrong], capture_output=True, text=True, cwd=WORK)
+            self.assertEqual((odd.returncode, odd.stderr), (2, f"reprise: {why}\n"))
+
     def test_rigs_that_nuscenes_has_no_place_for_are_refused_in_a_line(self):
         front, roof = self.rig[0], self.rig[3]
         for rig, why in (([front, {**front, "name": "cam_front"}], "sensor 'cam_front': is CAM_FRONT in nuScenes, as 'front' is"),
                          ([front, {**roof, "name": "lidar_top"}, {**roof, "name": "LIDAR_TOP"}], "sensor 'LIDAR_TOP': is LIDAR_TOP in nuScenes, as 'lidar_top' is"),
+                         ([self.rig[1], self.rig[5]], "nuScenes needs a camera of type rgb, or a lidar"),
                          ([{**front, "actor": "world"}], "sensor 'front': in nuScenes one car carries all sensors"),
                          ([{**front, "attributes": {"k1": -0.2}}], "sensor 'front': nuScenes' cameras are pinholes: without the attributes of its lens")):  # fmt: skip
             (WORK / "odd.json").write_text(json.dumps({"sensors": rig}))
