@@ -8,6 +8,7 @@
 #include <png.h>
 #include <zlib.h>
 
+#include "render/codecs/grain_png.h"
 #include "world/check.h"
 
 namespace reprise::render {
@@ -109,6 +110,8 @@ std::vector<std::uint8_t> encode_png(const Numbers& numbers, PngPacking packing)
             (numbers.channels == 1 || numbers.channels == 3) &&
             numbers.type != world::PixelType::f32,
         "a picture of " + std::to_string(numbers.data.size()) + " bytes");
+    if (packing == PngPacking::grain && numbers.type == world::PixelType::u8)
+        return encode_grain_png(numbers);
     std::vector<std::uint8_t> file;
     png_structp png =
         png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, jump_back, hear_nothing);

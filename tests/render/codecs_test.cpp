@@ -1,5 +1,10 @@
+#include <array>
+#include <bit>
+
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
+#include <png.h>
+#include <zlib.h>
 
 #include "render/codecs/exr.h"
 #include "render/codecs/png.h"
@@ -54,6 +59,68 @@ TEST(Png, IsWhatOpenCVPacks) {
     cv::imencode(
         ".png", matrix, expected, {cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_DEFAULT});
     EXPECT_EQ(encode_png(numbers, PngPacking::areas), expected);
+}
+
+/// What libpng itself makes of it, with the filters that it chooses and Huffman's codes alone.
+std::vector<std::uint8_t> grain_of_libpng(const Numbers& numbers) {
+    std::vector<std::uint8_t> file;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_set_write_fn(
+        png,
+        &file,
+        [](png_structp to, png_bytep bytes, png_size_t size) {
+            auto& all = *static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(to));
+            all.insert(all.end(), bytes, bytes + size);
+        },
+        nullptr);
+    png_set_compression_level(png, Z_BEST_SPEED);
+    png_set_compression_strategy(png, Z_HUFFMAN_ONLY);
+    png_set_IHDR(png,
+                 info,
+                 static_cast<png_uint_32>(numbers.width),
+                 static_cast<png_uint_32>(numbers.height),
+                 8,
+                 numbers.channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(png, info);
+    for (int y = 0; y < numbers.height; ++y)
+        png_write_row(png, numbers.data.data() + static_cast<std::size_t>(y) * numbers.row_bytes());
+    png_write_end(png, info);
+    png_destroy_write_struct(&png, &info);
+    return file;
+}
+
+TEST(Png, OfGrainIsWhatLibpngPacks) {
+    constexpr std::array<std::array<int, 2>, 10> sizes{{{1, 1},
+                                                        {1, 9},
+                                                        {9, 1},
+                                                        {2, 2},
+                                                        {17, 5},
+                                                        {60, 3},
+                                                        {127, 129},
+                                                        {84, 84},
+                                                        {200, 88},
+                                                        {320, 240}}};
+    std::uint32_t state = 1;
+    const auto draw = [&] { return (state = state * 1664525 + 1013904223) >> 8U; };
+    for (const auto& [width, height] : sizes)
+        for (const int channels : {1, 3})
+            for (int kind = 0; kind < 6; ++kind) {
+                Numbers numbers{width, height, channels, world::PixelType::u8, {}};
+                for (int i = 0; i < width * height * channels; ++i) {
+                    const auto slope = static_cast<std::uint32_t>(i / channels % width + i / width);
+                    const std::uint32_t rare = std::countr_zero(draw() | 1U << 20U) * 9U;
+                    const std::array<std::uint32_t, 6> values{
+                        7, draw(), slope, slope / 3 + draw() % 5, rare, rare * rare};
+                    numbers.data.push_back(
+                        static_cast<std::uint8_t>(values[static_cast<std::size_t>(kind)]));
+                }
+                EXPECT_TRUE(encode_png(numbers, PngPacking::grain) == grain_of_libpng(numbers))
+                    << width << "x" << height << ", " << channels << " channels, kind " << kind;
+            }
 }
 
 TEST(Exr, GivesBackWhatWasPacked) {
