@@ -62,13 +62,14 @@ std::vector<std::uint8_t> normal_bytes(const Scene& scene,
     const auto pixel = static_cast<float>(camera.pixel());
     tbb::parallel_for(0, camera.height(), [&](int y) {
         const DefaultFloatMode plain;
+        Surfaces surfaces(scene, eye, pixel);
         for (int x = 0; x < camera.width(); ++x) {
             const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width()) +
                            static_cast<std::size_t>(x);
             Eigen::Vector3f normal = Eigen::Vector3f::Zero();
             if (hits[i].instance != no_instance) {
                 const Eigen::Vector3f ray = camera.ray(x + 0.5, y + 0.5).cast<float>();
-                normal = to_camera * surface_at(scene, hits[i], eye, ray, pixel).normal;
+                normal = to_camera * surfaces.at(hits[i], ray).normal;
             }
             put(bytes, i, normal);
         }

@@ -55,21 +55,40 @@ void Clouds::look_from(const Vector3f& eye, const Vector3f& to_sun, std::uint64_
     const auto time = static_cast<float>(static_cast<double>(tick) * seconds_a_tick);
     eye_ = eye.head<2>();
     offset_ = eye_ / unit_length - speed_ * time;
-    table_.clear();
-    if (contrast_ <= 0 || to_sun.z() <= 0)
+    if (contrast_ <= 0 || to_sun.z() <= 0) {
+        table_.clear();
         return;
+    }
     const Vector2f above = offset_ + on_layer(to_sun);
     const int left = floor_int(above.x() / shadow_step) - shadow_cells / 2;
     const int low = floor_int(above.y() / shadow_step) - shadow_cells / 2;
     corner_ = Vector2f(static_cast<float>(left), static_cast<float>(low)) * shadow_step -
               on_layer(to_sun) - offset_;
+    fill_table(left, low);
+}
+
+/// Factors are functions of their cell alone: of those that the last picture had, too, none is made
+/// again. They are a millisecond's work, and from picture to picture a row or none is new.
+void Clouds::fill_table(int left, int low) {
+    const std::vector<float> last = std::move(table_);
+    const int right = left - left_;
+    const int up = low - low_;
+    const auto is_in = [](int cell) { return cell >= 0 && cell < shadow_cells; };
     table_.resize(static_cast<std::size_t>(shadow_cells) * shadow_cells);
     for (int i = 0; i < shadow_cells * shadow_cells; ++i) {
-        const auto x = static_cast<float>(left + i % shadow_cells);
-        const auto y = static_cast<float>(low + i / shadow_cells);
-        table_[static_cast<std::size_t>(i)] =
-            1 + contrast_ * (share_ - density(x * shadow_step, y * shadow_step));
+        const int column = i % shadow_cells;
+        const int row = i / shadow_cells;
+        float& factor = table_[static_cast<std::size_t>(i)];
+        if (!last.empty() && is_in(column + right) && is_in(row + up)) {
+            factor = last[static_cast<std::size_t>((row + up) * shadow_cells + column + right)];
+            continue;
+        }
+        const auto x = static_cast<float>(left + column);
+        const auto y = static_cast<float>(low + row);
+        factor = 1 + contrast_ * (share_ - density(x * shadow_step, y * shadow_step));
     }
+    left_ = left;
+    low_ = low;
 }
 
 float Clouds::cover(const Vector3f& direction) const {

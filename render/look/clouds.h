@@ -27,13 +27,16 @@ class Clouds {
 
   private:
     float density(float x, float y) const;
+    void fill_table(int left, int low);
 
     float share_;             // of the sky
     float contrast_;          // between sun and shadow
     Eigen::Vector2f speed_;   // [layer units/s]
     Eigen::Vector2f offset_;  // of the eye over the pattern [layer units]
     Eigen::Vector2f eye_;
-    Eigen::Vector2f corner_;    // of the table
+    Eigen::Vector2f corner_;  // of the table
+    int left_ = 0;            // cell of the pattern that the table begins with
+    int low_ = 0;
     std::vector<float> table_;  // factors on a grid that drifts with the pattern
 };
 

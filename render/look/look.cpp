@@ -120,50 +120,63 @@ Look metal_look(const Surface& at) {
 
 }  // namespace
 
-Surface surface_at(const Scene& scene,
-                   const Hit& hit,
-                   const Vector3f& eye,
-                   const Vector3f& direction,
-                   float pixel) {
-    const Instance& instance = scene.instance(hit.instance);
+void Surfaces::take_facet(const Hit& hit) {
+    const Instance& instance = scene_.instance(hit.instance);
     const Mesh& mesh = instance.prototype->mesh;
     const std::array<std::uint32_t, 3>& corners = mesh.triangles[hit.triangle];
-    const Vector3f& a = mesh.vertices[corners[0]];
-    const Vector3f& b = mesh.vertices[corners[1]];
-    const Vector3f& c = mesh.vertices[corners[2]];
+    facet_.number = hit.instance;
+    facet_.triangle = hit.triangle;
+    facet_.instance = &instance;
+    for (std::size_t i = 0; i < 3; ++i)
+        facet_.corners[i] = mesh.vertices[corners[i]];
+    facet_.material = mesh.materials[hit.triangle];
+    if (facet_.material == Material::of_instance)
+        facet_.material = instance.material;
+    facet_.tag = mesh.tags[hit.triangle];
+    facet_.smooth = mesh.normals.empty() ? nullptr : &mesh.normals[hit.triangle];
+    const Vector3f flat =
+        (facet_.corners[1] - facet_.corners[0]).cross(facet_.corners[2] - facet_.corners[0]);
+    facet_.local_normal = flat.normalized();
+    facet_.flat =
+        instance.moved ? (instance.normal_to_scene * flat).normalized() : facet_.local_normal;
+    facet_.normal = facet_.local_normal;
+    if (instance.moved)
+        facet_.normal = instance.normal_to_scene * facet_.local_normal;
+    facet_.normal.normalize();
+}
+
+Surface Surfaces::at(const Hit& hit, const Vector3f& direction) {
+    if (hit.instance != facet_.number || hit.triangle != facet_.triangle)
+        take_facet(hit);
+    const float first = 1 - hit.u - hit.v;
+    const auto weighted = [&](const std::array<Vector3f, 3>& corners) -> Vector3f {
+        return first * corners[0] + hit.u * corners[1] + hit.v * corners[2];
+    };
     Surface at;
-    at.instance = &instance;
-    at.material = mesh.materials[hit.triangle];
-    if (at.material == Material::of_instance)
-        at.material = instance.material;
-    at.tag = mesh.tags[hit.triangle];
-    at.position = eye + hit.distance * direction;
-    at.local = (1 - hit.u - hit.v) * a + hit.u * b + hit.v * c;
-    const Vector3f flat = (b - a).cross(c - a);
-    if (mesh.normals.empty()) {
-        at.local_normal = flat.normalized();
-    } else {
-        const std::array<Vector3f, 3>& normals = mesh.normals[hit.triangle];
-        at.local_normal =
-            ((1 - hit.u - hit.v) * normals[0] + hit.u * normals[1] + hit.v * normals[2])
-                .normalized();
-    }
+    at.instance = facet_.instance;
+    at.material = facet_.material;
+    at.tag = facet_.tag;
+    at.position = eye_ + hit.distance * direction;
+    at.local = weighted(facet_.corners);
     const float length = direction.norm();
     at.view = direction / length;
     at.distance = hit.distance * length;
-    at.normal = at.local_normal;
-    if (instance.moved) {
-        at.flat = (instance.normal_to_scene * flat).normalized();
-        at.normal = instance.normal_to_scene * at.local_normal;
+    at.flat = facet_.flat;
+    if (facet_.smooth == nullptr) {
+        at.local_normal = facet_.local_normal;
+        at.normal = facet_.normal;
     } else {
-        at.flat = mesh.normals.empty() ? at.local_normal : flat.normalized();
+        at.local_normal = weighted(*facet_.smooth).normalized();
+        at.normal = at.local_normal;
+        if (at.instance->moved)
+            at.normal = at.instance->normal_to_scene * at.local_normal;
+        at.normal.normalize();
     }
-    at.normal.normalize();
     if (at.flat.dot(at.view) > 0)
         at.flat = -at.flat;
     if (at.normal.dot(at.flat) < 0)
         at.normal = -at.normal;
-    at.footprint = at.distance * pixel / std::max(0.03F, -at.flat.dot(at.view));
+    at.footprint = at.distance * pixel_ / std::max(0.03F, -at.flat.dot(at.view));
     return at;
 }
 

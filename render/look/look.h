@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "render/look/sky.h"
 #include "render/look/wet.h"
 #include "render/scene/scene.h"
@@ -44,12 +46,40 @@ struct ShadingInput {
     std::uint64_t tick;
 };
 
-/// `pixel`: size of a pixel one metre ahead [m].
-Surface surface_at(const Scene& scene,
-                   const Hit& hit,
-                   const Eigen::Vector3f& eye,
-                   const Eigen::Vector3f& direction,
-                   float pixel);
+/// Says what lies where rays from one eye ended. Neighbours mostly met the same triangle: what all
+/// of it has in common is remembered.
+class Surfaces {
+  public:
+    /// `pixel`: size of a pixel one metre ahead [m].
+    Surfaces(const Scene& scene, const Eigen::Vector3f& eye, float pixel)
+        : scene_(scene),
+          eye_(eye),
+          pixel_(pixel) {}
+
+    Surface at(const Hit& hit, const Eigen::Vector3f& direction);
+
+  private:
+    void take_facet(const Hit& hit);
+
+    /// A triangle in its place.
+    struct Facet {
+        std::uint32_t number = no_instance;  ///< of its instance
+        std::uint32_t triangle = 0;
+        const Instance* instance = nullptr;
+        std::array<Eigen::Vector3f, 3> corners;                  ///< in the prototype's frame
+        const std::array<Eigen::Vector3f, 3>* smooth = nullptr;  ///< normals at them; none: flat
+        Eigen::Vector3f local_normal;                            ///< of a flat one
+        Eigen::Vector3f normal;                                  ///< likewise, scene
+        Eigen::Vector3f flat;                                    ///< scene
+        Material material;
+        std::uint32_t tag;
+    };
+
+    const Scene& scene_;
+    Eigen::Vector3f eye_;
+    float pixel_;
+    Facet facet_;
+};
 
 /// Says how wet the place is, and how much snow lies there.
 void expose(const ShadingInput& input, Surface& surface);

@@ -32,7 +32,8 @@ struct Plane {
     }
 };
 
-/// As refined_distance. `last` is the plane that a neighbour met: often this one meets it, too.
+/// In double precision, as pictures are. `last` is the plane that a neighbour met: often this one
+/// meets it, too.
 Echo echo_of(const Scene& scene, const Hit& hit, const Beam& beam, Plane& last) {
     Echo echo;
     echo.hit = hit;

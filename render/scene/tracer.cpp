@@ -246,17 +246,42 @@ PlacedTriangle::PlacedTriangle(const Instance& instance, std::uint32_t triangle)
     to_c = instance.pose.linear() * to_c;
 }
 
-double refined_distance(const Instance& instance,
-                        std::uint32_t triangle,
-                        const Eigen::Vector3d& origin,
-                        const Eigen::Vector3d& direction,
-                        double found) {
-    const PlacedTriangle placed(instance, triangle);
-    const Eigen::Vector3d normal = placed.to_b.cross(placed.to_c);
-    const double distance = normal.dot(placed.a - origin) / normal.dot(direction);
-    // At grazing angles the plane's equation is ill-conditioned: Embree's distance is kept.
-    return std::abs(distance - found) <= 1e-3 + 1e-2 * found ? distance : found;
-}
+namespace {
+
+/// Finds hits again in double precision from the triangles' own corners: equal ids give equal bits,
+/// whatever Embree's arithmetic was. Neighbours mostly met the same triangle: one is remembered.
+class Refinement {
+  public:
+    Refinement(const Scene& scene, const Eigen::Vector3d& origin)
+        : scene_(scene),
+          origin_(origin) {}
+
+    /// In lengths of `direction`.
+    float distance(const Hit& hit, const Eigen::Vector3d& direction) {
+        if (hit.instance != instance_ || hit.triangle != triangle_) {
+            const PlacedTriangle placed(scene_.instance(hit.instance), hit.triangle);
+            normal_ = placed.to_b.cross(placed.to_c);
+            above_ = normal_.dot(placed.a - origin_);
+            instance_ = hit.instance;
+            triangle_ = hit.triangle;
+        }
+        const auto found = static_cast<double>(hit.distance);
+        const double distance = above_ / normal_.dot(direction);
+        // At grazing angles the plane's equation is ill-conditioned: Embree's distance is kept.
+        return std::abs(distance - found) <= 1e-3 + 1e-2 * found ? static_cast<float>(distance)
+                                                                 : hit.distance;
+    }
+
+  private:
+    const Scene& scene_;
+    const Eigen::Vector3d origin_;
+    std::uint32_t instance_ = no_instance;
+    std::uint32_t triangle_ = 0;
+    Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();  // of any length
+    double above_ = 0;                                  // of the plane over the origin, likewise
+};
+
+}  // namespace
 
 void trace_primary(const Scene& scene,
                    const Camera& camera,
@@ -270,7 +295,8 @@ void trace_primary(const Scene& scene,
     tbb::parallel_for(0, columns * rows, [&](int index) {
         const DefaultFloatMode plain;
         std::array<Ray, tile * tile> rays;
-        std::array<Eigen::Vector2i, tile * tile> pixels;
+        std::array<Eigen::Vector3d, tile * tile> directions;
+        std::array<std::size_t, tile * tile> pixels;
         std::array<Hit, tile * tile> found;
         std::size_t count = 0;  // fewer at the right and lower edge
         const Eigen::Vector2i corner(index % columns * tile, index / columns * tile);
@@ -279,23 +305,22 @@ void trace_primary(const Scene& scene,
             const Eigen::Vector2i pixel = corner + tile_pixel(i);
             if (pixel.x() >= width || pixel.y() >= height)
                 continue;
-            const Eigen::Vector3d direction = camera.ray(pixel.x() + 0.5, pixel.y() + 0.5);
-            pixels[count] = pixel;
-            rays[count++] = {
-                origin, direction.cast<float>(), std::numeric_limits<float>::infinity(), mask};
+            directions[count] = camera.ray(pixel.x() + 0.5, pixel.y() + 0.5);
+            pixels[count] = static_cast<std::size_t>(pixel.y() * width + pixel.x());
+            Ray& ray = rays[count];
+            ray.origin = origin;
+            ray.direction = directions[count].cast<float>();
+            ray.far = std::numeric_limits<float>::infinity();
+            ray.mask = mask;
+            ++count;
         }
         trace_nearest(scene, std::span(rays).first(count), true, std::span(found).first(count));
         for (std::size_t i = 0; i < count; ++i) {
-            const Eigen::Vector2i& pixel = pixels[i];
-            Hit hit = found[i];
+            Hit& hit = found[i];
             if (hit.instance != no_instance)
-                hit.distance = static_cast<float>(
-                    refined_distance(scene.instance(hit.instance),
-                                     hit.triangle,
-                                     camera.position(),
-                                     camera.ray(pixel.x() + 0.5, pixel.y() + 0.5),
-                                     static_cast<double>(hit.distance)));
-            hits[static_cast<std::size_t>(pixel.y() * width + pixel.x())] = hit;
+                hit.distance = refinement.distance(hit, directions[i]);
+            hits[pixels[i]] = hit;
+        Refinement refinement(scene, camera.position());
         }
     });
 }

@@ -33,14 +33,6 @@ struct PlacedTriangle {
     Eigen::Vector3d a, to_b, to_c;
 };
 
-/// The same hit in double precision from the triangle's own corners: equal ids give equal bits,
-/// whatever Embree's arithmetic was. Distances count in lengths of `direction`.
-double refined_distance(const Instance& instance,
-                        std::uint32_t triangle,
-                        const Eigen::Vector3d& origin,
-                        const Eigen::Vector3d& direction,
-                        double found);
-
 /// What each pixel of the camera sees, by rows; distances are depths. Runs on TBB.
 void trace_primary(const Scene& scene,
                    const Camera& camera,

@@ -10,6 +10,7 @@ struct Light {
     float sun_visibility = 1;         ///< share of the sun's disc that is seen
     float sky_visibility = 1;         ///< share of the sky that is not hidden by things near
     float lamp_visibility = 0;        ///< share of what lamps and the moon give that arrives
+    float none = 0;                   ///< so that shares are added up four at once
 };
 
 /// Where a mirror lying there would show: never into the surface itself.

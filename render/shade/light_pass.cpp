@@ -28,7 +28,7 @@ Color mirrored_radiance(const ShadingJob& job,
     const ShadingInput& input = job.input;
     if (hit.instance == no_instance)
         return input.sky.radiance(ray.direction, false);
-    Surface at = surface_at(input.scene, hit, ray.origin, ray.direction, footprint_scale);
+    Surface at = Surfaces(input.scene, ray.origin, footprint_scale).at(hit, ray.direction);
     expose(input, at);
     const Look look = shade_surface(input, at);
     Light light{Color::Zero(), job.sun_matters ? 0.6F : 1.0F, 0.75F, 0.75F};
@@ -88,10 +88,8 @@ void request_light(const ShadingJob& job,
 
 void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
     thread_local TileRays rays;
-    rays.sun.clear();
-    rays.sky.clear();
-    rays.lamp.clear();
-    rays.mirror.clear();
+    rays.clear();
+    Surfaces surfaces(job.input.scene, job.eye, job.pixel);
     for (int i = 0; i < tile * tile; ++i) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
         if (!job.contains(pixel))
@@ -102,7 +100,7 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         if (hit.instance == no_instance)
             continue;
         const Vector3f direction = job.camera.ray(pixel.x() + 0.5, pixel.y() + 0.5).cast<float>();
-        Surface at = surface_at(job.input.scene, hit, job.eye, direction, job.pixel);
+        Surface at = surfaces.at(hit, direction);
         expose(job.input, at);
         Sample& sample = job.frame.samples[index];
         sample.look = shade_surface(job.input, at);
@@ -126,11 +124,11 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
     trace_batch(job, rays, rays.sky, false, [&](std::size_t owner, bool visible) {
         lights[owner].light.sky_visibility += visible ? 0.5F : 0.0F;
     });
-    rays.hits.resize(rays.mirror.rays.size());
-    trace_nearest(job.input.scene, rays.mirror.rays, false, rays.hits);
-    for (std::size_t i = 0; i < rays.hits.size(); ++i)
-        lights[rays.mirror.owners[i]].light.reflected =
-            mirrored_radiance(job, rays.mirror.rays[i], rays.hits[i], job.pixel * 2);
+    const std::span<const Ray> mirror = rays.mirror.rays();
+    trace_nearest(job.input.scene, mirror, false, std::span(rays.hits).first(mirror.size()));
+    for (std::size_t i = 0; i < mirror.size(); ++i)
+        lights[rays.mirror.owner(i)].light.reflected =
+            mirrored_radiance(job, mirror[i], rays.hits[i], job.pixel * 2);
 }
 
 }  // namespace reprise::render

@@ -21,11 +21,12 @@ bool is_edge(const ShadingJob& job, int x, int y) {
     const std::size_t index = frame.index(x, y);
     const std::uint32_t own = job.hits[index].instance;
     const float tone = frame.tones[index];
-    constexpr std::array<std::array<int, 2>, 4> sides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-    for (const auto& side : sides) {
-        const int i = std::clamp(x + side[0], 0, frame.width - 1);
-        const int j = std::clamp(y + side[1], 0, frame.height - 1);
-        const std::size_t next = frame.index(i, j);
+    const auto row = static_cast<std::size_t>(frame.width);
+    const std::array<std::size_t, 4> sides{x > 0 ? index - 1 : index,
+                                           x + 1 < frame.width ? index + 1 : index,
+                                           y > 0 ? index - row : index,
+                                           y + 1 < frame.height ? index + row : index};
+    for (const std::size_t next : sides) {
         const float step = std::abs(frame.tones[next] - tone);
         const bool same = own == job.hits[next].instance;
         if (step > (same ? 2 * even : even))
@@ -104,10 +105,11 @@ std::vector<Refined> edges_of(const ShadingJob& job, const Eigen::Vector2i& corn
 }
 
 /// Two rays a pixel, from the subpixel `first` on.
-RayBatch subpixel_rays(const ShadingJob& job,
+void add_subpixel_rays(const ShadingJob& job,
                        const std::vector<Refined>& pixels,
-                       std::size_t first) {
-    RayBatch batch;
+                       std::size_t first,
+                       RayBatch& batch) {
+    batch.clear();
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const auto owner = static_cast<int>(pixels[i].index);
         const int x = owner % job.frame.width;
@@ -120,7 +122,6 @@ RayBatch subpixel_rays(const ShadingJob& job,
                       job.mask,
                       i);
     }
-    return batch;
 }
 
 void light_subpixel(const ShadingJob& job, const Eigen::Vector2i& pixel, SubpixelSample& sample) {
@@ -128,6 +129,7 @@ void light_subpixel(const ShadingJob& job, const Eigen::Vector2i& pixel, Subpixe
     const Neighbour neighbour(job, pixel, sample.hit, at);
     sample.light = neighbour.found ? job.frame.samples[neighbour.index].light
                                    : Light{Color::Zero(), 0, 0.8F, 0.8F};
+    sample.lamps = {};
     if (!job.lamps_matter)
         return;
     sample.lamps = neighbour.flush
@@ -150,25 +152,27 @@ Color color_of(const ShadingJob& job, const Ray& ray, const SubpixelSample& samp
 /// Adds two places of each pixel; of `pixels` those stay of which the two differ.
 void add_pair(ShadingJob& job, std::size_t first, std::vector<Refined>& pixels) {
     Frame& frame = job.frame;
-    const RayBatch primary = subpixel_rays(job, pixels, first);
     thread_local TileRays rays;
-    thread_local std::vector<SubpixelSample> samples;
+    thread_local RayBatch batch;
+    thread_local std::array<SubpixelSample, RayBatch::most> samples;
     rays.sun.clear();
-    rays.hits.resize(primary.rays.size());
-    trace_nearest(job.input.scene, primary.rays, true, rays.hits);
-    samples.assign(primary.rays.size(), {});
-    for (std::size_t i = 0; i < samples.size(); ++i) {
+    add_subpixel_rays(job, pixels, first, batch);
+    const std::span<const Ray> primary = batch.rays();
+    trace_nearest(job.input.scene, primary, true, std::span(rays.hits).first(primary.size()));
+    Surfaces surfaces(job.input.scene, job.eye, job.pixel * 0.6F);
+    for (std::size_t i = 0; i < primary.size(); ++i) {
         SubpixelSample& sample = samples[i];
         sample.hit = rays.hits[i];
         if (sample.hit.instance == no_instance)
             continue;
-        sample.surface = surface_at(
-            job.input.scene, sample.hit, job.eye, primary.rays[i].direction, job.pixel * 0.6F);
+        sample.surface = surfaces.at(sample.hit, primary[i].direction);
         expose(job.input, sample.surface);
         sample.look = shade_surface(job.input, sample.surface);
-        const auto owner = static_cast<int>(pixels[primary.owners[i]].index);
+        const auto owner = static_cast<int>(pixels[batch.owner(i)].index);
         light_subpixel(job, {owner % frame.width, owner / frame.width}, sample);
-        if (!job.sun_matters)
+        // What looks away from the sun gets nothing of it, whatever is between.
+        const bool faces = sample.look.normal.dot(job.input.sky.to_sun()) > 0;
+        if (!job.sun_matters || (!faces && sample.look.translucency <= 0))
             continue;
         const Vector3f origin =
             offset_origin(sample.surface.position, sample.surface.flat, sample.surface.distance);
@@ -183,8 +187,8 @@ void add_pair(ShadingJob& job, std::size_t first, std::vector<Refined>& pixels) 
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const SubpixelSample& one = samples[pair * i];
         const SubpixelSample& other = samples[pair * i + 1];
-        const Color first_color = color_of(job, primary.rays[pair * i], one);
-        const Color second_color = color_of(job, primary.rays[pair * i + 1], other);
+        const Color first_color = color_of(job, primary[pair * i], one);
+        const Color second_color = color_of(job, primary[pair * i + 1], other);
         Refined& pixel = pixels[i];
         pixel.add(first_color);
         pixel.add(second_color);

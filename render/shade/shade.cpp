@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <xmmintrin.h>
+
 #include "render/shade/shading_job.h"
 
 namespace reprise::render {
@@ -34,7 +36,8 @@ Light filtered(const ShadingJob& job, const Eigen::Vector2i& pixel) {
     const std::size_t here = frame.index(pixel.x(), pixel.y());
     const RawLight& own = frame.lights[here];
     const Hit& hit = job.hits[here];
-    Light sum{Color::Zero(), 0, 0, 0};
+    Color reflected = Color::Zero();
+    __m128 shares = _mm_setzero_ps();
     float count = 0;
     const int left = std::max(0, pixel.x() - 2);
     const int right = std::min(frame.width - 1, pixel.x() + 1);
@@ -48,18 +51,15 @@ Light filtered(const ShadingJob& job, const Eigen::Vector2i& pixel) {
             if (other_hit.instance != hit.instance ||
                 (other_hit.triangle != hit.triangle && !on_same_surface(own, other)))
                 continue;
-            sum.sun_visibility += other.light.sun_visibility;
-            sum.sky_visibility += other.light.sky_visibility;
-            sum.lamp_visibility += other.light.lamp_visibility;
+            shares = _mm_add_ps(shares, _mm_loadu_ps(&other.light.sun_visibility));
             // Single bright spots would leave squares.
-            sum.reflected += other.light.reflected;
+            reflected += other.light.reflected;
             count += 1;
         }
     }
-    return {sum.reflected / count,
-            sum.sun_visibility / count,
-            sum.sky_visibility / count,
-            sum.lamp_visibility / count};
+    Light mean{reflected / count};
+    _mm_storeu_ps(&mean.sun_visibility, _mm_div_ps(shares, _mm_set1_ps(count)));
+    return mean;
 }
 
 }  // namespace

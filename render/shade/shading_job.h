@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <functional>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "render/shade/frame.h"
@@ -74,14 +76,17 @@ class TileStage {
 inline constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// Rays that are traced together; `owners` says which pixel or sample each result belongs to.
-struct RayBatch {
-    std::vector<Ray> rays;
-    std::vector<std::size_t> owners;
+class RayBatch {
+  public:
+    static constexpr std::size_t most = 2 * tile * tile;
 
-    void clear() {
-        rays.clear();
-        owners.clear();
-    }
+    void clear() { count_ = 0; }
+
+    std::size_t size() const { return count_; }
+
+    std::span<const Ray> rays() const { return std::span(rays_).first(count_); }
+
+    std::size_t owner(std::size_t i) const { return owners_[i]; }
 
     /// Number by number into its place: whoever copies a ray that was just made waits until its
     /// numbers have arrived in memory, which cost a twentieth of a picture.
@@ -90,20 +95,30 @@ struct RayBatch {
              float far,
              std::uint32_t mask,
              std::size_t owner) {
-        Ray& ray = rays.emplace_back();
+        Ray& ray = rays_[count_];
         ray.origin = origin;
         ray.direction = direction;
         ray.far = far;
         ray.mask = mask;
-        owners.push_back(owner);
+        owners_[count_++] = owner;
     }
+
+  private:
+    std::size_t count_ = 0;
+    std::array<Ray, most> rays_;
+    std::array<std::size_t, most> owners_;
 };
 
 /// Secondary rays of a tile by their kind, and memory for what they find.
 struct TileRays {
     RayBatch sun, sky, lamp, mirror;
-    std::vector<std::uint8_t> visible;
-    std::vector<Hit> hits;
+    std::array<std::uint8_t, RayBatch::most> visible;
+    std::array<Hit, RayBatch::most> hits;
+
+    void clear() {
+        for (RayBatch* batch : {&sun, &sky, &lamp, &mirror})
+            batch->clear();
+    }
 };
 
 /// Traces visibility rays and calls `store(owner, visible)` for each.
@@ -113,10 +128,10 @@ void trace_batch(const ShadingJob& job,
                  const RayBatch& batch,
                  bool coherent,
                  const Store& store) {
-    rays.visible.resize(batch.rays.size());
-    trace_visibility(job.input.scene, batch.rays, coherent, rays.visible);
-    for (std::size_t i = 0; i < batch.rays.size(); ++i)
-        store(batch.owners[i], rays.visible[i] != 0);
+    trace_visibility(
+        job.input.scene, batch.rays(), coherent, std::span(rays.visible).first(batch.size()));
+    for (std::size_t i = 0; i < batch.size(); ++i)
+        store(batch.owner(i), rays.visible[i] != 0);
 }
 
 /// A point on the unit disc, and a direction of the half sphere around z, closer to z more often.

@@ -26,7 +26,7 @@ class Camera {
     /// Through the picture at (x, y), in pixels from its upper left corner. Its part along the
     /// optical axis is 1, so that what lies t rays away has depth t; of a fisheye it is a unit
     /// vector, and t the distance. Zero where the lens sees nothing.
-    Eigen::Vector3d ray(double x, double y) const {
+    [[gnu::always_inline]] Eigen::Vector3d ray(double x, double y) const {
         return plain_ ? Eigen::Vector3d(corner_ + x * right_ + y * down_) : bent_ray(x, y);
     }
 
