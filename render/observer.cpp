@@ -213,6 +213,7 @@ std::vector<std::uint8_t> Observer::photograph(Look& look, std::size_t number, S
         gather_light(look.stage, look.sight, shutter, look.bands, input, work_, frame_);
         look.stage.go_back(0);
     } else {
+        scene_.map_crowd();
         shade(input, camera, look.sight.mask, look.hits, frame_);
     }
     add_glare(frame_, sky.lamplight());

@@ -66,6 +66,13 @@ void Scene::commit(const Ball& ball) {
     if (!tree_)
         tree_.emplace(town_);
     tree_->hold(moving_, ball);
+    crowd_.fill(true);
+}
+
+void Scene::map_crowd() {
+    crowd_.fill(false);
+    for (const Instance& one : moving_)
+        crowd_.add(one.pose.translation(), reach_of(one));
 }
 
 }  // namespace reprise::render

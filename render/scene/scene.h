@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "render/scene/crowd_map.h"
 #include "render/scene/tick_tree.h"
 #include "render/scene/town_scene.h"
 #include "render/shapes/people/wardrobe.h"
@@ -64,6 +65,13 @@ class Scene {
 
     /// Embree's tree of who was placed; none when nobody was, or when pictures must be portable.
     RTCSceneTy* tree() const { return tree_ && !moving_.empty() ? tree_->handle() : nullptr; }
+
+    /// Where in that tree short rays may meet somebody: anywhere, until map_crowd() has looked.
+    const CrowdMap& crowd() const { return crowd_; }
+
+    /// Pays where many short rays follow, as in pictures of light. 0.07 ms for 100 cars and 50
+    /// walkers.
+    void map_crowd();
 
     /// Instead of Embree's trees when pictures must be portable: of the town and who is in it.
     const PortableTracer* portable_tracer() const {
@@ -128,6 +136,7 @@ class Scene {
     const TownScene& town_;
     std::vector<Instance> moving_;
     std::optional<TickTree> tree_;
+    CrowdMap crowd_;
     std::vector<std::size_t> broken_;  // of the town's instances, sorted: what stands no longer
     RTCSceneTy* standing_ = nullptr;   // the town without them; none: nothing is broken
     std::optional<PortableTracer> portable_standing_;

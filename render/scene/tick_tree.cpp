@@ -6,9 +6,13 @@
 
 namespace reprise::render {
 
-bool Ball::touches(const Instance& instance) const {
+double reach_of(const Instance& instance) {
     // Frobenius' norm: no stretch of the pose is larger.
-    const double reach = radius + instance.pose.linear().norm() * instance.prototype->radius;
+    return instance.pose.linear().norm() * instance.prototype->radius;
+}
+
+bool Ball::touches(const Instance& instance) const {
+    const double reach = radius + reach_of(instance);
     return (instance.pose.translation() - middle).squaredNorm() <= reach * reach;
 }
 

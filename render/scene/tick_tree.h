@@ -19,6 +19,9 @@ struct Ball {
     bool touches(const Instance& instance) const;
 };
 
+/// [m] from its origin to where it surely ends.
+double reach_of(const Instance& instance);
+
 /// Embree's tree of who is there, at one time after the other: for rays that stay in its ball that
 /// of TownScene::tree_of, whatever it was before. What stays as it was need not be told again; the
 /// tree is built anew.

@@ -161,6 +161,17 @@ void trace_packet(const Scene& scene,
                           packet.hit.v[lane]};
 }
 
+/// Half of all rays that a picture needs are short, and begin where nobody is near.
+bool may_meet_somebody(const CrowdMap& crowd, const RTCRay8& packet, std::size_t lane) {
+    const float x = packet.dir_x[lane];
+    const float y = packet.dir_y[lane];
+    const float z = packet.dir_z[lane];
+    const float far = packet.tfar[lane];
+    constexpr float longest = CrowdMap::reach * CrowdMap::reach;
+    return !(far * far * (x * x + y * y + z * z) < longest) ||
+           crowd.is_near(packet.org_x[lane], packet.org_y[lane]);
+}
+
 void occlude_packet(const Scene& scene,
                     RTCIntersectContext& context,
                     FilledPacket<RTCRay8>& filled,
@@ -173,7 +184,7 @@ void occlude_packet(const Scene& scene,
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         if (packet.tfar[lane] < 0)
             filled.valid[lane] = 0;
-        open |= filled.valid[lane] != 0;
+        open = open || (filled.valid[lane] != 0 && may_meet_somebody(scene.crowd(), packet, lane));
     }
     if (open && scene.tree() != nullptr)
         rtcOccluded8(filled.valid.data(), scene.tree(), &context, &packet);
@@ -315,12 +326,12 @@ void trace_primary(const Scene& scene,
             ++count;
         }
         trace_nearest(scene, std::span(rays).first(count), true, std::span(found).first(count));
+        Refinement refinement(scene, camera.position());
         for (std::size_t i = 0; i < count; ++i) {
             Hit& hit = found[i];
             if (hit.instance != no_instance)
                 hit.distance = refinement.distance(hit, directions[i]);
             hits[pixels[i]] = hit;
-        Refinement refinement(scene, camera.position());
         }
     });
 }
