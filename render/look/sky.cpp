@@ -265,7 +265,8 @@ void Sky::fill_table() {
     const std::size_t size = static_cast<std::size_t>(table_size) * table_size;
     clear_table_.resize(size);
     tbb::parallel_for(0, table_size, [&](int row) {
-        const DefaultFloatMode plain;
+        // By night no light arrives at most of the air.
+        const FlushingFloatMode quick;
         for (int column = 0; column < table_size; ++column) {
             const Vector3f direction = table_direction(row, column);
             const auto index = static_cast<std::size_t>(row * table_size + column);

@@ -18,7 +18,7 @@ namespace reprise::render {
 /// for a sun anywhere between nadir and zenith.
 class Sky {
   public:
-    /// 20 ms, by night 90: single scattering by air and haze for every direction (Nishita et al.,
+    /// 20 ms, by night 25: single scattering by air and haze for every direction (Nishita et al.,
     /// "Display of the Earth Taking into Account Atmospheric Scattering", 1993), clouds after
     /// Kasten and Czeplak.
     explicit Sky(const world::Weather& weather);

@@ -12,6 +12,23 @@ using Eigen::Vector3f;
 
 constexpr float beyond = 3000;  // [m] where the moon's rays end
 
+/// Does a source shine past a place for sure? lobe_share() says so exactly, but asks for a root and
+/// divisions first: most sources of a square are lamps that look elsewhere.
+bool shines_past(const LightSource& source, const Vector3f& to_source, float squared) {
+    const float ahead = -to_source.dot(source.axis);
+    switch (source.lobe) {
+        case LightSource::Lobe::street:  // from a tenth of a right angle's sine on
+            return to_source.z() <= 0 || to_source.z() * to_source.z() < 0.0099F * squared;
+        case LightSource::Lobe::low_beam:  // from a quarter on
+            return ahead <= 0 || ahead * ahead < 0.062F * squared;
+        case LightSource::Lobe::lens:
+        case LightSource::Lobe::window:
+            return ahead < 0 && ahead * ahead > 1e-6F * squared;
+        default:
+            return false;
+    }
+}
+
 }  // namespace
 
 LampSum::LampSum(const ShadingInput& input,
@@ -36,6 +53,8 @@ void LampSum::add_source(const LightSource& source,
         return;
     const float towards = look.normal.dot(to_source);
     if (towards <= 0 && look.translucency <= 0)
+        return;
+    if (shines_past(source, to_source, squared))
         return;
     const float away = std::sqrt(std::max(squared, 0.04F));
     const Vector3f way = to_source / away;
