@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "towns/maps/direct_junctions.h"
 #include "towns/maps/mirrored_opendrive.h"
 #include "towns/maps/opendrive_check.h"
 #include "towns/maps/reference_line.h"
@@ -208,6 +209,7 @@ OpenDrive read_opendrive(const std::string& xml, const std::string& file) {
     check_opendrive(root, xml, file);
     OpenDrive map;
     map.left_hand = drives_on_the_left(root, xml, file);
+    add_connecting_roads(root, xml, file);
     if (map.left_hand)
         mirror_opendrive(root);
     const pugi::xml_node header = root.child("header");

@@ -51,7 +51,8 @@ struct OpenDrive {
 };
 
 /// Parses a map. netconvert 1.15 ignores speed limits of a whole road (<type><speed>): they are
-/// written into its lanes. Road names that an editor generated are removed. `file` is for messages.
+/// written into its lanes; and direct junctions, which get connecting roads. Road names that an
+/// editor generated are removed. `file` is for messages.
 /// Throws world::Error "file:line: what" when it is not XML, has no road, or drives on both sides.
 OpenDrive read_opendrive(const std::string& xml, const std::string& file);
 
