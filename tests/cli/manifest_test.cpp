@@ -65,8 +65,17 @@ TEST_F(Manifest, WeathersOverTimeAreThoseThatTheScenarioWouldHaveHad) {
 
 TEST_F(Manifest, ChangesOfAWeatherReachLidarsToo) {
     const auto points = [&](const std::string& weather) {
-        const Result made =
-            render("l", {"--sensor", "lidar", "--ticks", "40", "--weather", weather});
+        const Result made = reprise({"render",
+                                     "t.mcap",
+                                     "-o",
+                                     "l",
+                                     "--sensor",
+                                     "lidar",
+                                     "--ticks",
+                                     "40",
+                                     "--weather",
+                                     weather},
+                                    folder_.path());
         EXPECT_EQ(made.code, 0) << made.out;
         return read_file(folder_ / "l/000040.ply");
     };
