@@ -3,12 +3,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "world/check.h"
+#include "world/external/sensor.h"
 #include "world/town.h"
 #include "world/weather/weather_text.h"
 
@@ -115,6 +117,22 @@ std::string attributes_text(const remote::TaskSensor& sensor) {
     return ", attributes = { " + text + "}";
 }
 
+/// What of a camera's view is not as usual: the message has numbers for others, too, whose words of
+/// a scenario have none.
+std::string view_text(const remote::TaskSensor& sensor) {
+    constexpr double same = 1e-9;  // [deg]
+    const world::SensorSpec usual;
+    const double usual_fov = usual.fov * 180 / std::numbers::pi;
+    std::string text;
+    if (sensor.width() != static_cast<std::uint32_t>(usual.width))
+        text += fmt::format(", width = {}", sensor.width());
+    if (sensor.height() != static_cast<std::uint32_t>(usual.height))
+        text += fmt::format(", height = {}", sensor.height());
+    if (!(std::abs(sensor.fov_deg() - usual_fov) <= same))
+        text += ", " + number_text("fov_deg", sensor.fov_deg());
+    return text;
+}
+
 /// `, rig = { ... }` of spawn, in the scenario's words, which say what may be in it.
 std::string rig_text(const remote::Task& task) {
     if (task.rig() == nullptr || task.rig()->size() == 0)
@@ -123,14 +141,12 @@ std::string rig_text(const remote::Task& task) {
         throw world::Error(fmt::format("the task's rig: at most {} sensors", most_sensors));
     std::string text;
     for (const remote::TaskSensor* sensor : *task.rig()) {
-        text += fmt::format("{{ name = '{}', kind = '{}', width = {}, height = {}, every = {}",
+        text += fmt::format("{{ name = '{}', kind = '{}', every = {}",
                             word(sensor->name()),
                             word(sensor->kind()),
-                            sensor->width(),
-                            sensor->height(),
                             sensor->every());
-        for (const auto& [key, value] : {std::pair("fov_deg", sensor->fov_deg()),
-                                         std::pair("x", sensor->x()),
+        text += view_text(*sensor);
+        for (const auto& [key, value] : {std::pair("x", sensor->x()),
                                          std::pair("y", sensor->y()),
                                          std::pair("z", sensor->z()),
                                          std::pair("yaw_deg", sensor->yaw_deg()),

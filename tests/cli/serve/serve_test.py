@@ -306,6 +306,12 @@ class Episodes(Case):
             ground = lambda points: reprise.xyz(points)[(points["y"] > 2) & (points["y"] < 4), 2].min()
             self.assertGreater(abs(ground(roof) - ground(level)), 0.2)
 
+    def test_what_only_cameras_have_is_refused_of_other_sensors(self):
+        for said in (dict(width=5), dict(height=100), dict(fov_deg=60)):
+            with reprise.Simulation("town1", folder=self.folder, rig=[dict(name="imu", kind="imu", **said)]) as sim:
+                with self.assertRaisesRegex(reprise.Fault, f"'{next(iter(said))}' is of cameras"):
+                    sim.reset()
+
     def test_a_rig_that_cannot_be_is_refused(self):
         with reprise.Simulation("town1", folder=self.folder) as sim:
             for sensor in (dict(name="a' }, x = os.exit() --"), dict(name="a", kind="smell"), dict(name="a", fov_deg=float("nan")),
