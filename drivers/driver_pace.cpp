@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/control/turning_room.h"
 #include "drivers/driver_state.h"
 #include "drivers/lane_change.h"
+#include "drivers/turning_room.h"
 #include "world/units.h"
 
 namespace reprise::drivers {

@@ -11,7 +11,6 @@
 #include "drivers/control/lateral_order.h"
 #include "drivers/control/pedals.h"
 #include "drivers/control/pid_driver.h"
-#include "drivers/control/turn_around.h"
 #include "drivers/control/wide_turn.h"
 #include "drivers/driver_news.h"
 #include "drivers/gatekeeper.h"
@@ -20,6 +19,7 @@
 #include "drivers/passing.h"
 #include "drivers/road_map.h"
 #include "drivers/speed_order.h"
+#include "drivers/turn_around.h"
 #include "world/models/car_model.h"
 
 namespace reprise::drivers {

@@ -66,8 +66,11 @@ struct Contact {
     const char* name() const { return at_start ? "start" : "end"; }
 
     pugi::xml_node section() const {
-        const pugi::xml_node lanes = road.child("lanes");
-        return at_start ? lanes.child("laneSection") : lanes.last_child();
+        pugi::xml_node found;
+        for (const pugi::xml_node section : road.child("lanes").children("laneSection"))
+            if (!found || !at_start)
+                found = section;
+        return found;
     }
 };
 

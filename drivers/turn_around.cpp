@@ -1,10 +1,10 @@
-#include "drivers/control/turn_around.h"
+#include "drivers/turn_around.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "drivers/control/turning_room.h"
+#include "drivers/turning_room.h"
 #include "world/frames.h"
 
 namespace reprise::drivers {
@@ -19,7 +19,7 @@ constexpr double straight_enough = 0.15;     // [rad] backwards
 constexpr double looks_ahead = 1.2;          // [m]
 constexpr double creep_at_last = 0.5;        // [m/s] of one who has waited
 constexpr double looks_ahead_at_last = 0.4;  // [m]
-constexpr std::uint32_t patience = 60;       // ticks
+constexpr std::uint32_t patient_for = 60;    // ticks
 constexpr double keeps_clear = 0.5;          // [m]
 constexpr double clear_at_last = 0.07;       // [m] beside who stays,
 constexpr double clear_in_need = 0.02;       // [m] and of one who has waited for longer still
@@ -134,7 +134,7 @@ bool TurnAround::meets_somebody(const world::TickView& last, const Ego& ego, boo
 /// Has it waited for long enough, and is there room the other way?
 bool TurnAround::goes_the_other_way(const world::TickView& last, const Ego& ego) const {
     constexpr double worth_it = 0.3;  // [m]
-    return waiting_ticks_ > patience && std::abs(ego.speed) < 0.1 &&
+    return waiting_ticks_ > patient_for && std::abs(ego.speed) < 0.1 &&
            room(ego, !forward_, 1, worth_it) >= worth_it && !meets_somebody(last, ego, !forward_);
 }
 
@@ -148,7 +148,7 @@ void TurnAround::change_gear() {
 /// there is no room.
 std::optional<double> TurnAround::lock_that_passes(const world::TickView& last,
                                                    const Ego& ego) const {
-    const double clear = waiting_ticks_ > 3 * patience ? clear_in_need : clear_at_last;
+    const double clear = waiting_ticks_ > 3 * patient_for ? clear_in_need : clear_at_last;
     for (const double share : {1.0, 0.5, 0.0}) {
         const double distance = room(ego, forward_, share, looks_ahead_at_last);
         if (distance > 0 &&
@@ -180,7 +180,7 @@ TurnAround::Move TurnAround::next(const world::TickView& last, const Ego& ego) {
         return {0, -steer};
     }
     waiting_ticks_ += is_blocked ? 1 : 0;
-    if (is_blocked && waiting_ticks_ > patience) {
+    if (is_blocked && waiting_ticks_ > patient_for) {
         const std::optional<double> share = lock_that_passes(last, ego);
         is_blocked = !share;
         steer *= share.value_or(1);

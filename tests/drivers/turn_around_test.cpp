@@ -1,4 +1,4 @@
-#include "drivers/control/turn_around.h"
+#include "drivers/turn_around.h"
 
 #include <algorithm>
 #include <cmath>
