@@ -44,10 +44,10 @@ Clouds::Clouds(const world::Weather& weather)
 
 float Clouds::density(float x, float y) const {
     const float bend = fractal_noise(x * 0.7F + 9, y * 0.7F, 2, 40);
-    const float noise = fractal_noise(x + 1.1F * bend, y - 0.8F * bend, 5, 50);
     // The quantiles of the noise, roughly: half the cover at 0.5.
     // A closed cover has no gaps left.
     const float level = mix(0.70F, 0.26F, share_) - 0.35F * smooth_step(0.75F, 1, share_);
+    const float noise = fractal_noise_over(level, x + 1.1F * bend, y - 0.8F * bend, 5, 50);
     return smooth_step(level, level + 0.22F, noise);
 }
 

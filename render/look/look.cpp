@@ -149,7 +149,9 @@ Surface Surfaces::at(const Hit& hit, const Vector3f& direction) {
     if (hit.instance != facet_.number || hit.triangle != facet_.triangle)
         take_facet(hit);
     const float first = 1 - hit.u - hit.v;
-    const auto weighted = [&](const std::array<Vector3f, 3>& corners) -> Vector3f {
+    // In registers: who writes a vector down and reads it at once waits until it has arrived.
+    const auto weighted = [&](const std::array<Vector3f, 3>& corners) __attribute__((always_inline))
+                              ->Vector3f {
         return first * corners[0] + hit.u * corners[1] + hit.v * corners[2];
     };
     Surface at;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/shade/highlight.h"
+#include "render/shade/lobes.h"
 
 namespace reprise::render {
 
@@ -12,21 +13,15 @@ using Eigen::Vector3f;
 
 constexpr float beyond = 3000;  // [m] where the moon's rays end
 
-/// Does a source shine past a place for sure? lobe_share() says so exactly, but asks for a root and
-/// divisions first: most sources of a square are lamps that look elsewhere.
-bool shines_past(const LightSource& source, const Vector3f& to_source, float squared) {
-    const float ahead = -to_source.dot(source.axis);
-    switch (source.lobe) {
-        case LightSource::Lobe::street:  // from a tenth of a right angle's sine on
-            return to_source.z() <= 0 || to_source.z() * to_source.z() < 0.0099F * squared;
-        case LightSource::Lobe::low_beam:  // from a quarter on
-            return ahead <= 0 || ahead * ahead < 0.062F * squared;
-        case LightSource::Lobe::lens:
-        case LightSource::Lobe::window:
-            return ahead < 0 && ahead * ahead > 1e-6F * squared;
-        default:
-            return false;
-    }
+/// Which of four are among the first so many.
+__m128 among_first(std::size_t count) {
+    const __m128i places = _mm_setr_epi32(0, 1, 2, 3);
+    return _mm_castsi128_ps(_mm_cmplt_epi32(places, _mm_set1_epi32(static_cast<int>(count))));
+}
+
+/// Panes and paint show lamps as a picture, see the mirror rays; dull ground does not shine.
+bool shines(const Look& look) {
+    return look.roughness <= 0.5F && look.roughness >= 0.1F;
 }
 
 }  // namespace
@@ -37,48 +32,72 @@ LampSum::LampSum(const ShadingInput& input,
                  const Vector3f& position,
                  const Vector3f& view)
     : moon_(input.sky.moon()) {
-    for (const std::uint16_t index : grid.near(position))
-        add_source(grid.source(index), look, position, view);
+    const std::span<const std::uint16_t> near = grid.near(position);
+    for (; count_ < near.size(); count_ += 4) {
+        add_four(grid, &near[count_], near.size() - count_, look, position);
+        if (shines(look))
+            add_shine(grid, &near[count_], look, view);
+    }
     add_moon(look);
 }
 
-void LampSum::add_source(const LightSource& source,
-                         const Look& look,
-                         const Vector3f& position,
-                         const Vector3f& view) {
-    const Vector3f to_source = source.position - position;
-    const float squared = to_source.squaredNorm();
-    const float reach = source.reach * source.reach;
-    if (squared >= reach)
-        return;
-    const float towards = look.normal.dot(to_source);
-    if (towards <= 0 && look.translucency <= 0)
-        return;
-    if (shines_past(source, to_source, squared))
-        return;
-    const float away = std::sqrt(std::max(squared, 0.04F));
-    const Vector3f way = to_source / away;
-    const float facing = towards / away;
-    const float incidence = std::max(facing, -facing * look.translucency);
-    const float share = lobe_share(source, -way);
-    if (share <= 0)
-        return;
-    const float fade = 1 - squared / reach;
-    const float falls = share * fade * fade / std::max(squared, 0.3F);
-    const Color arrives = source.intensity * (falls * incidence);
-    const float gives = luminance(arrives);
-    light_.arriving += arrives;
-    parts_[count_++] = {to_source, gives, source.radius};
-    sum_ += gives;
-    // Panes and paint show lamps as a picture, see the mirror rays; dull ground does not shine.
-    if (look.roughness > 0.5F || look.roughness < 0.1F || facing <= 0)
-        return;
-    const Vector3f half = (way - view).normalized();
-    const float shine = fresnel(look.f0, half.dot(way)) *
-                        highlight(look.roughness, std::max(0.0F, half.dot(look.normal)));
-    // A head lamp's mirror is wide: just before the car its highlight is a pale spot, not a point.
-    const float point = source.lobe == LightSource::Lobe::low_beam ? 0.35F : 1.0F;
-    light_.shine += arrives * (pi * point * std::min(shine, 20.0F));
+/// What lobe_share() and the distance leave of each source, lane by lane: a picture asks for 5
+/// million of them.
+void LampSum::add_four(const SourceGrid& grid,
+                       const std::uint16_t* sources,
+                       std::size_t count,
+                       const Look& look,
+                       const Vector3f& position) {
+    const FourSources four(
+        grid.row(sources[0]), grid.row(sources[1]), grid.row(sources[2]), grid.row(sources[3]));
+    const Lanes3 to_source = four.position - Lanes3(position);
+    const __m128 squared = to_source.dot(to_source);
+    const __m128 near =
+        _mm_set1_ps(1) / _mm_sqrt_ps(_mm_max_ps(squared, _mm_set1_ps(0.04F)));  // 1 / distance
+    const __m128 facing = to_source.dot(Lanes3(look.normal)) * near;
+    const __m128 incidence = _mm_max_ps(facing, -facing * _mm_set1_ps(look.translucency));
+    const __m128 share = lobe_shares(four, -(to_source * near));
+    const __m128 fade = _mm_set1_ps(1) - squared * four.narrows;
+    const __m128 none = _mm_setzero_ps();
+    const __m128 reached =
+        _mm_and_ps(_mm_and_ps(among_first(count), _mm_cmpgt_ps(fade, none)),
+                   _mm_and_ps(_mm_cmpgt_ps(share, none), _mm_cmpgt_ps(incidence, none)));
+    const __m128 falls = share * fade * fade / _mm_max_ps(squared, _mm_set1_ps(0.3F));
+    const __m128 factor = _mm_and_ps(reached, falls * incidence);
+    const __m128 gives = factor * four.luminance;
+    _mm_store_ps(&to_source_x_[count_], to_source.x);
+    _mm_store_ps(&to_source_y_[count_], to_source.y);
+    _mm_store_ps(&to_source_z_[count_], to_source.z);
+    _mm_store_ps(&radius_[count_], four.radius);
+    _mm_store_ps(&factor_[count_], factor);
+    _mm_store_ps(&gives_[count_], gives);
+    // What gives nothing adds nothing.
+    for (std::size_t i = 0; i < 4; ++i)
+        light_.arriving += grid.source(sources[i]).intensity * factor_[count_ + i];
+    const __m128 pairs = _mm_add_ps(gives, _mm_movehl_ps(gives, gives));
+    sum_ += _mm_cvtss_f32(_mm_add_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
+}
+
+/// The highlights of the four that were just added.
+void LampSum::add_shine(const SourceGrid& grid,
+                        const std::uint16_t* sources,
+                        const Look& look,
+                        const Vector3f& view) {
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vector3f to_source = this->to_source(count_ + i);
+        if (factor_[count_ + i] <= 0 || look.normal.dot(to_source) <= 0)
+            continue;
+        const LightSource& source = grid.source(sources[i]);
+        const Vector3f way = to_source / std::sqrt(std::max(to_source.squaredNorm(), 0.04F));
+        const Vector3f half = (way - view).normalized();
+        const float shine = fresnel(look.f0, half.dot(way)) *
+                            highlight(look.roughness, std::max(0.0F, half.dot(look.normal)));
+        // A head lamp's mirror is wide: just before the car its highlight is a pale spot, not a
+        // point.
+        const float point = source.lobe == LightSource::Lobe::low_beam ? 0.35F : 1.0F;
+        light_.shine +=
+            source.intensity * factor_[count_ + i] * (pi * point * std::min(shine, 20.0F));
+    }
 }
 
 void LampSum::add_moon(const Look& look) {
@@ -89,19 +108,13 @@ void LampSum::add_moon(const Look& look) {
     if (gives <= 0)
         return;
     light_.arriving += arrives;
-    parts_[count_++] = {moon_.to_moon * beyond, gives, 14};
+    const Vector3f to_moon = moon_.to_moon * beyond;
+    to_source_x_[count_] = to_moon.x();
+    to_source_y_[count_] = to_moon.y();
+    to_source_z_[count_] = to_moon.z();
+    radius_[count_] = 14;
+    gives_[count_++] = gives;
     sum_ += gives;
-}
-
-Vector3f LampSum::towards(float place, const Eigen::Vector2f& spot) const {
-    float left = place * sum_;
-    std::size_t chosen = 0;
-    while (chosen + 1 < count_ && left >= parts_[chosen].gives)
-        left -= parts_[chosen++].gives;
-    const Part& part = parts_[chosen];
-    const Vector3f across = part.to_source.unitOrthogonal();
-    const Vector3f up = across.cross(part.to_source).normalized();
-    return part.to_source + part.radius * (spot.x() * across + spot.y() * up);
 }
 
 }  // namespace reprise::render

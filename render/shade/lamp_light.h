@@ -25,7 +25,7 @@ class LampSum {
 
     const LampLight& light() const { return light_; }
 
-    bool any() const { return count_ > 0; }
+    bool any() const { return sum_ > 0; }
 
     /// Where the light comes from that `place`, in [0, 1), falls to when all sources share that
     /// range by what they give; `spot` is on the unit disc, of the lamp's width. A vector to the
@@ -33,23 +33,47 @@ class LampSum {
     Eigen::Vector3f towards(float place, const Eigen::Vector2f& spot) const;
 
   private:
-    void add_source(const LightSource& source,
-                    const Look& look,
-                    const Eigen::Vector3f& position,
-                    const Eigen::Vector3f& view);
+    void add_four(const SourceGrid& grid,
+                  const std::uint16_t* sources,
+                  std::size_t count,
+                  const Look& look,
+                  const Eigen::Vector3f& position);
+    void add_shine(const SourceGrid& grid,
+                   const std::uint16_t* sources,
+                   const Look& look,
+                   const Eigen::Vector3f& view);
     void add_moon(const Look& look);
 
-    struct Part {
-        Eigen::Vector3f to_source;
-        float gives;
-        float radius;
-    };
+    Eigen::Vector3f to_source(std::size_t i) const {
+        return {to_source_x_[i], to_source_y_[i], to_source_z_[i]};
+    }
+
+    using Numbers = std::array<float, SourceGrid::most + 1>;  // the moon is the last one
 
     LampLight light_;
     const Moon& moon_;
-    std::array<Part, SourceGrid::most + 1> parts_;
-    std::size_t count_ = 0;
-    float sum_ = 0;
+    std::size_t count_ = 0;  // of what gives nothing, too
+    float sum_ = 0;          // of what they give
+    alignas(16) Numbers to_source_x_, to_source_y_, to_source_z_, radius_;
+    alignas(16) Numbers factor_;  // on the intensity
+    alignas(16) Numbers gives_;   // luminance
 };
+
+inline Eigen::Vector3f LampSum::towards(float place, const Eigen::Vector2f& spot) const {
+    float left = place * sum_;
+    std::size_t chosen = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        if (gives_[i] <= 0)
+            continue;
+        chosen = i;
+        if (left < gives_[i])
+            break;
+        left -= gives_[i];
+    }
+    const Eigen::Vector3f way = to_source(chosen);
+    const Eigen::Vector3f across = way.unitOrthogonal();
+    const Eigen::Vector3f up = across.cross(way).normalized();
+    return way + radius_[chosen] * (spot.x() * across + spot.y() * up);
+}
 
 }  // namespace reprise::render

@@ -117,7 +117,7 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         lights[owner].light.sun_visibility =
             visible ? job.input.sky.clouds().sunlight(lights[owner].position) : 0.0F;
     });
-    trace_batch(job, rays, rays.lamp, true, [&](std::size_t owner, bool visible) {
+    trace_batch(job, rays, rays.lamp, false, [&](std::size_t owner, bool visible) {
         lights[owner].light.lamp_visibility = visible ? 1.0F : 0.0F;
     });
     // Into a half sphere each: as packets that run alike they take four times as long.

@@ -26,9 +26,6 @@ struct LightSource {
     Lobe lobe;
 };
 
-/// Share of the intensity that leaves along `way`, a unit vector.
-float lobe_share(const LightSource& source, const Eigen::Vector3f& way);
-
 /// All that shine near the eye, in the order of a town's lists and a tick's ids; none by day.
 std::vector<LightSource> find_sources(const ShadingInput& input, const Eigen::Vector3f& eye);
 

@@ -115,7 +115,7 @@ void shade(const ShadingInput& input,
                    false,
                    eye,
                    static_cast<float>(camera.pixel()),
-                   OrthonormalBasis(input.sky.to_sun()),
+                   sun_directions(input.sky),
                    luminance(input.sky.sun()) / pi > 0.01F * ambient};
     job.lamps_matter = !job.sources.empty() || input.sky.moon().light.maxCoeff() > 0;
     if (job.lamps_matter)

@@ -76,13 +76,14 @@ const Vector3f& sky_direction(int place) {
     return tables.sky[static_cast<std::size_t>(place)];
 }
 
-Vector3f sun_direction(const ShadingJob& job, int place) {
-    const Vector2f spot = disc_point(place) * job.input.sky.sun_radius();
-    return job.sun_basis.apply({spot.x(), spot.y(), 1});
-}
-
-Vector3f lamp_direction(const LampSum& lamps, int place) {
-    return lamps.towards((static_cast<float>(place) + 0.5F) / 16, disc_point((place * 5 + 3) & 15));
+std::array<Vector3f, 16> sun_directions(const Sky& sky) {
+    const OrthonormalBasis axes(sky.to_sun());
+    std::array<Vector3f, 16> all;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Vector2f spot = disc_point(static_cast<int>(i)) * sky.sun_radius();
+        all[i] = axes.apply({spot.x(), spot.y(), 1});
+    }
+    return all;
 }
 
 Color sky_color(const ShadingJob& job, const Vector3f& direction) {

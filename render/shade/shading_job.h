@@ -37,7 +37,7 @@ struct ShadingJob {
     bool lamps_matter;  ///< is there a lamp, or a moon?
     Eigen::Vector3f eye;
     float pixel;
-    OrthonormalBasis sun_basis;
+    std::array<Eigen::Vector3f, 16> to_sun;  ///< to places on its disc
     bool sun_matters;
 
     /// Is the pixel in the picture? Tiles at its right and lower edge reach beyond it.
@@ -146,11 +146,18 @@ inline Eigen::Vector3f offset_origin(const Eigen::Vector3f& position,
     return position + flat * (2e-3F + 1e-4F * distance);
 }
 
-/// To a place on the sun's disc.
-Eigen::Vector3f sun_direction(const ShadingJob& job, int place);
+/// To places on the sun's disc: made once, as who has just made one waits until it has arrived in
+/// memory.
+std::array<Eigen::Vector3f, 16> sun_directions(const Sky& sky);
+
+inline const Eigen::Vector3f& sun_direction(const ShadingJob& job, int place) {
+    return job.to_sun[static_cast<std::size_t>(place)];
+}
 
 /// To one of the lamps that light a place, or to the moon: from there to its middle.
-Eigen::Vector3f lamp_direction(const LampSum& lamps, int place);
+inline Eigen::Vector3f lamp_direction(const LampSum& lamps, int place) {
+    return lamps.towards((static_cast<float>(place) + 0.5F) / 16, disc_point((place * 5 + 3) & 15));
+}
 
 /// How much of a way to a lamp [m] is free of the lamp's own housing.
 inline float lamp_reach(const Eigen::Vector3f& way) {

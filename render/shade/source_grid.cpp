@@ -47,6 +47,7 @@ SourceGrid::SourceGrid(std::vector<LightSource> sources, const Vector3f& eye)
     if (sources_.empty())
         return;
     sources_.resize(std::min<std::size_t>(sources_.size(), 65535));
+    rows_ = std::vector<SourceRow>(sources_.begin(), sources_.end());
     west_ = cell_of(eye.x()) - side / 2;
     south_ = cell_of(eye.y()) - side / 2;
     cells_.resize(static_cast<std::size_t>(side) * side);
@@ -54,6 +55,7 @@ SourceGrid::SourceGrid(std::vector<LightSource> sources, const Vector3f& eye)
     for (std::size_t i = 0; i < sources_.size(); ++i)
         enter(static_cast<std::uint16_t>(i));
     drop_faint();
+    sort_by_lobe();
     ranks_.clear();
 }
 
@@ -65,6 +67,15 @@ void SourceGrid::drop_faint() {
         while (count > 1 && ranks[count - 1] < 0.004F * ranks[0])
             --count;
     }
+}
+
+/// Low beams, whose lobes take the longest, are in as few fours as can be.
+void SourceGrid::sort_by_lobe() {
+    for (Cell& cell : cells_)
+        std::stable_partition(
+            cell.sources.begin(), cell.sources.begin() + cell.count, [&](std::uint16_t index) {
+                return sources_[index].lobe == LightSource::Lobe::low_beam;
+            });
 }
 
 void SourceGrid::enter(std::uint16_t index) {

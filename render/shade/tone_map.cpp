@@ -30,9 +30,10 @@ struct SrgbTable {
 
 const SrgbTable srgb;
 
-/// Narkowicz's fit of the ACES film curve, 2015, with a flatter toe: shadows stay readable.
-float film(float x) {
-    return clamp01(x * (2.51F * x + 0.10F) / (x * (2.43F * x + 0.55F) + 0.16F));
+/// Narkowicz's fit of the ACES film curve, 2015, with a flatter toe: shadows stay readable. Each
+/// channel for itself.
+Color curve(const Color& x) {
+    return (x * (2.51F * x + 0.10F) / (x * (2.43F * x + 0.55F) + 0.16F)).max(0.0F).min(1.0F);
 }
 
 }  // namespace
@@ -40,13 +41,13 @@ float film(float x) {
 /// Each channel by the curve, so that what is bright turns pale; but lamps of one colour keep it:
 /// their brightest channel takes the curve, and the others their share of that.
 Color film(const Color& light) {
-    const Color curved(film(light.x()), film(light.y()), film(light.z()));
+    const Color curved = curve(light);
     const float most = light.maxCoeff();
     const float least = light.minCoeff();
     if (most < 0.5F || least > 0.15F * most)
         return curved;
     const float pure = smooth_step(0.15F, 0.06F, least / most) * smooth_step(0.5F, 1.2F, most);
-    return mix(curved, Color(light * (film(most) / most)), pure);
+    return mix(curved, light * (curve(Color::Constant(most)).x() / most), pure);
 }
 
 std::vector<std::uint8_t> tone_map(const Frame& frame, std::uint64_t tick) {
@@ -58,10 +59,10 @@ std::vector<std::uint8_t> tone_map(const Frame& frame, std::uint64_t tick) {
             // Half a step of noise hides the steps of smooth skies.
             const auto grain = static_cast<float>(world::draw(
                 0, tick, world::Purpose::camera_noise, static_cast<std::uint64_t>(index)));
-            const Color light = film(Color(frame.colors[index].max(0.0F)));
+            const Color light = film(frame.colors[index].max(0.0F));
+            const Color entries = Color(_mm_sqrt_ps(light.lanes())) * (table_size - 1) + 0.5F;
             for (int channel = 0; channel < 3; ++channel) {
-                const float entry = std::sqrt(light[channel]) * (table_size - 1);
-                const float value = srgb.values[static_cast<std::size_t>(entry + 0.5F)] + grain;
+                const float value = srgb.values[static_cast<std::size_t>(entries[channel])] + grain;
                 bytes[3 * index + static_cast<std::size_t>(channel)] =
                     static_cast<std::uint8_t>(std::min(255.0F, value));
             }

@@ -28,6 +28,13 @@ inline float smooth_step(float low, float high, float x) {
     return share * share * (3 - 2 * share);
 }
 
+/// Of four, within rounding.
+inline __m128 smooth_step(float low, float high, __m128 x) {
+    const __m128 share = (x - _mm_set1_ps(low)) * _mm_set1_ps(1 / (high - low));
+    const __m128 clamped = _mm_min_ps(_mm_max_ps(share, _mm_setzero_ps()), _mm_set1_ps(1));
+    return clamped * clamped * (_mm_set1_ps(3) - _mm_set1_ps(2) * clamped);
+}
+
 /// As std::floor for |x| < 2^31, without a call.
 inline int floor_int(float x) {
     const int truncated = static_cast<int>(x);

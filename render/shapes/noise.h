@@ -64,11 +64,17 @@ inline float value_noise(float x, float y, std::uint32_t salt = 0) {
     return mix(mix(corners[0], corners[1], fx), mix(corners[2], corners[3], fx), fy);
 }
 
-/// Octaves of value noise, each half as large and half as strong. In [0, 1], mean 0.5.
-inline float fractal_noise(float x, float y, int octaves, std::uint32_t salt = 0) {
+/// Octaves of value noise, each half as large and half as strong. In [0, 1], mean 0.5. Where it is
+/// below `level` it may be any number below that: coarse octaves say so before the fine ones are
+/// worked out.
+inline float fractal_noise_over(
+    float level, float x, float y, int octaves, std::uint32_t salt = 0) {
     float sum = 0;
     float weight = 0.5F;
     for (int octave = 0; octave < octaves; ++octave) {
+        // What is left adds up to twice the next weight.
+        if (sum + 2.001F * weight < level)
+            return sum;
         sum += weight * value_noise(x, y, salt + static_cast<std::uint32_t>(octave));
         // Turned by about 37 degrees, so that the lattices of the octaves do not line up.
         const float turned = 1.6F * x - 1.2F * y + 7.1F;
@@ -77,6 +83,10 @@ inline float fractal_noise(float x, float y, int octaves, std::uint32_t salt = 0
         weight *= 0.5F;
     }
     return sum + weight;
+}
+
+inline float fractal_noise(float x, float y, int octaves, std::uint32_t salt = 0) {
+    return fractal_noise_over(-1, x, y, octaves, salt);
 }
 
 }  // namespace reprise::render

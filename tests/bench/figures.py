@@ -18,6 +18,7 @@ PICTURES = {
     "semantic": "semantic classes, 800x600",
     "rgb_clear_noon": "colour, 800x600, clear noon",
     "rgb_hard_rain_sunset": "colour, 800x600, hard rain at sunset",
+    "rgb_clear_night": "colour, 800x600, clear night",
     "rgb_200x88": "colour, 200x88",
     "rgb_84x84": "colour, 84x84",
     "semantic_84x84": "semantic classes, 84x84",
@@ -90,8 +91,8 @@ def drivers(v):
     """Who drives among 100 cars: ticks/s, and what that adds to a tick in which nobody is asked."""
     rows = [["nobody is asked: the same controls from inside", v.text("Driver.ticks/s_alone"), ""],
             ["the built-in driver", v.text("Driver.ticks/s_built_in"), ""]]
-    for name, words in (("cpp", "another program, in C++"), ("cpp_asleep", "in C++, asleep between ticks"), ("python", "in Python"),
-                        ("python_asleep", "in Python, asleep between ticks")):  # fmt: skip
+    for name, words in (("cpp", "another program, in C++"), ("cpp_polling", "in C++, polling"), ("python", "in Python"),
+                        ("python_polling", "in Python, polling")):  # fmt: skip
         rows.append([words, v.text(f"Driver.ticks/s_{name}"), v.text(f"Driver.{name}_us", digits=2) + " us"])
     for name, words in (("rgb84", "84x84"), ("rgb200x88", "200x88"),
                         ("three800x600", "800x600, with depth and semantic classes")):
@@ -117,7 +118,8 @@ def pictures(v):
         rows.append([words, v.text(at + "real_ms", digits=3) + " ms (no file)", v.text(at + "of_bare", decimals=1), ""])
     columns = ["a picture, one core", "with its file", "of bare Embree over all its rays", "`--portable`, without the file"]
     return table(columns, rows) + (
-        f"\n\nUntil the first picture {v.text('StartUp.real_ms', digits=3)} ms pass. Two threads make "
+        f"\n\nBy night, among lamps, a picture takes {v.text('Night.of_noon', decimals=2)} times what it takes at noon, measured in turns.\n"
+        f"Until the first picture {v.text('StartUp.real_ms', digits=3)} ms pass. Two threads make "
         f"{v.text('Threads.times_one', decimals=2)} times the pictures of one; of the bare rays they\n"
         f"trace {v.text('Threads.bare_times_one', decimals=2)} times as many.")
 

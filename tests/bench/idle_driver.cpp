@@ -4,8 +4,7 @@
 #include "remote/client.h"
 
 int main(int count, char** words) {
-    using namespace reprise::remote;
-    Client run("", count > 1 ? std::atof(words[1]) : usual_polling);
+    reprise::remote::Client run("", count > 1 ? std::atof(words[1]) : 0);
     while (const auto tick = run.next()) {
         const auto* own = reprise::world::find(tick->measurements(), run.actor());
         run.say({.throttle = own != nullptr && own->speed() < 5 ? 0.4 : 0.0});

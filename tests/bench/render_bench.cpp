@@ -148,6 +148,27 @@ void look(benchmark::State& state, const Picture& picture) {
     state.counters["Mrays"] = 1e-6 * static_cast<double>(rays);
 }
 
+/// What a picture by night takes, with its file, beside the same one at noon: in turns.
+void Night(benchmark::State& state) {
+    const Picture noon{{SensorKind::rgb}, 800, 600};
+    const Picture night{{SensorKind::rgb}, 800, 600, "clear_night"};
+    render::Sensors sensors(scene().recording.town, {.threads = 1});
+    const ScratchFile file;
+    const auto make = [&](const Picture& picture) {
+        render::write_png(observe(sensors, picture).front(), file.path);
+    };
+    make(noon);
+    make(night);
+    bench::ThreadTimer by_day, by_night;
+    for (int turn = 0; turn < turns; ++turn) {
+        by_day.time([&] { make(noon); });
+        by_night.time([&] { make(night); });
+    }
+    for (auto _ : state)
+        state.SetIterationTime(by_night.median());
+    state.counters["of_noon"] = by_night.median() / by_day.median();
+}
+
 /// A whole turn of 64 lasers, 2048 shots each, on the roof of the first vehicle.
 world::SensorRig roof_lidar(SensorKind kind) {
     world::SensorSpec sensor;
@@ -278,6 +299,9 @@ BENCHMARK_CAPTURE(look,
                   rgb_hard_rain_sunset,
                   Picture{{SensorKind::rgb}, 800, 600, "hard_rain_sunset"})
     ->Apply(once);
+BENCHMARK_CAPTURE(look, rgb_clear_night, Picture{{SensorKind::rgb}, 800, 600, "clear_night"})
+    ->Apply(once);
+BENCHMARK(Night)->Apply(once);
 BENCHMARK_CAPTURE(look, labels, Picture{{SensorKind::depth, SensorKind::semantic}, 800, 600})
     ->Apply(once);
 BENCHMARK_CAPTURE(look, rgb_84x84, Picture{{SensorKind::rgb}, 84, 84})->Apply(once);

@@ -1,0 +1,78 @@
+#include "render/shade/lobes.h"
+
+#include "render/shapes/fast_math.h"
+
+namespace reprise::render {
+
+namespace {
+
+using Lobe = LightSource::Lobe;
+
+__m128 four(float value) {
+    return _mm_set1_ps(value);
+}
+
+__m128 at_least(float least, __m128 x) {
+    return _mm_max_ps(x, four(least));
+}
+
+/// (1 + x^2)^2
+__m128 bell(__m128 x) {
+    const __m128 root = four(1) + x * x;
+    return root * root;
+}
+
+/// After ECE R112: brightest just below a line half a degree under the horizon, which on the kerb's
+/// side rises by 15 degrees; a little is let through above, for signs.
+__m128 low_beam_shares(const FourSources& sources, const Lanes3& way, __m128 ahead) {
+    const __m128 narrowest = four(0.25F);
+    const __m128 lit = _mm_cmpge_ps(ahead, narrowest);
+    if (_mm_movemask_ps(lit) == 0)
+        return _mm_setzero_ps();
+    const __m128 scale = four(1) / _mm_max_ps(ahead, narrowest);
+    const __m128 side = way.dot(sources.left) * scale;
+    const __m128 rise = way.dot(sources.up) * scale;
+    const __m128 line = four(0.26F) * _mm_min_ps(at_least(0, -side), four(0.12F)) - four(0.010F);
+    const __m128 below = line - rise;
+    const __m128 cut = smooth_step(-0.008F, 0.008F, below);
+    const __m128 drop = at_least(0, below) * four(1 / 0.055F);
+    const __m128 narrow = bell(side * four(1 / 0.24F));
+    const __m128 wide = bell(side * four(1 / 0.75F));
+    const __m128 deep = four(1) + drop * drop * (four(1) + four(0.6F) * drop);
+    // across = 0.85 / narrow + 0.15 / wide, and 1 / deep below the line: by one division.
+    const __m128 over = four(0.012F) * deep;
+    const __m128 shape =
+        (over + (four(1) - over) * cut) * (four(0.85F) * wide + four(0.15F) * narrow);
+    const __m128 share = shape / (deep * narrow * wide);
+    return _mm_and_ps(lit, share * smooth_step(0.25F, 0.5F, ahead));
+}
+
+}  // namespace
+
+SourceRow::SourceRow(const LightSource& source)
+    : position(source.position),
+      narrows(1 / (source.reach * source.reach)),
+      axis(source.axis),
+      lobe(static_cast<float>(source.lobe)),
+      left(source.left),
+      luminance(render::luminance(source.intensity)),
+      up(source.axis.cross(source.left)),
+      radius(source.radius) {}
+
+__m128 lobe_shares(const FourSources& sources, const Lanes3& way) {
+    const auto of = [&](Lobe lobe, __m128 share) {
+        const __m128 is = _mm_cmpeq_ps(sources.lobe, four(static_cast<float>(lobe)));
+        return _mm_and_ps(is, share);
+    };
+    const __m128 ahead = way.dot(sources.axis);
+    const __m128 forward = at_least(0, ahead);
+    const __m128 street = smooth_step(0.10F, 0.42F, -way.z) * (four(1.3F) + four(0.6F) * way.z);
+    const __m128 lens = forward * forward * forward * forward;
+    const __m128 lamps =
+        _mm_or_ps(of(Lobe::street, street), of(Lobe::lantern, smooth_step(0.75F, 0.2F, way.z)));
+    const __m128 panes = _mm_or_ps(of(Lobe::lens, lens), of(Lobe::window, forward));
+    const __m128 beams = of(Lobe::low_beam, ahead);
+    return _mm_or_ps(_mm_or_ps(lamps, panes), low_beam_shares(sources, way, beams));
+}
+
+}  // namespace reprise::render
