@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "remote/polling.h"
 #include "remote/wire_generated.h"
 #include "world/external/rig.h"
 #include "world/recording.h"
@@ -37,12 +38,13 @@ class Client {
     /// Connects, and waits for the run's hello. `address` is a socket's path or HOST:PORT, or what
     /// the variable REPRISE_DRIVER says where it is empty. Throws world::Error, also when the place
     /// is taken.
-    /// `polling`: [s] for so long it stays awake for each tick, and looks again and again, before
-    /// it sleeps. That keeps a processor busy, and spares the run to wake it; see docs/drivers.md.
-    explicit Client(const std::string& address = {}, double polling = 0);
+    /// `polling`: [s] for so long it looks again and again for each tick before it sleeps, and the
+    /// run need not wake it; less often where somebody else wants its processor. 0: it always
+    /// sleeps; see docs/drivers.md.
+    explicit Client(const std::string& address = {}, double polling = usual_polling);
 
     /// Of a connection that is open: waits for hello.
-    explicit Client(FrameChannel channel, double polling = 0);
+    explicit Client(FrameChannel channel, double polling = usual_polling);
     ~Client();
     Client(const Client&) = delete;
     Client& operator=(const Client&) = delete;

@@ -72,7 +72,7 @@ class Simulation {
         std::string folder = ".";  ///< of our own: where scenarios are, and traces go
         std::string program{};     ///< of our own; empty: what the variable REPRISE names, or the
                                    ///< first `reprise` in PATH
-        double polling = 0;        ///< [s] as of Client
+        double polling = usual_polling;  ///< [s] as of Client
     };
 
     /// Throws world::Error.

@@ -14,7 +14,7 @@ import numpy as np
 
 from .nouns import Noun, dtype, enum
 from .pictures import Frames, Images, Sensors
-from .wire import VERSION, Wire, WireError
+from .wire import POLLING, VERSION, Wire, WireError
 
 if TYPE_CHECKING:
     from .view import View
@@ -219,15 +219,15 @@ class Observation:
 Driver = Callable[[Observation], Control]
 
 
-def drive(driver: Driver, address: str | None = None, *, polling: float = 0.0) -> int:
+def drive(driver: Driver, address: str | None = None, *, polling: float = POLLING) -> int:
     """Drives until the run is over. Returns how many ticks were driven.
 
     `driver` is asked once a tick. What it raises ends the run with the verdict driver_lost, and is raised here; the run
     is told what it was, and in which tick.
     `address` is a socket's path or '127.0.0.1:PORT'; without it the program must have been started by `reprise run
     --driver`. Raises WireError where the place is taken.
-    `polling` [s]: for so long it stays awake for each tick, and looks again and again, before it sleeps. That keeps a
-    processor busy, and spares the run to wake it (docs/drivers.md).
+    `polling` [s]: for so long it looks again and again for each tick before it sleeps, and the run need not wake it; less
+    often where somebody else wants its processor. 0: it always sleeps (docs/drivers.md).
     """
     wire = Wire(address, polling)
     ticks, where = 0, "before its first tick"

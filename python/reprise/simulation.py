@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence, TypeVar, Uni
 
 from .driver import Control, Driver, Observation, Run, values_of
 from .nouns import Noun
-from .wire import VERSION, Wire, WireError
+from .wire import POLLING, VERSION, Wire, WireError
 
 if TYPE_CHECKING:
     from .view import View
@@ -99,7 +99,7 @@ class Client:
     """A connection with a server of episodes, and the plan of the next one: what Simulation and MultiSimulation share."""
 
     def __init__(self, plan: dict[str, Any], server: str | None, token: str | None, folder: str | os.PathLike,
-                 polling: float = 0.0) -> None:  # fmt: skip
+                 polling: float = POLLING) -> None:  # fmt: skip
         self.outcome: Outcome | None = None  #: of the last episode, once it has ended
         self._plan = plan
         self._check_plan()
@@ -229,15 +229,15 @@ class Simulation(Client):
     `server` is the socket of a `reprise serve` that runs already, 'PATH' or 'HOST:PORT' (then with its `token`, if
     it wants one); without it this starts one of its own, in `folder`, and ends it with close() or the `with`.
 
-    `polling` [s]: for so long it stays awake for each tick, and looks again and again, before it sleeps; see
-    docs/drivers.md.
+    `polling` [s]: for so long it looks again and again for each tick before it sleeps, and the run need not wake it; less
+    often where somebody else wants its processor. 0: it always sleeps (docs/drivers.md).
     """
 
     def __init__(self, town: str = "town1", *, cars: int = 0, seed: int | None = None, weather: str = "clear_noon",
                  start: Place = None, goal: Place = None, model: str = "sedan", scenario: str | os.PathLike | None = None,
                  settings: Mapping[str, Any] | None = None, seconds: float = 0.0, trace: str | None = None,
                  rig: Sequence[Mapping[str, Any]] = (), walkers: int = 0, walker_seed: int | None = None, server: str | None = None,
-                 token: str | None = None, folder: str | os.PathLike = ".", polling: float = 0.0) -> None:  # fmt: skip
+                 token: str | None = None, folder: str | os.PathLike = ".", polling: float = POLLING) -> None:  # fmt: skip
         self.run_info: Run | None = None  #: what stays the same in this episode; also `seen.run`
         self._seen: Observation | None = None
         super().__init__(

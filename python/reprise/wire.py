@@ -16,6 +16,9 @@ from .nouns import Noun
 from .packing import pack
 
 VERSION = 1
+POLLING = 0.005
+"""[s] for so long a driver polls for a tick where its author says nothing else."""
+
 _KINDS = schema.ENUMS["remote.Kind"][1]
 _NAMES = {number: name for name, number in _KINDS.items()}
 _TABLES = {name: f"remote.{name.capitalize()}" for name in _KINDS}
@@ -70,8 +73,8 @@ def _connect(address: str) -> socket.socket:
 
 
 class _Awaiting:
-    """Waits for what comes over a socket: for `polling` seconds by looking again and again, then asleep. Where the first
-    was in vain the next waits are not polled: 2 of them, and twice as many each time, up to 64. With one processor none is.
+    """Waits for what comes over a socket: for `polling` seconds by looking again and again, then asleep. remote/polling.h
+    says when it sleeps at once: it is the same rule.
 
     Never asleep in recv(): there we would be woken for nothing when the run reads what we said, at its cost, some 15 us.
     """
@@ -81,21 +84,39 @@ class _Awaiting:
         poll.register(channel, select.POLLIN)
         self._poll = poll.poll
         self._polling = polling if polling > 0 and _processors() > 1 else 0.0
-        self._in_vain = self._to_sleep = 0
+        self._to_sleep = self._rivalry = self._calm = self._doublings = 0
 
     def __call__(self) -> None:
-        if self._polling and not self._to_sleep:
-            until = time.monotonic() + self._polling
-            while time.monotonic() < until:
-                if self._poll(0):
-                    self._in_vain = 0
-                    return
-                os.sched_yield()
-            self._in_vain = min(self._in_vain + 1, 6)
-            self._to_sleep = 1 << self._in_vain
-        elif self._to_sleep:
+        if self._to_sleep:
             self._to_sleep -= 1
+        elif self._polling and self._finds():
+            return
         self._poll()
+
+    def _finds(self) -> bool:
+        begin, own_begin = time.monotonic(), time.thread_time()
+        found, waited = bool(self._poll(0)), 0.0
+        while not found and waited < self._polling:
+            os.sched_yield()
+            found = bool(self._poll(0))
+            waited = time.monotonic() - begin
+        self._to_sleep = 0 if found else 2
+        self._heed(time.thread_time() - own_begin < 0.8 * waited)
+        return found
+
+    def _heed(self, had_a_rival: bool) -> None:
+        if not had_a_rival:
+            self._rivalry = max(self._rivalry - 1, 0)
+            self._calm += 1
+            if self._calm == 64:
+                self._doublings = 0
+            return
+        self._calm = 0
+        self._rivalry += 2
+        if self._rivalry >= 16:
+            self._rivalry = 0
+            self._to_sleep = 16 << self._doublings
+            self._doublings = min(self._doublings + 1, 6)
 
 
 def _processors() -> int:
@@ -108,7 +129,7 @@ class Wire:
 
     digest = schema.DIGEST
 
-    def __init__(self, address: str | socket.socket | None = None, polling: float = 0.0) -> None:
+    def __init__(self, address: str | socket.socket | None = None, polling: float = POLLING) -> None:
         self._descriptor: int | None = None
         self._ahead = b""  # of the next messages
         if not isinstance(address, socket.socket):

@@ -28,9 +28,9 @@ namespace {
 
 using namespace reprise;
 
-constexpr int warm_up = 200;          // [ticks] until queues have formed, without drivers
-constexpr unsigned turn = 5;          // [ticks]
-const std::string polling = " 0.02";  // [s] longer than the turns in which nobody is asked
+constexpr int warm_up = 200;      // [ticks] until queues have formed, without drivers
+constexpr unsigned turn = 5;      // [ticks]
+const std::string asleep = " 0";  // [s] of polling
 constexpr std::uint32_t actor = 1;
 const std::string source = REPRISE_SOURCE;
 const std::string python = "PYTHONPATH=" + source + "/python exec /usr/bin/python3 -B " + source +
@@ -198,10 +198,10 @@ void Driver(benchmark::State& state) {
                       {"built_in", {Asks::nobody, "", "autopilot"}},
                       {"bare", {Asks::round_trip}},
                       {"cpp", {Asks::seat, IDLE_DRIVER}},
-                      {"cpp_polling", {Asks::seat, IDLE_DRIVER + polling}},
+                      {"cpp_asleep", {Asks::seat, IDLE_DRIVER + asleep}},
                       {"cpp_waiting", {Asks::waiting_seat, IDLE_DRIVER}},
                       {"python", {Asks::seat, python}},
-                      {"python_polling", {Asks::seat, python + polling}},
+                      {"python_asleep", {Asks::seat, python + asleep}},
                       {"python_waiting", {Asks::waiting_seat, python}}},
                      25,
                      40);
@@ -215,16 +215,16 @@ void Driver(benchmark::State& state) {
     state.counters["ticks/s_alone"] = ticks_a_second(laps, "alone");
     state.counters["ticks/s_cpp"] = ticks_a_second(laps, "cpp");
     state.counters["ticks/s_python"] = ticks_a_second(laps, "python");
-    state.counters["ticks/s_cpp_polling"] = ticks_a_second(laps, "cpp_polling");
-    state.counters["ticks/s_python_polling"] = ticks_a_second(laps, "python_polling");
+    state.counters["ticks/s_cpp_asleep"] = ticks_a_second(laps, "cpp_asleep");
+    state.counters["ticks/s_python_asleep"] = ticks_a_second(laps, "python_asleep");
     state.counters["observation_B"] = laps["alone"].back().bytes;
     state.counters["nobody_us"] = course("alone").adds_us;  // how far two equal turns are apart
     state.counters["bare_us"] = course("bare").adds_us;
     state.counters["cpp_us"] = course("cpp").adds_us;
-    state.counters["cpp_polling_us"] = course("cpp_polling").adds_us;
+    state.counters["cpp_asleep_us"] = course("cpp_asleep").adds_us;
     state.counters["cpp_waiting_us"] = course("cpp_waiting").adds_us;
     state.counters["python_us"] = course("python").adds_us;
-    state.counters["python_polling_us"] = course("python_polling").adds_us;
+    state.counters["python_asleep_us"] = course("python_asleep").adds_us;
     state.counters["python_waiting_us"] = course("python_waiting").adds_us;
     state.counters["bare_cpu_us"] = course("bare").adds_cpu_us;
     state.counters["cpp_cpu_us"] = course("cpp").adds_cpu_us;

@@ -91,8 +91,8 @@ def drivers(v):
     """Who drives among 100 cars: ticks/s, and what that adds to a tick in which nobody is asked."""
     rows = [["nobody is asked: the same controls from inside", v.text("Driver.ticks/s_alone"), ""],
             ["the built-in driver", v.text("Driver.ticks/s_built_in"), ""]]
-    for name, words in (("cpp", "another program, in C++"), ("cpp_polling", "in C++, polling"), ("python", "in Python"),
-                        ("python_polling", "in Python, polling")):  # fmt: skip
+    for name, words in (("cpp", "another program, in C++"), ("cpp_asleep", "in C++, asleep between ticks"), ("python", "in Python"),
+                        ("python_asleep", "in Python, asleep between ticks")):  # fmt: skip
         rows.append([words, v.text(f"Driver.ticks/s_{name}"), v.text(f"Driver.{name}_us", digits=2) + " us"])
     for name, words in (("rgb84", "84x84"), ("rgb200x88", "200x88"),
                         ("three800x600", "800x600, with depth and semantic classes")):

@@ -4,7 +4,8 @@
 #include "remote/client.h"
 
 int main(int count, char** words) {
-    reprise::remote::Client run("", count > 1 ? std::atof(words[1]) : 0);
+    using namespace reprise::remote;
+    Client run("", count > 1 ? std::atof(words[1]) : usual_polling);
     while (const auto tick = run.next()) {
         const auto* own = reprise::world::find(tick->measurements(), run.actor());
         run.say({.throttle = own != nullptr && own->speed() < 5 ? 0.4 : 0.0});

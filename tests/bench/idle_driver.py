@@ -13,4 +13,4 @@ def decide(seen):
     return reprise.Control(throttle=0.4 if seen.ego.speed < 5 else 0.0)
 
 
-reprise.drive(decide, polling=float((sys.argv + ["0"])[1]))
+reprise.drive(decide, **{"polling": float(polling) for polling in sys.argv[1:]})

@@ -4,6 +4,9 @@
 #include <csignal>
 #include <cstdlib>
 #include <regex>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "world/random.h"
 
@@ -31,14 +34,17 @@ TEST_P(OneDriver, DrivesARunThatVerifiesAndIsTheSameOnceMore) {
 }
 
 TEST_P(OneDriver, DrivesTheSameWhetherItPollsOrSleeps) {
-    drive("one", driver(), "sleeps.mcap");
-    std::string polling = read_file(folder_ / "driver.py");
-    polling.insert(polling.rfind(')'), ", polling=10");
-    write_file(folder_ / "polling.py", polling);
-    drive("one",
-          driver() == python_driver ? PYTHON " -B polling.py" : odd_driver + " polls",
-          "polls.mcap");
-    EXPECT_TRUE(bytes("polls.mcap") == bytes("sleeps.mcap"));
+    drive("one", driver(), "a.mcap");
+    const std::string source = read_file(folder_ / "driver.py");
+    for (const auto& [habit, polling] : {std::pair("polls", "10"), std::pair("sleeps", "0")}) {
+        std::string own = source;
+        own.insert(own.rfind(')'), fmt::format(", polling={}", polling));
+        write_file(folder_ / "polling.py", own);
+        const bool is_python = driver() == python_driver;
+        const std::string one = is_python ? PYTHON " -B polling.py" : odd_driver + " " + habit;
+        drive("one", one, "b.mcap");
+        EXPECT_TRUE(bytes("b.mcap") == bytes("a.mcap")) << habit;
+    }
 }
 
 TEST_P(OneDriver, IsNotNeededForItsTrace) {

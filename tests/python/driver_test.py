@@ -2,6 +2,7 @@
 
 usage: driver_test.py REPRISE WORK
 """
+import itertools
 import os
 import pathlib
 import socket
@@ -10,12 +11,14 @@ import subprocess
 import sys
 import threading
 import unittest
+import unittest.mock
 
 import numpy as np
 import reprise
 from reprise.nouns import Noun
 from reprise.packing import pack
 from reprise.schema import ENUMS
+from reprise import wire as wire_module
 from reprise.wire import Wire
 
 PROGRAM, WORK = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
@@ -109,6 +112,29 @@ class Mistakes(unittest.TestCase):
                 theirs.close()
                 with self.assertRaisesRegex(reprise.WireError, "hung up"):
                     wire.receive()
+
+    def test_polling_leaves_the_processor_to_who_wants_it_longer_and_longer(self):
+        ours, theirs = socket.socketpair()
+        with theirs, ours, unittest.mock.patch.multiple(wire_module, _processors=lambda: 2):
+            waiting = wire_module._Awaiting(ours, 3600.0)
+            theirs.send(b"x")  # it is there whenever the waits look
+
+            def polled(waits, share):
+                looks = 0
+                for _ in range(waits):
+                    found = iter((False, True, True))  # at the second look of who polls, at the first of who sleeps
+                    calls = []
+                    waiting._poll = lambda timeout=None: calls.append(timeout) or timeout is None or next(found)
+                    seconds = itertools.count()
+                    with unittest.mock.patch.multiple(wire_module.time, monotonic=lambda: next(seconds) * 1.0,
+                                                      thread_time=lambda: next(seconds) * share):  # fmt: skip
+                        waiting()
+                    looks += calls[0] == 0
+                return looks
+
+            for asleep in (16, 32, 64, 128, 256, 512, 1024, 1024):
+                self.assertEqual((polled(8, 0.1), polled(asleep, 0.1)), (8, 0))
+            self.assertEqual((polled(64, 1), polled(8, 0.1), polled(16, 0.1), polled(1, 1)), (64, 8, 0, 1))
 
     def test_in_what_an_episode_starts_from_are_told_and_the_simulation_lives_on(self):
         wrong = (dict(cars=1.5), dict(cars="many"), dict(seed=-1), dict(seed=1 << 64), dict(seed="7"), dict(walkers=-1),

@@ -1,6 +1,7 @@
 // A driver for tests: odd_driver HABIT [SOCKET]. `steady` drives well, `polls` likewise and never
-// sleeps, `counting` says in each tick which one that is; every other one breaks the wire's rules
-// in its way, in the third tick if it gets that far. odd_driver killed TICK: is, in that one.
+// sleeps, `sleeps` always does, `counting` says in each tick which one that is; every other one
+// breaks the wire's rules in its way, in the third tick if it gets that far. odd_driver killed
+// TICK: is, in that one.
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -103,7 +104,10 @@ int main(int count, char** words) {
         return be_of_another_version();
     const bool killed = habit == "killed";
     try {
-        Client run(count > 2 && !killed ? words[2] : "", habit == "polls" ? 10 : 0);
+        const double polling = habit == "polls"    ? 10
+                               : habit == "sleeps" ? 0
+                                                   : reprise::remote::usual_polling;
+        Client run(count > 2 && !killed ? words[2] : "", polling);
         int ticks = 0;
         while (const auto tick = run.next()) {
             if (killed && tick->index() == std::strtoull(words[2], nullptr, 10))

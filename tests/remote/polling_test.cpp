@@ -21,7 +21,7 @@ bool finds(Polling& polling, Looks& looks) {
 }
 
 constexpr double ages = 3600;    // [s]
-constexpr double moment = 1e-9;  // [s] one look
+constexpr double moment = 1e-9;  // [s] two looks
 
 class PollingOnSeveralProcessors : public testing::Test {
   protected:
@@ -45,23 +45,67 @@ TEST(Polling, OfNoTimeNeverLooks) {
     EXPECT_EQ(looks.count, 0U);
 }
 
-TEST_F(PollingOnSeveralProcessors, ThatFindNothingSleepThroughMoreAndMoreWaits) {
+TEST_F(PollingOnSeveralProcessors, ThatFoundNothingSleepsThroughTwoWaits) {
     Polling polling(moment);
-    for (const unsigned asleep : {2, 4, 8, 16, 32, 64, 64}) {
-        Looks never;
+    for (unsigned time = 0; time < 10; ++time) {
+        Looks never, unasked{1};
         EXPECT_FALSE(finds(polling, never));
-        EXPECT_EQ(never.count, 1U);
-        Looks unasked{1};
-        for (unsigned wait = 0; wait < asleep; ++wait)
-            EXPECT_FALSE(finds(polling, unasked));
+        EXPECT_EQ(never.count, 2U);
+        EXPECT_FALSE(finds(polling, unasked));
+        EXPECT_FALSE(finds(polling, unasked));
         EXPECT_EQ(unasked.count, 0U);
     }
-    Looks there{1}, never;
+    Looks there{1};
     EXPECT_TRUE(finds(polling, there));
-    EXPECT_FALSE(finds(polling, never));
-    EXPECT_FALSE(finds(polling, never));
-    EXPECT_FALSE(finds(polling, never));
-    EXPECT_EQ(never.count, 1U) << "two waits asleep, as after the first one in vain";
+}
+
+/// A thread that gets this share of a processor. Each look at a clock takes a second.
+class Shared {
+  public:
+    Polling::Clocks clocks() {
+        return {[this] { return now_ += 1; }, [this] { return own_ += share; }};
+    }
+
+    double share = 1;
+
+  private:
+    double now_ = 0;
+    double own_ = 0;
+};
+
+/// Waits that are over at the second look: how many of the next so many are polled.
+unsigned polled(Polling& polling, unsigned waits) {
+    unsigned count = 0;
+    for (unsigned wait = 0; wait < waits; ++wait) {
+        Looks looks{2};
+        count += finds(polling, looks) ? 1 : 0;
+    }
+    return count;
+}
+
+TEST_F(PollingOnSeveralProcessors, LeaveThemToWhoWantsThemLongerAndLonger) {
+    Shared thread;
+    thread.share = 0.5;
+    Polling polling(ages, thread.clocks());
+    for (const unsigned asleep : {16, 32, 64, 128, 256, 512, 1024, 1024}) {
+        EXPECT_EQ(polled(polling, 8), 8U) << "a scheduler has some waits to part them";
+        EXPECT_EQ(polled(polling, asleep), 0U);
+    }
+    thread.share = 1;
+    EXPECT_EQ(polled(polling, 64), 64U);
+    thread.share = 0.5;
+    EXPECT_EQ(polled(polling, 8), 8U);
+    EXPECT_EQ(polled(polling, 16), 0U) << "long undisturbed: as in the beginning";
+    EXPECT_EQ(polled(polling, 1), 1U);
+}
+
+TEST_F(PollingOnSeveralProcessors, DisturbedNowAndThenGoOn) {
+    Shared thread;
+    Polling polling(ages, thread.clocks());
+    for (unsigned wait = 0; wait < 300; ++wait) {
+        thread.share = wait % 3 == 0 ? 0.5 : 1;
+        EXPECT_EQ(polled(polling, 1), 1U);
+    }
 }
 
 TEST(Polling, WithOneProcessorLeavesItToWhomItWaitsFor) {
