@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -90,6 +91,7 @@ class Crowd {
 
     const WalkMap& map_of(const Person& person);
     const Walker* find(std::uint32_t id) const;
+    void keep_from_posts(const Person& person);
 
     void lay_down(const world::TickView& last, std::uint64_t tick);
     void remove_hit_and_lost(world::TickDraft& next);
@@ -111,6 +113,7 @@ class Crowd {
     void want(Walker& walker, std::uint64_t tick);
     double speed_at_gate(Walker& walker, double speed);
     void make_way(Walker& walker);
+    static Neighbours::From keeps_from(const Walker& walker);
     void avoid(Walker& walker);
     void flee();
     bool walks_into_threat(const Walker& walker) const;
@@ -131,10 +134,11 @@ class Crowd {
     WalkerLights lights_;
     Steering steering_;
     Neighbours neighbours_;
-    Places people_;                ///< of this crowd, in this tick
-    Places on_road_;               ///< those of them who are
-    std::vector<Body> around_;     ///< of one, while looking
-    std::vector<Walker> walkers_;  ///< by id
+    std::array<bool, 2> knows_posts_{};  ///< beside the pavement, and beside the streets
+    Places people_;                      ///< of this crowd, in this tick
+    Places on_road_;                     ///< those of them who are
+    std::vector<Body> around_;           ///< of one, while looking
+    std::vector<Walker> walkers_;        ///< by id
     std::uint32_t next_id_ = first_walker_id;
     std::uint64_t tries_ = 0;  ///< of places to appear at
     unsigned plans_ = 0;       ///< made in this tick

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "walkers/crowd.h"
+#include "walkers/posts.h"
 #include "world/check.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
@@ -159,7 +160,16 @@ bool Crowd::add_friend(world::TickDraft& next) {
     return true;
 }
 
+/// The first who walks by a map looks what stands too close to it.
+void Crowd::keep_from_posts(const Person& person) {
+    bool& known = knows_posts_[person.jaywalks ? 1 : 0];
+    if (!known)
+        neighbours_.add_posts(posts_beside(map_of(person), ground_->obstacles()));
+    known = true;
+}
+
 void Crowd::appear(Walker walker, world::TickDraft& next) {
+    keep_from_posts(walker.person);
     walker.place.position.z() = ground_->height(walker.place.position, walker.underfoot);
     walker.was_at_tick = next.tick.index;
     walker.was_at = walker.place.position.head<2>();

@@ -171,7 +171,7 @@ void Crowd::make_way(Walker& walker) {
         return;
     const Body self{
         walker.place.position.head<2>(), walker.velocity, walker.person.radius, walker.id};
-    neighbours_.around(self, near, false, around_);
+    neighbours_.around(self, near, {}, around_);
     for (const Body& body : around_) {
         const Walker* other = find(body.id);
         const Eigen::Vector2d gap = self.place - body.place;
@@ -182,12 +182,18 @@ void Crowd::make_way(Walker& walker) {
     }
 }
 
+/// Who gets nowhere for long squeezes past the post that leaves no room.
+Neighbours::From Crowd::keeps_from(const Walker& walker) {
+    constexpr std::uint32_t squeezes = 60;  // ticks in its way
+    return {walker.on_road, walker.stuck < squeezes};
+}
+
 void Crowd::avoid(Walker& walker) {
     if (walker.wanted.squaredNorm() < 1e-6)
         return;
     const Body self{
         walker.place.position.head<2>(), walker.velocity, walker.person.radius, walker.id};
-    neighbours_.around(self, elbow_reach, walker.on_road, around_);
+    neighbours_.around(self, elbow_reach, keeps_from(walker), around_);
     if (!around_.empty())
         walker.wanted = steering_.choose(self, walker.wanted, around_);
 }
@@ -237,7 +243,7 @@ bool Crowd::give_room_to(const Walker& fleeing) {
     constexpr double arm = 0.3;  // [m] between the two
     const Body self{
         fleeing.place.position.head<2>(), fleeing.velocity, fleeing.person.radius, fleeing.id};
-    neighbours_.around(self, 2 * self.radius + arm, false, around_);
+    neighbours_.around(self, 2 * self.radius + arm, {}, around_);
     bool any = false;
     for (const Body& body : around_) {
         const Walker* found = find(body.id);
@@ -276,7 +282,7 @@ void Crowd::step(Walker& walker, std::uint64_t tick) {
         const WalkMap::Place to =
             map.slide(walker.place, walker.place.position + Eigen::Vector3d(way.x(), way.y(), 0));
         if (!is_allowed(walker, to) ||
-            !neighbours_.is_clear(self, to.position.head<2>(), walker.on_road))
+            !neighbours_.is_clear(self, to.position.head<2>(), keeps_from(walker)))
             continue;
         walker.place = to;
         moved = true;

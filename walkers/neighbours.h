@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "walkers/steering.h"
@@ -9,12 +10,20 @@
 namespace reprise::walkers {
 
 /// Everybody around, as round bodies, found by place. Bodies may move a little after they were
-/// sorted: less than `drift`.
+/// sorted: less than `drift`. And posts, which never move.
 class Neighbours {
   public:
     static constexpr double drift = 0.5;  ///< [m]
 
+    /// Whom one keeps away from, besides others on foot.
+    struct From {
+        bool cars = false;
+        bool posts = false;
+    };
+
     void clear() { added_.clear(); }
+
+    void add_posts(std::span<const Body> posts);
 
     /// `of_car`: only who is on the road keeps away from it.
     std::size_t add(const Body& body, bool of_car);
@@ -30,10 +39,10 @@ class Neighbours {
     }
 
     /// Those within `reach` of `self`, the nearest first, without `self` itself.
-    void around(const Body& self, double reach, bool with_cars, std::vector<Body>& found) const;
+    void around(const Body& self, double reach, From from, std::vector<Body>& found) const;
 
     /// May `self` move to `to`: is nobody met there whom it was clear of, and nobody pushed?
-    bool is_clear(const Body& self, const Eigen::Vector2d& to, bool with_cars) const;
+    bool is_clear(const Body& self, const Eigen::Vector2d& to, From from) const;
 
   private:
     struct Entry {
@@ -43,7 +52,7 @@ class Neighbours {
     };
 
     template <typename Visit>
-    void visit(const Body& self, double reach, bool with_cars, Visit&& see) const;
+    void visit(const Body& self, double reach, From from, Visit&& see) const;
 
     /// Small, for sorting.
     struct Key {
@@ -59,6 +68,8 @@ class Neighbours {
     std::vector<Entry> bodies_;         ///< by (x, id)
     std::vector<std::uint32_t> index_;  ///< [as it was added] in bodies_
     double widest_ = 0;                 ///< [m] radius
+    std::vector<Body> posts_;           ///< by x
+    double widest_post_ = 0;            ///< [m] radius
 };
 
 }  // namespace reprise::walkers

@@ -26,6 +26,8 @@ class WalkingGround {
     const WalkMap& pavement();
     const WalkMap& streets();
 
+    const std::vector<world::Obstacle>& obstacles() const { return obstacles_; }
+
     /// [m] of the ground at or just below this place; its own height where there is none. `around`:
     /// of the one who asks, kept from step to step.
     double height(const Eigen::Vector3d& p_world, ground::GroundProbe::Around& around) const;

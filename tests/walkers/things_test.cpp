@@ -37,7 +37,7 @@ std::vector<Body> bodies_of(std::uint16_t model, float turned, float speed, doub
     add_things(last.view(), now, step, places, places, neighbours);
     neighbours.sort();
     std::vector<Body> found;
-    neighbours.around({somebody, {0, 0}, 0.25, 1}, 30, true, found);
+    neighbours.around({somebody, {0, 0}, 0.25, 1}, 30, {.cars = true}, found);
     return found;
 }
 
