@@ -25,6 +25,10 @@ constexpr double clear_at_last = 0.07;       // [m] beside who stays,
 constexpr double clear_in_need = 0.02;       // [m] and of one who has waited for longer still
 constexpr std::uint32_t most_changes = 16;   // of gear: then the street is narrower than it seemed
 constexpr double spare = 0.6;                // [m] of a street's width beyond the car's length
+constexpr double good_spare = 1;             // [m] with which it takes a few changes only
+/// [m] that bumpers reach over a kerb for that: less than they are ahead of the wheels, and less
+/// than signs stand beside the road.
+constexpr double most_over_kerb = 0.45;
 
 /// [m] from the centre line of a lane to the edge of the last lane on this side for cars that
 /// drive the same way.
@@ -71,6 +75,10 @@ std::optional<TurnAround::Street> TurnAround::street_of(const world::TownT& town
     const auto right = &world::LaneT::right;
     street.left = side > 0 ? side + to_edge(town, lane, right) : to_edge(town, link.to(), left);
     street.right = side > 0 ? to_edge(town, link.to(), right) : -side + to_edge(town, lane, left);
+    const double lacks = model.length + good_spare - street.left - street.right;
+    const double over_kerb = std::clamp(lacks / 2, 0.0, most_over_kerb);
+    street.left += over_kerb;
+    street.right += over_kerb;
     if (street.left + street.right < model.length + spare)
         return std::nullopt;
     return street;
@@ -124,6 +132,14 @@ double TurnAround::room(const Ego& ego, bool forward, double share, double most)
     return std::min(room, most);
 }
 
+/// Does it come around from here without changing gear again? Who goes back for longer than that
+/// ends in the lane that he comes from.
+bool TurnAround::comes_around(const Ego& ego) const {
+    const double left = std::abs(world::wrap_angle(ego.yaw - street_.yaw));
+    const double arc = left * ego.model->wheelbase / std::tan(ego.model->max_steering_angle);
+    return room(ego, true, 1, arc) >= arc;
+}
+
 /// Is somebody in the way of what it can drive in that gear?
 bool TurnAround::meets_somebody(const world::TickView& last, const Ego& ego, bool forward) const {
     const double distance = room(ego, forward, 1, looks_ahead);
@@ -167,7 +183,7 @@ TurnAround::Move TurnAround::next(const world::TickView& last, const Ego& ego) {
     const double sign = forward_ ? 1 : -1;
     done_ = (forward_ && error < aligned) || gear_changes_ > most_changes;
     const bool at_kerb = beyond_kerbs(ego, sign * stopping, forward_, 1) > 0;
-    if (at_kerb || (!forward_ && error < straight_enough)) {
+    if (at_kerb || (!forward_ && (error < straight_enough || comes_around(ego)))) {
         if (std::abs(ego.speed) < 0.1)
             change_gear();
         return {0, sign * side_};

@@ -16,7 +16,8 @@ namespace reprise::drivers {
 /// ahead with full lock until the front is at one kerb, back with the other lock until the rear is
 /// at the other one, and so on (a three-point turn).
 ///
-/// MUST    keep all corners of the car between the kerbs; stop for everybody whom it comes near.
+/// MUST    keep all corners of the car between the kerbs, of one that is nearly as long as the
+///         street is wide all wheels; stop for everybody whom it comes near.
 /// ASSUMES that the street is straight for a car's length.
 /// GOES    to and fro between the kerbs; the other way as well where somebody stands in this one,
 ///         who may wait for us.
@@ -63,6 +64,7 @@ class TurnAround {
     double lock(const Ego& ego, bool forward, double share) const;
     double beyond_kerbs(const Ego& ego, double distance, bool forward, double share) const;
     double room(const Ego& ego, bool forward, double share, double most) const;
+    bool comes_around(const Ego& ego) const;
     bool meets_somebody(const world::TickView& last, const Ego& ego, bool forward) const;
     void change_gear();
     bool goes_the_other_way(const world::TickView& last, const Ego& ego) const;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/drivers/kinematic_car.h"
+#include "world/frames.h"
 
 namespace reprise::test {
 namespace {
@@ -87,6 +88,40 @@ INSTANTIATE_TEST_SUITE_P(Widths,
                          TurnAroundOnStreets,
                          testing::Combine(testing::Values(3.0, 3.2, 3.5, 4.5),
                                           testing::Values("sedan", "suv", "city_car")));
+
+/// In a queue somebody stands close behind, in the lane that we come from: who ends his turn in
+/// that lane stands before his bumper.
+TEST_P(TurnAroundOnStreets, EndsInTheNewLane) {
+    const auto [lane_width, name] = GetParam();
+    Drive drive(dead_end(lane_width), 7, *world::find_vehicle_model(name));
+    drive.place(1, 60, 8);
+    const auto points_back = [&] {
+        return std::abs(world::wrap_angle(drive.car.yaw - std::numbers::pi)) < 0.35;
+    };
+    while (!points_back() && drive.seconds() < 90)
+        drive.step();
+    ASSERT_TRUE(points_back());
+    EXPECT_GT(drive.car.y, 0) << "[m] left of the middle of the street";
+}
+
+class TurnAroundOnVanStreets : public testing::TestWithParam<double> {};
+
+/// A van is 5.3 m long: its bumpers reach over the kerbs of two narrow lanes, by less than signs
+/// stand beside them.
+TEST_P(TurnAroundOnVanStreets, ReachesOverKerbsByLittle) {
+    const double lane_width = GetParam();
+    Drive drive(dead_end(lane_width), 7, *world::find_vehicle_model("van"));
+    drive.place(1, 60, 8);
+    double farthest = 0;
+    while (drive.car.x > 50 && drive.seconds() < 120) {
+        drive.step();
+        farthest = std::max(farthest, reach_of(drive.car).side);
+    }
+    EXPECT_LE(drive.car.x, 50) << "it drives back";
+    EXPECT_LT(farthest, lane_width + 0.55);
+}
+
+INSTANTIATE_TEST_SUITE_P(Widths, TurnAroundOnVanStreets, testing::Values(2.75, 3.0, 3.25));
 
 class TurnAroundOnSlopes : public testing::TestWithParam<double> {};
 

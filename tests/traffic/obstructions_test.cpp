@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/towns.h"
+#include "tests/support/worlds.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
 
@@ -72,6 +73,29 @@ TEST(Obstructions, WhoWalksOnIsSeenAsIfHeWereSeenForTheFirstTime) {
         }
     }
     EXPECT_GT(seen, 1000U) << "nothing is shown";
+}
+
+/// Where a street ends in nothing a vehicle with mass turns around to and fro.
+TEST(Obstructions, WhoStandsAtADeadEndIsLeftRoomToTurnAround) {
+    world::TownT town = test::straight_road(120);
+    std::uint32_t east = 0, west = 0;
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
+        east = town.lanes[i].name == "east_1" ? i : east;
+        west = town.lanes[i].name == "west_1" ? i : west;
+    }
+    const world::Vec3 before_end = world::to_vec3(world::point_at(town.lanes[east], 110).position);
+    const auto gap_there = [&](world::Turn turn) {
+        town.lanes[east].links = {world::Link(west, world::none, world::none, turn, false, 0)};
+        const world::LaneMap lanes(town);
+        Obstructions obstructions(town, lanes, tick_length);
+        const world::SealedTick last =
+            test::tick_with({test::vehicle_at(1, before_end.x(), before_end.y())});
+        obstructions.look(last.view(), {});
+        EXPECT_FALSE(obstructions.on(east).empty());
+        return obstructions.on(east).empty() ? 0 : obstructions.on(east).front().gap;
+    };
+    EXPECT_LT(gap_there(world::Turn::straight), 2);
+    EXPECT_GT(gap_there(world::Turn::around), 5);
 }
 
 }  // namespace

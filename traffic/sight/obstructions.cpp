@@ -12,14 +12,16 @@ namespace reprise::traffic {
 
 namespace {
 
-constexpr double lost = 0.001;           // [m] more than rounding takes
-constexpr double beside_the_lane = 0.2;  // [m] beyond its edge it takes no room of it
-constexpr double foresight = 0.7;        // [s] of a walker's way
-constexpr double least_walk = 0.3;       // [m/s] slower ones stand
-constexpr double least_clearance = 0.1;  // [m] beside who stands
-constexpr double along_its_lane = 0.8;   // cosine: who stands across a lane is not on its way
-constexpr double halts_shortly = 5;      // [s] as everybody does
-constexpr double halts_at_most = 30;     // [s] on its way; who stands for longer stays
+constexpr double lost = 0.001;            // [m] more than rounding takes
+constexpr double beside_the_lane = 0.2;   // [m] beyond its edge it takes no room of it
+constexpr double foresight = 0.7;         // [s] of a walker's way
+constexpr double least_walk = 0.3;        // [m/s] slower ones stand
+constexpr double least_clearance = 0.1;   // [m] beside who stands
+constexpr double along_its_lane = 0.8;    // cosine: who stands across a lane is not on its way
+constexpr double turning_room = 15;       // [m] at the end of a street, where one turns around,
+constexpr double behind_who_turns = 5.5;  // [m] to and fro
+constexpr double halts_shortly = 5;       // [s] as everybody does
+constexpr double halts_at_most = 30;      // [s] on its way; who stands for longer stays
 
 // Who is off every lane by a step or more need not be looked at in every tick.
 constexpr double small = 0.6;         // [m] half of what is looked at this way
@@ -30,6 +32,13 @@ constexpr double most_clear = 2;      // [m]
 double half_extent(const Footprint& box, const Eigen::Vector2d& direction) {
     return box.half_length * std::abs(box.direction.dot(direction)) +
            box.half_width * std::abs(world::cross(box.direction, direction));
+}
+
+bool is_dead_end(const world::LaneT& lane) {
+    return !lane.links.empty() &&
+           std::all_of(lane.links.begin(), lane.links.end(), [](const world::Link& link) {
+               return link.turn() == world::Turn::around;
+           });
 }
 
 }  // namespace
@@ -206,6 +215,8 @@ void Obstructions::add(const Footprint& footprint) {
                         ? std::max(footprint.clearance - least_clearance, 0.0)
                         : 0;
         one.gap = gap_behind(footprint, one.lasts);
+        if (footprint.drives && lane.length - one.begin < turning_room && is_dead_end(lane))
+            one.gap = std::max(one.gap, behind_who_turns);
         one.drives = footprint.drives;
         one.id = footprint.id;
         all_.push_back(one);
