@@ -71,7 +71,8 @@ class Reprise:
     def __init__(self, cars, seed):
         import reprise
 
-        self.sim = reprise.Simulation("town1", cars=cars, seed=seed)
+        # Asleep between ticks: who looks whether there is one takes processor time.
+        self.sim = reprise.Simulation("town1", cars=cars, seed=seed, polling=0)
         self.seen = self.sim.reset()
         self.cars = len(self.seen.cars)
 
