@@ -22,6 +22,14 @@ pkg_check_modules(sqlite3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
 pkg_check_modules(openexr REQUIRED IMPORTED_TARGET OpenEXR)
 pkg_check_modules(cli11 REQUIRED IMPORTED_TARGET CLI11)
+# malloc of the program that simulates. A step of SUMO's asks for 2,000 blocks, and looks at thousands that were asked for minutes
+# apart: with jemalloc ten minutes among 100 cars take 4 to 5 % less than with glibc's. Nobody names a symbol of it, so the
+# linker is told to keep it. A sanitizer has its own.
+pkg_check_modules(jemalloc REQUIRED IMPORTED_TARGET jemalloc)
+add_library(memory INTERFACE)
+if(NOT REPRISE_SANITIZE)
+  target_link_libraries(memory INTERFACE -Wl,--push-state,--no-as-needed PkgConfig::jemalloc -Wl,--pop-state)
+endif()
 # The one that may be missing: then who drives by hand looks at a terminal.
 pkg_check_modules(sdl2 IMPORTED_TARGET sdl2)
 # Their -pthread defines _REENTRANT, which says nothing to this compiler, but that the compiled headers are others'.

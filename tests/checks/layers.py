@@ -37,7 +37,7 @@ INNER = {
     "ground": "mesh paint .",
     "walkers": "map .",
     "towns": "check network maps furnish buildings . bridges import make",
-    "traffic": "memory roads cars sight .",
+    "traffic": "roads cars sight .",
     "drivers": "way control .",
     "kernel": "drill physics .",
     "render": "codecs shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look labels shade optics ranging readings map views overlay film .",
