@@ -123,7 +123,9 @@ def in_bash(code):
 def surroundings(work, canary, wrong_maths):
     """What users meet on one CPU. `work`: a folder to make things in."""
     first_cpu = str(min(os.sched_getaffinity(0)))
-    heap = "glibc.malloc.arena_max=1:glibc.malloc.mmap_threshold=4096:glibc.malloc.tcache_count=0"
+    heap = dict(GLIBC_TUNABLES="glibc.malloc.arena_max=1:glibc.malloc.mmap_threshold=4096:glibc.malloc.tcache_count=0",
+                MALLOC_CONF="narenas:1,tcache:false,dirty_decay_ms:0")  # fmt: skip
+    junk = dict(MALLOC_PERTURB_=165, MALLOC_CONF="junk:true")
     large = variables(**{f"REPRISE_FILLER_{i}": "x" * 100_000 for i in range(12)})
     nowhere = "/nonexistent"
     home, input_is_closed = in_bash("echo ${HOME-none}"), in_bash("test -e /proc/$$/fd/0 || echo closed")
@@ -136,8 +138,10 @@ def surroundings(work, canary, wrong_maths):
         german_locale(work / "locales"),
         Environment("time_zone", variables(TZ="Asia/Kathmandu"), "another time zone",
                     ("date", "-d@0", "+%H:%M"), "05:30"),
-        Environment("malloc_perturb", variables(MALLOC_PERTURB_=165), "memory is full of 0x5a, and 0xa5 when freed"),
-        Environment("malloc_tunables", variables(GLIBC_TUNABLES=heap), "another heap layout"),
+        Environment("malloc_perturb", variables(**junk), "memory is full of 0x5a or 0xa5, also when freed"),
+        Environment("malloc_tunables", variables(**heap), "another heap layout"),
+        Environment("malloc_of_glibc", variables(LD_PRELOAD="libstdc++.so.6:libc.so.6"), "no jemalloc",
+                    in_bash("echo $LD_PRELOAD"), "libstdc++.so.6:libc.so.6"),
         Environment("one_cpu", ("taskset", "-c", first_cpu), "threads take turns", ("nproc",), "1"),
         Environment("nice", ("nice", "-n", "19"), "everybody else comes first", ("nice",), "19", machine=True),
         Environment("loaded", (), "four busy processes beside it", machine=True, busy=4),
