@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -94,7 +95,37 @@ class Table {
     std::string where_;
 };
 
-Json parse(const std::filesystem::path& path) {
+std::ptrdiff_t line_at(const std::string& text, std::size_t place) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(place, text.size()));
+    return 1 + std::count(text.begin(), end, '\n');
+}
+
+/// Lines on which what is in the outermost list begins: of sound JSON whose only key is "sensors".
+std::vector<std::ptrdiff_t> lines_of_sensors(const std::string& text) {
+    std::vector<std::ptrdiff_t> lines;
+    int depth = 0;
+    bool quoted = false;
+    bool begins = false;  // what comes is the first of a sensor
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char sign = text[i];
+        if (std::string_view(" \t\r\n").find(sign) != std::string_view::npos)
+            continue;
+        if (!quoted && begins && sign != ']')
+            lines.push_back(line_at(text, i));
+        begins = !quoted && ((depth == 1 && sign == '[') || (depth == 2 && sign == ','));
+        if (quoted && sign == '\\')
+            ++i;
+        else if (sign == '"')
+            quoted = !quoted;
+        else if (!quoted && (sign == '[' || sign == '{'))
+            ++depth;
+        else if (!quoted && (sign == ']' || sign == '}'))
+            --depth;
+    }
+    return lines;
+}
+
+std::string read(const std::filesystem::path& path) {
     constexpr std::uintmax_t largest = 1 << 20;
     std::error_code error;
     // It is read again for the manifest, which a pipe could not be.
@@ -106,17 +137,17 @@ Json parse(const std::filesystem::path& path) {
     std::ostringstream bytes;
     if (!file.is_open() || (file.peek() != EOF && !(bytes << file.rdbuf())) || file.bad())
         throw world::Error(path.string() + ": cannot be read");
-    const std::string text = std::move(bytes).str();
+    return std::move(bytes).str();
+}
+
+Json parse(const std::filesystem::path& path, const std::string& text) {
     try {
         return Json::parse(text);
     } catch (const Json::parse_error& error) {
-        const std::size_t at = std::min(error.byte, text.size());
-        const auto line =
-            1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
         throw world::Error(
             fmt::format("{}:{}: this is no JSON, where {{ \"sensors\": [ ... ] }} was expected",
                         path.string(),
-                        line));
+                        line_at(text, error.byte)));
     } catch (const Json::exception&) {
         throw world::Error(path.string() + ": a number in it is too large");
     }
@@ -238,7 +269,8 @@ void read_sensor(const Json& json, const std::string& where, std::uint64_t step_
 }  // namespace
 
 RigFile read_rig_file(const std::filesystem::path& path, replay::TraceReader& trace) {
-    const Json json = parse(path);
+    const std::string text = read(path);
+    const Json json = parse(path, text);
     const Table table(json, path.string(), {"sensors"});
     const Json* sensors = table.find("sensors");
     if (sensors == nullptr || !sensors->is_array() || sensors->empty())
@@ -247,13 +279,16 @@ RigFile read_rig_file(const std::filesystem::path& path, replay::TraceReader& tr
         table.refuse(
             fmt::format("{} sensors, where {} is the most", sensors->size(), most_rig_sensors));
     RigFile file;
+    const std::vector<std::ptrdiff_t> lines = lines_of_sensors(text);
+    REPRISE_CHECK(lines.size() >= sensors->size(), path.string());
     for (std::size_t i = 0; i < sensors->size(); ++i) {
         const Json& one = (*sensors)[i];
         const bool named = one.is_object() && one.contains("name") && one["name"].is_string() &&
                            world::is_sensor_name(one["name"].get<std::string>());
         read_sensor(one,
-                    fmt::format("{}: sensor {}{}",
+                    fmt::format("{}:{}: sensor {}{}",
                                 path.string(),
+                                lines[i],
                                 i + 1,
                                 named ? " '" + one["name"].get<std::string>() + "'" : ""),
                     trace.episode().step_ns,

@@ -294,6 +294,12 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     using testing::HasSubstr;
     EXPECT_THAT(mistake("{ \"sensors\": [\n nan ] }"), HasSubstr("rig.json:2: this is no JSON"));
     EXPECT_THAT(mistake("{ \"sensors\": [] }"), HasSubstr("rig.json: expected { \"sensors\": ["));
+    EXPECT_THAT(
+        mistake("{ \"sensors\":\n [ { \"name\": \"a\", \"actor\": \"[{\\\"],\", \"position\": [0,\n"
+                " 1, 2] },\n\n { \"name\": \"b\",\n \"type\": \"deph\" } ] }"),
+        HasSubstr("rig.json:5: sensor 2 'b': no type 'deph'"));
+    EXPECT_THAT(mistake("{ \"sensors\": [ { \"name\": \"a\" },\n 7 ] }"),
+                HasSubstr("rig.json:2: sensor 2: expected { ... }, got 7"));
     EXPECT_THAT(of_sensor("\"type\": \"deph\""),
                 HasSubstr("sensor 1 'a': no type 'deph' (did you mean 'depth'?); there are rgb"));
     EXPECT_THAT(of_sensor("\"size\": [100000, 100000]"),
@@ -333,7 +339,7 @@ TEST_F(Rendering, WhatAKindOfSensorDoesNotHaveIsRefusedInARigFileAndAmongOptions
             write_file(file,
                        "{ \"sensors\": [ { \"name\": \"a\", \"type\": \"" + kind + "\", " + keys +
                            " } ] }");
-            refused({"--rig", file}, "rig.json: sensor 1 'a': " + why);
+            refused({"--rig", file}, "rig.json:1: sensor 1 'a': " + why);
         };
     for (const std::string& kind : world::sensor_kinds()) {
         if (world::is_camera(*world::find_sensor_kind(kind))) {
