@@ -125,7 +125,9 @@ Look grass(const Surface& at) {
 /// Rings around the places where drops fell on water; tilts the normal. The more it rains, the more
 /// places are hit.
 Vector3f ripples(const Surface& at, std::uint64_t tick, float rain) {
-    constexpr float cell = 0.16F;
+    constexpr float cell = 0.10F;    // [m]
+    constexpr float widest = 0.07F;  // [m] a drop of 2 to 4 mm makes no wider ring that is seen
+    constexpr float crest = 0.010F;  // [m]
     const float share = rain / (rain + 6);
     const int column = floor_int(at.position.x() / cell);
     const int row = floor_int(at.position.y() / cell);
@@ -147,7 +149,7 @@ Vector3f ripples(const Surface& at, std::uint64_t tick, float rain) {
         const float dx = at.position.x() - px;
         const float dy = at.position.y() - py;
         const float distance = std::sqrt(dx * dx + dy * dy) + 1e-4F;
-        const float ring = (distance - 0.14F * age) / 0.014F;
+        const float ring = (distance - widest * age) / crest;
         if (std::abs(ring) < 2) {
             const float height =
                 (ring < 0 ? ring + 1 : 1 - ring) * (1 - 0.25F * ring * ring) * (1 - age);
@@ -198,9 +200,10 @@ void soak(Look& look, const ShadingInput& input, const Surface& at, float lane_d
                    0.6F * (value_noise(x * 47, y * 47, 123) - 0.5F)) *
                       0.10F * rough,
                   0);
-    const float near = detail(at, 0.12F) * wetness;
+    const float near = detail(at, 0.09F) * wetness;
+    // Rings run on water that stands; in a film they hardly rise.
     if (weather.rain() > 0 && near > 0)
-        tilt += ripples(at, input.tick, weather.rain()) * (near * (0.25F + 0.75F * water));
+        tilt += ripples(at, input.tick, weather.rain()) * (near * (0.08F + 0.92F * water));
     look.normal = (look.normal + tilt).normalized();
 }
 
