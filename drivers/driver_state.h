@@ -20,6 +20,7 @@
 #include "drivers/road_map.h"
 #include "drivers/speed_order.h"
 #include "drivers/turn_around.h"
+#include "world/episode_generated.h"
 #include "world/models/car_model.h"
 
 namespace reprise::drivers {

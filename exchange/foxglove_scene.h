@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include "exchange/point_cloud.h"

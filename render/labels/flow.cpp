@@ -12,6 +12,7 @@
 
 #include "render/scene/motion.h"
 #include "render/trace/default_float_mode.h"
+#include "render/trace/ray.h"
 
 namespace reprise::render {
 

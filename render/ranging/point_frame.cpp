@@ -1,5 +1,7 @@
 #include "render/ranging/point_frame.h"
 
+#include "world/external/point_fields.h"
+
 namespace reprise::render {
 
 world::SensorFrame point_frame(const world::TickView& tick,

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "render/shapes/buildings/building_plan.h"
 #include "world/town_generated.h"
 

@@ -11,6 +11,7 @@
 #include "scripting/run/caps.h"
 #include "scripting/run/places.h"
 #include "scripting/words/handles.h"
+#include "scripting/words/obedience.h"
 #include "scripting/words/rig.h"
 #include "scripting/words/vocabulary.h"
 #include "scripting/words/where.h"

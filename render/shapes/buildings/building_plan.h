@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "render/shapes/fast_math.h"
 #include "world/models/building_models.h"
 #include "world/town_generated.h"
