@@ -23,7 +23,7 @@ pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
 pkg_check_modules(openexr REQUIRED IMPORTED_TARGET OpenEXR)
 pkg_check_modules(cli11 REQUIRED IMPORTED_TARGET CLI11)
 # malloc of the program that simulates. A step of SUMO's asks for 2,000 blocks, and looks at thousands that were asked for minutes
-# apart: with jemalloc ten minutes among 100 cars take 4 to 5 % less than with glibc's. Nobody names a symbol of it, so the
+# apart: with jemalloc 200 s among 100 cars take 4 to 5 % less than with glibc's. Nobody names a symbol of it, so the
 # linker is told to keep it. A sanitizer has its own.
 pkg_check_modules(jemalloc REQUIRED IMPORTED_TARGET jemalloc)
 add_library(memory INTERFACE)
