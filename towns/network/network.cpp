@@ -21,6 +21,7 @@
 #include "towns/network/place.h"
 #include "towns/network/shared_lanes.h"
 #include "towns/network/waiting_places.h"
+#include "towns/network/zippers.h"
 #include "world/check.h"
 #include "world/geometry2d.h"
 #include "world/models/vehicle_classes.h"
@@ -351,6 +352,13 @@ Network load_network(const std::filesystem::path& path) {
     network.notes += notes_on(mend_lanes(root), path);
     if (!has_car_lane(root))
         fail_at(path, root_line, "has no edge that a passenger car may use, but lanes of no width");
+    if (const std::size_t zippers = mend_zippers(root); zippers > 0)
+        network.notes += fmt::format(
+            "{}: {} where more than two lanes take turns (zipper), which SUMO 1.15 cannot "
+            "simulate: "
+            "who goes straight on goes first there\n",
+            path.string(),
+            world::count_of(zippers, "junction"));
     if (const std::size_t joined = part_joined_lanes(root); joined > 0)
         network.notes += fmt::format(
             "{}: {} of ways onto different lanes of one road that gave way to each other for "
