@@ -20,11 +20,15 @@ constexpr float rayleigh_height = 8000;
 constexpr float haze_height = 1200;
 constexpr float ground_albedo = 0.16F;
 
-// At 680, 550 and 440 nm: Bruneton and Neyret, "Precomputed Atmospheric Scattering", 2008, with the
-// ozone of Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering", 2020.
-const Color rayleigh(5.802e-6F, 13.558e-6F, 33.1e-6F);
-const Color ozone_depth(0.0097F, 0.0282F, 0.0013F);  // vertical optical depth
-const Color solar(1.474F, 1.8504F, 1.91198F);
+// At 630, 540 and 450 nm, where a screen's red, green and blue have their weight: farther apart the
+// sky would be teal and a low sun pink. Scattering by air: Bruneton and Neyret, "Precomputed
+// Atmospheric Scattering", 2008, by the fourth power of the wavelength; 300 Dobson units of ozone
+// as in Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering", 2020.
+const Color rayleigh(7.88e-6F, 14.6e-6F, 30.3e-6F);
+const Color ozone_depth(0.030F, 0.024F, 0.0014F);  // vertical optical depth
+/// White is a white card in the sun of a clear noon, sky and all, as a camera set to daylight has
+/// it.
+const Color solar(1.726F, 1.777F, 1.894F);
 
 /// Air mass relative to the zenith for a sine of the altitude (Kasten and Young, 1989, with the
 /// angle in radians); flattens below the horizon.

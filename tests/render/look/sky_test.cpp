@@ -42,5 +42,30 @@ TEST(Sun, IlluminanceFallsByTheAirMass) {
         EXPECT_NEAR(per_mass(altitude), per_mass(30), 0.03 * per_mass(30)) << altitude;
 }
 
+/// Sun and sky together, as a camera set to daylight has it: three wavelengths as red, green and
+/// blue would make it cyan by a sixth.
+TEST(Sun, MakesAWhiteCardWhiteAtAClearNoon) {
+    const Sky sky(world::read_weather("clear_noon").weather);
+    const Color card = sky.sun() * (sky.to_sun().z() / pi) + sky.ambient(Eigen::Vector3f::UnitZ());
+    for (int channel = 0; channel < 3; ++channel)
+        EXPECT_NEAR(card[channel] / luminance(card), 1, 0.025F) << channel;
+}
+
+/// As the eye has it: red at the horizon, and blue opposite high up.
+TEST(Sun, TurnsRedWhenItSinks) {
+    float last = 0;
+    for (const float altitude : {55.0F, 20.0F, 9.0F, 4.0F, 1.0F}) {
+        const Sky sky(
+            world::read_weather("clear_noon,sun_altitude=" + std::to_string(altitude)).weather);
+        const float red = sky.sun().x() / sky.sun().z();
+        EXPECT_GT(red, last) << altitude;
+        last = red;
+        const Color above = sky.radiance(Eigen::Vector3f::UnitZ(), false);
+        EXPECT_GT(above.z(), 1.8F * above.x()) << altitude;
+        EXPECT_GT(above.z(), above.y()) << altitude;
+        EXPECT_GT(above.y(), above.x()) << altitude;
+    }
+}
+
 }  // namespace
 }  // namespace reprise::render
