@@ -135,11 +135,11 @@ void Collection::add_low_beams(const Instance& car, float share) {
     const Vector3f left = car.pose.linear().col(1).cast<float>().normalized();
     for (const float side : {half, -half}) {
         const Eigen::Vector3d lamp = Vector3f(shape.front + 0.06F, side, height).cast<double>();
-        // A halogen lamp has 15,000 to 20,000 cd below its line.
+        // A halogen lamp has some 15,000 cd below its line.
         add({(car.pose * lamp).cast<float>(),
              ahead,
              left,
-             head_lamp_color * ((bicycle ? 900.0F : 17000.0F) * candela * share),
+             head_lamp_color * ((bicycle ? 900.0F : 15000.0F) * candela * share),
              bicycle ? 20.0F : 75.0F,
              0.08F,
              Lobe::low_beam},
@@ -182,12 +182,12 @@ void Collection::add_car(const Instance& car) {
                      {shape.rear - 0.06F, side * half, 0.85F},
                      Vector3f(-1, 0.7F * side, 0).normalized(),
                      lens_amber,
-                     150 * dark);
+                     110 * dark);
         add_car_lens(car,
                      {shape.front + 0.06F, side * half, 0.7F},
                      Vector3f(1, 0.7F * side, 0).normalized(),
                      lens_amber,
-                     150 * dark);
+                     110 * dark);
     }
     if ((car.lamps & world::lamp_reverse) != 0)
         add_car_lens(car, {shape.rear - 0.08F, 0, 0.8F}, {-1, 0, 0}, head_lamp_color, 120 * dark);

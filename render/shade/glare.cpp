@@ -1,5 +1,6 @@
 // What it must do: let lamps shine over their edges by night, as they do in every lens.
-// How it goes: what is brighter than white, on squares of 4 x 4 pixels, is spread along rows and
+// How it goes: what is far brighter than white, on squares of 4 x 4 pixels, is spread along rows
+// and
 //   columns by filters that remember (y = a x + (1 - a) y_last, both ways, twice: nearly round),
 //   near and far, and added.
 // What it keeps: nothing.
@@ -15,6 +16,9 @@ namespace reprise::render {
 namespace {
 
 constexpr int square = 4;  // [px]
+
+/// [white] Lamps themselves are brighter, see Sky::lamp; what they light is seldom.
+constexpr float brim = 2;
 
 /// A small picture of light that is spread.
 struct Spread {
@@ -38,8 +42,8 @@ Spread excess(const Frame& frame) {
         for (int y = row * square; y < std::min((row + 1) * square, frame.height); ++y) {
             const Color* colors = &frame.colors[frame.index(0, y)];
             for (int x = 0; x < frame.width; ++x)
-                if (colors[x].maxCoeff() > 1)
-                    sums[x / square] += (colors[x] - 1).max(0.0F).min(6.0F) / (square * square);
+                if (colors[x].maxCoeff() > brim)
+                    sums[x / square] += (colors[x] - brim).max(0.0F).min(5.0F) / (square * square);
         }
     });
     return bright;
@@ -99,7 +103,7 @@ void add_glare(Frame& frame, float strength) {
     spread_out(near, 0.004F * size);
     spread_out(far, 0.022F * size);
     for (std::size_t i = 0; i < near.light.size(); ++i)
-        near.light[i] = (0.22F * near.light[i] + 0.40F * far.light[i]) * strength;
+        near.light[i] = (0.28F * near.light[i] + 0.50F * far.light[i]) * strength;
     tbb::parallel_for(0, frame.height, [&](int y) {
         const DefaultFloatMode plain;
         for (int x = 0; x < frame.width; ++x)

@@ -13,6 +13,16 @@ using Eigen::Vector3f;
 
 constexpr float beyond = 3000;  // [m] where the moon's rays end
 
+/// What a white surface, and a wet one's highlights, send back at most, white in the picture being
+/// 1: lamps near by outshine a street by a hundred times, and film would show all of it white.
+constexpr float brightest = 3.0F;
+constexpr float brightest_shine = 2.0F;
+
+/// Nears `most` instead of growing beyond it; in what is dim hardly anything changes.
+Color held_back(const Color& light, float most) {
+    return light * (most / (most + light.maxCoeff()));
+}
+
 /// Which of four are among the first so many.
 __m128 among_first(std::size_t count) {
     const __m128i places = _mm_setr_epi32(0, 1, 2, 3);
@@ -39,6 +49,9 @@ LampSum::LampSum(const ShadingInput& input,
             add_shine(grid, &near[count_], look, view);
     }
     add_moon(look);
+    const float white = 1 / input.sky.exposure();
+    light_.arriving = held_back(light_.arriving, brightest * white);
+    light_.shine = held_back(light_.shine, brightest_shine * white);
 }
 
 /// What lobe_share() and the distance leave of each source, lane by lane: a picture asks for 5

@@ -191,6 +191,30 @@ TEST(Night, LowBeamsLightTheRoadAheadButNotAbove) {
     EXPECT_GT(mean(with, 1, 70, 80, 90, 100), mean(without, 1, 70, 80, 90, 100) + 15) << "road";
 }
 
+/// Two head lamps give a wall 6 m before them 100 times what a street has between its lamps.
+TEST(Night, LampsNearByLeaveMoreThanWhite) {
+    world::TownT town = test::straight_road(400);
+    town.props = {
+        world::Prop(world::Vec3(112, 0, 0), 1.5708, 20, 0.3, 10, 0, 0, world::PropKind::wall, 0)};
+    for (const float wet : {0.0F, 1.0F}) {
+        SCOPED_TRACE(wet);
+        world::Weather weather = clear_night();
+        weather.mutate_wetness(wet);
+        weather.mutate_puddles(0.5F * wet);
+        const auto frame = look(town,
+                                test::tick_with({}, {car_at(6, 100, -1.75)}),
+                                camera(SensorKind::rgb, {104, -1.75, 1.6}),
+                                weather);
+        // The wall stands 8 m before the camera, 10 px a metre: its foot is at row 76.
+        int most = 0;
+        for (int row = 64; row < 119; ++row)
+            for (int column = 0; column < 159; ++column)
+                most = std::max(most, static_cast<int>(mean(frame, 1, column, row, column, row)));
+        EXPECT_LT(most, 250) << "walls and road keep their texture";
+        EXPECT_GT(most, 150) << "and are bright";
+    }
+}
+
 TEST(Night, PicturesAreNotBlackUnderAnySun) {
     const world::TownT town = test::street();
     render::Sensors sensors(town);

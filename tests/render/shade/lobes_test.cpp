@@ -95,5 +95,33 @@ TEST(Lobes, OfALowBeamEndsAtALineThatRisesOnTheKerbsSide) {
     EXPECT_EQ(share(Lobe::low_beam, turned(180, -1.2F)), 0);
 }
 
+/// What a low beam 0.66 m above the road gives it, so far ahead and to the left. [lx a candela]
+float on_road(float ahead, float left) {
+    const Vector3f way(ahead, left, -0.66F);
+    const float distance = way.norm();
+    return share(Lobe::low_beam, way / distance) * 0.66F / (distance * distance * distance);
+}
+
+TEST(Lobes, OfALowBeamLieOnTheRoadAsACarpetWithoutAnEdge) {
+    for (const float ahead : {4.0F, 6.0F, 10.0F, 15.0F, 25.0F}) {
+        const float middle = on_road(ahead, 0);
+        float last = middle;
+        for (float left = 0.25F; left < 15; left += 0.25F) {
+            const float here = on_road(ahead, left);
+            EXPECT_LE(here, last * 1.001F) << ahead << ", " << left;
+            EXPECT_LE(last - here, 0.16F * middle) << ahead << ", " << left;
+            last = here;
+        }
+        // No two cones: what the other lamp's middle gets, 1.3 m aside, is about half, or more.
+        EXPECT_GT(on_road(ahead, 1.3F), 0.48F * middle) << ahead;
+    }
+    // Ahead it falls steadily: no spot before the car, no dark gap.
+    for (float ahead = 3.5F; ahead < 40; ahead += 0.5F) {
+        const float ratio = on_road(ahead + 0.5F, 0) / on_road(ahead, 0);
+        EXPECT_LT(ratio, 1.01F) << ahead;
+        EXPECT_GT(ratio, 0.75F) << ahead;
+    }
+}
+
 }  // namespace
 }  // namespace reprise::render
