@@ -1,3 +1,5 @@
+#include <array>
+
 #include "render/look/look.h"
 #include "render/shapes/noise.h"
 
@@ -98,16 +100,43 @@ Look kerb(const Surface& at) {
     return look;
 }
 
+/// A field beyond the town, or the wood that stands there, seen from far.
+Color field(float x, float y) {
+    // Bent borders: what was a grid looks parcelled out.
+    const float bend = value_noise(x * 0.006F, y * 0.006F, 96);
+    const float u = (x + 0.35F * y) * 0.0072F + 0.9F * bend;
+    const float v = (y - 0.30F * x) * 0.0110F - 0.9F * bend;
+    const int column = floor_int(u);
+    const int row = floor_int(v);
+    static const std::array<Color, 6> crops{Color(.085F, .118F, .034F),
+                                            Color(.062F, .100F, .030F),
+                                            Color(.120F, .130F, .046F),
+                                            Color(.205F, .168F, .078F),
+                                            Color(.098F, .112F, .048F),
+                                            Color(.135F, .102F, .066F)};
+    const float lot = cell_noise(column, row, 97);
+    const Color crop = crops[static_cast<std::size_t>(lot * 5.999F)];
+    const float fu = fraction(u);
+    const float fv = fraction(v);
+    // A hedge of some 5 m along two sides, with gaps.
+    const float aside = std::min(std::min(fu, 1 - fu) * 130, std::min(fv, 1 - fv) * 86);
+    const float hedge = smooth_step(4.5F, 2, aside) *
+                        smooth_step(0.35F, 0.5F, value_noise(x * 0.03F, y * 0.03F, 98));
+    const float woods = smooth_step(0.56F, 0.60F, fractal_noise(x * 0.0035F, y * 0.0035F, 3, 99));
+    const float crowns = 0.6F + 0.8F * value_noise(x * 0.11F, y * 0.11F, 94);
+    return mix(crop, Color(.036F, .058F, .022F) * crowns, std::max(hedge, woods));
+}
+
 Look grass(const Surface& at) {
     const float x = at.position.x();
     const float y = at.position.y();
     const float wide = fractal_noise(x * 0.045F, y * 0.045F, 3, 90);
     const float patch = fractal_noise(x * 0.6F, y * 0.6F, 3, 91);
-    Color color = mix(Color(.066F, .108F, .026F),
-                      Color(.150F, .150F, .050F),
+    Color color = mix(Color(.058F, .094F, .026F),
+                      Color(.138F, .134F, .054F),
                       smooth_step(.25F, .8F, 0.6F * wide + 0.4F * patch));
     const float blades = detail(at, 0.12F);
-    float tone = 0.75F + 0.5F * patch;
+    float tone = 0.55F + 0.9F * patch;
     Look look;
     look.normal = at.normal;
     if (blades > 0) {
@@ -195,10 +224,10 @@ void soak(Look& look, const ShadingInput& input, const Surface& at, float lane_d
     const float rough = (1 - water) * detail(at, 0.4F) * wetness;
     Vector3f tilt((value_noise(x * 19, y * 19, 120) - 0.5F +
                    0.6F * (value_noise(x * 47, y * 47, 122) - 0.5F)) *
-                      0.10F * rough,
+                      0.06F * rough,
                   (value_noise(x * 19, y * 19, 121) - 0.5F +
                    0.6F * (value_noise(x * 47, y * 47, 123) - 0.5F)) *
-                      0.10F * rough,
+                      0.06F * rough,
                   0);
     const float near = detail(at, 0.09F) * wetness;
     // Rings run on water that stands; in a film they hardly rise.
@@ -229,7 +258,10 @@ Look ground_look(const ShadingInput& input, const Surface& at) {
             look = kerb(at);
             break;
         default:
-            look = grass(at);
+            if (at.tag == land_far_off)
+                look.albedo = field(at.position.x(), at.position.y());
+            else
+                look = grass(at);
     }
     look.normal = at.normal;
     if (at.wetness > 0)

@@ -62,11 +62,17 @@ Mesh land_mesh(const world::TownT& town, const Eigen::Vector3d& origin) {
             add_vertex(mesh, {x, y, from.z() - below + rise});
         }
     }
+    // Meadows lie around the town, fields behind them.
+    const auto is_far = [&](const std::vector<float>& at, std::size_t i, float least, float most) {
+        return outside(0.5F * (at[i] + at[i + 1]), least, most) > level;
+    };
     const auto columns = static_cast<std::uint32_t>(xs.size());
-    const Finish grass{Material::grass};
     for (std::uint32_t row = 0; row + 1 < ys.size(); ++row) {
         for (std::uint32_t column = 0; column + 1 < columns; ++column) {
             const std::uint32_t corner = row * columns + column;
+            const bool far =
+                is_far(xs, column, from.x(), to.x()) || is_far(ys, row, from.y(), to.y());
+            const Finish grass{Material::grass, far ? land_far_off : 0};
             add_triangle(mesh, corner, corner + 1, corner + columns + 1, grass);
             add_triangle(mesh, corner, corner + columns + 1, corner + columns, grass);
         }

@@ -9,7 +9,7 @@ namespace reprise::render {
 /// What a triangle is made of. Finer detail - windows, lamps, rims - is decided at the hit from its
 /// place on the surface, see *_look.cpp.
 enum class Material : std::uint8_t {
-    grass,
+    grass,  ///< tag: 0, or land_far_off
     asphalt,
     pavement,
     kerb,
@@ -45,6 +45,9 @@ enum class Material : std::uint8_t {
     bag,
     umbrella
 };
+
+/// Tag of grass beyond the town: fields, hedges and woods are drawn on it.
+inline constexpr std::uint32_t land_far_off = 1;
 
 enum class SignalLamp : std::uint8_t { red, yellow, green, turn };
 

@@ -267,4 +267,32 @@ TEST(Labels, ARolledCameraTurnsThePicture) {
     EXPECT_NE(test::class_at(frame, 150, 60), world::SemanticClass::sky);
 }
 
+/// Behind the meadows of a town's border.
+TEST(Labels, OfLandFarOffStayTerrainThoughFieldsAndWoodsAreSeen) {
+    render::Sensors sensors(test::straight_road(400));
+    world::SensorSpec eye = camera(SensorKind::rgb, {200, 0, 60});
+    eye.yaw = 1.5707963;
+    eye.pitch = -0.15;
+    world::SensorSpec classes = eye;
+    classes.kind = SensorKind::semantic;
+    const auto frames = sensors.observe(test::tick_with({}).view(), {eye, classes}, test::noon());
+    int seen = 0;
+    int ripe = 0;   // or ploughed: more red than green
+    int woods = 0;  // dark
+    for (int row = 55; row < 100; ++row) {
+        for (int column = 0; column < 160; ++column) {
+            EXPECT_EQ(test::class_at(frames[1], column, row), world::SemanticClass::terrain);
+            const double red = test::mean(frames[0], 0, column, row, column, row);
+            const double green = test::mean(frames[0], 1, column, row, column, row);
+            ++seen;
+            ripe += red > green ? 1 : 0;
+            woods += green < 95 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(ripe, seen / 12);
+    EXPECT_LT(ripe, seen / 2);
+    EXPECT_GT(woods, seen / 50);
+    EXPECT_LT(woods, seen / 2);
+}
+
 }  // namespace reprise
