@@ -105,11 +105,15 @@ double DriverState::approach_turn(const world::TickView& last, const Ego& ego) {
         return stop_acceleration(
             distance - room_for_another, ego.speed, style.comfortable_braking, style);
     }
-    if (distance < 0.7 && ego.speed < 0.2) {
+    const double acceleration =
+        stop_acceleration(distance, ego.speed, style.comfortable_braking, style);
+    // Stopped a little short of it, for a car say, it would not move on for so short a way.
+    const bool stays = ego.speed < 0.02 && acceleration < Pedals::least_to_start;
+    if ((distance < 0.7 && ego.speed < 0.2) || stays) {
         turn_around.begin(*street, ego);
         turns_into = ahead->to;
     }
-    return stop_acceleration(distance, ego.speed, style.comfortable_braking, style);
+    return acceleration;
 }
 
 }  // namespace reprise::drivers

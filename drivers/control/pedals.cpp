@@ -70,7 +70,7 @@ Pedals::Position Pedals::press(double wanted,
         asked_ = std::clamp(wanted, asked_ - 12 * step, asked_ + 5 * step);
 
     // Stand until there is a reason to go.
-    if (holding_ ? wanted < 0.3 : (speed < 0.2 && wanted < 0.05)) {
+    if (holding_ ? wanted < least_to_start : (speed < 0.2 && wanted < 0.05)) {
         holding_ = true;
         asked_ = 0;
         return {0, 0.5};

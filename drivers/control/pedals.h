@@ -45,6 +45,9 @@ double travel_time(double distance, double speed, double acceleration, double to
 /// loads).
 class Pedals {
   public:
+    /// [m/s^2] Who stands goes on standing while less than that is wanted.
+    static constexpr double least_to_start = 0.3;
+
     struct Position {
         double throttle = 0;
         double brake = 0;

@@ -104,6 +104,20 @@ TEST_P(TurnAroundOnStreets, EndsInTheNewLane) {
     EXPECT_GT(drive.car.y, 0) << "[m] left of the middle of the street";
 }
 
+/// Who has stopped for somebody anywhere before the place where turning begins goes on from there.
+TEST(TurnAround, BeginsWhereverTheCarHasStoppedBeforeIt) {
+    const std::uint16_t model = *world::find_vehicle_model("city_car");
+    const double front =
+        world::vehicle_models()[model].length - world::vehicle_models()[model].rear_overhang;
+    for (double short_of = -0.5; short_of < 3; short_of += 0.1) {
+        Drive drive(dead_end(3.2), 7, model);
+        drive.place(1, road_end - drivers::TurnAround::before_end - short_of - front, 0);
+        while (drive.car.x > 90 && drive.seconds() < 90)
+            drive.step();
+        EXPECT_LE(drive.car.x, 90) << short_of << " m before it";
+    }
+}
+
 class TurnAroundOnVanStreets : public testing::TestWithParam<double> {};
 
 /// A van is 5.3 m long: its bumpers reach over the kerbs of two narrow lanes, by less than signs
