@@ -12,6 +12,7 @@
 
 #include "cli/options/option_checks.h"
 #include "world/check.h"
+#include "world/external/rig.h"
 #include "world/external/sensor.h"
 #include "world/external/sensor_attributes.h"
 #include "world/words.h"
@@ -64,6 +65,13 @@ void read_mount(const std::string& text, RenderOptions& render) {
     });
     if (found != 3 || used != static_cast<int>(text.size()) || !are_numbers)
         throw CLI::ValidationError("--mount", "expected X,Y,Z such as 1,0,1.4, got '" + text + "'");
+    // As of every sensor that is mounted, in a rig file or a scenario.
+    for (const double x : at)
+        if (std::abs(x) > world::farthest_mount)
+            throw CLI::ValidationError("--mount",
+                                       "expected at most " +
+                                           std::to_string(static_cast<int>(world::farthest_mount)) +
+                                           " m along each axis, got '" + text + "'");
 }
 
 /// Of kinds, what is not said otherwise.

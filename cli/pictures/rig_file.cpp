@@ -8,6 +8,7 @@
 #include <fstream>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -140,16 +141,35 @@ std::string read(const std::filesystem::path& path) {
     return std::move(bytes).str();
 }
 
+/// Refuses what says a key of an object twice: the last would count, and nobody is told.
 Json parse(const std::filesystem::path& path, const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::set<std::string>> open;  // keys of the objects around here
+    const auto hold = [&](int, Json::parse_event_t event, const Json& value) {
+        if (event == Json::parse_event_t::object_start)
+            open.emplace_back();
+        else if (event == Json::parse_event_t::object_end)
+            open.pop_back();
+        else if (event == Json::parse_event_t::key && !open.back().insert(value).second)
+            throw world::Error(fmt::format("{}:{}: '{}' is there twice",
+                                           path.string(),
+                                           line_at(text, static_cast<std::size_t>(stream.tellg())),
+                                           value.get<std::string>()));
+        return true;
+    };
     try {
-        return Json::parse(text);
+        return Json::parse(stream, hold);
     } catch (const Json::parse_error& error) {
         throw world::Error(
             fmt::format("{}:{}: this is no JSON, where {{ \"sensors\": [ ... ] }} was expected",
                         path.string(),
                         line_at(text, error.byte)));
     } catch (const Json::exception&) {
-        throw world::Error(path.string() + ": a number in it is too large");
+        // Its end shows where the next sign is.
+        throw world::Error(
+            fmt::format("{}:{}: a number is too large",
+                        path.string(),
+                        line_at(text, static_cast<std::size_t>(stream.tellg()) - 1)));
     }
 }
 

@@ -300,13 +300,18 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
         HasSubstr("rig.json:5: sensor 2 'b': no type 'deph'"));
     EXPECT_THAT(mistake("{ \"sensors\": [ { \"name\": \"a\" },\n 7 ] }"),
                 HasSubstr("rig.json:2: sensor 2: expected { ... }, got 7"));
+    EXPECT_THAT(mistake("{ \"sensors\": [ 7 ],\n \"sensors\": [ { \"name\": \"a\" } ] }"),
+                HasSubstr("rig.json:2: 'sensors' is there twice"));
+    EXPECT_THAT(of_sensor("\"size\": [9, 9],\n \"attributes\": { \"own_car\": 1, \"own_car\": 0 }"),
+                HasSubstr("rig.json:2: 'own_car' is there twice"));
     EXPECT_THAT(of_sensor("\"type\": \"deph\""),
                 HasSubstr("sensor 1 'a': no type 'deph' (did you mean 'depth'?); there are rgb"));
     EXPECT_THAT(of_sensor("\"size\": [100000, 100000]"),
                 HasSubstr("'size' must be a number in [1, 4096], got 100000"));
     EXPECT_THAT(of_sensor("\"size\": [0, 10]"), HasSubstr("'size' must be a number in [1, 4096]"));
     EXPECT_THAT(of_sensor("\"fov_deg\": 0"), HasSubstr("'fov_deg' must be a number in [1, 200]"));
-    EXPECT_THAT(of_sensor("\"yaw_deg\": 1e999"), HasSubstr("too large"));
+    EXPECT_THAT(of_sensor("\n\"yaw_deg\": 1e999\n"),
+                HasSubstr("rig.json:2: a number is too large"));
     EXPECT_THAT(of_sensor("\"postion\": [1, 2, 3]"), HasSubstr("(did you mean 'position'?)"));
     EXPECT_THAT(of_sensor("\"actor\": \"ega\""), HasSubstr("(did you mean 'ego'?)"));
     EXPECT_THAT(of_sensor("\"rate_hz\": 3"), HasSubstr("20 over a whole number"));
@@ -322,6 +327,28 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     EXPECT_THAT(
         reprise({"render", folder_ / "t.mcap", "-o", folder_ / "none", "--sensor", "instnce"}).out,
         HasSubstr("did you mean 'instance'"));
+}
+
+TEST_F(Rendering, AMountIsAtMostAsFarAwayAsThatOfARigFile) {
+    for (const std::string mount : {"50.1,0,1", "0,-1e300,1", "0,0,51"}) {
+        const Result result =
+            reprise({"render", folder_ / "t.mcap", "-o", folder_ / "none", "--mount=" + mount});
+        EXPECT_EQ(result.code, 2) << mount;
+        EXPECT_THAT(
+            result.out,
+            testing::HasSubstr("--mount: expected at most 50 m along each axis, got '" + mount));
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "none")) << mount;
+    }
+    const Folder pictures;
+    EXPECT_EQ(reprise({"render",
+                       folder_ / "t.mcap",
+                       "-o",
+                       pictures.path().string(),
+                       "--mount=-50,0,50",
+                       "--size=32x24",
+                       "--ticks=40"})
+                  .code,
+              0);
 }
 
 TEST_F(Rendering, WhatAKindOfSensorDoesNotHaveIsRefusedInARigFileAndAmongOptions) {
