@@ -110,12 +110,14 @@ struct Seat::Parts {
                 true};
     }
 
+    /// Whoever has hung up may have said why: answer() reads what is left, and finds that out.
     std::optional<Lost> hand_over(std::uint64_t tick, const Packed& observation) {
         shown.push_back(tick);
         try {
             channel->send(Kind::observation, bytes_of(observation), patience);
         } catch (const ChannelFault& fault) {
-            return lost(fault.what());
+            if (fault.what() != std::string("has hung up"))
+                return lost(fault.what());
         }
         return std::nullopt;
     }

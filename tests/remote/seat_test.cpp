@@ -1,5 +1,7 @@
 #include "remote/seat.h"
 
+#include <array>
+#include <sys/socket.h>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -7,6 +9,9 @@
 
 #include "remote/client.h"
 #include "remote/connection.h"
+#include "remote/frame_channel.h"
+#include "remote/messages.h"
+#include "remote/schema.h"
 #include "tests/support/places.h"
 #include "world/check.h"
 
@@ -144,6 +149,40 @@ TEST(Seat, WhatADriverSaysAtItsEndIsShortened) {
     const Drive done = drive_oddly("chatters");
     EXPECT_THAT(done.lost, HasSubstr("left: I am\nxxx"));
     EXPECT_LT(done.lost.size(), 400U);
+}
+
+std::vector<std::uint8_t> said(flatbuffers::FlatBufferBuilder builder) {
+    return {builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize()};
+}
+
+TEST(Seat, AGoodbyeIsHeardThatWasSaidBeforeTheNextTickWasShown) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+    std::optional<FrameChannel> driver(std::in_place, ends[1], 1 << 20);
+    Seat seat("ego", FrameChannel(ends[0], 1 << 16), {10.0});
+    flatbuffers::FlatBufferBuilder ready;
+    ready.Finish(CreateReady(ready, wire_version));
+    driver->send(Kind::ready, said(std::move(ready)));
+    ASSERT_FALSE(seat.take(7, recording()));
+    ASSERT_FALSE(seat.show(tick(1)));
+    flatbuffers::FlatBufferBuilder control;
+    control.Finish(CreateControl(control, 1, 0.5));
+    driver->send(Kind::control, said(std::move(control)));
+    flatbuffers::FlatBufferBuilder goodbye;
+    goodbye.Finish(
+        CreateGoodbye(goodbye, goodbye.CreateString("enough"), goodbye.CreateString("ended")));
+    driver->send(Kind::goodbye, said(std::move(goodbye)));
+    driver->receive({10.0});  // hello; and the tick, so that all is read when it goes
+    driver->receive({10.0});
+    driver.reset();
+
+    EXPECT_TRUE(std::holds_alternative<world::Control>(seat.answer()));
+    EXPECT_FALSE(seat.show(tick(2)));
+    const auto last = seat.answer();
+    const auto* gone = std::get_if<Lost>(&last);
+    ASSERT_NE(gone, nullptr);
+    EXPECT_TRUE(gone->left);
+    EXPECT_EQ(gone->reason, "the driver of 'ego' left: enough");
 }
 
 /// A socket or a port: where a driver comes to.
