@@ -101,7 +101,9 @@ Look kerb(const Surface& at) {
 }
 
 /// A field beyond the town, or the wood that stands there, seen from far.
-Color field(float x, float y) {
+Color field(const Surface& at) {
+    const float x = at.position.x();
+    const float y = at.position.y();
     // Bent borders: what was a grid looks parcelled out.
     const float bend = value_noise(x * 0.006F, y * 0.006F, 96);
     const float u = (x + 0.35F * y) * 0.0072F + 0.9F * bend;
@@ -120,10 +122,10 @@ Color field(float x, float y) {
     const float fv = fraction(v);
     // A hedge of some 5 m along two sides, with gaps.
     const float aside = std::min(std::min(fu, 1 - fu) * 130, std::min(fv, 1 - fv) * 86);
-    const float hedge = smooth_step(4.5F, 2, aside) *
+    const float hedge = smooth_step(4.5F, 2, aside) * detail(at, 16) *
                         smooth_step(0.35F, 0.5F, value_noise(x * 0.03F, y * 0.03F, 98));
     const float woods = smooth_step(0.56F, 0.60F, fractal_noise(x * 0.0035F, y * 0.0035F, 3, 99));
-    const float crowns = 0.6F + 0.8F * value_noise(x * 0.11F, y * 0.11F, 94);
+    const float crowns = 1 + 0.8F * detail(at, 16) * (value_noise(x * 0.11F, y * 0.11F, 94) - 0.5F);
     return mix(crop, Color(.036F, .058F, .022F) * crowns, std::max(hedge, woods));
 }
 
@@ -259,7 +261,7 @@ Look ground_look(const ShadingInput& input, const Surface& at) {
             break;
         default:
             if (at.tag == land_far_off)
-                look.albedo = field(at.position.x(), at.position.y());
+                look.albedo = field(at);
             else
                 look = grass(at);
     }
