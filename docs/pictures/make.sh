@@ -95,4 +95,4 @@ echo "$instants" | while read -r name at actor; do
         -o "$work/$name" --size 480x270
 done
 montage $(echo "$instants" | while read -r name _; do [ -z "$name" ] || echo "$work/$name"/*.png; done) \
-    -tile 2x -geometry +0+0 "$here/scenarios.jpg"
+    -tile 2x -geometry +0+0 -strip -sampling-factor 4:2:0 -quality 80 "$here/scenarios.jpg"
