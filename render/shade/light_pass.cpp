@@ -94,6 +94,12 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
         if (!job.contains(pixel))
             continue;
+        job.look_ahead(corner, i + block, [&](std::size_t next) {
+            prefetch(&job.frame.lights[next]);
+            prefetch(&job.frame.samples[next].look);
+            prefetch(&job.frame.samples[next].light);
+            prefetch(&job.hits[next]);
+        });
         const std::size_t index = job.frame.index(pixel.x(), pixel.y());
         RawLight& raw = job.frame.lights[index];
         const Hit& hit = job.hits[index];

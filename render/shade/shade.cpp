@@ -70,6 +70,14 @@ void combine_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
         if (!job.contains(pixel))
             continue;
+        job.look_ahead(corner, i + block, [&](std::size_t next) {
+            prefetch(&frame.lights[next]);
+            prefetch(&frame.samples[next].look);
+            prefetch(&frame.samples[next].light);
+            prefetch(&frame.colors[next]);
+            prefetch(&frame.tones[next]);
+            prefetch(&job.hits[next]);
+        });
         const std::size_t index = frame.index(pixel.x(), pixel.y());
         const Vector3f direction = job.camera.ray(pixel.x() + 0.5, pixel.y() + 0.5).cast<float>();
         Color color;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/shade/frame.h"
+#include "render/trace/prefetch.h"
 
 namespace reprise::render {
 
@@ -25,6 +26,8 @@ struct OrthonormalBasis {
 
     Eigen::Vector3f x, y, z;
 };
+
+inline constexpr int block = 8;  ///< pixels of a tile that lie together, see tile_pixel
 
 /// Everything that the stages of shade() share.
 struct ShadingJob {
@@ -43,6 +46,15 @@ struct ShadingJob {
     /// Is the pixel in the picture? Tiles at its right and lower edge reach beyond it.
     bool contains(const Eigen::Vector2i& at) const {
         return at.x() < camera.width() && at.y() < camera.height();
+    }
+
+    /// Calls `fetch(index in the frame)` for the i-th pixel of a tile, if there is one: what is
+    /// known of 800x600 pixels takes 90 MB, and who comes to the next one waits for memory.
+    template <typename Fetch>
+    void look_ahead(const Eigen::Vector2i& corner, int i, const Fetch& fetch) const {
+        const Eigen::Vector2i pixel = corner + tile_pixel(i);
+        if (i < tile * tile && contains(pixel))
+            fetch(frame.index(pixel.x(), pixel.y()));
     }
 };
 
