@@ -16,11 +16,14 @@ Look asphalt(const Surface& at, float lane_distance) {
     float tone = 0.082F;
     tone *= 0.80F + 0.40F * fractal_noise(x * 0.22F, y * 0.22F, 3, 1);
     const float coarse = detail(at, 0.5F);
-    if (coarse > 0)
-        tone *= 1 + coarse * 0.28F * (fractal_noise(x * 2.3F, y * 2.3F, 2, 5) - 0.5F);
     const float middle = detail(at, 0.16F);
-    if (middle > 0)
-        tone *= 1 + middle * 0.34F * (fractal_noise(x * 9, y * 9, 2, 7) - 0.5F);
+    if (middle > 0) {
+        const auto [wide, narrow] = two_fractal_noises(x, y, 2.3F, 9, 5);
+        tone *= 1 + coarse * 0.28F * (wide - 0.5F);
+        tone *= 1 + middle * 0.34F * (narrow - 0.5F);
+    } else if (coarse > 0) {
+        tone *= 1 + coarse * 0.28F * (fractal_noise(x * 2.3F, y * 2.3F, 2, 5) - 0.5F);
+    }
     const float fine = detail(at, 0.035F);
     if (fine > 0) {
         // Stones in the binder.

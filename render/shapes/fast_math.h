@@ -41,6 +41,14 @@ inline int floor_int(float x) {
     return truncated - static_cast<int>(static_cast<float>(truncated) > x);
 }
 
+/// Of four.
+inline __m128i floor_int(__m128 x) {
+    const __m128i truncated = _mm_cvttps_epi32(x);
+    // Of what was rounded up, all bits are set, which is -1.
+    const __m128 above = _mm_cmpgt_ps(_mm_cvtepi32_ps(truncated), x);
+    return _mm_add_epi32(truncated, _mm_castps_si128(above));
+}
+
 /// x modulo 1, in [0, 1).
 inline float fraction(float x) {
     return x - static_cast<float>(floor_int(x));
@@ -60,10 +68,7 @@ inline float fast_exp(float x) {
 /// The same numbers, three at once.
 inline Color fast_exp(const Color& x) {
     const Color scaled = x.max(-80.0F).min(80.0F) * 1.44269504F;
-    const __m128i truncated = _mm_cvttps_epi32(scaled.lanes());
-    // Of what was rounded up, all bits are set, which is -1.
-    const __m128 above = _mm_cmpgt_ps(_mm_cvtepi32_ps(truncated), scaled.lanes());
-    const __m128i whole = _mm_add_epi32(truncated, _mm_castps_si128(above));
+    const __m128i whole = floor_int(scaled.lanes());
     const Color f = (scaled - Color(_mm_cvtepi32_ps(whole))) * 0.69314718F;
     const Color power =
         1 + f * (1 + f * (0.5F + f * (0.16666667F +
