@@ -2,6 +2,7 @@
 // traces itself, and leaves the heavy work to programs that lie beside it: linking SUMO and OpenCV
 // in here would load 222 shared libraries at every start.
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <unistd.h>
@@ -23,9 +24,18 @@
 
 namespace {
 
+/// For glibc's malloc, which reads it before main: a town is 100 MB of shapes that rays meet in no
+/// order, and a picture 90 MB of pixels. In pages of 2 MB, and not given back between two pictures,
+/// both take a twelfth less time, for 4 % more memory. tests/bench/tables.py says the same.
+constexpr const char* picture_memory =
+    "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=1073741824:"
+    "glibc.malloc.trim_threshold=1073741824:glibc.malloc.top_pad=67108864";
+
 /// Replaces this process by the helper program of that name.
 [[noreturn]] void become(const std::string& helper, char** argv) {
     const std::filesystem::path program = reprise::cli::helper_program(helper);
+    if (helper == "reprise-render")
+        setenv("GLIBC_TUNABLES", picture_memory, 0);  // who has set it wants it so
     execv(program.c_str(), argv);
     throw reprise::world::Error("cannot start " + program.string() + ": " + std::strerror(errno));
 }
