@@ -205,15 +205,15 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
 /// [m/s] to stop before the body would sweep over somebody beside its lane, as a tail swings out
 /// and a middle cuts in where one turns. A long vehicle looks at all who stand or lie there, and
 /// not for ever: who stands there for long may never go away, and then brushing past is the
-/// driver's business. A short one does so beside vehicles with mass, and brushes past none; it
-/// would stand before one that stands for ever if it wanted more than it needs. Of people who walk
-/// about nobody stays under a tail (walkers/threats.h): to wait for those who wait themselves, in
-/// the middle of a junction, is to block it.
+/// driver's business; but never past vehicles with mass, which it would hit. A short one looks at
+/// these alone; it would stand before one that stands for ever if it wanted more than it needs. Of
+/// people who walk about nobody stays under a tail (walkers/threats.h): to wait for those who wait
+/// themselves, in the middle of a junction, is to block it.
 double Lookout::before_swept(Car& car, std::uint64_t tick) const {
     constexpr double looked_at = 14;            // [m] of way
     constexpr double spacing = 0.5;             // [m]
     constexpr double hair = 0.1;                // [m] left beside it,
-    constexpr double finest_hair = 0.03;        // and by a short one where the other one stands
+    constexpr double finest_hair = 0.03;        // and where those alone are looked at who stand
     constexpr double stands = 0.1;              // [m/s]
     constexpr double slow = 1.5;                // [m/s] of who stays about where he is,
     constexpr double hardly_faster = 5;         // and of one with mass that drives past
@@ -222,12 +222,13 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
     constexpr std::uint64_t goes_on_for = 200;  // [ticks]
     const world::VehicleModel& model = world::vehicle_models()[car.model];
     const bool is_long = model.length > longest_short_car;
-    if (car.pass || (is_long && car.brushes_until > tick))
+    const bool looks_at_all = is_long && car.brushes_until <= tick;
+    if (car.pass)
         return world::infinity;
     const double around = looked_at + 2 * model.length;
     std::vector<BodyBox> others;
     std::vector<BodyBox> people;
-    const std::span<const Footprint> seen = is_long ? obstructions_.footprints() : driving_;
+    const std::span<const Footprint> seen = looks_at_all ? obstructions_.footprints() : driving_;
     for (const Footprint& one : seen) {
         if ((one.centre - car.rear.head<2>()).squaredNorm() > around * around || one.id == car.id ||
             std::abs(one.z - car.rear.z()) > world::level_clearance)
@@ -237,7 +238,7 @@ double Lookout::before_swept(Car& car, std::uint64_t tick) const {
             continue;
         const BodyBox box{one.centre, one.direction, one.half_length, one.half_width};
         (one.is_afoot ? people : others)
-            .push_back(box.widened(is_long || speed > stands ? hair : finest_hair));
+            .push_back(box.widened(looks_at_all || speed > stands ? hair : finest_hair));
     }
     if (others.empty() && people.empty())
         return world::infinity;

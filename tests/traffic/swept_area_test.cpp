@@ -50,8 +50,8 @@ bool stands_in(const world::Obstacle& wall, const BodyBox& body) {
     return beyond.cwiseMax(0.0).norm() < std::min(wall.half.x(), wall.half.y());
 }
 
-/// A bus from this lane over the next junction, past somebody who stands at `place` for a minute:
-/// a cyclist, or on foot with this id.
+/// A bus from this lane over the next junction, past somebody who stands at `place`: a cyclist for
+/// longer than a bus waits for what has no mass, or on foot with this id.
 BusDrive drive_bus(const char* name,
                    std::optional<Eigen::Vector2d> place,
                    std::uint32_t on_foot = 0) {
@@ -82,7 +82,7 @@ BusDrive drive_bus(const char* name,
         world::vehicle_models()[world::find_vehicle_model("bicycle").value()];
     double stood = 0;
     for (int tick = 0; tick < 2400 && !drive.came_through; ++tick) {
-        if (tick == 900) {  // they go away
+        if (tick == (on_foot != 0 ? 900 : 1500)) {  // they go away
             vehicles.clear();
             stage.walkers.clear();
         }
