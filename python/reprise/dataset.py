@@ -20,6 +20,8 @@ class Dataset:
     def __init__(self, folder: Union[str, pathlib.Path], weather: Optional[str] = None, split: Optional[str] = None):
         self.folder = pathlib.Path(folder)
         self.index = json.loads((self.folder / "dataset.json").read_text())
+        if not self.index.get("complete"):
+            raise ValueError(f"{folder}/dataset.json: is not complete; the command that makes it goes on where it was")
         folders = {one["said"]: one["folder"] for one in self.index["weathers"]}
         self.weather = next(iter(folders)) if weather is None else weather
         if self.weather not in folders:

@@ -155,6 +155,13 @@ class Datasets(unittest.TestCase):
             path.write_bytes(png(picture, [y % 5 for y in range(15)]))
             np.testing.assert_array_equal(read_png(path).reshape(picture.shape), picture)
 
+    def test_one_that_was_stopped_is_not_opened_as_if_it_were_whole(self):
+        index = json.loads((WORK / "set/dataset.json").read_text())
+        (WORK / "stopped").mkdir(exist_ok=True)
+        (WORK / "stopped/dataset.json").write_text(json.dumps({**index, "complete": False}))
+        with self.assertRaisesRegex(ValueError, "stopped/dataset.json: is not complete; the command that makes it goes on"):
+            reprise.Dataset(WORK / "stopped")
+
     def test_mistakes_name_what_there_is(self):
         with self.assertRaisesRegex(KeyError, "no weather 'fog'; there are clear_noon, clear_night"):
             reprise.Dataset(WORK / "set", weather="fog")
