@@ -27,6 +27,7 @@ constexpr std::size_t largest_word = 2 << 20;    // [bytes] of a client
 constexpr std::string_view open_socket = "fd:";  // a socket that is open and connected
 constexpr const char* loopback = "127.0.0.1";
 constexpr std::size_t most_turned_away = 16;  // at once, while they are told why
+constexpr double greeting = 10;               // [s] for a client's first word
 constexpr double patience_at_end = 6;         // [s] for sessions to close their traces
 
 std::string read_token(const std::string& path) {
@@ -127,7 +128,7 @@ class Server {
                     listener_->let_go();
                     if (why_not.empty())
                         Session(options_, token_, std::move(town_), std::move(*client), *signals_)
-                            .run();
+                            .run(greeting);
                     else
                         turn_away(*client, why_not);
                     return exit_good;
@@ -161,7 +162,7 @@ int serve(const ServeOptions& asked) {
                 std::move(town),
                 {*descriptor, largest_word},
                 signals)
-            .run();
+            .run(std::nullopt);
         return exit_good;
     }
     Server server(options, signals);

@@ -27,7 +27,7 @@ namespace reprise::cli {
 namespace {
 
 using remote::Kind;
-constexpr double greeting = 10;  // [s] for a client's first word, and for it to take ours
+constexpr double taking = 10;  // [s] for a client to take our word
 
 std::string text_of(const flatbuffers::String* text) {
     return text == nullptr ? "" : text->str();
@@ -45,7 +45,7 @@ bool is_same(const std::string& said, const std::string& wanted) {
 void send_fault(remote::FrameChannel& client, const std::string& text) {
     flatbuffers::FlatBufferBuilder builder;
     builder.Finish(remote::CreateFault(builder, builder.CreateString(text), line_named_in(text)));
-    client.send(Kind::fault, {builder.GetBufferPointer(), builder.GetSize()}, {greeting});
+    client.send(Kind::fault, {builder.GetBufferPointer(), builder.GetSize()}, {taking});
 }
 
 scripting::Overrides overrides_of(const remote::Reset& reset) {
@@ -84,7 +84,7 @@ void turn_away(remote::FrameChannel& client, const std::string& why) {
 }
 
 struct Session::Parts {
-    void greet();
+    void greet(const remote::Patience& patience);
     std::optional<remote::Frame> begin(const remote::Frame& frame);
     world::EpisodeT episode_of(const remote::Reset& reset);
     void want_town(const std::string& town);
@@ -101,8 +101,8 @@ struct Session::Parts {
 };
 
 /// The client's first word, and ours. Throws ChannelFault when it shall not stay.
-void Session::Parts::greet() {
-    const remote::Frame frame = client.receive({greeting});
+void Session::Parts::greet(const remote::Patience& patience) {
+    const remote::Frame frame = client.receive(patience);
     std::string why;
     if (frame.kind != Kind::open)
         why = "a client begins with open";
@@ -120,7 +120,7 @@ void Session::Parts::greet() {
     flatbuffers::FlatBufferBuilder builder;
     builder.Finish(remote::CreateOpen(
         builder, remote::wire_version, builder.CreateString(remote::schema_digest())));
-    client.send(Kind::open, {builder.GetBufferPointer(), builder.GetSize()}, {greeting});
+    client.send(Kind::open, {builder.GetBufferPointer(), builder.GetSize()}, {taking});
 }
 
 void Session::Parts::want_town(const std::string& name) {
@@ -218,14 +218,14 @@ Session::Session(const ServeOptions& options,
 
 Session::~Session() = default;
 
-void Session::run() {
+void Session::run(std::optional<double> greeting) {
     Parts& parts = *parts_;
     const auto is_to_end = [&] {
         const int signal = parts.signals.take();
         return parts.stopped = parts.stopped || (signal != 0 && signal != SIGCHLD);
     };
     try {
-        parts.greet();
+        parts.greet({greeting, is_to_end});
         std::optional<remote::Frame> word;
         while (!is_to_end()) {
             if (!word)

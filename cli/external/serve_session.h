@@ -37,8 +37,10 @@ class Session {
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Until the client leaves, or a signal asks us to end. Throws nothing.
-    void run();
+    /// Until the client leaves, or a signal asks us to end. `greeting`: [s] of real time for its
+    /// first word; without, for ever, as for a client that started us and may be stopped itself.
+    /// Throws nothing.
+    void run(std::optional<double> greeting);
 
   private:
     struct Parts;
