@@ -1,8 +1,7 @@
 // What it must do: let lamps shine over their edges by night, as they do in every lens.
 // How it goes: what is far brighter than white, on squares of 4 x 4 pixels, is spread along rows
-// and
-//   columns by filters that remember (y = a x + (1 - a) y_last, both ways, twice: nearly round),
-//   near and far, and added.
+//   and columns by filters that remember (y = a x + (1 - a) y_last, both ways, twice: nearly
+//   round), near and far, and added.
 // What it keeps: nothing.
 #include <algorithm>
 
