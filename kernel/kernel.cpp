@@ -1,6 +1,8 @@
 #include "kernel/kernel.h"
 
+#include <algorithm>
 #include <exception>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -20,6 +22,7 @@
 #include "kernel/physics/physics.h"
 #include "kernel/prop_orders.h"
 #include "kernel/roster.h"
+#include "kernel/side_thread.h"
 #include "replay/chain_seed.h"
 #include "scripting/scenario.h"
 #include "traffic/background.h"
@@ -48,6 +51,11 @@ world::TickDraft draft_after(const world::TickView& last) {
     next.tick.weather = *last.tick->weather();
     next.tick.road_friction = last.tick->road_friction();
     return next;
+}
+
+void add(walkers::OnFoot on_foot, world::TickDraft& next) {
+    next.traffic.walkers = std::move(on_foot.walkers);
+    std::move(on_foot.events.begin(), on_foot.events.end(), std::back_inserter(next.tick.events));
 }
 
 }  // namespace
@@ -82,6 +90,7 @@ struct Kernel::Parts {
     Roster roster;
     traffic::Background background;
     Pedestrians pedestrians;
+    SideThread side_thread;
     Physics physics;
     LampOrders lamps;
     Doors doors;
@@ -164,13 +173,21 @@ void Kernel::begin() {
     note_outcome(next);
     close(Stage::scenario, next);
 
-    // 2. traffic: background cars and signals
-    parts.background.advance(last, next);
+    // 2. and 3. traffic: background cars and signals; pedestrians. Neither reads what the other
+    // does in this tick.
+    const std::span<const world::CommandT> commands = next.tick.commands;
+    walkers::OnFoot on_foot;
+    const auto drive = [&] { parts.background.advance(last, next); };
+    const auto walk = [&] { on_foot = parts.pedestrians.advance(last, commands); };
+    if (parts.pedestrians.are_many()) {
+        parts.side_thread.both(drive, walk);
+    } else {
+        drive();
+        walk();
+    }
     parts.lamps.light_cars(next);
     close(Stage::traffic, next);
-
-    // 3. pedestrians
-    parts.pedestrians.advance(last, next);
+    add(std::move(on_foot), next);
     close(Stage::pedestrians, next);
     parts.next = std::move(next);
 }

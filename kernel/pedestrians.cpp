@@ -51,35 +51,37 @@ Pedestrians::Walker* Pedestrians::find(std::uint32_t id) {
     return at != walkers_.end() && at->id == id ? &*at : nullptr;
 }
 
-void Pedestrians::advance(const world::TickView& last, world::TickDraft& next) {
-    for (const world::CommandT& command : next.tick.commands)
+walkers::OnFoot Pedestrians::advance(const world::TickView& last,
+                                     std::span<const world::CommandT> commands) {
+    walkers::OnFoot next{last.index() + 1, {}, {}};
+    for (const world::CommandT& command : commands)
         obey(command, next);
     lay_down(last);
-    next.traffic.walkers.clear();
     for (Walker& walker : walkers_) {
         if (walker.trajectory)
-            follow(walker, next.tick.index);
+            follow(walker, next.tick);
         else
             walk(walker);
         const world::Vec3 position(rounded(walker.position.x(), 1024),
                                    rounded(walker.position.y(), 1024),
                                    rounded(walker.position.z(), 1024));
         const double phase = std::floor(walker.phase * 8192) / 8192;  // stays below 1
-        next.traffic.walkers.emplace_back(position,
-                                          static_cast<float>(rounded(walker.yaw, 8192)),
-                                          static_cast<float>(rounded(walker.speed, 1024)),
-                                          static_cast<float>(phase),
-                                          walker.id,
-                                          walker.model,
-                                          walker.down,
-                                          std::uint8_t{0},
-                                          world::drawn_look(seed_, walker.id).look());
+        next.walkers.emplace_back(position,
+                                  static_cast<float>(rounded(walker.yaw, 8192)),
+                                  static_cast<float>(rounded(walker.speed, 1024)),
+                                  static_cast<float>(phase),
+                                  walker.id,
+                                  walker.model,
+                                  walker.down,
+                                  std::uint8_t{0},
+                                  world::drawn_look(seed_, walker.id).look());
     }
     if (crowd_)
         crowd_->advance(last, next);
+    return next;
 }
 
-void Pedestrians::obey(const world::CommandT& command, world::TickDraft& next) {
+void Pedestrians::obey(const world::CommandT& command, walkers::OnFoot& next) {
     using world::CommandKind;
     if (command.kind == CommandKind::spawn) {
         if (command.driver == world::Driver::walker)
@@ -109,7 +111,7 @@ void Pedestrians::obey(const world::CommandT& command, world::TickDraft& next) {
             walker->speed = 0;
             if (!command.path.empty() && !walker->down)
                 walker->trajectory.emplace(command.path, command.has_pose);
-            walker->trajectory_start = next.tick.index - 1;  // what the scenario saw
+            walker->trajectory_start = next.tick - 1;  // what the scenario saw
             break;
         case CommandKind::teleport:
             teleport(command, *walker);
@@ -125,7 +127,7 @@ void Pedestrians::obey(const world::CommandT& command, world::TickDraft& next) {
     }
 }
 
-void Pedestrians::spawn(const world::CommandT& command, world::TickDraft& next) {
+void Pedestrians::spawn(const world::CommandT& command, walkers::OnFoot& next) {
     REPRISE_CHECK(command.model < world::walker_models().size(), std::to_string(command.model));
     REPRISE_CHECK(find(command.actor) == nullptr, "walker " + std::to_string(command.actor));
     Walker walker;
@@ -145,12 +147,12 @@ void Pedestrians::spawn(const world::CommandT& command, world::TickDraft& next) 
     event.position = world::to_vec3(walker.position);
     event.text = command.text;
     event.line = command.line;
-    next.tick.events.push_back(event);
+    next.events.push_back(event);
 }
 
 /// Where the command says so, by the walk map: corner by corner. Where no way leads there,
 /// straight.
-void Pedestrians::take_way(const world::CommandT& command, Walker& walker, world::TickDraft& next) {
+void Pedestrians::take_way(const world::CommandT& command, Walker& walker, walkers::OnFoot& next) {
     walker.way.clear();
     if (!command.on)
         return;
@@ -161,7 +163,7 @@ void Pedestrians::take_way(const world::CommandT& command, Walker& walker, world
         event.text = "walker " + std::to_string(walker.id) +
                      ": walk_to: no way leads there on foot: goes straight";
         event.line = command.line;
-        next.tick.events.push_back(std::move(event));
+        next.events.push_back(std::move(event));
         return;
     }
     for (std::size_t i = way->size(); i-- > 1;)  // the next one last
@@ -192,14 +194,14 @@ void Pedestrians::teleport(const world::CommandT& command, Walker& walker) const
     walker.speed = command.speed;
 }
 
-void Pedestrians::despawn(const world::CommandT& command, world::TickDraft& next) {
+void Pedestrians::despawn(const world::CommandT& command, walkers::OnFoot& next) {
     Walker* walker = find(command.actor);
     world::EventT event;
     event.kind = world::EventKind::despawned;
     event.actor = walker->id;
     event.position = world::to_vec3(walker->position);
     event.line = command.line;
-    next.tick.events.push_back(event);
+    next.events.push_back(event);
     walkers_.erase(walkers_.begin() + (walker - walkers_.data()));
 }
 

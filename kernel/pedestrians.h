@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "ground/mesh/ground.h"
 #include "walkers/crowd.h"
+#include "walkers/on_foot.h"
 #include "walkers/walking_ground.h"
 #include "world/episode_generated.h"
 #include "world/models/gait.h"
@@ -31,14 +33,18 @@ class Pedestrians {
                 const world::LaneMap& lanes,
                 const ground::GroundMesh& ground);
 
-    /// Stage 4. Carries out next's commands for walkers (spawn, walk, set_speed, free_speed,
-    /// follow, teleport, set_velocity, despawn), moves everyone by one tick, and writes
-    /// next.traffic.walkers (sorted by id) and spawned/despawned events.
+    /// Stage 4. Carries out the next tick's commands for walkers (spawn, walk, set_speed,
+    /// free_speed, follow, teleport, set_velocity, despawn), moves everyone by one tick, and says
+    /// where they are (sorted by id), who came and who went. Reads nothing of what traffic does in
+    /// that tick, so both may run at once.
     ///
     /// spawn: at lane, s, offset; without a lane at `target`. walk: to `target` with `speed`; 0 is
     /// the model's own walking speed. Commands for actors that are no walkers are left to other
     /// stages.
-    void advance(const world::TickView& last, world::TickDraft& next);
+    walkers::OnFoot advance(const world::TickView& last, std::span<const world::CommandT> commands);
+
+    /// Are there enough of them that a thread of its own pays?
+    bool are_many() const { return crowd_ != nullptr; }
 
     /// A drill's: moves the unrounded number behind a recorded one by so many units in the last
     /// place.
@@ -65,16 +71,16 @@ class Pedestrians {
     };
 
     Walker* find(std::uint32_t id);
-    void obey(const world::CommandT& command, world::TickDraft& next);
-    void spawn(const world::CommandT& command, world::TickDraft& next);
-    void despawn(const world::CommandT& command, world::TickDraft& next);
+    void obey(const world::CommandT& command, walkers::OnFoot& next);
+    void spawn(const world::CommandT& command, walkers::OnFoot& next);
+    void despawn(const world::CommandT& command, walkers::OnFoot& next);
     void lay_down(const world::TickView& last);
     void place(const world::CommandT& command, Walker& walker) const;
     void teleport(const world::CommandT& command, Walker& walker) const;
     void follow(Walker& walker, std::uint64_t tick) const;
     void step_on(Walker& walker, double distance, double speed) const;
     void walk(Walker& walker) const;
-    void take_way(const world::CommandT& command, Walker& walker, world::TickDraft& next);
+    void take_way(const world::CommandT& command, Walker& walker, walkers::OnFoot& next);
     walkers::WalkingGround& walking_ground();
     double ground_height(const Eigen::Vector3d& p_world) const;
 

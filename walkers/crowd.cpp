@@ -62,21 +62,22 @@ const Crowd::Walker* Crowd::find(std::uint32_t id) const {
     return at != walkers_.end() && at->id == id ? &*at : nullptr;
 }
 
-void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
-    const std::uint64_t tick = next.tick.index;
+void Crowd::advance(const world::TickView& last, OnFoot& next) {
+    const std::uint64_t tick = next.tick;
     plans_ = 0;
 
     // Who was hit, who leaves, who comes.
-    lights_.look(next);
-    traffic_.look(last, next);
-    threats_.look(last, next, step_);
+    users_.look(last, step_);
+    lights_.look(last);
+    traffic_.look(users_.all());
+    threats_.look(users_.all());
     lay_down(last, tick);
     remove_hit_and_lost(next);
     fill_up(last, next);
 
     // Everybody as the others see him.
     neighbours_.clear();
-    for (const world::WalkerState& walker : next.traffic.walkers)
+    for (const world::WalkerState& walker : next.walkers)
         neighbours_.add({{walker.position().x(), walker.position().y()},
                          static_cast<double>(walker.speed()) *
                              world::ahead_of(static_cast<double>(walker.yaw())),
@@ -96,7 +97,7 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
     }
     people_.sort();
     on_road_.sort();
-    add_things(last, next, step_, on_road_, people_, neighbours_);
+    add_things(last, users_.all(), on_road_, people_, neighbours_);
     neighbours_.sort();
 
     // Where to, around whom, and the step.
@@ -117,10 +118,10 @@ void Crowd::advance(const world::TickView& last, world::TickDraft& next) {
         write(walker, next);
 }
 
-void Crowd::write(const Walker& walker, world::TickDraft& next) const {
+void Crowd::write(const Walker& walker, OnFoot& next) const {
     using world::rounded;
     const Eigen::Vector3d& p = walker.place.position;
-    next.traffic.walkers.emplace_back(
+    next.walkers.emplace_back(
         world::Vec3(rounded(p.x(), 1024), rounded(p.y(), 1024), rounded(p.z(), 1024)),
         static_cast<float>(rounded(walker.yaw, 8192)),
         static_cast<float>(rounded(walker.velocity.norm(), 1024)),

@@ -8,9 +8,11 @@
 
 #include "walkers/gate.h"
 #include "walkers/neighbours.h"
+#include "walkers/on_foot.h"
 #include "walkers/person.h"
 #include "walkers/places.h"
 #include "walkers/road_traffic.h"
+#include "walkers/road_users.h"
 #include "walkers/steering.h"
 #include "walkers/threats.h"
 #include "walkers/walker_lights.h"
@@ -29,7 +31,7 @@ inline constexpr std::uint32_t first_walker_id = 100'000'000;
 /// MUST    depend on ticks and commands alone, to the bit; leave the pavement at crossings only
 ///         (but for jaywalkers), step onto none at red, look before stepping onto a road; never
 ///         overlap; go on.
-/// ASSUMES ticks come in order; traffic has written its part of the next one.
+/// ASSUMES ticks come in order.
 /// GOES    one by one in the order of ids. First everybody says where to: along the way that the
 ///         walk map gave, waiting at gates, around others as DetourCrowd's avoidance says, and out
 ///         of the way of cars that are about to roll over him. Then everybody takes a step, which
@@ -43,9 +45,9 @@ class Crowd {
           const world::LaneMap& lanes,
           WalkingGround& ground);
 
-    /// Adds everybody to next.traffic.walkers, behind the scenario's walkers that are there by now,
+    /// Adds everybody to next.walkers, behind the scenario's walkers that are there by now,
     /// and the events of those who come and go.
-    void advance(const world::TickView& last, world::TickDraft& next);
+    void advance(const world::TickView& last, OnFoot& next);
 
     /// The unrounded number behind a recorded one, for a drill; null: not of this crowd.
     double* number(std::uint32_t id, std::string_view field);
@@ -94,12 +96,12 @@ class Crowd {
     void keep_from_posts(const Person& person);
 
     void lay_down(const world::TickView& last, std::uint64_t tick);
-    void remove_hit_and_lost(world::TickDraft& next);
+    void remove_hit_and_lost(OnFoot& next);
     void watch(Walker& walker, std::uint64_t tick);
-    void fill_up(const world::TickView& last, world::TickDraft& next);
-    bool add(const world::TickView& last, world::TickDraft& next);
-    bool add_friend(world::TickDraft& next);
-    void appear(Walker walker, world::TickDraft& next);
+    void fill_up(const world::TickView& last, OnFoot& next);
+    bool add(const world::TickView& last, OnFoot& next);
+    bool add_friend(OnFoot& next);
+    void appear(Walker walker, OnFoot& next);
     std::optional<Eigen::Vector3d> drawn_place(double metre_share, double side_share) const;
 
     void plan(Walker& walker, std::uint64_t tick);
@@ -120,7 +122,7 @@ class Crowd {
     bool give_room_to(const Walker& fleeing);
     void step(Walker& walker, std::uint64_t tick);
     bool is_allowed(const Walker& walker, const WalkMap::Place& place);
-    void write(const Walker& walker, world::TickDraft& next) const;
+    void write(const Walker& walker, OnFoot& next) const;
 
     const world::EpisodeT* episode_;
     const world::TownT* town_;
@@ -129,6 +131,7 @@ class Crowd {
     double step_;  ///< [s]
     std::vector<std::uint32_t> sidewalks_;
     std::vector<double> ends_;  ///< [m] running sum of their lengths
+    RoadUsers users_;
     RoadTraffic traffic_;
     Threats threats_;
     WalkerLights lights_;

@@ -41,20 +41,19 @@ void Crowd::lay_down(const world::TickView& last, std::uint64_t tick) {
 
 /// Who has lain long enough; and who gets nowhere, as in a corner that no way leads out of: cars
 /// would wait for him for ever.
-void Crowd::remove_hit_and_lost(world::TickDraft& next) {
+void Crowd::remove_hit_and_lost(OnFoot& next) {
     constexpr double lost_for = 30;  // [s]
     const auto lost_ticks = static_cast<std::uint64_t>(lost_for / step_);
     std::erase_if(walkers_, [&](const Walker& walker) {
-        const bool lain = walker.down_until != 0 && next.tick.index >= walker.down_until;
-        const bool lost =
-            walker.down_until == 0 && next.tick.index > walker.was_at_tick + lost_ticks;
+        const bool lain = walker.down_until != 0 && next.tick >= walker.down_until;
+        const bool lost = walker.down_until == 0 && next.tick > walker.was_at_tick + lost_ticks;
         if (!lain && !lost)
             return false;
         world::EventT event;
         event.kind = world::EventKind::despawned;
         event.actor = walker.id;
         event.position = world::to_vec3(walker.place.position);
-        next.tick.events.push_back(std::move(event));
+        next.events.push_back(std::move(event));
         return true;
     });
 }
@@ -73,8 +72,8 @@ std::optional<Eigen::Vector3d> Crowd::drawn_place(double metre_share, double sid
     return at.position + Eigen::Vector3d(left.x(), left.y(), ground::kerb_height);
 }
 
-void Crowd::fill_up(const world::TickView& last, world::TickDraft& next) {
-    const bool first = next.tick.index == 1;
+void Crowd::fill_up(const world::TickView& last, OnFoot& next) {
+    const bool first = next.tick == 1;
     for (unsigned tries = first ? 20 * episode_->walkers : 4;
          walkers_.size() < episode_->walkers && tries > 0;
          --tries) {
@@ -92,12 +91,12 @@ void Crowd::fill_up(const world::TickView& last, world::TickDraft& next) {
                                  episode_->walkers,
                                  town_->name,
                                  walkers_.size());
-        next.tick.events.push_back(std::move(event));
+        next.events.push_back(std::move(event));
     }
 }
 
 /// Somewhere where nobody stands, and which no vehicle with mass sees. False: not there.
-bool Crowd::add(const world::TickView& last, world::TickDraft& next) {
+bool Crowd::add(const world::TickView& last, OnFoot& next) {
     constexpr double air = 1.5;   // [m] from others
     constexpr double sight = 40;  // [m]
     const auto drawn = [&](std::uint64_t which) {
@@ -120,11 +119,11 @@ bool Crowd::add(const world::TickView& last, world::TickDraft& next) {
     for (const Walker& other : walkers_)
         if (near(other.place.position, air))
             return false;
-    for (const world::WalkerState& other : next.traffic.walkers)
+    for (const world::WalkerState& other : next.walkers)
         if (near(world::to_eigen(other.position()), air))
             return false;
     for (const world::VehicleState& vehicle : last.vehicles())
-        if (near(world::to_eigen(vehicle.position()), next.tick.index == 1 ? 5 : sight))
+        if (near(world::to_eigen(vehicle.position()), next.tick == 1 ? 5 : sight))
             return false;
     const auto there = map_of(walker.person).nearest(on_map->position);
     if (!there)
@@ -136,7 +135,7 @@ bool Crowd::add(const world::TickView& last, world::TickDraft& next) {
 }
 
 /// Beside the one who came last, if there is room.
-bool Crowd::add_friend(world::TickDraft& next) {
+bool Crowd::add_friend(OnFoot& next) {
     const Walker& leader = walkers_.back();
     Walker walker;
     walker.id = next_id_;
@@ -168,10 +167,10 @@ void Crowd::keep_from_posts(const Person& person) {
     known = true;
 }
 
-void Crowd::appear(Walker walker, world::TickDraft& next) {
+void Crowd::appear(Walker walker, OnFoot& next) {
     keep_from_posts(walker.person);
     walker.place.position.z() = ground_->height(walker.place.position, walker.underfoot);
-    walker.was_at_tick = next.tick.index;
+    walker.was_at_tick = next.tick;
     walker.was_at = walker.place.position.head<2>();
     ++next_id_;
     world::EventT event;
@@ -179,7 +178,7 @@ void Crowd::appear(Walker walker, world::TickDraft& next) {
     event.actor = walker.id;
     event.position = world::to_vec3(walker.place.position);
     event.text = world::walker_models()[walker.person.model].name;
-    next.tick.events.push_back(std::move(event));
+    next.events.push_back(std::move(event));
     walkers_.push_back(std::move(walker));
 }
 

@@ -129,29 +129,16 @@ std::vector<Conflict> RoadTraffic::conflicts(const Eigen::Vector3d& from,
     return found;
 }
 
-void RoadTraffic::look(const world::TickView& last, const world::TickDraft& next) {
+void RoadTraffic::look(std::span<const RoadUser> users) {
     comers_.clear();
-    for (const world::CarState& car : next.traffic.cars)
-        if (car.lane() != world::none)
-            comers_.push_back({car.lane(),
-                               static_cast<double>(car.lane_s()),
-                               static_cast<double>(car.speed()),
-                               world::vehicle_models()[car.model()].length,
-                               seems_to_yield(static_cast<double>(car.speed()),
-                                              static_cast<double>(car.acceleration())),
-                               car.id()});
-    for (const world::VehicleState& vehicle : last.vehicles()) {
-        const world::Measurement* measured = world::find(last.measurements(), vehicle.id());
-        if (measured == nullptr || measured->lane() == world::none)
-            continue;
-        const world::VehicleModel& model = world::vehicle_models()[vehicle.model()];
-        comers_.push_back({measured->lane(),
-                           measured->lane_s() + model.length - model.rear_overhang,
-                           std::abs(measured->speed()),
-                           model.length,
-                           seems_to_yield(measured->speed(), measured->acceleration()),
-                           vehicle.id()});
-    }
+    for (const RoadUser& user : users)
+        if (user.lane != world::none)
+            comers_.push_back({user.lane,
+                               user.front_s,
+                               std::abs(user.speed),
+                               world::vehicle_models()[user.model].length,
+                               seems_to_yield(user.speed, user.acceleration),
+                               user.id});
     std::sort(comers_.begin(), comers_.end(), [](const Comer& one, const Comer& other) {
         return one.lane != other.lane ? one.lane < other.lane : one.id < other.id;
     });

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "world/tick.h"
+#include "walkers/road_users.h"
 #include "world/town.h"
 
 namespace reprise::walkers {
@@ -42,8 +43,8 @@ class RoadTraffic {
     /// The lanes that a straight way over the road crosses, in its order. 50 us.
     std::vector<Conflict> conflicts(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
-    /// Takes in who is on the road: SUMO's cars as `next` has them, those with mass as `last` had.
-    void look(const world::TickView& last, const world::TickDraft& next);
+    /// Takes in those of them that are on a lane.
+    void look(std::span<const RoadUser> users);
 
     /// Can somebody be in the way of cars that long? `around_standing`: what stands there is no
     /// hindrance, he goes around it. A car that waits for him with its nose in his way and he for

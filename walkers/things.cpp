@@ -68,56 +68,37 @@ void add(const Thing& thing, Neighbours& neighbours) {
     add_corners(thing, neighbours);
 }
 
-Thing car_of(const Eigen::Vector2d& rear_axle, double yaw, std::uint16_t model, std::uint32_t id) {
-    const world::Extent extent = world::extent_of(world::vehicle_models()[model]);
+Thing car_of(const RoadUser& car) {
+    const world::Extent extent = world::extent_of(world::vehicle_models()[car.model]);
     Thing thing;
-    thing.ahead = world::ahead_of(yaw);
-    thing.pivot = rear_axle;
-    thing.middle = rear_axle + extent.middle() * thing.ahead;
+    thing.ahead = world::ahead_of(car.yaw);
+    thing.pivot = car.rear_axle;
+    thing.middle = car.rear_axle + extent.middle() * thing.ahead;
     thing.half_length = (extent.front - extent.rear) / 2;
     thing.half_width = extent.half_width;
-    thing.id = id;
+    thing.id = car.id;
     return thing;
 }
 
 /// Can any of them come close to a car within a tick?
-bool is_near(const world::CarState& car, const Places& people) {
+bool is_near(const RoadUser& car, const Places& people) {
     constexpr double close = 5;  // [m] more than anybody looks around himself
-    const double reach = world::vehicle_models()[car.model()].length + close;
-    return people.any_within(world::in_plan(car.position()), reach);
+    return people.any_within(car.rear_axle, world::vehicle_models()[car.model].length + close);
 }
 
-void add_cars(const world::TickView& last,
-              const world::TickDraft& next,
-              double step,
-              const Places& on_road,
-              const Places& people,
-              Neighbours& neighbours) {
-    for (const world::CarState& car : next.traffic.cars) {
-        const double yaw = static_cast<double>(car.yaw());
-        const auto speed = static_cast<double>(car.speed());
+void add_users(std::span<const RoadUser> users,
+               const Places& on_road,
+               const Places& people,
+               Neighbours& neighbours) {
+    for (const RoadUser& user : users) {
         // One that stands may reach over the kerb with a corner: nobody walks through it there.
-        const bool drives = speed > stands;
-        if (!is_near(car, drives ? on_road : people))
+        const bool drives = user.velocity.norm() > stands;
+        if (!is_near(user, drives ? on_road : people))
             continue;
-        Thing thing = car_of(world::in_plan(car.position()), yaw, car.model(), car.id());
-        thing.velocity = speed * thing.ahead;
+        Thing thing = car_of(user);
+        thing.velocity = user.velocity;
+        thing.turning = user.yaw_rate;
         thing.drives = drives;
-        const world::CarState* before = drives ? world::find(last.cars(), car.id()) : nullptr;
-        if (before != nullptr)
-            thing.turning = world::wrap_angle(yaw - static_cast<double>(before->yaw())) / step;
-        add(thing, neighbours);
-    }
-    for (const world::VehicleState& vehicle : last.vehicles()) {
-        const Eigen::Vector3d ahead =
-            world::to_eigen(vehicle.orientation()) * Eigen::Vector3d::UnitX();
-        Thing thing = car_of(world::in_plan(vehicle.position()),
-                             std::atan2(ahead.y(), ahead.x()),
-                             vehicle.model(),
-                             vehicle.id());
-        thing.velocity = {vehicle.velocity().x(), vehicle.velocity().y()};
-        thing.turning = vehicle.angular_velocity().z();
-        thing.drives = thing.velocity.norm() > stands;
         add(thing, neighbours);
     }
 }
@@ -140,13 +121,11 @@ void add_props(const world::TickView& last, Neighbours& neighbours) {
     }
 }
 
-void add_doors(const world::TickView& last, const world::TickDraft& next, Neighbours& neighbours) {
+void add_doors(const world::TickView& last, Neighbours& neighbours) {
     for (const world::Door& door : last.doors()) {
         const world::VehicleState* vehicle = world::find(last.vehicles(), door.actor());
-        const auto car = std::find_if(next.traffic.cars.begin(),
-                                      next.traffic.cars.end(),
-                                      [&](const auto& one) { return one.id() == door.actor(); });
-        if (vehicle == nullptr && car == next.traffic.cars.end())
+        const world::CarState* car = world::find(last.cars(), door.actor());
+        if (vehicle == nullptr && car == nullptr)
             continue;
         const Eigen::Isometry3d pose =
             vehicle != nullptr ? world::pose(vehicle->position(), vehicle->orientation())
@@ -169,14 +148,13 @@ void add_doors(const world::TickView& last, const world::TickDraft& next, Neighb
 }  // namespace
 
 void add_things(const world::TickView& last,
-                const world::TickDraft& next,
-                double step,
+                std::span<const RoadUser> users,
                 const Places& on_road,
                 const Places& people,
                 Neighbours& neighbours) {
-    add_cars(last, next, step, on_road, people, neighbours);
+    add_users(users, on_road, people, neighbours);
     add_props(last, neighbours);
-    add_doors(last, next, neighbours);
+    add_doors(last, neighbours);
 }
 
 }  // namespace reprise::walkers

@@ -23,7 +23,7 @@ constexpr double step_aside = 0.7;  // [m] that one thinks of
 
 }  // namespace
 
-void Threats::add(const Rolling& car) {
+void Threats::add(const RoadUser& car) {
     if (std::abs(car.speed) < rolls)
         return;
     // Who brakes is seen to brake; that somebody may step on it is not thought of.
@@ -47,7 +47,7 @@ void Threats::add(const Rolling& car) {
     // metre, over the kerb.
     for (const double t : {0.0, time / 4, time / 2, 3 * time / 4, time}) {
         const double turned = curvature * way_in_bend(t);
-        Rolling then = car;
+        RoadUser then = car;
         then.yaw += turned;
         then.rear_axle += way_in_bend(t) * world::ahead_of(car.course + turned / 2);
         add_box(then, 0, 0);
@@ -55,7 +55,7 @@ void Threats::add(const Rolling& car) {
 }
 
 /// What its body covers, and so many metres behind and ahead of it.
-void Threats::add_box(const Rolling& car, double rear, double front) {
+void Threats::add_box(const RoadUser& car, double rear, double front) {
     const world::VehicleModel& body = world::vehicle_models()[car.model];
     const Eigen::Vector2d ahead = world::ahead_of(car.yaw);
     const double middle = body.length / 2 - body.rear_overhang;
@@ -71,44 +71,10 @@ void Threats::add_box(const Rolling& car, double rear, double front) {
     threats_.push_back(threat);
 }
 
-void Threats::look(const world::TickView& last, const world::TickDraft& next, double step) {
+void Threats::look(std::span<const RoadUser> users) {
     threats_.clear();
-    const std::span<const world::CarState> old = last.cars();
-    std::size_t before = 0;  // both are by id
-    for (const world::CarState& car : next.traffic.cars) {
-        const auto speed = static_cast<double>(car.speed());
-        if (std::abs(speed) < rolls)
-            continue;
-        const auto yaw = static_cast<double>(car.yaw());
-        while (before < old.size() && old[before].id() < car.id())
-            ++before;
-        double yaw_rate = 0;
-        double course = yaw;
-        if (before < old.size() && old[before].id() == car.id() && speed > rolls) {
-            yaw_rate = world::wrap_angle(yaw - static_cast<double>(old[before].yaw())) / step;
-            course = std::atan2(car.position().y() - old[before].position().y(),
-                                car.position().x() - old[before].position().x());
-        }
-        add({{car.position().x(), car.position().y()},
-             yaw,
-             yaw_rate,
-             course,
-             speed,
-             static_cast<double>(car.acceleration()),
-             car.model()});
-    }
-    for (const world::VehicleState& vehicle : last.vehicles()) {
-        const Eigen::Vector3d ahead =
-            world::to_eigen(vehicle.orientation()) * Eigen::Vector3d::UnitX();
-        const double yaw = std::atan2(ahead.y(), ahead.x());
-        add({{vehicle.position().x(), vehicle.position().y()},
-             yaw,
-             vehicle.angular_velocity().z(),
-             yaw,
-             ahead.dot(world::to_eigen(vehicle.velocity())),
-             ahead.dot(world::to_eigen(vehicle.acceleration())),
-             vehicle.model()});
-    }
+    for (const RoadUser& user : users)
+        add(user);
     sort();
 }
 

@@ -4,12 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "walkers/road_users.h"
 #include "world/geometry2d.h"
-#include "world/tick.h"
 
 namespace reprise::walkers {
 
@@ -17,9 +18,8 @@ namespace reprise::walkers {
 /// wait at, and not every driver brakes in time.
 class Threats {
   public:
-    /// Takes in what rolls: SUMO's cars as `next` has them, those with mass as `last` had. `step`:
-    /// [s] between the two.
-    void look(const world::TickView& last, const world::TickDraft& next, double step);
+    /// Takes in those of them that roll.
+    void look(std::span<const RoadUser> users);
 
     /// Where somebody comes who would go to a place close to him: walls and kerbs may be in his
     /// way.
@@ -46,21 +46,11 @@ class Threats {
         world::Box around{};  ///< whoever is outside of it is out of its reach
     };
 
-    struct Rolling {
-        Eigen::Vector2d rear_axle;
-        double yaw = 0;           ///< [rad]
-        double yaw_rate = 0;      ///< [rad/s]
-        double course = 0;        ///< [rad] that the rear axle goes: long cars of traffic crab
-        double speed = 0;         ///< [m/s]
-        double acceleration = 0;  ///< [m/s^2]
-        std::uint16_t model = 0;
-    };
-
     template <typename See>
     void near(const Eigen::Vector2d& p, double reach, See&& see) const;
     double clearance(const Eigen::Vector2d& p) const;
-    void add(const Rolling& car);
-    void add_box(const Rolling& car, double rear, double front);
+    void add(const RoadUser& car);
+    void add_box(const RoadUser& car, double rear, double front);
 
     /// A threat by the western edge of its surroundings.
     struct Key {
@@ -72,7 +62,7 @@ class Threats {
 
     void sort();
 
-    std::vector<Threat> threats_;  ///< SUMO's cars, then those with mass, each by id
+    std::vector<Threat> threats_;  ///< in the order of the road users
     std::vector<Key> keys_;        ///< of them, sorted
     double widest_ = 0;            ///< [m] of their surroundings, from west to east
 };

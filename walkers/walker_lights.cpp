@@ -22,10 +22,10 @@ WalkerLights::WalkerLights(const world::TownT& town) {
             lights_.push_back({i, town.signals[i].lane});
 }
 
-void WalkerLights::look(const world::TickDraft& next) {
+void WalkerLights::look(const world::TickView& last) {
+    const std::span<const world::SignalColor> colors = last.signals();
     for (Light& light : lights_) {
-        const bool green =
-            light.signal < next.tick.signals.size() && is_green(next.tick.signals[light.signal]);
+        const bool green = light.signal < colors.size() && is_green(colors[light.signal]);
         if (light.green && !green)
             light.usual = light.age;
         light.age = green ? (light.green ? light.age + 1 : 1) : 0;

@@ -17,8 +17,8 @@ class WalkerLights {
     /// `town` must outlive this.
     explicit WalkerLights(const world::TownT& town);
 
-    /// `next`: behind its stage of traffic, which has set the signals.
-    void look(const world::TickDraft& next);
+    /// As they were in the last tick; called for tick after tick.
+    void look(const world::TickView& last);
 
     /// Signals of a crossing; none: not lit.
     std::vector<std::uint32_t> of_crossing(std::uint32_t lane) const;

@@ -31,7 +31,7 @@ constexpr int warm_up = 200;  // ticks until queues have formed
 constexpr int measured = 400;
 constexpr double near_distance = 60;  // [m] as far as physics keeps bodies
 
-bench::ThreadTimer* sumo_watch = nullptr;  // while a run is measured
+bench::Timer* sumo_watch = nullptr;  // while a run is measured
 
 }  // namespace
 
@@ -60,7 +60,8 @@ std::map<std::pair<std::int64_t, std::int64_t>, double>& ticks_so_far() {
     return all;
 }
 
-/// The CPU time of the thread: on a busy machine others do not count.
+/// By the clock: where there are two processors, those on foot make their steps while traffic makes
+/// its own. For a machine with nothing else to do.
 void Street(benchmark::State& state) {
     world::Recording recording = bench::free_drive(static_cast<unsigned>(state.range(0)));
     recording.episode.walkers = static_cast<std::uint32_t>(state.range(1));
@@ -70,7 +71,7 @@ void Street(benchmark::State& state) {
     const auto path = std::filesystem::temp_directory_path() /
                       ("reprise_street_bench_" + std::to_string(getpid()) + ".mcap");
     for (auto _ : state) {
-        bench::ThreadTimer whole, sumo, bullet_alone, crowd_alone;
+        bench::Timer whole, sumo, bullet_alone, crowd_alone;
         replay::TraceWriter trace(path, recording);
         kernel::Kernel kernel(recording);
         std::optional<bench::BareBullet> bullet;

@@ -8,6 +8,7 @@
 #include "replay/trace_writer.h"
 #include "tests/kernel/whole_run.h"
 #include "tests/support/foot_traffic.h"
+#include "tests/support/one_processor.h"
 #include "walkers/crowd.h"
 
 namespace reprise::test {
@@ -49,6 +50,17 @@ TEST(CrowdRuns, VerifyFindsNothingInARunOfAHundredWalkers) {
         ASSERT_TRUE(std::ranges::equal(replayed.traffic_bytes, seen.traffic_bytes)) << index;
     }
     std::filesystem::remove(path);
+}
+
+/// Traffic and those on foot make their steps at once where there are two processors.
+TEST(CrowdRuns, OneProcessorMakesTheRunThatSeveralMake) {
+    const auto chain_of = [] {
+        return world::to_hex(
+            run(street_life(60, 10)).back().recorded().view.tick->digests()->chain());
+    };
+    const std::string several = chain_of();
+    const OneProcessor alone;
+    EXPECT_EQ(chain_of(), several);
 }
 
 TEST(CrowdRuns, WhereNobodyWalksTheOtherNumbersChangeNothing) {

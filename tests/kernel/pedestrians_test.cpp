@@ -50,13 +50,13 @@ class Street {
           ground_(ground::build_ground(town_)),
           pedestrians(test::episode(), town_, lanes_, ground_) {}
 
-    const std::vector<world::WalkerState>& step(std::vector<world::CommandT> commands = {}) {
+    const std::vector<world::WalkerState>& step(const std::vector<world::CommandT>& commands = {}) {
         last_.emplace(world::seal(next, {}));
-        world::TickDraft draft;
-        draft.tick.index = next.tick.index + 1;
-        draft.tick.commands = std::move(commands);
-        pedestrians.advance(last_->view(), draft);
-        next = std::move(draft);
+        walkers::OnFoot on_foot = pedestrians.advance(last_->view(), commands);
+        next = {};
+        next.tick.index = on_foot.tick;
+        next.tick.events = std::move(on_foot.events);
+        next.traffic.walkers = std::move(on_foot.walkers);
         return next.traffic.walkers;
     }
 

@@ -53,18 +53,20 @@ class Scene {
 
     const std::vector<world::WalkerState>& step(const std::vector<world::EventT>& happened = {}) {
         next.tick.events.insert(next.tick.events.end(), happened.begin(), happened.end());
+        next.tick.props = props;
         last_.emplace(world::seal(next, {}));
-        world::TickDraft draft;
-        draft.tick.index = next.tick.index + 1;
+        OnFoot on_foot{next.tick.index + 1, {}, {}};
+        crowd_->advance(last_->view(), on_foot);
+        next = {};
+        next.tick.index = on_foot.tick;
+        next.tick.events = std::move(on_foot.events);
+        next.traffic.walkers = std::move(on_foot.walkers);
+        next.traffic.cars = cars;
         for (const world::SignalT& signal : town_.signals) {
-            const std::uint64_t place = (draft.tick.index + signal.index * 350) % 1000;
-            draft.tick.signals.push_back(place < green_ticks ? world::SignalColor::green
-                                                             : world::SignalColor::red);
+            const std::uint64_t place = (next.tick.index + signal.index * 350) % 1000;
+            next.tick.signals.push_back(place < green_ticks ? world::SignalColor::green
+                                                            : world::SignalColor::red);
         }
-        draft.tick.props = props;
-        draft.traffic.cars = cars;
-        crowd_->advance(last_->view(), draft);
-        next = std::move(draft);
         return next.traffic.walkers;
     }
 
@@ -92,7 +94,7 @@ class Scene {
     world::EpisodeT episode = test::episode();
     world::TickDraft next;
     std::vector<world::PropState> props;  ///< that stand there
-    std::vector<world::CarState> cars;    ///< as traffic has them
+    std::vector<world::CarState> cars;    ///< where traffic has them by the end of a step
 };
 
 Eigen::Vector3d place_of(const world::WalkerState& walker) {
@@ -257,7 +259,7 @@ TEST(Crowd, NobodyStandsForMinutes) {
         int tick = 0;
     };
 
-    for (const std::uint64_t seed : {4U, 6U}) {
+    for (const std::uint64_t seed : {2U, 4U, 7U}) {
         Scene scene(100, 0.1, seed);
         std::map<std::uint32_t, Seen> seen;
         int longest = 0;
@@ -487,12 +489,11 @@ TEST(Crowd, SaysHowManyATownHasRoomFor) {
     episode.walkers = 5;
     Crowd crowd(episode, nothing, lanes, ground);
     const world::SealedTick last = test::tick_with({}, {}, {}, 0);
-    world::TickDraft next;
-    next.tick.index = 1;
+    OnFoot next{1, {}, {}};
     crowd.advance(last.view(), next);
-    EXPECT_TRUE(next.traffic.walkers.empty());
-    ASSERT_EQ(next.tick.events.size(), 1U);
-    EXPECT_EQ(next.tick.events[0].text,
+    EXPECT_TRUE(next.walkers.empty());
+    ASSERT_EQ(next.events.size(), 1U);
+    EXPECT_EQ(next.events[0].text,
               "walkers: 5 were asked for, " + nothing.name + " has room for 0");
 }
 

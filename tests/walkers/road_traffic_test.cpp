@@ -24,10 +24,12 @@ class Crossing {
     bool is_free(const std::vector<world::CarState>& cars,
                  Trust trust = Trust::none,
                  bool around_standing = false) {
-        const world::SealedTick last = test::tick_with({});
-        world::TickDraft next;
-        next.traffic.cars = cars;
-        traffic_.look(last.view(), next);
+        world::TickDraft tick;
+        tick.traffic.cars = cars;
+        const world::SealedTick last = world::seal(tick, {});
+        RoadUsers users;
+        users.look(last.view(), 0);
+        traffic_.look(users.all());
         bool free = true;
         for (const Conflict& conflict : conflicts)
             free = free && traffic_.is_free(conflict,

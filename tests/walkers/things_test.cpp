@@ -29,12 +29,15 @@ std::vector<Body> bodies_of(std::uint16_t model, float turned, float speed, doub
     world::TickDraft now;
     put(before, 0, speed, model);
     put(now, turned, speed, model);
-    const world::SealedTick last = world::seal(before, {});
+    RoadUsers users;
+    users.look(world::seal(before, {}).view(), step);
+    const world::SealedTick last = world::seal(now, {});
+    users.look(last.view(), step);
     Neighbours neighbours;
     const Eigen::Vector2d somebody(0, -3);
     Places places;
     places.add(somebody);
-    add_things(last.view(), now, step, places, places, neighbours);
+    add_things(last.view(), users.all(), places, places, neighbours);
     neighbours.sort();
     std::vector<Body> found;
     neighbours.around({somebody, {0, 0}, 0.25, 1}, 30, {.cars = true}, found);
@@ -48,10 +51,12 @@ TEST(Things, TheTailOfABusThatTurnsComesSideways) {
     std::vector<Body> bodies = bodies_of(bus, turned, 5, step);
     ASSERT_GT(bodies.size(), 4U);
     for (const Body& body : bodies) {
-        // Turning left, what is behind the axle goes to the right.
-        const double rate = static_cast<double>(turned) / step;
+        // Turning left, what is behind the axle goes to the right; a tick later it has turned
+        // twice.
+        const double once = turned;
+        const double axle = 5 * step * std::cos(once);
         EXPECT_NEAR(body.velocity.y(),
-                    5 * std::sin(static_cast<double>(turned)) + rate * body.place.x(),
+                    5 * std::sin(2 * once) + once / step * (body.place.x() - axle),
                     1e-6);
     }
     const auto tail =

@@ -26,10 +26,14 @@ void put(world::TickDraft& tick,
                                    static_cast<float>(acceleration));
 }
 
-Threats threats_of(world::TickDraft before, const world::TickDraft& now) {
-    const world::SealedTick last = world::seal(before, {});
+Threats threats_of(world::TickDraft before, world::TickDraft now) {
+    RoadUsers users;
+    for (world::TickDraft* tick : {&before, &now}) {
+        const world::SealedTick sealed = world::seal(*tick, {});
+        users.look(sealed.view(), 0.05);
+    }
     Threats threats;
-    threats.look(last.view(), now, 0.05);
+    threats.look(users.all());
     return threats;
 }
 

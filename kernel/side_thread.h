@@ -1,0 +1,40 @@
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <thread>
+
+namespace reprise::kernel {
+
+/// A second thread, for work that needs nothing of what the first one does meanwhile. What comes
+/// out is the same with and without it: it decides when something is done, never what.
+class SideThread {
+  public:
+    SideThread() = default;
+    ~SideThread();
+    SideThread(const SideThread&) = delete;
+    SideThread& operator=(const SideThread&) = delete;
+
+    /// Does `here` in this thread and `there` in the other one, or behind `here` in this one as
+    /// well: where there is one processor only, no more threads are to be had, or the other one has
+    /// not begun by then. Returns when both are done; throws what `here` threw, then what `there`
+    /// did. 10 us more than the longer of the two.
+    void both(const std::function<void()>& here, const std::function<void()>& there);
+
+  private:
+    enum class State : int { idle, offered, taken, done, leaving };
+
+    void start();
+    void run();
+    void work() noexcept;
+    void tell(State state);
+
+    std::atomic<State> state_ = State::idle;
+    const std::function<void()>* there_ = nullptr;
+    std::exception_ptr error_;
+    std::thread thread_;
+    bool tried_ = false;  ///< to start it
+};
+
+}  // namespace reprise::kernel
