@@ -33,6 +33,9 @@ Clouds::Clouds(const world::Weather& weather)
     : share_(weather.cloud_cover()),
       // Full sun and a third of it, under half a cover; under a closed one there are no shadows.
       contrast_(3 * share_ * (1 - share_)),
+      // The quantiles of the noise, roughly: half the cover at 0.5.
+      // A closed cover has no gaps left.
+      level_(mix(0.70F, 0.26F, share_) - 0.35F * smooth_step(0.75F, 1, share_)),
       offset_(Vector2f::Zero()),
       eye_(Vector2f::Zero()),
       corner_(Vector2f::Zero()) {
@@ -44,11 +47,8 @@ Clouds::Clouds(const world::Weather& weather)
 
 float Clouds::density(float x, float y) const {
     const float bend = fractal_noise(x * 0.7F + 9, y * 0.7F, 2, 40);
-    // The quantiles of the noise, roughly: half the cover at 0.5.
-    // A closed cover has no gaps left.
-    const float level = mix(0.70F, 0.26F, share_) - 0.35F * smooth_step(0.75F, 1, share_);
-    const float noise = fractal_noise_over(level, x + 1.1F * bend, y - 0.8F * bend, 5, 50);
-    return smooth_step(level, level + 0.22F, noise);
+    const float noise = fractal_noise_over(level_, x + 1.1F * bend, y - 0.8F * bend, 5, 50);
+    return smooth_step(level_, level_ + 0.22F, noise);
 }
 
 void Clouds::look_from(const Vector3f& eye, const Vector3f& to_sun, std::uint64_t tick) {

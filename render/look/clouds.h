@@ -31,6 +31,7 @@ class Clouds {
 
     float share_;             // of the sky
     float contrast_;          // between sun and shadow
+    float level_;             // of the noise, above which a cloud begins
     Eigen::Vector2f speed_;   // [layer units/s]
     Eigen::Vector2f offset_;  // of the eye over the pattern [layer units]
     Eigen::Vector2f eye_;

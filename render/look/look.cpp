@@ -5,6 +5,7 @@
 #include "render/look/lamp_colors.h"
 #include "render/shapes/noise.h"
 #include "render/shapes/street/thing_mesh.h"
+#include "render/trace/prefetch.h"
 
 namespace reprise::render {
 
@@ -143,6 +144,25 @@ void Surfaces::take_facet(const Hit& hit) {
     if (instance.moved)
         facet_.normal = instance.normal_to_scene * facet_.local_normal;
     facet_.normal.normalize();
+}
+
+void Surfaces::expect(const Hit& hit) const {
+    if (hit.instance == no_instance || hit.triangle == facet_.triangle)
+        return;
+    const Mesh& mesh = scene_.instance(hit.instance).prototype->mesh;
+    prefetch(&mesh.triangles[hit.triangle]);
+    prefetch(&mesh.materials[hit.triangle]);
+    prefetch(&mesh.tags[hit.triangle]);
+    if (!mesh.normals.empty())
+        prefetch(&mesh.normals[hit.triangle]);
+}
+
+void Surfaces::expect_corners(const Hit& hit) const {
+    if (hit.instance == no_instance || hit.triangle == facet_.triangle)
+        return;
+    const Mesh& mesh = scene_.instance(hit.instance).prototype->mesh;
+    for (const std::uint32_t corner : mesh.triangles[hit.triangle])
+        prefetch(&mesh.vertices[corner]);
 }
 
 Surface Surfaces::at(const Hit& hit, const Vector3f& direction) {

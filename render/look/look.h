@@ -58,6 +58,11 @@ class Surfaces {
 
     Surface at(const Hit& hit, const Eigen::Vector3f& direction);
 
+    /// Asks for what at() will read of a hit's triangle: first for its numbers, then for its
+    /// corners. Triangles lie in memory in no order that rays meet.
+    void expect(const Hit& hit) const;
+    void expect_corners(const Hit& hit) const;
+
   private:
     void take_facet(const Hit& hit);
 

@@ -16,7 +16,7 @@ struct Sample {
 };
 
 /// What the filter between neighbouring pixels looks at, beside which triangle was hit: 64 bytes.
-struct RawLight {
+struct alignas(64) RawLight {
     Eigen::Vector3f position;  ///< scene
     float tolerance = 0;       ///< [m] off the plane that still counts as the same surface
     Eigen::Vector3f flat;      ///< the triangle's normal

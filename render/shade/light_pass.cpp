@@ -98,7 +98,11 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
             prefetch(&job.frame.lights[next]);
             prefetch(&job.frame.samples[next].look);
             prefetch(&job.frame.samples[next].light);
-            prefetch(&job.hits[next]);
+            surfaces.expect(job.hits[next]);
+        });
+        job.look_ahead(corner, i + 2 * block, [&](std::size_t next) { prefetch(&job.hits[next]); });
+        job.look_ahead(corner, i + block / 2, [&](std::size_t next) {
+            surfaces.expect_corners(job.hits[next]);
         });
         const std::size_t index = job.frame.index(pixel.x(), pixel.y());
         RawLight& raw = job.frame.lights[index];

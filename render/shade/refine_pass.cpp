@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 
+#include <xmmintrin.h>
+
 #include "render/shade/shading_job.h"
 
 namespace reprise::render {
@@ -26,14 +28,19 @@ bool is_edge(const ShadingJob& job, int x, int y) {
                                            x + 1 < frame.width ? index + 1 : index,
                                            y > 0 ? index - row : index,
                                            y + 1 < frame.height ? index + row : index};
-    for (const std::size_t next : sides) {
-        const float step = std::abs(frame.tones[next] - tone);
-        const bool same = own == job.hits[next].instance;
-        if (step > (same ? 2 * even : even))
+    const __m128 around = _mm_setr_ps(
+        frame.tones[sides[0]], frame.tones[sides[1]], frame.tones[sides[2]], frame.tones[sides[3]]);
+    const __m128 steps = _mm_andnot_ps(_mm_set1_ps(-0.0F), around - _mm_set1_ps(tone));
+    const auto above = [&](float step) {
+        return _mm_movemask_ps(_mm_cmpgt_ps(steps, _mm_set1_ps(step)));
+    };
+    if (above(2 * even) != 0)
+        return true;
+    // Smaller steps only count where another thing begins: before the sky they are its own.
+    const int steep = above(own != no_instance ? 0.01F : even);
+    for (unsigned side = 0; side < 4 && steep != 0; ++side)
+        if ((steep >> side & 1) != 0 && own != job.hits[sides[side]].instance)
             return true;
-        if (step > 0.01F && own != no_instance && !same)
-            return true;
-    }
     return false;
 }
 
@@ -160,8 +167,17 @@ void add_pair(ShadingJob& job, std::size_t first, std::vector<Refined>& pixels) 
     const std::span<const Ray> primary = batch.rays();
     trace_nearest(job.input.scene, primary, true, std::span(rays.hits).first(primary.size()));
     Surfaces surfaces(job.input.scene, job.eye, job.pixel * 0.6F);
+    constexpr std::size_t soon = 3;
     for (std::size_t i = 0; i < primary.size(); ++i) {
         SubpixelSample& sample = samples[i];
+        if (i + 2 * soon < primary.size())
+            surfaces.expect(rays.hits[i + 2 * soon]);
+        if (i + soon < primary.size()) {
+            surfaces.expect_corners(rays.hits[i + soon]);
+            const std::size_t next = pixels[batch.owner(i + soon)].index;
+            prefetch(&frame.lights[next]);
+            prefetch(&frame.samples[next].light.sun_visibility);
+        }
         sample.hit = rays.hits[i];
         if (sample.hit.instance == no_instance)
             continue;

@@ -16,6 +16,8 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
+constexpr int strip_width = 8;  // [tiles]
+
 /// Roberts' R2 sequence: evenly spread points of the unit square.
 Vector2f spread(int i) {
     const auto n = static_cast<float>(i) + 0.5F;
@@ -50,7 +52,12 @@ void for_tiles(const Camera& camera,
     const int rows = (camera.height() + tile - 1) / tile;
     tbb::parallel_for(0, columns * rows, [&](int index) {
         const DefaultFloatMode plain;
-        work({index % columns * tile, index / columns * tile});
+        // Down one strip after the other: what a tile's next stages need of those above it is still
+        // in the second cache, where two whole rows are not.
+        const int strip = index / (strip_width * rows);
+        const int inside = index - strip * strip_width * rows;
+        const int wide = std::min(strip_width, columns - strip * strip_width);
+        work({(strip * strip_width + inside % wide) * tile, inside / wide * tile});
     });
 }
 

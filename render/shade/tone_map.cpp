@@ -60,12 +60,19 @@ std::vector<std::uint8_t> tone_map(const Frame& frame, std::uint64_t tick) {
             const auto grain = static_cast<float>(world::draw(
                 0, tick, world::Purpose::camera_noise, static_cast<std::uint64_t>(index)));
             const Color light = film(frame.colors[index].max(0.0F));
-            const Color entries = Color(_mm_sqrt_ps(light.lanes())) * (table_size - 1) + 0.5F;
-            for (int channel = 0; channel < 3; ++channel) {
-                const float value = srgb.values[static_cast<std::size_t>(entries[channel])] + grain;
-                bytes[3 * index + static_cast<std::size_t>(channel)] =
-                    static_cast<std::uint8_t>(std::min(255.0F, value));
-            }
+            const Color roots = Color(_mm_sqrt_ps(light.lanes())) * (table_size - 1) + 0.5F;
+            alignas(16) std::array<std::uint32_t, 4> entries;
+            _mm_store_si128(reinterpret_cast<__m128i*>(entries.data()),
+                            _mm_cvttps_epi32(roots.lanes()));
+            const Color values =
+                (Color(srgb.values[entries[0]], srgb.values[entries[1]], srgb.values[entries[2]]) +
+                 grain)
+                    .min(255.0F);
+            alignas(16) std::array<std::uint32_t, 4> whole;
+            _mm_store_si128(reinterpret_cast<__m128i*>(whole.data()),
+                            _mm_cvttps_epi32(values.lanes()));
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                bytes[3 * index + channel] = static_cast<std::uint8_t>(whole[channel]);
         }
     });
     return bytes;

@@ -60,7 +60,8 @@ inline __m128 noise_corners(std::uint64_t place, std::uint32_t salt) {
 
 /// Smooth noise in [0, 1] with features of size 1, at `count` places; the others may be anywhere.
 /// Each has a texture of its own: salt, salt + 1, ...
-inline std::array<float, 4> value_noises(__m128 x, __m128 y, std::uint32_t salt, int count) {
+template <int count>
+std::array<float, 4> value_noises(__m128 x, __m128 y, std::uint32_t salt) {
     const __m128i column = floor_int(x);
     const __m128i row = floor_int(y);
     alignas(16) std::array<std::uint64_t, 4> squares;
@@ -124,16 +125,15 @@ inline float fractal_noise_over(
     return sum + weight;
 }
 
-/// Likewise of at most four octaves, all at once: the same number.
-inline float fractal_noise(float x, float y, int octaves, std::uint32_t salt = 0) {
+template <int octaves>
+float octaves_at_once(float x, float y, std::uint32_t salt) {
     const Eigen::Vector2f second = next_octave(x, y);
     const Eigen::Vector2f third = next_octave(second.x(), second.y());
     const Eigen::Vector2f fourth = next_octave(third.x(), third.y());
     const std::array<float, 4> noises =
-        value_noises(_mm_setr_ps(x, second.x(), third.x(), fourth.x()),
-                     _mm_setr_ps(y, second.y(), third.y(), fourth.y()),
-                     salt,
-                     octaves);
+        value_noises<octaves>(_mm_setr_ps(x, second.x(), third.x(), fourth.x()),
+                              _mm_setr_ps(y, second.y(), third.y(), fourth.y()),
+                              salt);
     float sum = 0;
     float weight = 0.5F;
     for (int octave = 0; octave < octaves; ++octave) {
@@ -143,6 +143,23 @@ inline float fractal_noise(float x, float y, int octaves, std::uint32_t salt = 0
     return sum + weight;
 }
 
+/// fractal_noise_over without a level, of at most four octaves all at once: the same number.
+[[gnu::always_inline]] inline float fractal_noise(float x,
+                                                  float y,
+                                                  int octaves,
+                                                  std::uint32_t salt = 0) {
+    switch (octaves) {
+        case 1:
+            return octaves_at_once<1>(x, y, salt);
+        case 2:
+            return octaves_at_once<2>(x, y, salt);
+        case 3:
+            return octaves_at_once<3>(x, y, salt);
+        default:
+            return octaves_at_once<4>(x, y, salt);
+    }
+}
+
 /// fractal_noise of two octaves at a place times `coarse` with `salt`, and at it times `fine` with
 /// the second salt after that.
 inline std::array<float, 2> two_fractal_noises(
@@ -150,10 +167,9 @@ inline std::array<float, 2> two_fractal_noises(
     const Eigen::Vector2f second = next_octave(x * coarse, y * coarse);
     const Eigen::Vector2f fourth = next_octave(x * fine, y * fine);
     const std::array<float, 4> noises =
-        value_noises(_mm_setr_ps(x * coarse, second.x(), x * fine, fourth.x()),
-                     _mm_setr_ps(y * coarse, second.y(), y * fine, fourth.y()),
-                     salt,
-                     4);
+        value_noises<4>(_mm_setr_ps(x * coarse, second.x(), x * fine, fourth.x()),
+                        _mm_setr_ps(y * coarse, second.y(), y * fine, fourth.y()),
+                        salt);
     return {0.5F * noises[0] + 0.25F * noises[1] + 0.125F,
             0.5F * noises[2] + 0.25F * noises[3] + 0.125F};
 }
