@@ -38,6 +38,34 @@ float air_mass(float sine) {
     return 1 / (std::max(sine, 0.0F) + 0.50572F / (base * std::sqrt(base) * 1.18F));
 }
 
+/// Where a direction lies in a table, between four of its entries.
+struct TableSpot {
+    explicit TableSpot(const Vector3f& direction) {
+        const Vector3f up(direction.x(), direction.y(), std::max(direction.z(), 0.0F));
+        const float sum = std::abs(up.x()) + std::abs(up.y()) + up.z();
+        const float u = up.x() / std::max(sum, 1e-6F);
+        const float v = up.y() / std::max(sum, 1e-6F);
+        constexpr float scale = 0.5F * (table_size - 1);
+        const float x = std::min(std::max((u + v + 1) * scale, 0.0F), table_size - 1.001F);
+        const float y = std::min(std::max((u - v + 1) * scale, 0.0F), table_size - 1.001F);
+        const int column = static_cast<int>(x);
+        const int row = static_cast<int>(y);
+        across = x - static_cast<float>(column);
+        along = y - static_cast<float>(row);
+        first = static_cast<std::size_t>(row * table_size + column);
+    }
+
+    Color of(const std::vector<Color>& table) const {
+        const Color* at = &table[first];
+        return (at[0] * (1 - across) + at[1] * across) * (1 - along) +
+               (at[table_size] * (1 - across) + at[table_size + 1] * across) * along;
+    }
+
+    std::size_t first;
+    float across;
+    float along;
+};
+
 /// The lowest sun that gives single scattering its shape; below, only its strength falls. [rad]
 constexpr float lowest_glow = -0.11F;
 
@@ -216,12 +244,8 @@ Color Sky::cloud_radiance(const Vector3f& direction) const {
     return tint * (light * overcast_ * dome * 9 / (7 * pi) * 1.15F) + glow;
 }
 
-Color Sky::radiance(const Vector3f& direction, bool detailed) const {
-    const Color plain = stored(direction);
-    if (!detailed || direction.z() < 0)
-        return plain;
-    const float cover = clouds_.cover(direction);
-    const Color clear = look_up(clear_table_, direction);
+/// A cloud that hides as much, before a clear sky.
+Color Sky::cloud_body(const Vector3f& direction, const Color& clear, float cover) const {
     Color cloud = cloud_radiance(direction);
     if (is_night_)
         cloud += 1.7F * night_glow(direction, moon_, weather_.cloud_cover(), lamplight_);
@@ -229,40 +253,38 @@ Color Sky::radiance(const Vector3f& direction, bool detailed) const {
     // Thin clouds shine white in the sun, thick ones are grey below.
     const float thickness = smooth_step(0.2F, 1.0F, cover);
     const Color white = clear * 0.5F + light * 0.55F * Color(1, 0.985F, 0.965F) * sun_tint_;
-    const Color body = mix(white,
-                           Color(cloud * mix(1.25F, 0.72F, thickness)),
-                           std::max(thickness * 0.6F, weather_.cloud_cover()));
-    Color seen = mix(clear, body, cover * 0.94F);
+    return mix(white,
+               Color(cloud * mix(1.25F, 0.72F, thickness)),
+               std::max(thickness * 0.6F, weather_.cloud_cover()));
+}
+
+Color Sky::radiance(const Vector3f& direction, bool detailed) const {
+    const TableSpot spot(direction);
+    const Color plain = spot.of(table_);
+    if (!detailed || direction.z() < 0)
+        return plain;
+    const float cover = clouds_.cover(direction);
+    Color seen = spot.of(clear_table_);
+    if (cover > 0)
+        seen = mix(seen, cloud_body(direction, seen, cover), cover * 0.94F);
     // Far clouds drown in the haze.
     seen = mix(seen, plain, smooth_step(0.16F, 0.01F, direction.z()));
     seen = mix(plain, seen, veil_.passes_upwards(direction.z()));
-    const float cosine = direction.dot(to_sun_);
-    const float disc = smooth_step(0.999965F, 0.99998F, cosine);
-    const float moon = smooth_step(0.999985F, 0.999991F, direction.dot(moon_.to_moon)) *
+    constexpr float sun_edge = 0.999965F;
+    constexpr float moon_edge = 0.999985F;
+    const float at_sun = direction.dot(to_sun_);
+    const float at_moon = direction.dot(moon_.to_moon);
+    if (at_sun <= sun_edge && at_moon <= moon_edge)
+        return seen;
+    const float disc = smooth_step(sun_edge, 0.99998F, at_sun);
+    const float moon = smooth_step(moon_edge, 0.999991F, at_moon) *
                        smooth_step(0, 0.03F, moon_.to_moon.z()) * moon_.through_clouds *
                        lamp(2500, 1.6F);
     return seen + (sun_ * disc * 400 + Color(moon, moon, 0.94F * moon)) * (1 - cover);
 }
 
 Color Sky::stored(const Vector3f& direction) const {
-    return look_up(table_, direction);
-}
-
-Color Sky::look_up(const std::vector<Color>& table, const Vector3f& direction) {
-    const Vector3f up(direction.x(), direction.y(), std::max(direction.z(), 0.0F));
-    const float sum = std::abs(up.x()) + std::abs(up.y()) + up.z();
-    const float u = up.x() / std::max(sum, 1e-6F);
-    const float v = up.y() / std::max(sum, 1e-6F);
-    constexpr float scale = 0.5F * (table_size - 1);
-    const float x = std::min(std::max((u + v + 1) * scale, 0.0F), table_size - 1.001F);
-    const float y = std::min(std::max((u - v + 1) * scale, 0.0F), table_size - 1.001F);
-    const int column = static_cast<int>(x);
-    const int row = static_cast<int>(y);
-    const float fx = x - static_cast<float>(column);
-    const float fy = y - static_cast<float>(row);
-    const Color* at = &table[static_cast<std::size_t>(row * table_size + column)];
-    return (at[0] * (1 - fx) + at[1] * fx) * (1 - fy) +
-           (at[table_size] * (1 - fx) + at[table_size + 1] * fx) * fy;
+    return TableSpot(direction).of(table_);
 }
 
 void Sky::fill_table() {
@@ -315,7 +337,7 @@ float Sky::dome_illuminance(const std::vector<Color>& table) {
         const float z = (static_cast<float>(i / columns) + 0.5F) / rows;
         const double altitude = std::asin(static_cast<double>(z));
         const Vector3f way = towards(2 * std::numbers::pi * (i % columns) / columns, altitude);
-        sum += luminance(look_up(table, way)) * (z * 2 * pi / (rows * columns));
+        sum += luminance(TableSpot(way).of(table)) * (z * 2 * pi / (rows * columns));
     }
     return sum;
 }

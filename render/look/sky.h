@@ -74,8 +74,8 @@ class Sky {
   private:
     Color clear_radiance(const Eigen::Vector3f& direction) const;
     Color cloud_radiance(const Eigen::Vector3f& direction) const;
+    Color cloud_body(const Eigen::Vector3f& direction, const Color& clear, float cover) const;
     Color stored(const Eigen::Vector3f& direction) const;
-    static Color look_up(const std::vector<Color>& table, const Eigen::Vector3f& direction);
     void fill_table();
     void add_fog();
     void darken_twilight();

@@ -29,7 +29,7 @@ Veil::Veil(const world::Weather& weather)
 
 float Veil::passes(float from, float rise, float distance) const {
     float fog = fog_ * distance;
-    if (falloff_ > 0) {
+    if (falloff_ > 0 && fog_ > 0) {
         // Below its base the fog is even; above, the integral of e^(-k h) has a closed form.
         const float start = from - ground_;
         const float end = start + rise * distance;
