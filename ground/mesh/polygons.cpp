@@ -62,8 +62,11 @@ Wide doubled_area(const bp::polygon_set_data<int>& clean) {
         return 0;
     const GridPoint origin = clean.begin()->first.first;
     Wide sum = 0;
-    for (const auto& [edge, direction] : clean)
-        sum += direction * cross(origin, edge.first, edge.second);
+    for (const auto& [edge, direction] : clean) {
+        // Edges lie from left to right, and upright ones are said the other way round.
+        const bool upright = edge.first.x() == edge.second.x();
+        sum += (upright ? -direction : direction) * cross(origin, edge.first, edge.second);
+    }
     return sum < 0 ? -sum : sum;
 }
 
@@ -164,7 +167,9 @@ void Area::shrink(double width) {
 }
 
 double Area::size() const {
-    return static_cast<double>(bp::area(set_->polygons)) / (units_per_metre * units_per_metre);
+    set_->polygons.clean();
+    return static_cast<double>(doubled_area(set_->polygons)) /
+           (2 * units_per_metre * units_per_metre);
 }
 
 std::vector<world::Loop> Area::pieces() const {

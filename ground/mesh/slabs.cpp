@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ground/mesh/polygons.h"
 #include "ground/mesh/ribbon.h"
@@ -31,11 +32,11 @@ constexpr double kerb_depth = 0.3;   ///< [m] of the kerb faces below the road: 
 
 struct Slab {
     std::vector<world::Loop> loops;
-    std::vector<world::Box>
-        boxes;             ///< of the loops, or of their parts: for looking up what is near
-    Ribbon ribbon;         ///< sidewalks only
-    SurfaceHeight height;  ///< of the road beside it
-    Area top;              ///< what is left of it
+    std::vector<world::Loop> parts;  ///< the loops, or what they are put together from
+    std::vector<world::Box> boxes;   ///< of each part: for looking up what is near
+    Ribbon ribbon;                   ///< sidewalks only
+    SurfaceHeight height;            ///< of the road beside it
+    Area top;                        ///< what is left of it
     bool is_cut = false;
 };
 
@@ -44,18 +45,37 @@ bool overlap(const world::Box& one, const world::Box& other) {
            (other.low.array() < one.high.array()).all();
 }
 
+/// Does a line along one of its sides keep all of a loop from all of the other, with room for the
+/// rounding of both?
+bool is_apart_along(const world::Loop& loop, const world::Loop& other) {
+    constexpr double room = 0.005;  // [m]
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Eigen::Vector2d along = loop[(i + 1) % loop.size()] - loop[i];
+        const Eigen::Vector2d across = Eigen::Vector2d(along.y(), -along.x()).normalized();
+        const auto reach = [&](const world::Loop& of, double sign) {
+            double most = -std::numeric_limits<double>::infinity();
+            for (const Eigen::Vector2d& p : of)
+                most = std::max(most, sign * across.dot(p));
+            return most;
+        };
+        if (reach(loop, 1) + room < -reach(other, -1) || reach(other, 1) + room < -reach(loop, -1))
+            return true;
+    }
+    return false;
+}
+
 Slab make_slab(const world::LaneT& lane) {
     Slab slab;
     if (lane.kind == world::LaneKind::walking_area) {
         slab.loops.push_back(world::in_plan(lane.outline));
-        slab.boxes.push_back(world::box_around(slab.loops[0]));
+        slab.parts = slab.loops;
         slab.height = SurfaceHeight({lane.outline});
         return slab;
     }
     slab.ribbon = make_ribbon(clean_line(lane.centre), -lane.width / 2, lane.width / 2);
     slab.loops = slab.ribbon.loops();
     for (const auto& piece : slab.ribbon.pieces)
-        slab.boxes.push_back(world::box_around(world::in_plan(piece)));
+        slab.parts.push_back(world::in_plan(piece));
     slab.height = SurfaceHeight::along(clean_line(lane.centre));
     return slab;
 }
@@ -92,6 +112,9 @@ Slabs::Slabs(const world::TownT& town)
         if (lane.kind == world::LaneKind::sidewalk || is_area)
             slabs_.push_back(make_slab(lane));
     }
+    for (Slab& slab : slabs_)
+        for (const world::Loop& part : slab.parts)
+            slab.boxes.push_back(world::box_around(part));
     std::vector<world::BoxGrid::Entry> entries;
     for (std::uint32_t i = 0; i < cutters_.size(); ++i)
         entries.push_back({cutters_[i].box, i});
@@ -125,9 +148,12 @@ void Slabs::cut(Slab& slab) const {
     for (const world::Loop& loop : slab.loops)
         slab.top.add(loop);
     std::vector<const SlabCutter*> cutters;
-    for (const world::Box& box : slab.boxes)
-        for (const SlabCutter* cutter : cutters_near(box, slab.height))
-            cutters.push_back(cutter);
+    for (std::size_t i = 0; i < slab.boxes.size(); ++i)
+        for (const SlabCutter* cutter : cutters_near(slab.boxes[i], slab.height))
+            // Many boxes overlap of what is far apart, and each cutter costs.
+            if (!is_apart_along(slab.parts[i], cutter->loop) &&
+                !is_apart_along(cutter->loop, slab.parts[i]))
+                cutters.push_back(cutter);
     if (cutters.empty())
         return;
     // All of them are elements of one vector.

@@ -115,8 +115,10 @@ const Prototype* TownScene::add_prototype(Mesh mesh) {
 
 Prototype TownScene::make_prototype(Mesh mesh) const {
     Prototype prototype{std::move(mesh), nullptr, nullptr};
+    double squared = 0;
     for (const Eigen::Vector3f& vertex : prototype.mesh.vertices)
-        prototype.radius = std::max(prototype.radius, vertex.cast<double>().norm());
+        squared = std::max(squared, vertex.cast<double>().squaredNorm());
+    prototype.radius = std::sqrt(squared);
     if (!device_) {
         prototype.plain_tree = std::make_unique<MeshTree>(prototype.mesh);
         return prototype;

@@ -8,10 +8,10 @@ namespace reprise::render {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-void Builder::box(const Vector3f& low, const Vector3f& high, Finish finish) {
+void Builder::box(const Vector3f& low, const Vector3f& high, Finish finish, unsigned without) {
     Eigen::Isometry3f middle = pose_;
     middle.translation() = pose_ * Vector3f(0.5F * (low + high));
-    add_box(mesh_, middle, 0.5F * (high - low), finish);
+    add_box(mesh_, middle, 0.5F * (high - low), finish, without);
 }
 
 void Builder::quad(const std::array<Vector3f, 4>& corners, Finish finish) {

@@ -16,7 +16,10 @@ class Builder {
     /// One that adds to the same mesh in another frame.
     Builder in(const Eigen::Isometry3f& pose) const { return {mesh_, pose}; }
 
-    void box(const Eigen::Vector3f& low, const Eigen::Vector3f& high, Finish finish);
+    void box(const Eigen::Vector3f& low,
+             const Eigen::Vector3f& high,
+             Finish finish,
+             unsigned without = 0);
 
     /// Corners counter-clockwise seen from outside.
     void quad(const std::array<Eigen::Vector3f, 4>& corners, Finish finish);

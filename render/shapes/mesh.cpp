@@ -1,6 +1,7 @@
 #include "render/shapes/mesh.h"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "world/check.h"
@@ -16,17 +17,27 @@ Vector3f area_normal(const Mesh& mesh, const std::array<std::uint32_t, 3>& trian
     return (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a);
 }
 
+/// Corners of the unit circle: a town has a thousand circles of a dozen numbers of corners.
+const std::vector<Eigen::Vector2f>& unit_circle(int sides) {
+    thread_local std::map<int, std::vector<Eigen::Vector2f>> circles;
+    std::vector<Eigen::Vector2f>& corners = circles[sides];
+    for (int i = static_cast<int>(corners.size()); i < sides; ++i) {
+        const double angle = 2 * std::numbers::pi * i / sides;
+        corners.emplace_back(static_cast<float>(std::cos(angle)),
+                             static_cast<float>(std::sin(angle)));
+    }
+    return corners;
+}
+
 /// Points on a circle around `centre` spanned by two radii.
 std::vector<Vector3f> circle(const Vector3f& centre,
                              const Vector3f& u,
                              const Vector3f& v,
                              int sides) {
     std::vector<Vector3f> points;
-    for (int i = 0; i < sides; ++i) {
-        const double angle = 2 * std::numbers::pi * i / sides;
-        points.emplace_back(centre + static_cast<float>(std::cos(angle)) * u +
-                            static_cast<float>(std::sin(angle)) * v);
-    }
+    points.reserve(static_cast<std::size_t>(sides));
+    for (const Eigen::Vector2f& corner : unit_circle(sides))
+        points.emplace_back(centre + corner.x() * u + corner.y() * v);
     return points;
 }
 
@@ -51,9 +62,15 @@ void add_quad(Mesh& mesh, const std::array<Vector3f, 4>& corners, Finish finish)
     add_triangle(mesh, first, first + 2, first + 3, finish);
 }
 
-void add_box(Mesh& mesh, const Eigen::Isometry3f& pose, const Vector3f& half, Finish finish) {
+void add_box(Mesh& mesh,
+             const Eigen::Isometry3f& pose,
+             const Vector3f& half,
+             Finish finish,
+             unsigned without) {
     for (int axis = 0; axis < 3; ++axis) {
         for (const float side : {-1.0F, 1.0F}) {
+            if ((without >> (2 * axis + (side > 0 ? 1 : 0)) & 1U) != 0)
+                continue;
             Vector3f out = Vector3f::Zero();
             Vector3f u = Vector3f::Zero();
             Vector3f v = Vector3f::Zero();
@@ -145,12 +162,15 @@ void smooth(Mesh& mesh, double crease) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const std::uint32_t vertex = mesh.triangles[i][corner];
             Vector3f sum = normals[i];
+            bool alone = true;
             for (std::uint32_t k = begin[vertex]; k < begin[vertex + 1]; ++k) {
                 const std::uint32_t other = around[k];
-                if (other != i && units[other].dot(units[i]) > least_cosine)
+                if (other != i && units[other].dot(units[i]) > least_cosine) {
                     sum += normals[other];
+                    alone = false;
+                }
             }
-            mesh.normals[i][corner] = sum.normalized();
+            mesh.normals[i][corner] = alone ? units[i] : sum.normalized();
         }
 }
 

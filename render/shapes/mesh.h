@@ -31,8 +31,20 @@ void add_triangle(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
 /// Corners counter-clockwise seen from outside.
 void add_quad(Mesh& mesh, const std::array<Eigen::Vector3f, 4>& corners, Finish finish);
 
-/// A box around the pose's origin with these half sizes.
-void add_box(Mesh& mesh, const Eigen::Isometry3f& pose, const Eigen::Vector3f& half, Finish finish);
+/// Sides of a box, to be joined: those that lie in a wall or on another box are best left out, as
+/// each is two triangles that no ray meets.
+namespace box_side {
+
+inline constexpr unsigned low_x = 1, high_x = 2, low_y = 4, high_y = 8, low_z = 16, high_z = 32;
+
+}  // namespace box_side
+
+/// A box around the pose's origin with these half sizes, but for its sides `without`.
+void add_box(Mesh& mesh,
+             const Eigen::Isometry3f& pose,
+             const Eigen::Vector3f& half,
+             Finish finish,
+             unsigned without = 0);
 
 /// A cone stump with closed ends.
 struct Tube {

@@ -36,7 +36,8 @@ void add_sills(const BuildingSite& site, const Wall& wall) {
                 continue;
             build.box({opening.left - .09F, -.10F, opening.low - .08F},
                       {opening.right + .09F, .02F, opening.low},
-                      site.finish(BuildingFinish::trim));
+                      site.finish(BuildingFinish::trim),
+                      box_side::high_y);
         }
     }
 }

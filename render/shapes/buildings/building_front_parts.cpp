@@ -20,13 +20,19 @@ enum class Railing : std::uint8_t { panel, glass, bars };
 /// A slab with a railing on three sides, standing out of the wall at y.
 void add_balcony(BuildingSite& site, float left, float right, float y, float z, Railing railing) {
     const float out = y - 1.15F;
-    site.build.box(
-        {left, out, z - .16F}, {right, y + .02F, z + .02F}, site.finish(BuildingFinish::trim));
+    site.build.box({left, out, z - .16F},
+                   {right, y + .02F, z + .02F},
+                   site.finish(BuildingFinish::trim),
+                   box_side::high_y);
     const Finish metal = site.finish(BuildingFinish::metal);
     const auto fence = [&](float low, float high, float thickness, Finish finish) {
         site.build.box({left, out, z + low}, {right, out + thickness, z + high}, finish);
-        site.build.box({left, out + thickness, z + low}, {left + thickness, y, z + high}, finish);
-        site.build.box({right - thickness, out + thickness, z + low}, {right, y, z + high}, finish);
+        // Between the front and the wall.
+        constexpr unsigned ends = box_side::low_y | box_side::high_y;
+        site.build.box(
+            {left, out + thickness, z + low}, {left + thickness, y, z + high}, finish, ends);
+        site.build.box(
+            {right - thickness, out + thickness, z + low}, {right, y, z + high}, finish, ends);
     };
     switch (railing) {
         case Railing::panel:
@@ -140,7 +146,7 @@ void add_shop(BuildingSite& site, float y) {
     for (int i = 0; i < shops; ++i) {
         const float left = -x + width * static_cast<float>(i) + .12F;
         const float right = left + width - .24F;
-        site.build.box({left, y - .10F, low}, {right, y + .02F, high}, trim);
+        site.build.box({left, y - .10F, low}, {right, y + .02F, high}, trim, box_side::high_y);
         site.wall({left + .03F, y - .115F, low + .03F},
                   {right - .03F, y - .115F, low + .03F},
                   high - .03F,
@@ -175,16 +181,25 @@ void add_fire_escape(BuildingSite& site) {
     const float out = y - 1.1F;
     for (int level = 1; level <= plan.floors; ++level) {
         const float z = plan.floor(level) + .1F;
-        site.build.box({left, out, z - .07F}, {right, y, z}, metal);
+        site.build.box({left, out, z - .07F}, {right, y, z}, metal, box_side::high_y);
         for (const float at : {.35F, .68F, 1.0F}) {
             site.build.box({left, out, z + at - .02F}, {right, out + .035F, z + at + .02F}, metal);
-            site.build.box({left, out, z + at - .02F}, {left + .035F, y, z + at + .02F}, metal);
-            site.build.box({right - .035F, out, z + at - .02F}, {right, y, z + at + .02F}, metal);
+            site.build.box({left, out, z + at - .02F},
+                           {left + .035F, y, z + at + .02F},
+                           metal,
+                           box_side::high_y);
+            site.build.box({right - .035F, out, z + at - .02F},
+                           {right, y, z + at + .02F},
+                           metal,
+                           box_side::high_y);
         }
         const int posts = 5;
         for (int i = 0; i <= posts; ++i) {
             const float x = mix(left, right, static_cast<float>(i) / posts);
-            site.build.box({x - .02F, out, z}, {x + .02F, out + .035F, z + 1}, metal);
+            site.build.box({x - .02F, out, z},
+                           {x + .02F, out + .035F, z + 1},
+                           metal,
+                           box_side::low_z | box_side::high_z);
         }
         if (level == plan.floors)
             continue;

@@ -49,8 +49,10 @@ void add_ledge(Builder& build, Half half, float out, float low, float high, Fini
     const Half wide{half.x + out, half.y + out};
     build.box({-wide.x, -wide.y, low}, {wide.x, -half.y + .02F, high}, finish);
     build.box({-wide.x, half.y - .02F, low}, {wide.x, wide.y, high}, finish);
-    build.box({-wide.x, -half.y, low}, {-half.x + .02F, half.y, high}, finish);
-    build.box({half.x - .02F, -half.y, low}, {wide.x, half.y, high}, finish);
+    // Their ends lie in the other two.
+    constexpr unsigned ends = box_side::low_y | box_side::high_y;
+    build.box({-wide.x, -half.y, low}, {-half.x + .02F, half.y, high}, finish, ends);
+    build.box({half.x - .02F, -half.y, low}, {wide.x, half.y, high}, finish, ends);
 }
 
 void add_flat_roof(Builder& build, Half half, const Facade& facade, Finish roof) {

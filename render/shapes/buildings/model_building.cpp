@@ -49,10 +49,10 @@ void add_ledges(BuildingSite& site) {
         const float x = plan.x + out;
         const float y = plan.y + out;
         if (front)
-            site.build.box({-x, -y, low}, {x, -plan.y + .02F, high}, trim);
-        site.build.box({-x, plan.y - .02F, low}, {x, y, high}, trim);
-        site.build.box({-x, -plan.y, low}, {-plan.x + .02F, plan.y, high}, trim);
-        site.build.box({plan.x - .02F, -plan.y, low}, {x, plan.y, high}, trim);
+            site.build.box({-x, -y, low}, {x, -plan.y + .02F, high}, trim, box_side::high_y);
+        site.build.box({-x, plan.y - .02F, low}, {x, y, high}, trim, box_side::low_y);
+        site.build.box({-x, -plan.y, low}, {-plan.x + .02F, plan.y, high}, trim, box_side::high_x);
+        site.build.box({plan.x - .02F, -plan.y, low}, {x, plan.y, high}, trim, box_side::low_x);
     };
     const FacadeKind facade = plan.model.facade;
     const bool open = plan.has(world::part_arcade) || plan.has(world::part_shop_front) ||
