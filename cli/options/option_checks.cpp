@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "world/check.h"
+#include "world/external/rig.h"
 #include "world/lanes/density.h"
 #include "world/weather/weather_course.h"
 #include "world/weather/weather_text.h"
@@ -73,8 +74,6 @@ void add_actor(CLI::App& command, std::string& actor) {
 }
 
 PictureSize read_picture_size(const std::string& text, const std::string& such_as) {
-    constexpr int longest_side = 16384;
-    constexpr std::int64_t most = std::int64_t{4096} * 4096;
     PictureSize size;
     int used = 0;
     // Nine digits: more do not fit, and are too many.
@@ -82,14 +81,9 @@ PictureSize read_picture_size(const std::string& text, const std::string& such_a
     if (found != 2 || used != static_cast<int>(text.size()) || size.width < 1 || size.height < 1)
         throw world::Error(
             fmt::format("expected WIDTHxHEIGHT such as {}, got '{}'", such_as, text));
-    if (std::max(size.width, size.height) > longest_side ||
-        std::int64_t{size.width} * size.height > most)
-        throw world::Error(
-            fmt::format("{} is too large: at most {} pixels a side, and {}x{} in all",
-                        text,
-                        longest_side,
-                        4096,
-                        4096));
+    if (std::max(size.width, size.height) > world::largest_picture_side)
+        throw world::Error(fmt::format(
+            "{} is too large: at most {} pixels a side", text, world::largest_picture_side));
     return size;
 }
 
