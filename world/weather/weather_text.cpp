@@ -46,8 +46,14 @@ Said read_change(const std::string& part) {
     return said;
 }
 
-/// The nearest name, or else the first that begins so: 'hard_rain' is that of noon.
+/// A number without its value; or the nearest name, or else the first that begins so: 'hard_rain'
+/// is that of noon.
 std::string hint(const std::string& text, const std::vector<std::string>& names) {
+    if (const WeatherField* field = find_weather_field(text)) {
+        for (const double value : {8.0, 0.5, 200.0})
+            if (value >= field->low && value <= field->high)
+                return fmt::format(" (did you mean '{}={}'?)", text, value);
+    }
     if (std::string near = did_you_mean(text, names); !near.empty() || text.size() < 3)
         return near;
     for (const std::string& name : names)

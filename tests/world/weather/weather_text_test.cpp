@@ -68,6 +68,13 @@ TEST(WeatherText, MistakesAreOneLineThatHelps) {
     EXPECT_EQ(mistake("hard_rain"),
               "no weather 'hard_rain' (did you mean 'hard_rain_noon'?); reprise list weathers "
               "shows them all");
+    EXPECT_EQ(mistake("rain"),
+              "no weather 'rain' (did you mean 'rain=8'?); reprise list weathers shows them all");
+    for (const WeatherField& field : weather_fields()) {
+        const std::string hint = mistake(field.key);
+        const std::size_t begin = hint.find("mean '") + 6;
+        EXPECT_NO_THROW(read_weather(hint.substr(begin, hint.find("'?") - begin))) << hint;
+    }
     EXPECT_EQ(mistake("rian=3").substr(0, 41), "no number 'rian' (did you mean 'rain'?); ");
     EXPECT_EQ(mistake("rain=-1"), "'rain' must be in [0, 200] mm/h, got -1");
     EXPECT_EQ(mistake("fog=5"), "'fog' must be in [10, 100000] m, got 5");
