@@ -12,6 +12,7 @@
 #include "cli/golden/test.h"
 #include "cli/process/command_main.h"
 #include "cli/process/helper_program.h"
+#include "cli/process/picture_memory.h"
 #include "cli/trace/cat.h"
 #include "cli/trace/diff.h"
 #include "cli/trace/info.h"
@@ -24,18 +25,11 @@
 
 namespace {
 
-/// For glibc's malloc, which reads it before main: a town is 100 MB of shapes that rays meet in no
-/// order, and a picture 90 MB of pixels. In pages of 2 MB, and not given back between two pictures,
-/// both take a twelfth less time, for 4 % more memory. tests/bench/tables.py says the same.
-constexpr const char* picture_memory =
-    "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=1073741824:"
-    "glibc.malloc.trim_threshold=1073741824:glibc.malloc.top_pad=67108864";
-
 /// Replaces this process by the helper program of that name.
 [[noreturn]] void become(const std::string& helper, char** argv) {
     const std::filesystem::path program = reprise::cli::helper_program(helper);
     if (helper == "reprise-render")
-        setenv("GLIBC_TUNABLES", picture_memory, 0);  // who has set it wants it so
+        setenv("GLIBC_TUNABLES", reprise::cli::picture_memory, 0);  // who has set it wants it so
     execv(program.c_str(), argv);
     throw reprise::world::Error("cannot start " + program.string() + ": " + std::strerror(errno));
 }

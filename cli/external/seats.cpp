@@ -7,6 +7,7 @@
 
 #include "cli/external/wheel_program.h"
 #include "cli/process/helper_program.h"
+#include "cli/process/picture_memory.h"
 #include "cli/process/reproduce.h"
 #include "cli/process/say.h"
 #include "world/check.h"
@@ -18,7 +19,9 @@ namespace {
 
 /// For the shell.
 std::string render_program() {
-    return "exec " + shell_path(helper_program("reprise-render")) + " live";
+    return fmt::format("export GLIBC_TUNABLES=\"${{GLIBC_TUNABLES-{}}}\"; exec {} live",
+                       picture_memory,
+                       shell_path(helper_program("reprise-render")));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ BENCHMARKS = {
     "recording_bench": "Recording",
     "render_bench": ".",
 }
-# As `reprise` starts reprise-render, see cli/reprise.cpp; the bare rays beside it have it as well.
+# As reprise-render is started, see cli/process/picture_memory.h; the bare rays beside it have it as well.
 ENVIRONMENT = {
     "render_bench": {
         "GLIBC_TUNABLES": "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=1073741824:"

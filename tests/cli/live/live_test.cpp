@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/process/picture_memory.h"
 #include "render/event_file.h"
 #include "render/picture.h"
 #include "render/sensors.h"
@@ -257,6 +258,20 @@ TEST_F(LiveFrames, ARendererEndsWithItsRunHoweverThatEnds) {
     pollfd gone{descriptor, POLLIN, 0};
     EXPECT_EQ(poll(&gone, 1, 60'000), 1) << "it still runs a minute later";
     close(descriptor);
+}
+
+TEST_F(LiveFrames, ARendererHasItsMemoryInHugePagesUnlessTheUserHasSaidSomething) {
+    scenario("memory", std::string(rig) + "driver = 'external' ");
+    const std::string driver = compiled + make_folder("frames") + " memory";
+    const auto told = [&] {
+        run("memory", driver, 0);
+        return read_file(folder_ / "frames/memory");
+    };
+    unsetenv("GLIBC_TUNABLES");
+    EXPECT_EQ(told(), cli::picture_memory);
+    setenv("GLIBC_TUNABLES", "glibc.malloc.top_pad=131072", 1);
+    EXPECT_EQ(told(), "glibc.malloc.top_pad=131072");
+    unsetenv("GLIBC_TUNABLES");
 }
 
 TEST_F(LiveFrames, ADriverThatNeverComesIsAllThatIsTold) {

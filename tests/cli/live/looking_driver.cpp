@@ -1,7 +1,7 @@
-// A driver for tests that keeps what it sees: looking_driver FOLDER [kill|kill_run|leave]. Each
-// frame becomes FOLDER/SENSOR_TICK.raw. In its fourth tick `kill` ends the process that renders,
-// `kill_run` writes that one's id to FOLDER/renderer and ends the run; `leave` never says that it
-// is ready.
+// A driver for tests that keeps what it sees: looking_driver FOLDER [kill|kill_run|leave|memory].
+// Each frame becomes FOLDER/SENSOR_TICK.raw. In its fourth tick `kill` ends the process that
+// renders, `kill_run` writes that one's id to FOLDER/renderer and ends the run, `memory` writes
+// what that one's malloc was told to FOLDER/memory; `leave` never says that it is ready.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -37,12 +37,27 @@ pid_t renderer() {
     return 0;
 }
 
+/// GLIBC_TUNABLES of a process. glibc ends each setting where it stands when it has read it.
+std::string memory_of(pid_t process) {
+    std::ifstream environment("/proc/" + std::to_string(process) + "/environ");
+    const std::string name = "GLIBC_TUNABLES=";
+    std::string told;
+    for (std::string each; std::getline(environment, each, '\0');)
+        if (each.compare(0, name.size(), name) == 0)
+            told = each.substr(name.size());
+        else if (!told.empty() && each.compare(0, 6, "glibc.") == 0)
+            told += ":" + each;
+    return told;
+}
+
 void misbehave(const std::string& habit, const fs::path& folder) {
     const pid_t found = renderer();
     if (found == 0)
         std::abort();
     if (habit == "kill")
         kill(found, SIGKILL);
+    if (habit == "memory")
+        std::ofstream(folder / "memory") << memory_of(found);
     if (habit == "kill_run") {
         std::ofstream(folder / "renderer") << found;
         kill(getppid(), SIGKILL);
