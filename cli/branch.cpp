@@ -184,6 +184,7 @@ std::vector<process::CopyResult> go_on_in_copies(There& there,
                                                  replay::TraceReader& trace,
                                                  const std::vector<WhatIf>& what_ifs,
                                                  const BranchOptions& options) {
+    there.kernel->rest();
     std::vector<process::Copy> copies;
     for (const WhatIf& what_if : what_ifs)
         copies.push_back({.subject = what_if.output, .work = [&] {

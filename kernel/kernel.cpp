@@ -287,6 +287,10 @@ void Kernel::note_outcome(world::TickDraft& next) {
     }
 }
 
+void Kernel::rest() {
+    parts_->side_thread.rest();
+}
+
 bool Kernel::finished() const {
     return parts_->ends && !parts_->next;
 }

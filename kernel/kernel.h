@@ -52,6 +52,9 @@ class Kernel {
     /// that does not compile.
     void branch(const world::BranchT& branch);
 
+    /// Keeps no thread until the next step: so that the process can be copied (process/copy.h).
+    void rest();
+
     /// A drill, to be asked for before its tick. Not part of the recording.
     void nudge(const Nudge& nudge);
 

@@ -19,13 +19,19 @@ bool has_another_processor() {
 }  // namespace
 
 SideThread::~SideThread() {
+    rest();
+}
+
+void SideThread::rest() {
+    tried_ = false;
     if (!thread_.joinable())
         return;
     tell(State::leaving);
     thread_.join();
+    state_ = State::idle;
 }
 
-/// Not before the first work: until then a process may be copied (process/offshoot.h).
+/// Not before the first work: until then the process may be copied (process/offshoot.h).
 void SideThread::start() {
     tried_ = true;
     if (!has_another_processor())

@@ -22,6 +22,9 @@ class SideThread {
     /// did. 10 us more than the longer of the two.
     void both(const std::function<void()>& here, const std::function<void()>& there);
 
+    /// Ends the other thread until it is needed again: so that the process can be copied.
+    void rest();
+
   private:
     enum class State : int { idle, offered, taken, done, leaving };
 

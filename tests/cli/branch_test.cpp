@@ -65,7 +65,9 @@ TEST_F(Branch, ThatDoesNothingLeavesTheWorldOnItsWay) {
     EXPECT_THAT(diff, HasSubstr("in the record it first shows at tick 122, stage scenario: "));
 }
 
+/// Among people on foot as well, whose steps a second thread makes: it is not there to be copied.
 TEST_F(Branch, SeveralFromOneTickAreWhatEachIsAlone) {
+    run({"run", "drive.lua", "--walkers", "20", "-o", "parent.mcap"}, 0);
     write_script("swerve", "actor('hand'):control{ throttle = 1, steer = -0.3 } wait(60)");
     run({"branch",
          "parent.mcap",

@@ -1,5 +1,7 @@
 #include "kernel/side_thread.h"
 
+#include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -46,6 +48,23 @@ TEST(SideThread, ThrowsWhatEitherThrewOnceBothAreDone) {
     EXPECT_EQ(said(true, false), "here");
     EXPECT_EQ(said(true, true), "here");
     EXPECT_EQ(said(false, false), "nothing") << "goes on behind a fault";
+}
+
+/// Copies of it have one thread each: what another one held when they were made nobody gives back.
+TEST(SideThread, LeavesTheProcessAloneWhereItRests) {
+    const auto threads = [] {
+        const std::filesystem::directory_iterator all("/proc/self/task");
+        return std::distance(begin(all), end(all));
+    };
+    const auto before = threads();
+    SideThread side;
+    for (int times = 0; times < 3; ++times) {
+        int done = 0;
+        side.both([&] { ++done; }, [] {});
+        EXPECT_EQ(done, 1);
+        side.rest();
+        EXPECT_EQ(threads(), before);
+    }
 }
 
 TEST(SideThread, OnOneProcessorDoesBothInTheThreadThatAsks) {
