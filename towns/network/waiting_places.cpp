@@ -26,7 +26,7 @@ constexpr double half_car = 0.95;     // [m] of the one who waits
 constexpr double half_way = 1.3;      // [m] that one who passes takes up, a bus in a bend left out
 constexpr double moved_at_most = 5;   // [m] that a place is moved
 constexpr double tried_every = 0.25;  // [m] between the places tried
-constexpr double least_length = 5.5;  // [m] left of the first part: a car stands inside
+constexpr double least_length = 5;    // [m] left of the first part: a car stands inside
 constexpr double way_out = 6;         // [m] of the lane behind the junction
 
 Points points_of(pugi::xml_node lane) {
@@ -200,8 +200,9 @@ class Paths {
     std::map<std::string, std::string> origins_;              ///< [internal lane] its road
 };
 
-/// [m] that the end of `first` goes back so that nobody of `ways` is hindered; 0: not at all.
-/// `others` are ways that it may not be drawn back over: who waits does not look at them again.
+/// [m] that the end of `first` goes back so that nobody of `ways` is hindered but those in whose way
+/// it is wherever it ends, as of who turns left from the side; 0: not at all. `others` are ways that
+/// it may not be drawn back over: who waits does not look at them again.
 double way_back(const Points& first,
                 const std::vector<Points>& ways,
                 const std::vector<Points>& others) {
@@ -209,11 +210,13 @@ double way_back(const Points& first,
     const auto hinders = [&](double back, const Points& way) {
         return in_the_way(cut(first, length - back).first, way);
     };
+    const double most = std::min(moved_at_most, length - least_length);
+    if (most < tried_every)
+        return 0;
     std::vector<const Points*> hindered;
     for (const Points& way : ways)
-        if (in_the_way(first, way))
+        if (in_the_way(first, way) && !hinders(length - least_length, way))
             hindered.push_back(&way);
-    const double most = std::min(moved_at_most, length - least_length);
     for (double back = tried_every; !hindered.empty() && back <= most; back += tried_every) {
         const auto in_way = [&](const Points* way) { return hinders(back, *way); };
         if (std::any_of(hindered.begin(), hindered.end(), in_way))
