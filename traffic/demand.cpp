@@ -23,8 +23,10 @@ constexpr double not_beside = 30;     // [m]
 // Nobody waits so long inside of a junction but for one who waits for him, or who never moves.
 constexpr double far_too_long_in_junction = 50;  // [s] of standing, whoever sees it,
 // Two in a bend, each with its body in the other one's way, stood before an ego for 26 minutes.
-constexpr double for_ever = 200;   // [s] of standing for another car, whoever sees it
-constexpr double at_its_edge = 1;  // [m] where one who waited to go in is no hindrance
+constexpr double for_ever = 200;    // [s] of standing for another car, whoever sees it,
+constexpr double ring_lasts = 36;   // [s] and for one who stands for it: Standoffs had its turns
+constexpr double ring_stands = 12;  // [s] of the others in that ring
+constexpr double at_its_edge = 1;   // [m] where one who waited to go in is no hindrance
 // But in a row before lights behind it: beside a vehicle with mass only who is first of it goes.
 constexpr double in_a_row = 100;  // [s] of standing, in case that the row is a ring
 
@@ -75,6 +77,24 @@ bool is_right_behind_another(const Car& car, const Cars& cars, const world::Tick
             return true;
     }
     return false;
+}
+
+/// Ids of those whom it waits for, of those whom these wait for, and so on: of who has stood.
+std::vector<std::uint32_t> standing_before(const Car& car, const Cars& cars, double step) {
+    std::vector<std::uint32_t> ids;
+    const auto add = [&](const Car& one) {
+        if (one.stuck_ticks * step < ring_stands)
+            return;
+        for (const auto* before : {&one.waits_for, &one.blocked_by})
+            for (const std::uint32_t id : *before)
+                if (std::find(ids.begin(), ids.end(), id) == ids.end())
+                    ids.push_back(id);
+    };
+    add(car);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        if (const Car* one = cars.find(ids[i]))
+            add(*one);
+    return ids;
 }
 
 }  // namespace
@@ -172,11 +192,27 @@ bool Demand::waits_for_ever(const Car& car, double step) {
     return car.stuck_ticks * step > for_ever && !car.waits_for.empty();
 }
 
+bool Demand::is_longest_in_a_ring(const Car& car, const Cars& cars) const {
+    if (car.stuck_ticks * step_ < ring_lasts)
+        return false;
+    const std::vector<std::uint32_t> held_by = standing_before(car, cars, step_);
+    const auto is_in = [](const std::vector<std::uint32_t>& ids, const Car& one) {
+        return std::find(ids.begin(), ids.end(), one.id) != ids.end();
+    };
+    return is_in(held_by, car) &&
+           std::none_of(held_by.begin(), held_by.end(), [&](std::uint32_t id) {
+               const Car* other = cars.find(id);
+               return other != nullptr && other->origin == Origin::demand &&
+                      other->stuck_ticks > car.stuck_ticks &&
+                      is_in(standing_before(*other, cars, step_), car);
+           });
+}
+
 bool Demand::is_stuck(const Car& car, const Cars& cars, const world::TickView& last) const {
     const double stood = car.stuck_ticks * step_;
     if ((stood > too_long && !is_seen(car.rear, last, out_of_sight)) ||
         (stood > far_too_long && !is_seen(car.rear, last, not_beside)) ||
-        waits_for_ever(car, step_))
+        waits_for_ever(car, step_) || is_longest_in_a_ring(car, cars))
         return true;
     return stood > far_too_long_in_junction && car.lane_position > at_its_edge &&
            right_of_way_->is_crossed(car.lane) &&

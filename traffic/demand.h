@@ -47,6 +47,10 @@ class Demand {
     /// For so long that it counts for more than who sees it go.
     bool is_stuck(const Car& car, const Cars& cars, const world::TickView& last) const;
 
+    /// Does it wait for one who waits for another one, and so on, and one of them for it? Of such a
+    /// ring who has stood there the longest is taken out whoever sees it: the others are free then.
+    bool is_longest_in_a_ring(const Car& car, const Cars& cars) const;
+
     bool add_car(Cars& cars,
                  std::span<const OccupiedBox> occupied,
                  double& scanned,

@@ -66,6 +66,66 @@ TEST(Standoffs, OneOfTwoWhoWaitForEachOtherGoes) {
     EXPECT_GE(gone, 1U);
 }
 
+/// Three by three crossings at which nobody has the right of way: to SUMO nobody crosses anybody's
+/// way there.
+test::Loaded unregulated_roads() {
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "unregulated";
+    std::filesystem::create_directories(folder);
+    std::ofstream nodes(folder / "nodes.xml");
+    std::ofstream edges(folder / "edges.xml");
+    const auto edge = [&edges](int from, int to) {
+        edges << "<edge id=\"" << from << '_' << to << "\" from=\"n" << from << "\" to=\"n" << to
+              << "\" speed=\"13.9\"/>\n";
+    };
+    nodes << "<nodes>\n";
+    edges << "<edges>\n";
+    for (int i = 0; i < 9; ++i) {
+        const int x = i % 3;
+        const int y = i / 3;
+        nodes << "<node id=\"n" << i << "\" x=\"" << 80 * x << "\" y=\"" << 80 * y
+              << "\" type=\"unregulated\"/>\n";
+        for (const int next : {x < 2 ? i + 1 : i, y < 2 ? i + 3 : i})
+            if (next != i) {
+                edge(i, next);
+                edge(next, i);
+            }
+    }
+    nodes << "</nodes>\n" << std::flush;
+    edges << "</edges>\n" << std::flush;
+    const process::ProgramResult made = process::run_program(
+        {.name = "netconvert",
+         .words =
+             {"-X", "never", "-n", "nodes.xml", "-e", "edges.xml", "-o", "unregulated.net.xml"},
+         .folder = folder});
+    EXPECT_EQ(made.code, 0) << made.said;
+    return test::load(folder / "unregulated.net.xml");
+}
+
+/// Four who came from four sides, each with its nose before the next one: SUMO knows nothing of it.
+TEST(Demand, ARingOfThoseWhoStandInEachOthersWayIsDissolved) {
+    const test::Loaded loaded = unregulated_roads();
+    Stage stage(loaded, 60, 3);
+    std::map<std::uint32_t, int> stood;  // ticks
+    int longest = 0;
+    double driven = 0;  // [m] in the last minute, by all
+    for (int i = 0; i < 6000; ++i) {
+        // Somebody sees each of the crossings.
+        std::vector<world::VehicleState> seers;
+        for (std::uint32_t k = 0; k < 9; ++k)
+            seers.push_back(test::vehicle_at(k + 1, 80.0 * (k % 3) + 14, 80.0 * (k / 3) + 14, 0));
+        stage.step({}, seers);
+        for (const world::CarState& car : stage.draft().traffic.cars) {
+            int& ticks = stood[car.id()];
+            ticks = car.speed() < 0.1F ? ticks + 1 : 0;
+            longest = std::max(longest, ticks);
+            driven += i >= 4800 ? static_cast<double>(car.speed()) * 0.05 : 0;
+        }
+    }
+    EXPECT_GT(longest, 720) << "[ticks] nobody stood for long: nothing is shown";
+    EXPECT_LT(longest, 1400) << "[ticks] for ever it was: 4000, and then the next ring";
+    EXPECT_GT(driven, 30 * 60 * 1.5) << "1.5 m/s on the average";
+}
+
 /// One road that goes on as another one around a corner: a junction on the map. Of more `lanes`
 /// only the left one leads around it.
 test::Loaded corner(int lanes = 1) {

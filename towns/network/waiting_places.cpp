@@ -200,9 +200,9 @@ class Paths {
     std::map<std::string, std::string> origins_;              ///< [internal lane] its road
 };
 
-/// [m] that the end of `first` goes back so that nobody of `ways` is hindered but those in whose way
-/// it is wherever it ends, as of who turns left from the side; 0: not at all. `others` are ways that
-/// it may not be drawn back over: who waits does not look at them again.
+/// [m] that the end of `first` goes back so that nobody of `ways` is hindered but those in whose
+/// way it is wherever it ends, as of who turns left from the side; 0: not at all. `others` are ways
+/// that it may not be drawn back over: who waits does not look at them again.
 double way_back(const Points& first,
                 const std::vector<Points>& ways,
                 const std::vector<Points>& others) {

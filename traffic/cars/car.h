@@ -106,7 +106,8 @@ struct Car {
     std::optional<PassOrder> pass;
 
     // Among others of SUMO's; see meetings.h and standoffs.h.
-    std::vector<std::uint32_t> waits_for;  ///< ids of those whom it lets go first
+    std::vector<std::uint32_t> waits_for;   ///< ids of those whom it lets go first
+    std::vector<std::uint32_t> blocked_by;  ///< ids of those who stand in its way, for long
     std::vector<std::uint32_t>
         pushes_past;                  ///< ids of those who stand in its way, and it in theirs
     std::uint64_t pushes_until = 0;   ///< tick; until then it stops for none of these

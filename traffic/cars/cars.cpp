@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <libsumo/libsumo.h>
 
@@ -88,9 +89,13 @@ CarDigest kept_of(const Car& car) {
 
 }  // namespace
 
-Car* Cars::find(std::uint32_t id) {
+const Car* Cars::find(std::uint32_t id) const {
     const auto at = std::lower_bound(cars_.begin(), cars_.end(), id, has_lower_id);
     return at != cars_.end() && at->id == id ? &*at : nullptr;
+}
+
+Car* Cars::find(std::uint32_t id) {
+    return const_cast<Car*>(std::as_const(*this).find(id));
 }
 
 Car& Cars::add(Car car, const std::string& text, std::uint32_t line, world::TickDraft& next) {
@@ -164,6 +169,8 @@ void Cars::add_to(world::Hasher& hasher) const {
             hasher.add(car.brushes_until);
             hasher.add(car.ignores_standing);
         }
+        if (!car.blocked_by.empty())
+            hasher.add(std::span<const std::uint32_t>(car.blocked_by));
         if (car.trajectory) {
             car.trajectory->add_to(hasher);
             hasher.add(car.trajectory_start);

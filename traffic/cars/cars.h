@@ -24,6 +24,7 @@ class Cars {
 
     /// Null when there is none of this id. Valid until the next add or remove, as all references.
     Car* find(std::uint32_t id);
+    const Car* find(std::uint32_t id) const;
 
     /// With a spawned event of this text, which names the script's line; 0: no script.
     Car& add(Car car, const std::string& text, std::uint32_t line, world::TickDraft& next);

@@ -150,6 +150,7 @@ void Meetings::gather(Cars& cars) {
         driver.car = &car;
         driver.seen = nullptr;
         driver.waits_for.clear();
+        driver.blocked_by.clear();
         driver.half_length = model.length / 2;
         driver.middle = car.rear.head<2>() + (driver.half_length - model.rear_overhang) * car.ahead;
         driver.reach = std::max(Foresight::look_ahead * (car.speed + Foresight::speeding_up),
@@ -246,6 +247,8 @@ void Meetings::wait(Driver& driver, Driver& other, const Stop& stop) {
     const bool is_in_its_way = other.seen->would_meet(driver.seen->now());
     if (is_in_its_way)
         hold(other, stop_before_body(other, driver));
+    if (is_in_its_way && is_stuck(other))
+        other.blocked_by.push_back(driver.car->id);
     // Both stand, each for the other's body: nobody else will solve it.
     if (is_in_its_way && is_stuck(driver) && is_stuck(other) &&
         driver.seen->would_meet(other.seen->now()))
@@ -414,8 +417,10 @@ void Meetings::look(Cars& cars, std::uint64_t tick) {
         }
     }
     for (std::size_t i = 0; i < drivers_.size(); ++i)
-        if (drivers_[i].car != nullptr)
+        if (drivers_[i].car != nullptr) {
             drivers_[i].car->waits_for = drivers_[i].waits_for;
+            drivers_[i].car->blocked_by = drivers_[i].blocked_by;
+        }
 }
 
 }  // namespace reprise::traffic

@@ -52,8 +52,9 @@ class Meetings {
         double reach = 0;  ///< [m] of way that is looked at
         double half_length = 0;
         Eigen::Vector2d middle;
-        Foresight* seen = nullptr;             ///< once it is asked for
-        std::vector<std::uint32_t> waits_for;  ///< ids, of this tick
+        Foresight* seen = nullptr;              ///< once it is asked for
+        std::vector<std::uint32_t> waits_for;   ///< ids, of this tick
+        std::vector<std::uint32_t> blocked_by;  ///< likewise
     };
 
     /// What decides about most pairs, side by side in memory; by `x`, then by the cars' ids.

@@ -77,7 +77,8 @@ TEST(WaitingPlaces, WhoIsHinderedWhereverItIsKeepsNobodyFromBeingClearOfTheOther
         <connection from=":j_3" to="out" fromLane="0" toLane="0"/> </net>)"));
     EXPECT_EQ(move_waiting_places(network.child("net")), 1U);
     EXPECT_EQ(move_waiting_places(network.child("net")), 0U);
-    const pugi::xml_node place = network.child("net").find_child_by_attribute("junction", "id", ":j_3_0");
+    const pugi::xml_node place =
+        network.child("net").find_child_by_attribute("junction", "id", ":j_3_0");
     const double left_corner = number(place.attribute("x").value(), 0) - 0.95 * 3 / std::sqrt(10.0);
     EXPECT_GT(left_corner, -2.6 + 1.29) << "clear of those who come towards it";
     EXPECT_GT(number(place.attribute("y").value(), 0), 5) << "but not before the bend";
