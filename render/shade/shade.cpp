@@ -27,7 +27,9 @@ using Eigen::Vector3f;
 
 /// Does the place of one thing lie where the other's surface goes on?
 bool on_same_surface(const RawLight& own, const RawLight& other) {
-    return other.flat.dot(own.flat) >= 0.9F &&
+    // Legs, poles and tyres have twelve sides or more: 30 degrees are still round, 40 are not.
+    constexpr float round = 0.82F;
+    return other.flat.dot(own.flat) >= round &&
            std::abs((other.position - own.position).dot(own.flat)) <= own.tolerance;
 }
 
