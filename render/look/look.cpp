@@ -268,6 +268,8 @@ Look bare_look(const ShadingInput& input, const Surface& at) {
             break;
         default:
             look = walker_look(input, at);
+            look.albedo = soaked(look.albedo, 0.7F * at.wetness);
+            return look;
     }
     look.normal = at.normal;
     // Soaked cloth and bark are darker; leaves shed water.

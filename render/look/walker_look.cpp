@@ -3,11 +3,34 @@
 
 namespace reprise::render {
 
+namespace {
+
+using Eigen::Vector3f;
+
+/// Cloth hangs in folds, upright ones and, fewer, across; from far they are too small to see.
+void fold(Look& look, const Surface& at) {
+    const float seen = detail(at, 0.10F);
+    // Parts are shared shapes that are stretched in their place.
+    const Eigen::Vector3f stretch = at.instance->pose.linear().colwise().norm().cast<float>();
+    const Vector3f p = at.local.cwiseProduct(stretch);
+    const float round = p.x() + 0.8F * p.y();
+    const float upright = value_noise(round * 21, p.z() * 3.5F, 3);
+    const float across = value_noise(round * 6, p.z() * 17, 4);
+    look.albedo *= 0.90F + 0.14F * upright + 0.06F * across;
+    const Vector3f aside = Vector3f(-at.normal.y(), at.normal.x(), 0);
+    const Vector3f tilt =
+        (0.95F * (upright - 0.5F)) * aside + Vector3f(0, 0, 0.55F * (across - 0.5F));
+    look.normal = (at.normal + seen * tilt).normalized();
+}
+
+}  // namespace
+
 Look walker_look(const ShadingInput& input, const Surface& at) {
     const Outfit& outfit = input.scene.outfits()[at.instance->outfit];
     Look look;
     look.albedo = outfit.color_of(at.material);
     look.roughness = 0.85F;
+    look.normal = at.normal;
     switch (at.material) {
         case Material::skin:
             look.roughness = 0.5F;
@@ -22,13 +45,9 @@ Look walker_look(const ShadingInput& input, const Surface& at) {
             look.roughness = 0.6F;
             break;
         case Material::shirt:
-        case Material::trousers: {
-            // Folds: soft, so that no pixel is too large for them.
-            const float folds =
-                value_noise(at.local.x() * 3 + at.local.y() * 2, at.local.z() * 4, 3);
-            look.albedo *= 0.92F + 0.16F * folds;
+        case Material::trousers:
+            fold(look, at);
             break;
-        }
         case Material::trim: {
             // A vest's reflecting bands.
             const float z = at.local.z();
