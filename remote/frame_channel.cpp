@@ -127,7 +127,7 @@ struct FrameChannel::Wait {
             if (ready < 0 && errno != EINTR)
                 throw ChannelFault(std::string("cannot be waited for: ") + std::strerror(errno));
             if (*given_up && (*given_up)())
-                throw ChannelFault("was waited for no longer");
+                throw ChannelFault("was waited for no longer", ChannelFault::Why::given_up);
         }
     }
 
@@ -193,8 +193,8 @@ void FrameChannel::send(Kind kind,
             if (errno == EAGAIN)
                 wait.until_ready(descriptor_, POLLOUT);
             else if (errno != EINTR)
-                throw ChannelFault(errno == EPIPE || errno == ECONNRESET ? "has hung up"
-                                                                         : std::strerror(errno));
+                throw errno == EPIPE || errno == ECONNRESET ? ChannelFault::hung_up()
+                                                            : ChannelFault(std::strerror(errno));
             continue;
         }
         handed_over = -1;  // it went with the first byte
@@ -237,12 +237,13 @@ std::size_t FrameChannel::read_some(void* target,
         room.offer(message);
         const ssize_t came = recvmsg(descriptor_, &message, MSG_CMSG_CLOEXEC | MSG_DONTWAIT);
         if (came == 0)
-            throw ChannelFault("has hung up");
+            throw ChannelFault::hung_up();
         if (came < 0) {
             if (errno == EAGAIN)
                 await_input(wait);
             else if (errno != EINTR)
-                throw ChannelFault(errno == ECONNRESET ? "has hung up" : std::strerror(errno));
+                throw errno == ECONNRESET ? ChannelFault::hung_up()
+                                          : ChannelFault(std::strerror(errno));
             continue;
         }
         if (const int number = DescriptorRoom::taken(message); number >= 0)

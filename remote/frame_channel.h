@@ -24,7 +24,15 @@ struct Patience {
 /// The other end is gone, silent for too long, or says what is no message of ours.
 class ChannelFault : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    enum class Why : std::uint8_t { other, hung_up, given_up };
+
+    explicit ChannelFault(const std::string& what, Why its_why = Why::other)
+        : std::runtime_error(what),
+          why(its_why) {}
+
+    static ChannelFault hung_up() { return ChannelFault("has hung up", Why::hung_up); }
+
+    Why why;
 };
 
 /// A message as it came. Its body has been verified to be a table of its kind.

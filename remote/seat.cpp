@@ -71,11 +71,12 @@ struct Seat::Parts {
     }
 
     /// What became of it: how its program ended says more than a socket that is closed.
-    Lost lost(const std::string& fault) {
-        std::string reason = fault;
+    Lost lost(const ChannelFault& fault) {
+        using Why = ChannelFault::Why;
+        std::string reason = fault.what();
         if (program)
-            if (const auto ended = program->wait(fault == "has hung up" ? 1 : 0);
-                ended && (fault == "has hung up" || fault == "was waited for no longer"))
+            if (const auto ended = program->wait(fault.why == Why::hung_up ? 1 : 0);
+                ended && fault.why != Why::other)
                 reason = ended->signal != 0 ? fmt::format("was ended by signal {}", ended->signal)
                                             : fmt::format("ended with exit code {}", ended->code);
         channel.reset();
@@ -99,7 +100,7 @@ struct Seat::Parts {
     Lost said_else(Frame frame, const std::string& what) {
         if (program && frame.kind == Kind::goodbye)
             program->wait(1);
-        Lost result = lost(what);
+        Lost result = lost(ChannelFault(what));
         result.said = std::move(frame);
         return result;
     }
@@ -116,8 +117,8 @@ struct Seat::Parts {
         try {
             channel->send(Kind::observation, bytes_of(observation), patience);
         } catch (const ChannelFault& fault) {
-            if (fault.what() != std::string("has hung up"))
-                return lost(fault.what());
+            if (fault.why != ChannelFault::Why::hung_up)
+                return lost(fault);
         }
         return std::nullopt;
     }
@@ -220,7 +221,7 @@ std::optional<Lost> Seat::take(std::uint32_t id,
             patience.given_up = parts.asked;  // who comes now is not turned away
             parts.channel.emplace(parts.door->let_in(patience), largest_answer);
         } catch (const ChannelFault&) {
-            return parts.lost("did not come in time");
+            return parts.lost(ChannelFault("did not come in time"));
         }
     }
     const bool looks_itself = parts.rig && parts.channel->carries_descriptors();
@@ -238,11 +239,11 @@ std::optional<Lost> Seat::take(std::uint32_t id,
         if (frame.kind != Kind::ready)
             return parts.said_else(std::move(frame), "did not say that it is ready");
         if (const auto version = frame.as<Ready>().version(); version != wire_version)
-            return parts.lost(
-                fmt::format("speaks version {} of the wire, this is {}", version, wire_version));
+            return parts.lost(ChannelFault(
+                fmt::format("speaks version {} of the wire, this is {}", version, wire_version)));
         parts.channel->poll_for(polling);
     } catch (const ChannelFault& fault) {
-        return parts.lost(fault.what());
+        return parts.lost(fault);
     }
     return std::nullopt;
 }
@@ -287,7 +288,7 @@ std::optional<Lost> Seat::show_due() {
     } catch (const RenderFault& fault) {
         return parts.lost_renderer(fault);
     } catch (const ChannelFault& fault) {
-        return parts.lost(fault.what());
+        return parts.lost(fault);
     }
 }
 
@@ -312,7 +313,7 @@ std::variant<world::Control, Lost> Seat::answer() {
             return parts.said_else(std::move(frame), "said something else than a control");
         const Control& said = frame.as<Control>();
         if (const std::string fault = fault_of(said, parts.shown.front()); !fault.empty())
-            return parts.lost(fault);
+            return parts.lost(ChannelFault(fault));
         parts.shown.pop_front();
         return world::Control(said.throttle(),
                               said.brake(),
@@ -324,7 +325,7 @@ std::variant<world::Control, Lost> Seat::answer() {
     } catch (const RenderFault& fault) {
         return parts.lost_renderer(fault);
     } catch (const ChannelFault& fault) {
-        return parts.lost(fault.what());
+        return parts.lost(fault);
     }
 }
 
