@@ -87,6 +87,7 @@ class Crowd {
         bool meets = false;             ///< goes back to him, who is far behind
         Eigen::Vector2d wanted{0, 0};   ///< [m/s] in this tick
         bool flees = false;             ///< in this tick
+        bool cornered = false;          ///< there, and gets nowhere by himself
         std::size_t body = 0;           ///< his of neighbours_
         ground::GroundProbe::Around underfoot;
     };
@@ -119,6 +120,8 @@ class Crowd {
     void avoid(Walker& walker);
     void flee();
     bool walks_into_threat(const Walker& walker) const;
+    Eigen::Vector2d reached(const Walker& walker, const Eigen::Vector2d& there);
+    Eigen::Vector2d way_from(const Walker& other, const Walker& fleeing);
     bool give_room_to(const Walker& fleeing);
     void step(Walker& walker, std::uint64_t tick);
     bool is_allowed(const Walker& walker, const WalkMap::Place& place);

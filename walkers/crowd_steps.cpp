@@ -21,6 +21,7 @@ constexpr double elbow_reach = 3;     // [m] whom one walks around
 constexpr double corner_reach = 0.4;  // [m] where the way on is clear; else
 constexpr double at_corner = 0.05;    // [m]
 constexpr double acceleration = 4;    // [m/s^2] people stop within half a second
+constexpr double stride = 0.7;        // [m] that one thinks of who gets out of the way
 constexpr double turn_rate = 5;       // [rad/s] of somebody on his feet
 
 Surface more_road(Surface one, Surface other) {
@@ -207,25 +208,30 @@ bool Crowd::walks_into_threat(const Walker& walker) const {
     return threats_.come_near(p + stops_within * walker.wanted, walker.person.radius);
 }
 
+/// Where he comes who goes straight to `there`: to a wall, and along it, or to a kerb.
+Eigen::Vector2d Crowd::reached(const Walker& walker, const Eigen::Vector2d& there) {
+    const WalkMap::Place to =
+        map_of(walker.person)
+            .slide(walker.place, {there.x(), there.y(), walker.place.position.z()});
+    return (is_allowed(walker, to) ? to : walker.place).position.head<2>();
+}
+
 /// Nobody stands still, or goes on, where a car is about to be; and those behind him let him.
 void Crowd::flee() {
-    constexpr double hurry = 2.5;  // [m/s]
-    constexpr int ranks = 3;       // who stands behind those who stand behind
+    constexpr double hurry = 2.5;      // [m/s]
+    constexpr double gets_away = 0.2;  // [m] of a stride
+    constexpr int ranks = 3;           // who stands behind those who stand behind
     bool any = false;
     for (Walker& walker : walkers_) {
-        walker.flees = false;
+        walker.flees = walker.cornered = false;
         if (walker.down_until != 0)
             continue;
-        const auto reach = [&](const Eigen::Vector2d& there) -> Eigen::Vector2d {
-            const WalkMap::Place to =
-                map_of(walker.person)
-                    .slide(walker.place, {there.x(), there.y(), walker.place.position.z()});
-            return (is_allowed(walker, to) ? to : walker.place).position.head<2>();
-        };
-        if (const auto way =
-                threats_.way_out(walker.place.position.head<2>(), walker.person.radius, reach)) {
+        const auto reach = [&](const Eigen::Vector2d& there) { return reached(walker, there); };
+        const Eigen::Vector2d p = walker.place.position.head<2>();
+        if (const auto way = threats_.way_out(p, walker.person.radius, reach)) {
             walker.wanted = hurry * *way;
             walker.flees = any = true;
+            walker.cornered = (reached(walker, p + stride * *way) - p).norm() < gets_away;
         } else if (!walker.on_road && walks_into_threat(walker)) {
             walker.wanted.setZero();
         }
@@ -238,7 +244,27 @@ void Crowd::flee() {
     }
 }
 
-/// Whoever is in his way, and not in that of a car himself, goes the same way.
+/// The way out of his way: the same way, unless a wall leaves more room along it. Who stands in a
+/// corner of it would stay there, and he between that one and the car.
+Eigen::Vector2d Crowd::way_from(const Walker& other, const Walker& fleeing) {
+    constexpr double better = 0.2;  // [m]
+    const Eigen::Vector2d p = other.place.position.head<2>();
+    const Eigen::Vector2d same = fleeing.wanted.normalized();
+    Eigen::Vector2d best = same;
+    double farthest = -better;
+    for (const double angle : {0.0, 0.8, -0.8, 1.6, -1.6}) {
+        const Eigen::Vector2d way = turned(same, angle);
+        const Eigen::Vector2d there = reached(other, p + stride * way);
+        const double far = (there - fleeing.place.position.head<2>()).norm();
+        if (far <= farthest + better)
+            continue;
+        farthest = far;
+        best = way;
+    }
+    return fleeing.wanted.norm() * best;
+}
+
+/// Whoever is in his way gets out of it, unless he gets out of a car's himself.
 bool Crowd::give_room_to(const Walker& fleeing) {
     constexpr double arm = 0.3;  // [m] between the two
     const Body self{
@@ -248,11 +274,12 @@ bool Crowd::give_room_to(const Walker& fleeing) {
     for (const Body& body : around_) {
         const Walker* found = find(body.id);
         const Eigen::Vector2d gap = body.place - self.place;
-        if (found == nullptr || found->flees || found->down_until != 0 ||
+        if (found == nullptr || (found->flees && !found->cornered) || found->down_until != 0 ||
             gap.dot(fleeing.wanted) < 0.5 * gap.norm() * fleeing.wanted.norm())
             continue;
         Walker& other = walkers_[static_cast<std::size_t>(found - walkers_.data())];
-        other.wanted = fleeing.wanted;
+        other.wanted = way_from(other, fleeing);
+        other.cornered = false;
         other.flees = any = true;
     }
     return any;

@@ -410,6 +410,51 @@ TEST(Crowd, NobodyWalksIntoWhatRollsOverTheKerb) {
     EXPECT_GT(beside, 500) << "it is no proof where nobody passes";
 }
 
+/// A bus swings out over a pavement's end, as far as leaves room behind those who stand beside it:
+/// where somebody stands in the corner there, he lets them out.
+TEST(Crowd, WhoStandsInACornerBehindSomebodyLetsHimOut) {
+    constexpr double speed = 0.6;
+    constexpr double round = 20;  // [s] then another bus comes
+    const auto model = *world::find_vehicle_model("bus");
+    const world::VehicleModel& bus = world::vehicle_models()[model];
+    int inside = 0;
+    int beside = 0;
+    for (const std::uint64_t seed : {4U, 6U, 9U}) {
+        Scene scene(test::own_town("town1").town, Scene::ground(), 600, 0.1, seed);
+        for (int tick = 1; tick <= 1200; ++tick) {
+            const double time = std::fmod(tick * tick_seconds, round);
+            scene.cars.clear();
+            std::uint32_t id = 10;
+            for (const world::LaneT& lane : scene.town().lanes) {
+                if (lane.kind != world::LaneKind::sidewalk || lane.length < 30)
+                    continue;
+                const world::LanePoint at = world::point_at(lane, lane.length - 15);
+                const double left = std::max(1.65, 2.6 - 0.08 * time);
+                const Eigen::Vector2d p = at.position.head<2>() + left * world::left_of(at.yaw) +
+                                          speed * (time - 6) * world::ahead_of(at.yaw);
+                world::CarState car = test::car_at(id++, p.x(), p.y(), at.yaw, speed);
+                car.mutate_model(model);
+                scene.cars.push_back(car);
+            }
+            const bool has_come = time > 5;
+            for (const world::WalkerState& walker : scene.step())
+                for (const world::CarState& car : scene.cars) {
+                    const Eigen::Vector2d gap =
+                        world::in_plan(walker.position()) - world::in_plan(car.position());
+                    const Eigen::Vector2d ahead = world::ahead_of(double{car.yaw()});
+                    const double along = gap.dot(ahead);
+                    const double across = std::abs(world::cross(ahead, gap)) - bus.width / 2;
+                    const bool is_level =
+                        along > -bus.rear_overhang && along < bus.length - bus.rear_overhang - 1.5;
+                    inside += has_come && is_level && across < 0.18;
+                    beside += has_come && is_level && across < 1.5;
+                }
+        }
+    }
+    EXPECT_EQ(inside, 0) << "ticks";
+    EXPECT_GT(beside, 500) << "it is no proof where nobody passes";
+}
+
 TEST(Crowd, IsTheSameForTheSameSeedAndAnotherForAnother) {
     Scene one(60);
     Scene same(60);
