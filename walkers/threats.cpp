@@ -17,14 +17,20 @@ namespace {
 constexpr double foresight = 1;     // [s]
 constexpr double margin = 0.3;      // [m] that nobody likes a car to come nearer
 constexpr double rolls = 0.3;       // [m/s]
+constexpr double crawls = 0.05;     // [m/s] of a long one, whose tail comes sideways all the same
+constexpr double long_one = 7;      // [m]
 constexpr double turns = 0.07;      // [rad] within that time
 constexpr double widest = 1;        // [m] radius of anybody on foot
 constexpr double step_aside = 0.7;  // [m] that one thinks of
 
+bool comes(double speed, std::uint16_t model) {
+    return std::abs(speed) >= (world::vehicle_models()[model].length > long_one ? crawls : rolls);
+}
+
 }  // namespace
 
 void Threats::add(const RoadUser& car) {
-    if (std::abs(car.speed) < rolls)
+    if (!comes(car.speed, car.model))
         return;
     // Who brakes is seen to brake; that somebody may step on it is not thought of.
     const double braking = car.speed * car.acceleration < 0 ? std::abs(car.acceleration) : 0;

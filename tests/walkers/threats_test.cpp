@@ -73,6 +73,17 @@ TEST(Threats, AreNoneFromCarsThatStandOrWillHaveStopped) {
     EXPECT_TRUE(one_car(5, -5).way_out({front() + 2.2, 0}, shoulders));
 }
 
+TEST(Threats, ComeFromABusThatHardlyRolls) {
+    const std::uint16_t bus = world::find_vehicle_model("bus").value();
+    const Eigen::Vector2d beside(1, world::vehicle_models()[bus].width / 2 + 0.3);
+    for (const double speed : {0.0, 0.1}) {
+        world::TickDraft next;
+        put(next, 0, speed, 0, bus);
+        EXPECT_EQ(threats_of({}, next).way_out(beside, shoulders).has_value(), speed > 0) << speed;
+    }
+    EXPECT_FALSE(one_car(0.1).way_out({1, world::vehicle_models()[0].width / 2 + 0.3}, shoulders));
+}
+
 /// The rear of a bus that turns left goes to the right.
 TEST(Threats, ComeFromTheTailOfABusThatTurns) {
     constexpr std::uint16_t bus = 5;
