@@ -58,8 +58,11 @@ void add(const Thing& thing, Neighbours& neighbours) {
     const Eigen::Vector2d along = lies_along ? thing.ahead : world::turned_left(thing.ahead);
     const double half = std::max(thing.half_length, thing.half_width);
     const double radius = std::min(thing.half_length, thing.half_width) + beside_cars;
-    const double end = half - (radius - beside_cars);
-    const int count = 1 + static_cast<int>(std::ceil(2 * end / radius));
+    const double inner = radius - beside_cars;
+    const double end = half - inner;
+    // Between two of them the thing must not look out: a bus's would, by a hand's breadth.
+    const double apart = std::min(radius, 2 * std::sqrt(radius * radius - inner * inner));
+    const int count = 1 + static_cast<int>(std::ceil(2 * end / apart));
     for (int i = 0; i < count; ++i) {
         const double at = count > 1 ? -end + 2 * end * i / (count - 1) : 0;
         const Eigen::Vector2d place = thing.middle + at * along;

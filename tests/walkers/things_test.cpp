@@ -67,5 +67,17 @@ TEST(Things, TheTailOfABusThatTurnsComesSideways) {
     EXPECT_NEAR(bodies_of(bus, 0, 5, step).back().velocity.y(), 0, 1e-9);
 }
 
+TEST(Things, ABusDoesNotLookOutBetweenItsBodies) {
+    const std::uint16_t model = world::find_vehicle_model("bus").value();
+    const world::VehicleModel& bus = world::vehicle_models()[model];
+    const std::vector<Body> bodies = bodies_of(model, 0, 5, 0.05);
+    for (double x = -bus.rear_overhang + 1; x < bus.length - bus.rear_overhang - 1; x += 0.05) {
+        const Eigen::Vector2d side(x, -bus.width / 2);
+        EXPECT_TRUE(std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+            return (body.place - side).norm() <= body.radius + 1e-9;
+        })) << x;
+    }
+}
+
 }  // namespace
 }  // namespace reprise::walkers
