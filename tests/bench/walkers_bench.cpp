@@ -33,18 +33,21 @@ void Walkers(benchmark::State& state) {
         world::TickDraft genesis;
         world::SealedTick last = world::seal(genesis, {});
         for (int i = 1; i <= warm_up + measured; ++i) {
+            walkers::OnFoot on_foot{static_cast<std::uint64_t>(i), {}, {}};
+            if (i <= warm_up) {
+                crowd.advance(last.view(), on_foot);
+                agents.tick(i);
+            } else {
+                ours.time([&] { crowd.advance(last.view(), on_foot); });
+                bare.time([&] { agents.tick(i); });
+            }
             world::TickDraft next;
-            next.tick.index = static_cast<std::uint64_t>(i);
+            next.tick.index = on_foot.tick;
             next.tick.signals.assign(
                 recording.town.signals.size(),
                 i / 200 % 2 == 0 ? world::SignalColor::green : world::SignalColor::red);
-            if (i <= warm_up) {
-                crowd.advance(last.view(), next);
-                agents.tick(i);
-            } else {
-                ours.time([&] { crowd.advance(last.view(), next); });
-                bare.time([&] { agents.tick(i); });
-            }
+            next.tick.events = std::move(on_foot.events);
+            next.traffic.walkers = std::move(on_foot.walkers);
             last = world::seal(next, {});
         }
         state.SetIterationTime(ours.median());

@@ -18,6 +18,7 @@
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/models/prop_models.h"
+#include "world/units.h"
 
 namespace reprise::walkers {
 namespace {
@@ -369,13 +370,25 @@ TEST(Crowd, KeepsItsShouldersOffPolesOnThePavement) {
     EXPECT_GT(beside, 500) << "it is no proof where nobody passes";
 }
 
+/// [m] of somebody's middle from a vehicle's side; far for who is not level with it, or only with
+/// its bow, before which there may be no room to get away.
+double distance_from_side(const world::WalkerState& walker, const world::CarState& vehicle) {
+    constexpr double bow = 1.5;  // [m]
+    const world::VehicleModel& model = world::vehicle_models()[vehicle.model()];
+    const Eigen::Vector2d gap =
+        world::in_plan(walker.position()) - world::in_plan(vehicle.position());
+    const Eigen::Vector2d ahead = world::ahead_of(double{vehicle.yaw()});
+    const double along = gap.dot(ahead);
+    if (along < -model.rear_overhang || along > model.length - model.rear_overhang - bow)
+        return world::infinity;
+    return std::abs(world::cross(ahead, gap)) - model.width / 2;
+}
+
 /// A bus's tail comes over the kerb while it turns, as here a whole bus does that rolls along it.
 TEST(Crowd, NobodyWalksIntoWhatRollsOverTheKerb) {
     Scene scene(200);
     constexpr double speed = 1.2;
-    constexpr double bow = 1.5;  // [m] before which there may be no room to get away
     const auto model = *world::find_vehicle_model("bus");
-    const world::VehicleModel& bus = world::vehicle_models()[model];
     int inside = 0;
     int beside = 0;
     for (int tick = 1; tick <= 1600; ++tick) {
@@ -395,15 +408,9 @@ TEST(Crowd, NobodyWalksIntoWhatRollsOverTheKerb) {
         }
         for (const world::WalkerState& walker : scene.step())
             for (const world::CarState& car : scene.cars) {
-                const Eigen::Vector2d gap =
-                    world::in_plan(walker.position()) - world::in_plan(car.position());
-                const Eigen::Vector2d ahead = world::ahead_of(double{car.yaw()});
-                const double along = gap.dot(ahead);
-                const double across = std::abs(world::cross(ahead, gap)) - bus.width / 2;
-                const bool is_level =
-                    along > -bus.rear_overhang && along < bus.length - bus.rear_overhang - bow;
-                inside += tick > 100 && is_level && across < 0.1;
-                beside += is_level && across < 1.5;
+                const double across = distance_from_side(walker, car);
+                inside += tick > 100 && across < 0.1;
+                beside += across < 1.5;
             }
     }
     EXPECT_LT(inside, 6) << "27 ticks for who walks back to where he was once he is out of reach";
@@ -416,7 +423,6 @@ TEST(Crowd, WhoStandsInACornerBehindSomebodyLetsHimOut) {
     constexpr double speed = 0.6;
     constexpr double round = 20;  // [s] then another bus comes
     const auto model = *world::find_vehicle_model("bus");
-    const world::VehicleModel& bus = world::vehicle_models()[model];
     int inside = 0;
     int beside = 0;
     for (const std::uint64_t seed : {4U, 6U, 9U}) {
@@ -439,15 +445,9 @@ TEST(Crowd, WhoStandsInACornerBehindSomebodyLetsHimOut) {
             const bool has_come = time > 5;
             for (const world::WalkerState& walker : scene.step())
                 for (const world::CarState& car : scene.cars) {
-                    const Eigen::Vector2d gap =
-                        world::in_plan(walker.position()) - world::in_plan(car.position());
-                    const Eigen::Vector2d ahead = world::ahead_of(double{car.yaw()});
-                    const double along = gap.dot(ahead);
-                    const double across = std::abs(world::cross(ahead, gap)) - bus.width / 2;
-                    const bool is_level =
-                        along > -bus.rear_overhang && along < bus.length - bus.rear_overhang - 1.5;
-                    inside += has_come && is_level && across < 0.18;
-                    beside += has_come && is_level && across < 1.5;
+                    const double across = distance_from_side(walker, car);
+                    inside += has_come && across < 0.18;
+                    beside += has_come && across < 1.5;
                 }
         }
     }
