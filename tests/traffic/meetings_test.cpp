@@ -323,6 +323,24 @@ TEST(Meetings, OneOfTwoWhoseWaysCrossWaits) {
     EXPECT_GT(crossed, 10);
 }
 
+/// Demand takes rings of waiting cars for what they are; of one who passes something it would read
+/// an old one.
+TEST(Meetings, WhoTakesNoPartWaitsForNobody) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const RightOfWay right_of_way(town, {});
+    const Entry entry = entries_of(town).front();
+    Cars cars;
+    world::TickDraft draft;
+    cars.add(car_before(town, graph, 7, "sedan", entry.first, entry.second, 3, 6), "", 0, draft);
+    Meetings meetings(town, graph, right_of_way, meeting_step);
+    cars[0].waits_for = cars[0].blocked_by = {9};
+    cars[0].offset = 1.5;
+    meetings.look(cars, 2);
+    EXPECT_TRUE(cars[0].waits_for.empty());
+    EXPECT_TRUE(cars[0].blocked_by.empty());
+}
+
 /// What was worked out for who stands is the same as if it were worked out anew: two routes.
 TEST(Meetings, WhoStandsIsSeenAsIfHeWereSeenForTheFirstTime) {
     const TownT& town = own_town("town1").town;

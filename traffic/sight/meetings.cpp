@@ -143,14 +143,14 @@ void Meetings::gather(Cars& cars) {
         Car& car = all[i];
         Driver& driver = drivers_[i];
         driver.car = nullptr;
+        driver.waits_for.clear();
+        driver.blocked_by.clear();
         if (car.sumo.empty() || car.origin == Origin::parked || car.lane == none || car.pass ||
             std::abs(car.offset) > beside_its_lane)
             continue;
         const world::VehicleModel& model = world::vehicle_models()[car.model];
         driver.car = &car;
         driver.seen = nullptr;
-        driver.waits_for.clear();
-        driver.blocked_by.clear();
         driver.half_length = model.length / 2;
         driver.middle = car.rear.head<2>() + (driver.half_length - model.rear_overhang) * car.ahead;
         driver.reach = std::max(Foresight::look_ahead * (car.speed + Foresight::speeding_up),
@@ -416,11 +416,11 @@ void Meetings::look(Cars& cars, std::uint64_t tick) {
                 meet(drivers_[one.driver], drivers_[other.driver]);
         }
     }
-    for (std::size_t i = 0; i < drivers_.size(); ++i)
-        if (drivers_[i].car != nullptr) {
-            drivers_[i].car->waits_for = drivers_[i].waits_for;
-            drivers_[i].car->blocked_by = drivers_[i].blocked_by;
-        }
+    const auto all = cars.all();
+    for (std::size_t i = 0; i < drivers_.size(); ++i) {
+        all[i].waits_for = drivers_[i].waits_for;
+        all[i].blocked_by = drivers_[i].blocked_by;
+    }
 }
 
 }  // namespace reprise::traffic
