@@ -17,6 +17,7 @@ namespace {
 using world::rounded;
 
 constexpr double walking_acceleration = 2;  // [m/s^2]
+constexpr std::uint32_t many = 12;          // of 1.5 us a tick each, where a second thread costs 10
 
 bool is_raised(const world::LaneT& lane) {
     return lane.kind == world::LaneKind::sidewalk || lane.kind == world::LaneKind::walking_area;
@@ -32,7 +33,8 @@ Pedestrians::Pedestrians(const world::EpisodeT& episode,
       lanes_(&lanes),
       ground_(&ground),
       seed_(episode.seed),
-      step_(static_cast<double>(episode.step_ns) * 1e-9) {
+      step_(static_cast<double>(episode.step_ns) * 1e-9),
+      are_many_(episode.walkers >= many) {
     if (episode.walkers > 0)
         crowd_ = std::make_unique<walkers::Crowd>(episode, town, lanes, walking_ground());
 }

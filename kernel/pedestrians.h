@@ -44,7 +44,7 @@ class Pedestrians {
     walkers::OnFoot advance(const world::TickView& last, std::span<const world::CommandT> commands);
 
     /// Are there enough of them that a thread of its own pays?
-    bool are_many() const { return crowd_ != nullptr; }
+    bool are_many() const { return are_many_; }
 
     /// A drill's: moves the unrounded number behind a recorded one by so many units in the last
     /// place.
@@ -89,6 +89,7 @@ class Pedestrians {
     const ground::GroundMesh* ground_;
     std::uint64_t seed_;                                      ///< of the looks
     double step_;                                             ///< [s]
+    bool are_many_;                                           ///< to walk about in the background
     std::vector<Walker> walkers_;                             ///< sorted by id
     std::unique_ptr<walkers::WalkingGround> walking_ground_;  ///< once somebody needs it
     std::unique_ptr<walkers::Crowd> crowd_;                   ///< where the episode asks for one
