@@ -22,7 +22,8 @@ constexpr double side_by_side = 0.9;    // cosine of the angle to us: drives as 
 constexpr double long_half = 3.5;       // [m]
 constexpr double corner_margin = 0.1;   // [m] of the front's outer corner in a bend
 constexpr double swing = 0.8;           // [m] to both sides
-constexpr double turning = 0.5;         // [rad] over the junction
+constexpr double turning = 0.5;         // [rad] over the junction,
+constexpr double askew = 0.98;          // and cosine of 0.2 rad between body and lane elsewhere
 constexpr std::size_t coarse_step = 8;  // [samples] = 4 m
 
 }  // namespace
@@ -141,16 +142,17 @@ void Hazards::look(const world::TickView& last,
     }
 }
 
-/// A long vehicle that turns in a junction: its tail leaves the way of its front.
+/// A long vehicle that turns in a junction, or in a tight bend anywhere: its tail leaves the way of
+/// its front.
 bool Hazards::swings_out(const Body& body) const {
     if (body.half_length < long_half || body.speed < 0.3 || body.lane >= town_->lanes.size())
         return false;
     const world::LaneT& lane = town_->lanes[body.lane];
-    if (lane.kind != world::LaneKind::internal)
-        return false;
-    const double from = world::point_at(lane, 0).yaw;
-    const double to = world::point_at(lane, lane.length).yaw;
-    return std::abs(world::wrap_angle(to - from)) > turning;
+    if (lane.kind == world::LaneKind::internal)
+        return std::abs(world::wrap_angle(world::point_at(lane, lane.length).yaw -
+                                          world::point_at(lane, 0).yaw)) > turning;
+    const double ahead = world::point_at(lane, std::min(body.lane_s, lane.length)).yaw;
+    return world::ahead_of(ahead).dot(body.direction) < askew;
 }
 
 void Hazards::consider(const Body& body, const Scene& scene) {

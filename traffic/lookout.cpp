@@ -202,74 +202,6 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     return corridor.allowed;
 }
 
-/// [m/s] to stop before the body would sweep over somebody beside its lane, as a tail swings out
-/// and a middle cuts in where one turns. A long vehicle looks at all who stand or lie there, and
-/// not for ever: who stands there for long may never go away, and then brushing past is the
-/// driver's business; but never past vehicles with mass, which it would hit. A short one looks at
-/// these alone; it would stand before one that stands for ever if it wanted more than it needs. Of
-/// people who walk about nobody stays under a tail (walkers/threats.h): to wait for those who wait
-/// themselves, in the middle of a junction, is to block it.
-double Lookout::before_swept(Car& car, std::uint64_t tick) const {
-    constexpr double looked_at = 14;            // [m] of way
-    constexpr double spacing = 0.5;             // [m]
-    constexpr double hair = 0.1;                // [m] left beside it,
-    constexpr double finest_hair = 0.03;        // and where those alone are looked at who stand
-    constexpr double stands = 0.1;              // [m/s]
-    constexpr double slow = 1.5;                // [m/s] of who stays about where he is,
-    constexpr double hardly_faster = 5;         // and of one with mass that drives past
-    constexpr double waits = 40;                // [s]
-    constexpr double crawl = 0.6;               // [m/s] people step back from a tail that comes so
-    constexpr std::uint64_t goes_on_for = 200;  // [ticks]
-    const world::VehicleModel& model = world::vehicle_models()[car.model];
-    const bool is_long = model.length > longest_short_car;
-    const bool looks_at_all = is_long && car.brushes_until <= tick;
-    if (car.pass)
-        return world::infinity;
-    const double around = looked_at + 2 * model.length;
-    std::vector<BodyBox> others;
-    std::vector<BodyBox> people;
-    const std::span<const Footprint> seen = looks_at_all ? obstructions_.footprints() : driving_;
-    for (const Footprint& one : seen) {
-        if ((one.centre - car.rear.head<2>()).squaredNorm() > around * around || one.id == car.id ||
-            std::abs(one.z - car.rear.z()) > world::level_clearance)
-            continue;
-        const double speed = one.velocity.norm();
-        if (speed > (one.drives ? hardly_faster : slow))
-            continue;
-        const BodyBox box{one.centre, one.direction, one.half_length, one.half_width};
-        (one.is_afoot ? people : others)
-            .push_back(box.widened(looks_at_all || speed > stands ? hair : finest_hair));
-    }
-    if (others.empty() && people.empty())
-        return world::infinity;
-    const WayAhead way(car, meetings_.lines(), *graph_, looked_at);
-    const BodyBox corridor = way.corridor(looked_at, way.at(0).ahead);
-    for (std::vector<BodyBox>* boxes : {&others, &people})
-        std::erase_if(*boxes, [&](const BodyBox& other) { return !overlap(corridor, other); });
-    if (others.empty() && people.empty())
-        return world::infinity;
-    const auto touches = [&](const std::vector<BodyBox>& boxes, double driven) {
-        const BodyBox body = way.at(driven);
-        return std::any_of(
-            boxes.begin(), boxes.end(), [&](const BodyBox& other) { return overlap(body, other); });
-    };
-    if (touches(others, 0))  // it cannot help it by standing
-        return world::infinity;
-    const Braking braking{
-        car.speed, comfortable_braking(car.model), emergency_braking(car.model), step_};
-    double allowed = touches(people, 0) ? crawl : world::infinity;
-    for (double driven = spacing; driven <= std::min(looked_at, way.length()); driven += spacing) {
-        if (!std::isfinite(allowed) && touches(people, driven))
-            allowed = std::max(crawl, braking.speed_before(driven - spacing, 0, 0));
-        if (touches(others, driven)) {
-            if (is_long && car.standing_ticks * step_ > waits && driven <= 2 * spacing)
-                car.brushes_until = tick + goes_on_for;
-            return std::min(allowed, braking.speed_before(driven - spacing, 0, 0));
-        }
-    }
-    return allowed;
-}
-
 void Lookout::hold_back(Car& car, double speed, std::uint64_t tick) const {
     using libsumo::Vehicle;
     if (car.speed_order)
@@ -282,10 +214,7 @@ void Lookout::hold_back(Car& car, double speed, std::uint64_t tick) const {
 
 void Lookout::look(const world::TickView& last, const Cars& cars) {
     obstructions_.look(last, cars.all());
-    driving_.clear();
-    for (const Footprint& one : obstructions_.footprints())
-        if (one.drives)
-            driving_.push_back(one);
+    sweeping_.look();
 }
 
 void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tick) {
@@ -307,8 +236,10 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
         if (car.pass)
             allowed = std::min(allowed, Passing::allowed_speed(car));
         else
-            allowed = std::min(
-                {allowed, meetings_.allowed_speed(i), car.way_speed, before_swept(car, tick)});
+            allowed = std::min({allowed,
+                                meetings_.allowed_speed(i),
+                                car.way_speed,
+                                sweeping_.allowed_speed(car, tick)});
         if (car.pass || allowed < car.speed + starting * step_) {
             hold_back(car, allowed, tick);
         } else if (car.held_back) {

@@ -10,6 +10,7 @@
 #include "traffic/sight/obstructions.h"
 #include "traffic/sight/passing.h"
 #include "traffic/sight/stand_ins.h"
+#include "traffic/sight/sweeping.h"
 #include "world/episode_generated.h"
 #include "world/tick.h"
 #include "world/town.h"
@@ -43,7 +44,8 @@ class Lookout {
           obstructions_(town, lanes, step_),
           stand_ins_(town, graph, step_),
           passing_(town, obstructions_, step_),
-          meetings_(town, graph, right_of_way, step_) {}
+          meetings_(town, graph, right_of_way, step_),
+          sweeping_(obstructions_, meetings_.lines(), graph, step_) {}
 
     Lookout(const Lookout&) = delete;
     Lookout& operator=(const Lookout&) = delete;
@@ -72,7 +74,6 @@ class Lookout {
         std::uint32_t lane, double start, double reach, const Car& car, const Visit& visit) const;
     bool is_clear(const Car& car, double reach) const;
     void follow_lane_change(const Car& car, Corridor& corridor) const;
-    double before_swept(Car& car, std::uint64_t tick) const;
     void look_on(std::uint32_t lane, double start, double aside, Corridor& corridor) const;
     void hold_back(Car& car, double speed, std::uint64_t tick) const;
 
@@ -81,10 +82,10 @@ class Lookout {
     const Orders* orders_;
     double step_;  ///< [s]
     Obstructions obstructions_;
-    std::vector<Footprint> driving_;  ///< of those, vehicles with mass or on a trajectory
     StandIns stand_ins_;
     Passing passing_;
     Meetings meetings_;
+    Sweeping sweeping_;
 };
 
 }  // namespace reprise::traffic

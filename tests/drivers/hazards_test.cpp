@@ -39,7 +39,8 @@ class Road {
     double front() const { return ego_.front_s(); }
 
   private:
-    /// Lane 0: in a junction, from (10, 30) southward into a left turn that ends eastward.
+    /// Lane 0: in a junction, from (10, 30) southward into a left turn that ends eastward; lane 1:
+    /// the same, of a street.
     static world::TownT town_with_a_turn() {
         world::TownT town;
         town.lanes = {
@@ -47,6 +48,8 @@ class Road {
                             test::Turtle(10, 30, -northward).ahead(12).turn(northward, 14),
                             8,
                             world::LaneKind::internal)};
+        town.lanes.push_back(town.lanes[0]);
+        town.lanes[1].kind = world::LaneKind::driving;
         return town;
     }
 
@@ -113,19 +116,22 @@ TEST(Hazards, WhoTurnsInBesideOurNoseIsLetIn) {
     EXPECT_GT(Road(6).look({test::car_at(1'000'000, 30, 4.5, turned, 8)}), 0);
 }
 
-TEST(Hazards, TheTailOfALongVehicleThatTurnsInAJunctionNeedsRoom) {
+TEST(Hazards, TheTailOfALongVehicleThatTurnsNeedsRoom) {
     // Beside our lane, its side 1.5 m from the middle of it; in a junction or not, long or not.
-    const auto beside_us = [](const char* model, std::uint32_t lane) {
+    const auto beside_us = [](const char* model, std::uint32_t lane, float lane_s = 20) {
         const world::VehicleModel& of = world::vehicle_models()[*world::find_vehicle_model(model)];
         world::CarState car = test::car_at(1'000'000, 18, 1.5 + of.width / 2, 0, 4);
         car.mutate_model(*world::find_vehicle_model(model));
         car.mutate_lane(lane);
-        car.mutate_lane_s(20);
+        car.mutate_lane_s(lane_s);
         return Road(6).look({car});
     };
     EXPECT_LT(beside_us("bus", 0), 1);
     EXPECT_EQ(beside_us("bus", world::none), world::infinity);
     EXPECT_EQ(beside_us("sedan", 0), world::infinity);
+    // In a street where that bends: its front still looks south while it lies eastward.
+    EXPECT_LT(beside_us("bus", 1, 13), 1);
+    EXPECT_EQ(beside_us("bus", 1, 60), world::infinity);
 }
 
 TEST(Hazards, TheOuterCornerOfTheFrontNeedsRoomInABend) {
