@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/external/seats.h"
 #include "cli/fingerprint/self_test.h"
@@ -139,9 +140,13 @@ struct There {
     const world::SealedTick* tick;
     world::ExternalDrivers drivers;
     std::map<std::uint32_t, remote::Guide> guides;  ///< of those vehicles, by actor
+    std::map<std::string, world::Driver> names;     ///< who drove whom; a name is given once
 
     void hear(const world::Tick& now, const world::TownT& town) {
         drivers.hear(now);
+        for (const world::Command* command : *now.commands())
+            if (command->kind() == world::CommandKind::spawn && command->text() != nullptr)
+                names.emplace(command->text()->str(), command->driver());
         for (const auto& [actor, spawn] : drivers.spawns())
             guides.try_emplace(actor, town, actor).first->second.look(now);
     }
@@ -227,6 +232,72 @@ void check_drivers(const BranchOptions& options) {
                 options.scripts.size()));
 }
 
+/// Whether a script may spawn somebody of this name, as far as its text says: it stands there, or
+/// without the number at its end, as in 'car_' .. i.
+bool may_spawn(const std::string& script, const std::string& name) {
+    return script.find(name.substr(0, name.find_last_not_of("0123456789") + 1)) !=
+           std::string::npos;
+}
+
+/// The texts of what goes on behind a branch.
+std::vector<std::string> scripts_of(const world::EpisodeT& episode, const world::BranchT& branch) {
+    std::vector<std::string> texts{episode.scenario};
+    const auto add_files = [&](const auto& files) {
+        for (const auto& file : files)
+            texts.push_back(file.text);
+    };
+    add_files(episode.files);
+    const auto take_over = [&](const world::BranchT& by) {
+        if (by.scenario.empty())
+            return;
+        texts = {by.scenario};
+        add_files(by.files);
+    };
+    for (const world::BranchT& one : episode.branches)
+        take_over(one);
+    take_over(branch);
+    return texts;
+}
+
+/// Whom --driver names and nobody can be. Throws world::Error: rather than go on as recorded, with
+/// a driver that waits for nothing.
+void check_names(const There& there,
+                 const BranchOptions& options,
+                 const world::EpisodeT& episode,
+                 const std::vector<WhatIf>& what_ifs) {
+    std::vector<std::string> driven;
+    for (const auto& [actor, spawn] : there.drivers.spawns())
+        driven.push_back(spawn.command.text);
+    for (const remote::SeatPlan& plan : parse_seats(options.drivers)) {
+        const std::string& name = plan.actor;
+        if (std::find(driven.begin(), driven.end(), name) != driven.end())
+            continue;
+        if (const auto known = there.names.find(name); known != there.names.end())
+            throw world::Error(fmt::format(
+                "--driver {}: at {} '{}' {}",
+                name,
+                options.at,
+                name,
+                known->second == world::Driver::external
+                    ? "is there no longer"
+                    : "is driven by nobody in another program: its driver is not 'external'"));
+        const bool may_come = std::any_of(what_ifs.begin(), what_ifs.end(), [&](const auto& one) {
+            const auto texts = scripts_of(episode, one.branch);
+            return std::any_of(texts.begin(), texts.end(), [&](const std::string& text) {
+                return may_spawn(text, name);
+            });
+        });
+        if (!may_come)
+            throw world::Error(
+                fmt::format("--driver {}: nobody is called that{}; other programs "
+                            "drive {} at {}",
+                            name,
+                            world::did_you_mean(name, driven),
+                            driven.empty() ? "nobody" : fmt::format("{}", fmt::join(driven, ", ")),
+                            options.at));
+    }
+}
+
 /// Who of other programs' vehicles goes on without one.
 void tell_undriven(const world::ExternalDrivers& drivers,
                    const BranchOptions& options,
@@ -265,7 +336,7 @@ int branch(const BranchOptions& options) {
         files::output_target(what_if.output, "the trace");  // rather now than after a long way
     print_recording_build(trace);
     kernel::Kernel kernel(trace.recording());
-    There there{&kernel, nullptr, {}, {}};
+    There there{&kernel, nullptr, {}, {}, {}};
     Progress progress("going there", "ticks", tick);
     const auto divergence =
         kernel::follow(kernel, trace, tick, [&](const world::SealedTick& tick_there) {
@@ -279,6 +350,7 @@ int branch(const BranchOptions& options) {
                                  trace,
                                  *divergence,
                                  fmt::format(" before tick {}; nothing was written", tick));
+    check_names(there, options, trace.episode(), what_ifs);
     tell_undriven(there.drivers, options, trace.ticks());
     const auto results = go_on_in_copies(there, trace, what_ifs, options);
     int code = exit_good;

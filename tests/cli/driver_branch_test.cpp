@@ -189,8 +189,40 @@ TEST_F(DriverBranch, SaysWhatIsWrongAndLeavesNothing) {
                           "--driver third='COMMAND'"));
     fs::remove(folder_ / "more.lua");
     EXPECT_EQ(folder_.files(), before);
-    EXPECT_THAT(branch({"--script", "rain.lua", "--driver", "ega=" + steady}, "b.mcap"),
-                HasSubstr("--driver ega: nobody was spawned with that name"));
+}
+
+TEST_F(DriverBranch, ANameThatNobodyHasIsAMistake) {
+    write_file(
+        folder_ / "left.lua",
+        "return scenario 'left' { town = 'small.net.xml', cars = 0, seed = 11, duration = 5,\n"
+        "run = function()\n" +
+            spawn("ego", 20) + spawn("gone", 40) +
+            "spawn{ name = 'own', model = 'sedan', driver = 'autopilot', lane = 'am_1', s = "
+            "60 }\nwait(1) gone:despawn() wait(60)\nend }\n");
+    run({"run",
+         "left.lua",
+         "--driver",
+         "ego=" + steady,
+         "--driver",
+         "gone=" + steady,
+         "-o",
+         "left.mcap"},
+        0);
+    write_script("later", "for i = 1, 2 do if i == 3 then spawn{ name = 'car_' .. i } end end");
+    const auto before = folder_.files();
+    EXPECT_THAT(branch({"--driver", "egoo=" + steady}, "b.mcap", 2, "left.mcap"),
+                HasSubstr("--driver egoo: nobody is called that (did you mean 'ego'?); other "
+                          "programs drive ego at 50t"));
+    EXPECT_THAT(branch({"--driver", "gone=" + steady}, "b.mcap", 2, "left.mcap"),
+                HasSubstr("--driver gone: at 50t 'gone' is there no longer"));
+    EXPECT_THAT(branch({"--driver", "own=" + steady}, "b.mcap", 2, "left.mcap"),
+                HasSubstr("--driver own: at 50t 'own' is driven by nobody in another program"));
+    EXPECT_THAT(branch({"--script", "rain.lua", "brake.lua", "--driver", "egoo=" + steady}, "b", 2),
+                HasSubstr("--driver egoo: nobody is called that"));
+    EXPECT_EQ(folder_.files(), before);
+    // Who may still come is waited for.
+    EXPECT_THAT(branch({"--script", "later.lua", "--driver", "car_2=" + steady}, "b.mcap"),
+                HasSubstr("--driver car_2: nobody was spawned with that name"));
 }
 
 }  // namespace
