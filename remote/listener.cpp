@@ -30,7 +30,8 @@ bool is_left_behind(const sockaddr_un& address) {
 
     if (lstat(static_cast<const char*>(address.sun_path), &there) != 0 || !S_ISSOCK(there.st_mode))
         return false;
-    const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    // Without waiting: whose queue is full listens.
+    const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     const bool refused =
         connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 &&
         errno == ECONNREFUSED;

@@ -79,8 +79,37 @@ struct Seat::Parts {
                 ended && fault.why != Why::other)
                 reason = ended->signal != 0 ? fmt::format("was ended by signal {}", ended->signal)
                                             : fmt::format("ended with exit code {}", ended->code);
-        channel.reset();
+        // Whom the user waits for no longer has done nothing wrong, and hears goodbye.
+        if (fault.why != Why::given_up || !asked || !asked())
+            channel.reset();
         return {fmt::format("the driver of '{}' {}", plan.actor, reason), std::nullopt};
+    }
+
+    /// Waits for who comes to the door, if there is one.
+    std::optional<Lost> let_in() {
+        if (!door)
+            return std::nullopt;
+        try {
+            Patience until_it_comes = patience;
+            until_it_comes.given_up = asked;  // who comes now is not turned away
+            channel.emplace(door->let_in(until_it_comes), largest_answer);
+            return std::nullopt;
+        } catch (const ChannelFault&) {
+            return lost(ChannelFault("did not come in time"));
+        }
+    }
+
+    /// Says hello and hears that it is ready. Throws ChannelFault.
+    std::optional<Lost> greet(const Packed& hello, const Descriptor& memory) {
+        channel->send(Kind::hello, bytes_of(hello), patience, memory.number());
+        Frame frame = channel->receive(patience);
+        if (frame.kind != Kind::ready)
+            return said_else(std::move(frame), "did not say that it is ready");
+        if (const auto version = frame.as<Ready>().version(); version != wire_version)
+            return lost(ChannelFault(
+                fmt::format("speaks version {} of the wire, this is {}", version, wire_version)));
+        channel->poll_for(polling);
+        return std::nullopt;
     }
 
     void say_last(Kind kind, const flatbuffers::FlatBufferBuilder& builder) {
@@ -215,37 +244,27 @@ std::optional<Lost> Seat::take(std::uint32_t id,
         if (parts.rig && !spawned.tick_before.empty())
             parts.rig->remember(spawned.tick_before, spawned.traffic_before);
     }
-    if (parts.door) {
+    const auto route = parts.sees_sensors ? std::nullopt : parts.guide->route_left();
+    for (;;) {
+        if (auto nobody = parts.let_in())
+            return nobody;
+        const bool looks_itself = parts.rig && parts.channel->carries_descriptors();
+        const Packed hello = pack_hello({id,
+                                         parts.plan.actor,
+                                         spawned.command,
+                                         route ? &*route : nullptr,
+                                         looks_itself ? parts.rig->memory().bytes().size() : 0},
+                                        recording);
+        const Descriptor memory = looks_itself ? parts.rig->memory().for_looking() : Descriptor();
         try {
-            Patience patience = parts.patience;
-            patience.given_up = parts.asked;  // who comes now is not turned away
-            parts.channel.emplace(parts.door->let_in(patience), largest_answer);
-        } catch (const ChannelFault&) {
-            return parts.lost(ChannelFault("did not come in time"));
+            return parts.greet(hello, memory);
+        } catch (const ChannelFault& fault) {
+            // It only looked whether somebody listens there, as another run does that was told the
+            // same place.
+            if (!parts.door || fault.why != ChannelFault::Why::hung_up)
+                return parts.lost(fault);
         }
     }
-    const bool looks_itself = parts.rig && parts.channel->carries_descriptors();
-    const auto route = parts.sees_sensors ? std::nullopt : parts.guide->route_left();
-    const Packed hello = pack_hello({id,
-                                     parts.plan.actor,
-                                     spawned.command,
-                                     route ? &*route : nullptr,
-                                     looks_itself ? parts.rig->memory().bytes().size() : 0},
-                                    recording);
-    const Descriptor memory = looks_itself ? parts.rig->memory().for_looking() : Descriptor();
-    try {
-        parts.channel->send(Kind::hello, bytes_of(hello), parts.patience, memory.number());
-        Frame frame = parts.channel->receive(parts.patience);
-        if (frame.kind != Kind::ready)
-            return parts.said_else(std::move(frame), "did not say that it is ready");
-        if (const auto version = frame.as<Ready>().version(); version != wire_version)
-            return parts.lost(ChannelFault(
-                fmt::format("speaks version {} of the wire, this is {}", version, wire_version)));
-        parts.channel->poll_for(polling);
-    } catch (const ChannelFault& fault) {
-        return parts.lost(fault);
-    }
-    return std::nullopt;
 }
 
 std::optional<Lost> Seat::show(const world::SealedTick& tick) {

@@ -3,15 +3,14 @@
 // Start: wire_fuzz --seeds FOLDER writes inputs; wire_fuzz FOLDER.
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <string>
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 #include <vector>
 
 #include "remote/client.h"
+#include "remote/frame_channel.h"
 #include "remote/schema.h"
 #include "remote/seat.h"
 #include "tests/fuzz/start.h"
@@ -81,14 +80,12 @@ void drain(int socket) {
 
 /// Five ticks with a driver that says this.
 void drive_seat(const Bytes& said) {
-    const std::string path = "/dev/shm/wire_fuzz_" + std::to_string(getpid());
-    remote::Seat seat({"ego", "", path}, {5.0});
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::memcpy(address.sun_path, path.c_str(), path.size());
-    const int socket_to_run = socket(AF_UNIX, SOCK_STREAM, 0);
-    if (connect(socket_to_run, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
+    std::array<int, 2> ends{};
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) != 0)
         std::abort();
+    constexpr std::size_t largest_answer = 64 << 10;  // [bytes] as a run takes them
+    remote::Seat seat("ego", remote::FrameChannel(ends[1], largest_answer), {5.0});
+    const int socket_to_run = ends[0];
     say(socket_to_run, said);
     bool lost = seat.take(1, recording()).has_value();
     for (int i = 0; i < 5 && !lost; ++i) {

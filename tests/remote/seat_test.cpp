@@ -1,6 +1,7 @@
 #include "remote/seat.h"
 
 #include <array>
+#include <atomic>
 #include <sys/socket.h>
 #include <thread>
 
@@ -231,6 +232,52 @@ TEST_P(Door, TheFirstDrivesAndEverybodyElseIsToldWhyNot) {
                 testing::ElementsAre("'ego' has a driver already: it was here first",
                                      "'ego' has a driver already: it was here first"));
     EXPECT_THAT(refusal(place), HasSubstr("nobody is there"));
+}
+
+/// As another run does that was told the same place, and wants to know whether somebody is there.
+TEST_P(Door, WhoHangsUpBeforeItIsReadyWasNoDriver) {
+    Seat seat(plan(), {10.0});
+    close(open_connection(seat.place()));
+    std::thread driver([&] {
+        Client run(seat.place());
+        while (run.next())
+            run.say({.throttle = 0.5});
+    });
+    const auto taken = seat.take(3, recording());
+    EXPECT_FALSE(taken) << taken->reason;
+    if (!taken) {
+        EXPECT_FALSE(seat.show(tick(1)));
+        EXPECT_TRUE(std::holds_alternative<world::Control>(seat.answer()));
+    }
+    seat.leave("done");
+    driver.join();
+}
+
+TEST(Seat, WhomTheUserWaitsForNoLongerHearsGoodbye) {
+    const std::string path = testing::TempDir() + "seat_stop_" + std::to_string(getpid());
+    std::atomic<bool> is_over = false;
+    std::string heard;
+    {
+        Seat seat({"ego", "", path}, {10.0, [&] { return is_over.load(); }});
+        std::thread driver([&] {
+            try {
+                Client run(path);
+                run.next();
+                while (!is_over) {  // it thinks, and is thinking still when the user gives up
+                }
+                heard = run.next() ? "a tick" : "goodbye";
+            } catch (const world::Error& error) {
+                heard = error.what();
+            }
+        });
+        EXPECT_FALSE(seat.take(3, recording()));
+        EXPECT_FALSE(seat.show(tick(1)));
+        is_over = true;
+        EXPECT_TRUE(std::holds_alternative<Lost>(seat.answer()));
+        seat.leave("the run ended");
+        driver.join();
+    }
+    EXPECT_EQ(heard, "goodbye");
 }
 
 TEST_P(Door, WhoWaitsForARunThatEndsBeforeHearsSo) {
