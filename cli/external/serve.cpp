@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <list>
 #include <poll.h>
@@ -10,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/external/serve_folder.h"
 #include "cli/external/serve_session.h"
 #include "cli/fingerprint/self_test.h"
 #include "cli/process/guard.h"
@@ -30,10 +32,25 @@ constexpr std::size_t most_turned_away = 16;  // at once, while they are told wh
 constexpr double greeting = 10;               // [s] for a client's first word
 constexpr double patience_at_end = 6;         // [s] for sessions to close their traces
 
+/// As ssh does with keys. What is no file, such as a pipe of the shell's, has no mode that counts.
+void refuse_if_others_may(const std::string& path) {
+    namespace fs = std::filesystem;
+    constexpr auto others = fs::perms::group_all | fs::perms::others_all;
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::is_regular_file(status) && (status.permissions() & others) != fs::perms::none)
+        throw world::Error(
+            fmt::format("--token-file {}: other users may open it (mode {:03o}): chmod 600 {}",
+                        path,
+                        static_cast<unsigned>(status.permissions() & fs::perms::all),
+                        path));
+}
+
 std::string read_token(const std::string& path) {
     constexpr std::size_t shortest = 16;
     if (path.empty())
         return "";
+    refuse_if_others_may(path);
     std::ifstream file(path);
     std::string token;
     std::getline(file, token);
@@ -154,6 +171,7 @@ int serve(const ServeOptions& asked) {
     ServeOptions options = asked;
     if (options.socket.empty())
         options.socket = "reprise.sock";
+    refuse_links_to_towns(options.folder);
     const process::HeldSignals signals;
     if (const auto descriptor = open_descriptor(options.socket)) {
         auto town = options.town.empty() ? nullptr : make_ready(options.town, options.folder);

@@ -33,4 +33,21 @@ fs::path file_in(const fs::path& folder, const std::string& name, const std::str
     return path;
 }
 
+void refuse_links_to_towns(const fs::path& folder, const std::string& town) {
+    std::error_code ignored;
+    const auto refuse = [&](const fs::path& one) {
+        if (fs::is_symlink(fs::symlink_status(one, ignored)))
+            throw world::Error(fmt::format(
+                "{}: is a link; clients of a server reach nothing outside of its folder",
+                one.lexically_relative(folder).string()));
+    };
+    const fs::path towns = folder / "towns";
+    refuse(towns);
+    if (town.empty() || town.find('/') != std::string::npos)
+        return;
+    refuse(towns / town);
+    for (const auto& entry : fs::directory_iterator(towns / town, ignored))
+        refuse(entry);
+}
+
 }  // namespace reprise::cli

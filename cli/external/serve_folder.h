@@ -11,4 +11,8 @@ std::filesystem::path file_in(const std::filesystem::path& folder,
                               const std::string& name,
                               const std::string& ending);
 
+/// Towns of that folder stand in it as well: neither `towns` in it, nor the town of this name, nor
+/// anything in that is a link. Throws world::Error.
+void refuse_links_to_towns(const std::filesystem::path& folder, const std::string& town = "");
+
 }  // namespace reprise::cli

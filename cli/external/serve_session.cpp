@@ -64,6 +64,7 @@ scripting::Overrides overrides_of(const remote::Reset& reset) {
 
 std::unique_ptr<ReadyTown> make_ready(const std::string& town, const std::string& folder) {
     auto ready = std::make_unique<ReadyTown>();
+    refuse_links_to_towns(folder, town);
     towns::Network network = load_named_town(town, folder);
     ready->name = town;
     ready->recording.town = towns::read_town(network);
@@ -86,6 +87,7 @@ void turn_away(remote::FrameChannel& client, const std::string& why) {
 struct Session::Parts {
     void greet(const remote::Patience& patience);
     std::optional<remote::Frame> begin(const remote::Frame& frame);
+    void hang_up(const remote::ChannelFault& fault);
     world::EpisodeT episode_of(const remote::Reset& reset);
     void want_town(const std::string& town);
     Stage& stage_for(world::EpisodeT episode);
@@ -98,6 +100,7 @@ struct Session::Parts {
     std::optional<Stage> stage;  ///< of town->recording
     bool stopped = false;
     bool left = false;  ///< the client has said goodbye
+    bool is_greeted = false;
 };
 
 /// The client's first word, and ours. Throws ChannelFault when it shall not stay.
@@ -121,6 +124,19 @@ void Session::Parts::greet(const remote::Patience& patience) {
     builder.Finish(remote::CreateOpen(
         builder, remote::wire_version, builder.CreateString(remote::schema_digest())));
     client.send(Kind::open, {builder.GetBufferPointer(), builder.GetSize()}, {taking});
+    is_greeted = true;
+}
+
+/// The client has left, or was to leave; or what it said cannot be understood, which it is told:
+/// behind that nothing else can be, either.
+void Session::Parts::hang_up(const remote::ChannelFault& fault) {
+    if (fault.why != remote::ChannelFault::Why::other || !is_greeted)
+        return;
+    try {
+        send_fault(client, fmt::format("the client {}", fault.what()));
+    } catch (const remote::ChannelFault&) {
+        // Nobody hears it.
+    }
 }
 
 void Session::Parts::want_town(const std::string& name) {
@@ -214,6 +230,7 @@ Session::Session(const ServeOptions& options,
                        signals,
                        std::nullopt,
                        false,
+                       false,
                        false}) {}
 
 Session::~Session() = default;
@@ -236,8 +253,8 @@ void Session::run(std::optional<double> greeting) {
             if (parts.left)
                 break;
         }
-    } catch (const remote::ChannelFault&) {
-        // It has left, or was to leave.
+    } catch (const remote::ChannelFault& fault) {
+        parts.hang_up(fault);
     }
 }
 

@@ -73,6 +73,14 @@ class _Server:
                 pass_fds=[number], stdin=subprocess.DEVNULL, start_new_session=True,
             )  # fmt: skip
 
+    def end_of_it(self) -> str:
+        """For a message: how it ended, if it did; nobody but us lets it."""
+        try:
+            code = self._process.wait(1)
+        except subprocess.TimeoutExpired:
+            return ""
+        return f": its server was ended by signal {-code}" if code < 0 else f": its server ended with exit code {code}"
+
     def end(self) -> None:
         for ask in (lambda: None, self._process.terminate, self._process.kill):
             ask()
@@ -143,12 +151,21 @@ class Client:
             raise WireError("this simulation is closed")
         return self._wire
 
+    def _explained(self, error: WireError) -> WireError:
+        return WireError(f"{error}{self._server.end_of_it()}") if self._server else error
+
     def _say(self, kind: str, **values: Any) -> None:
-        self._open_wire().say(kind, **values)
+        try:
+            self._open_wire().say(kind, **values)
+        except WireError as error:
+            raise self._explained(error) from None
 
     def _hear(self, first: bool = False) -> tuple[str, Noun]:
         wire = self._open_wire()
-        kind, message = wire.receive_first() if first else wire.receive()
+        try:
+            kind, message = wire.receive_first() if first else wire.receive()
+        except WireError as error:
+            raise self._explained(error) from None
         if kind == "fault":
             raise Fault(message.text, message.line)
         return kind, message
@@ -293,7 +310,10 @@ class Simulation(Client):
         return self._answer(self._seen, control if control is not None else Control(**values))
 
     def _answer(self, seen: Observation, control: Control) -> Observation | None:
-        self._open_wire().control(seen.index, *values_of(control))
+        try:
+            self._open_wire().control(seen.index, *values_of(control))
+        except WireError as error:
+            raise self._explained(error) from None
         return self._look()
 
     def show(self, radius: float | None = 60.0) -> View:

@@ -58,7 +58,11 @@ class WireError(RuntimeError):
 
 def _connect(address: str) -> socket.socket:
     if address.startswith("fd:"):
-        return socket.socket(fileno=int(address[3:]))
+        try:
+            return socket.socket(fileno=int(address[3:]))
+        except (ValueError, OSError):
+            raise WireError(f"{address}: is no open socket; who starts a driver in turn must leave it open "
+                            "(subprocess.run(..., close_fds=False))") from None  # fmt: skip
     host, colon, port = address.rpartition(":")
     try:
         if colon and port.isdigit() and "/" not in host:

@@ -73,6 +73,11 @@ class Mistakes(unittest.TestCase):
                     self.assertEqual(len(ours), 1, done.stdout)
                     self.assertRegex(ours[0], f"^reprise: the driver of 'ego' left: {told}")
 
+    def test_in_who_starts_a_driver_in_turn_are_told(self):
+        for place in ("fd:987", "fd:none"):
+            with self.assertRaisesRegex(reprise.WireError, f"{place}: is no open socket; .*close_fds=False"):
+                reprise.drive(lambda seen: reprise.Control(), place)
+
     def test_what_a_driver_prints_is_seen(self):
         self.assertIn("what I print 5\n", self.drive("print('what I print', seen.index)").stdout)
 

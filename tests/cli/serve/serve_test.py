@@ -388,6 +388,14 @@ class Episodes(Case):
             wait_until(lambda: select.select([sim._wire], [], [], 0)[0], "the server answers")
             self.assertEqual(chains(sim, 5), wanted)
 
+    def test_a_server_that_was_started_for_us_and_ended_is_said_to_have(self):
+        with reprise.Simulation() as sim:
+            sim.reset()
+            sim._server._process.kill()
+            with self.assertRaisesRegex(WireError, "hung up: its server was ended by signal 9"):
+                for _ in range(100_000):
+                    sim.step()
+
     def test_fifty_resets_leave_no_process_and_no_descriptor(self):
         with reprise.Simulation("town1", seed=1) as sim:
             def state():
@@ -604,6 +612,45 @@ class Servers(Case):
             wire.close()
         self.assertEqual(sorted(one.name for one in self.folder.iterdir()), ["driven.lua", "inside"])
 
+    def test_links_to_towns_elsewhere_are_refused(self):
+        elsewhere, inside = self.folder / "elsewhere", self.folder / "inside"
+        inside.mkdir()
+
+        def put(network, name):
+            network.mkdir(parents=True)
+            (network / f"{name}.net.xml").write_bytes((HERE.parent / "crash/small.net.xml").read_bytes())
+
+        put(elsewhere / "small", "small")
+        (inside / "towns").symlink_to(elsewhere)
+        code, said = reprise_program("serve", "--socket", str(self.folder / "s"), "--folder", str(inside))
+        self.assertEqual(code, 2, said)
+        self.assertIn("towns: is a link; clients of a server reach nothing outside of its folder", said)
+        (inside / "towns").unlink()
+        towns = inside / "towns"
+        put(towns / "own", "own")
+        put(towns / "linked", "linked")
+        (towns / "small").symlink_to(elsewhere / "small")
+        (towns / "linked/more.txt").symlink_to(elsewhere)
+        with Server("--socket", str(self.folder / "s"), "--folder", str(inside)) as server:
+            with reprise.Simulation(server=server.place) as sim:
+                for town in ("small", "linked"):
+                    with self.assertRaisesRegex(reprise.Fault, f"towns/{town}.*: is a link"):
+                        sim.reset(town=town)
+                self.assertEqual(sim.reset(town="own").index, 1)
+
+    def test_what_is_no_message_is_told_to_who_said_it(self):
+        with Server("--socket", str(self.folder / "s")) as server:
+            wire = Wire(server.place)
+            wire.say("open", version=1)
+            self.assertEqual(wire.receive()[0], "open")
+            wire._send_all(struct.pack("<II", 4, 99) + b"none")
+            kind, message = wire.receive()
+            self.assertEqual(kind, "fault")
+            self.assertIn("the client said what is no message (kind 99, 4 bytes)", message.text)
+            with self.assertRaises(WireError):
+                wire.receive()
+            wire.close()
+
     def test_what_is_no_message_ends_the_session_only(self):
         with Server("--socket", str(self.folder / "s")) as server:
             for bytes_said in (b"GET / HTTP/1.1\r\n\r\n", struct.pack("<II", 0xFFFFFFFF, 6), struct.pack("<II", 4, 99) + b"none"):
@@ -648,6 +695,12 @@ class Ports(Case):
         self.assertEqual(code, 2)
         self.assertIn("--token-file", said)
         token = self.folder / "token"
+        token.write_text("long enough, but anybody's\n")
+        token.chmod(0o640)
+        code, said = reprise_program("serve", "--port", "0", "--token-file", str(token))
+        self.assertEqual(code, 2)
+        self.assertIn(f"--token-file {token}: other users may open it (mode 640): chmod 600 {token}", said)
+        token.chmod(0o600)
         token.write_text("short\n")
         code, said = reprise_program("serve", "--port", "0", "--listen", "127.0.0.2", "--token-file", str(token))
         self.assertEqual(code, 2)
@@ -655,6 +708,7 @@ class Ports(Case):
 
     def test_only_the_right_token_opens(self):
         token = self.folder / "token"
+        token.touch(0o600)
         token.write_text("a token of some length\n")
         with Server("--port", "0", "--listen", "127.0.0.2", "--token-file", str(token)) as server:
             for wrong in (None, "", "a token of some", "a token of some length ", "another token, as long"):
