@@ -117,13 +117,20 @@ std::optional<BesidePath> DriverState::beside(const Ego& ego) const {
     return place;
 }
 
-/// [m] left of the path, where the point is that is steered along it; beyond what a scenario wants.
+/// [m] left of its line, where the point is that is steered along it; beyond what a scenario wants.
+/// The line is the path, or in bends that need more room what is planned there.
 double DriverState::tracked_beside(const Ego& ego) const {
     const double ahead = tracked_ahead(*ego.model);
-    const PathPoint here = way().path().at(ego.rear_axle_s + ahead);
+    const PathPoint on_path = way().path().at(ego.rear_axle_s + ahead);
+    Eigen::Vector2d place = on_path.position.head<2>();
+    Eigen::Vector2d direction = on_path.direction;
+    if (has_wide_turn) {
+        const WideTurnPoint there = wide_turn->at(ego.rear_axle_s);
+        direction = world::ahead_of(there.yaw);
+        place = there.position + ahead * direction;
+    }
     const Eigen::Vector2d tracked = ego.position.head<2>() + ahead * ego.direction;
-    return world::cross(here.direction, tracked - here.position.head<2>()) -
-           lateral_order.offset(tick, step);
+    return world::cross(direction, tracked - place) - lateral_order.offset(tick, step);
 }
 
 /// Around what stands in the way, where that is free; what it sees on the path is then looked at

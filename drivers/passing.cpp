@@ -65,8 +65,20 @@ void Passing::follow(const world::TickView& last, const Ego& ego, const Way& way
 
     // Not out yet, and somebody comes: not now.
     const double out = (line.offset(s) - line.from) / (line.aside - line.from);
-    if (out < hardly_out && s < line.out_end && !is_free(scene, *plan_))
+    if ((out < hardly_out && s < line.out_end && !is_free(scene, *plan_)) || has_driven_on(ego))
         come_back(ego, line.offset(s));
+}
+
+/// Who stood, and was to be passed, is ahead of us again: behind it there is our lane.
+bool Passing::has_driven_on(const Ego& ego) const {
+    constexpr double moved_up = 3;  // [m]
+    if (!plan_->stood_at)
+        return false;
+    double rear = world::infinity;
+    for (const Neighbour& one : neighbours_)
+        if (std::find(plan_->row.begin(), plan_->row.end(), one.body.id) != plan_->row.end())
+            rear = std::min(rear, one.rear);
+    return rear < world::infinity && rear > ego.front_s() && rear > *plan_->stood_at + moved_up;
 }
 
 bool Passing::consider(const world::TickView& last,
@@ -112,6 +124,8 @@ bool Passing::consider(const world::TickView& last,
     const bool may = watched >= wait + (oncoming ? before_oncoming : 0);
     if (may && plan->is_free && plan->missing <= 0) {
         plan_ = std::move(plan);
+        if (first->stands())
+            plan_->stood_at = first->rear;
         return true;
     }
     if (first->along < 0.3)
@@ -216,8 +230,11 @@ int Passing::side(const Ego& ego) const {
 }
 
 void Passing::shift(double distance) {
-    if (plan_)
-        plan_->bypass.shift(distance);
+    if (!plan_)
+        return;
+    plan_->bypass.shift(distance);
+    if (plan_->stood_at)
+        *plan_->stood_at += distance;
 }
 
 void Passing::add_to(world::Hasher& hasher) const {
@@ -237,6 +254,8 @@ void Passing::add_to(world::Hasher& hasher) const {
     hasher.add(plan_->uses);
     if (plan_->past_waiting)
         hasher.add(plan_->past_waiting);
+    if (plan_->stood_at)
+        hasher.add(*plan_->stood_at);
 }
 
 }  // namespace reprise::drivers

@@ -77,6 +77,7 @@ class Passing {
     void watch(const Neighbour& one);
     double patience(const Neighbour& one, const PassingScene& scene) const;
     bool has_no_reason(const Neighbour& one, const PassingScene& scene) const;
+    bool has_driven_on(const Ego& ego) const;
 
     const RoadMap* map_;
     double step_;

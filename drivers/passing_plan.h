@@ -44,7 +44,8 @@ struct PassingPlan {
     double missing = 0;   ///< [m] ahead of the car to get out at all; 0: it has the room
     double room = 0;      ///< [m] from the bumper to the first of them, that getting out takes
     bool is_free = true;  ///< nobody comes
-    bool past_waiting = false;  ///< who stands does not count as coming: they wait for us
+    bool past_waiting = false;       ///< who stands does not count as coming: they wait for us
+    std::optional<double> stood_at;  ///< [m] along the path, the rear of the first one: if it stood
 };
 
 /// Does it stand on our way with its front towards us? No queue that we are in will move it.

@@ -373,6 +373,18 @@ TEST(Passing, WhoWaitsForTheSameWreckDoesNotHoldUsForEver) {
     EXPECT_GT(outcome.x, 300);
 }
 
+TEST(Passing, WhoDrivesOnBeforeHeIsPassedIsFollowed) {
+    Overtaker drive({2});
+    drive.place(ours, 20, 6);
+    drive.cars = {car_on(80, 0, 0, 0)};
+    while (drive.car.y < 0.3 && drive.seconds() < 60)
+        drive_past(drive, drive.seconds() + 0.05);
+    ASSERT_LT(drive.car.x, 76) << "it is beside it already";
+    drive.cars[0].mutate_speed(20);
+    const Outcome outcome = drive_past(drive, drive.seconds() + 10);
+    EXPECT_NEAR(outcome.at_end, 0, 0.1) << "it stays out for as long as somebody is ahead";
+}
+
 TEST(Passing, WhoStandsNoseToNoseWithUs) {
     // Just before a junction, where one who stands on the brake in our direction would be a queue.
     Drive drive(two_way_junction());
