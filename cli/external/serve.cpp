@@ -1,8 +1,10 @@
 #include "cli/external/serve.h"
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <list>
@@ -52,6 +54,9 @@ std::string read_token(const std::string& path) {
         return "";
     refuse_if_others_may(path);
     std::ifstream file(path);
+    if (!file)
+        throw world::Error(
+            fmt::format("--token-file {}: cannot be read: {}", path, std::strerror(errno)));
     std::string token;
     std::getline(file, token);
     if (token.size() < shortest)

@@ -164,6 +164,8 @@ world::EpisodeT Session::Parts::episode_of(const remote::Reset& reset) {
         episode = scripting::episode_of_text("task.lua", task.source, task.overrides);
     } else if (!file.empty()) {
         episode = scripting::load_episode(file_in(options.folder, file, ".lua"), overrides);
+        for (const world::FileT& one : episode.files)  // that it names
+            file_in(options.folder, one.name, ".csv");
     } else {
         const std::string name = text_of(reset.name());
         episode = scripting::episode_of_text(

@@ -184,7 +184,7 @@ class Client:
         try:
             self._change_plan(changes)
             yield
-        except (ValueError, TypeError):  # a Fault, too
+        except Exception:  # a Fault, a file that is not there
             self._plan = before
             raise
 

@@ -152,6 +152,8 @@ class Mistakes(unittest.TestCase):
                     sim.reset(**each)
             with self.assertRaisesRegex(reprise.Fault, "no town"):
                 sim.reset(town="nowhere")
+            with self.assertRaises(FileNotFoundError):
+                sim.reset(scenario="no/such.lua")
             self.assertEqual(sim.reset(cars=np.int64(0), seed=7.0).index, 1)
 
 

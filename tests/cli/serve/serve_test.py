@@ -591,11 +591,15 @@ class Servers(Case):
         (inside / "link.mcap").symlink_to(self.folder / "secret.mcap")
         (inside / "late.mcap.partial").symlink_to(self.folder / "secret.mcap")
         (inside / "driven.lua").write_text(DRIVEN)
+        (inside / "reads.lua").write_text(DRIVEN.replace("wait(3600)", "print('link.csv') wait(3600)"))
+        (self.folder / "secret.csv").write_text("t,x,y,heading_deg\n")
+        (inside / "link.csv").symlink_to(self.folder / "secret.csv")
         with Server("--socket", str(self.folder / "s"), "--folder", str(inside)) as server:
             wire = Wire(server.place)
             wire.say("open", version=1)
             self.assertEqual(wire.receive()[0], "open")
-            for name in ("../driven.lua", str(self.folder / "driven.lua"), "..", "", ".lua", "link.lua", "a\0b.lua", "driven.txt"):
+            for name in ("../driven.lua", str(self.folder / "driven.lua"), "..", "", ".lua", "link.lua", "a\0b.lua", "driven.txt",
+                         "reads.lua"):  # fmt: skip
                 with self.subTest(scenario=name):
                     wire.say("reset", file=name)
                     self.assertEqual(wire.receive()[0], "fault")
@@ -610,7 +614,7 @@ class Servers(Case):
                     self.assertEqual(kind, "fault")
                     self.assertIn("no town", message.text)
             wire.close()
-        self.assertEqual(sorted(one.name for one in self.folder.iterdir()), ["driven.lua", "inside"])
+        self.assertEqual(sorted(one.name for one in self.folder.iterdir()), ["driven.lua", "inside", "secret.csv"])
 
     def test_links_to_towns_elsewhere_are_refused(self):
         elsewhere, inside = self.folder / "elsewhere", self.folder / "inside"
@@ -695,6 +699,9 @@ class Ports(Case):
         self.assertEqual(code, 2)
         self.assertIn("--token-file", said)
         token = self.folder / "token"
+        code, said = reprise_program("serve", "--port", "0", "--token-file", str(token))
+        self.assertEqual(code, 2)
+        self.assertIn(f"--token-file {token}: cannot be read: No such file or directory", said)
         token.write_text("long enough, but anybody's\n")
         token.chmod(0o640)
         code, said = reprise_program("serve", "--port", "0", "--token-file", str(token))
