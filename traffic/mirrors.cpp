@@ -77,6 +77,10 @@ Mirrors::Target Mirrors::target_of(const world::VehicleState& vehicle) const {
         target.lane = found->lane;
         // At the lane's end rounding must not lead beyond it: SUMO aborts.
         target.lane_position = std::min(found->at.s / lane.length, 1.0) * lane.sumo_length;
+        // Bound to its route it stays there; in a junction it does while it touches the lane.
+        const double width = lane.width + world::vehicle_models()[vehicle.model()].width;
+        target.on_lane =
+            lane.kind != world::LaneKind::internal || std::abs(found->at.t) < width / 2 - 0.1;
     }
     return target;
 }
@@ -171,6 +175,14 @@ void Mirrors::set_route(const Mirror& mirror, const std::vector<std::uint32_t>& 
     Vehicle::setRouteID(mirror.sumo, name);
 }
 
+std::uint32_t Mirrors::lane_named(const std::string& name) const {
+    const auto at = std::find_if(town_->lanes.begin(),
+                                 town_->lanes.end(),
+                                 [&](const world::LaneT& one) { return one.name == name; });
+    return at == town_->lanes.end() ? world::none
+                                    : static_cast<std::uint32_t>(at - town_->lanes.begin());
+}
+
 /// Bound to its route, SUMO takes the nearest lane of all of that: where a dead end's way back
 /// begins beside the way there, one in a junction that the vehicle is not at, while its place in
 /// the route stays behind. In the next step SUMO would abort (an assertion of
@@ -180,11 +192,8 @@ void Mirrors::bring_back(const Mirror& mirror, const Target& target) const {
     const std::string lane = Vehicle::getLaneID(mirror.sumo);
     if (mirror.edge == world::none || lane.empty() || lane.front() != ':')
         return;
-    const auto at = std::find_if(town_->lanes.begin(),
-                                 town_->lanes.end(),
-                                 [&](const world::LaneT& one) { return one.name == lane; });
-    if (at == town_->lanes.end() ||
-        graph_->edge_of(static_cast<std::uint32_t>(at - town_->lanes.begin())) == mirror.edge)
+    const std::uint32_t number = lane_named(lane);
+    if (number == world::none || graph_->edge_of(number) == mirror.edge)
         return;
     const RoadGraph::Edge& road = graph_->edge(mirror.edge);
     const std::vector<std::string> route = Vehicle::getRoute(mirror.sumo);
@@ -259,33 +268,56 @@ void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Tar
         mirror.lamps = 0xffff;
 }
 
-/// Inside a junction SUMO 1.15 puts a moved vehicle at its new position, but leaves the list of
-/// lanes behind that its tail lies on as it was, until the next step has moved everybody. When the
-/// tail has passed a whole lane of that list at once, or the front one, those who look there for
-/// the tail make SUMO abort (an assertion of MSVehicle::getBackPositionOnLane). So then the vehicle
-/// enters its lane anew before the step, which makes the list again. Moved to the lane that it is
-/// on it would only get the position: it goes by way of the edge before, which leaves its route as
-/// it is. Not oftener than needed: for a tick its speed, to SUMO, is that of a jump to its place
-/// beside the centre line.
-void Mirrors::enter_again(const Mirror& mirror, const world::VehicleState& vehicle) const {
+/// SUMO 1.15 keeps lists of the lanes behind that a vehicle's tail lies on, and behind the lane
+/// beside that it reaches over. They go stale, and then those who look there for the tail make SUMO
+/// abort (an assertion of MSVehicle::getBackPositionOnLane):
+/// - inside a junction a moved vehicle's lists stay as they are until the next step has moved
+///   everybody: too late where its tail has passed a whole lane of them at once, or the front one;
+/// - the lists behind the lane beside are made when it enters a lane, and inside a junction nobody
+///   makes them anew until it leaves that one;
+/// - one that leaves the road stays in those.
+bool Mirrors::lists_go_stale(const std::string& lane,
+                             const Mirror& mirror,
+                             const world::VehicleState& vehicle,
+                             const Target& target) const {
     using libsumo::Vehicle;
-    if (short_predecessors_.empty())
-        return;
-    const auto here = short_predecessors_.find(Vehicle::getLaneID(mirror.sumo));
-    if (here == short_predecessors_.end())
-        return;
-    const ShortPredecessors& predecessors = here->second;
-    const double position = Vehicle::getLanePosition(mirror.sumo);
-    const double tail = position - world::vehicle_models()[vehicle.model()].length;
+    const double driven = step_ * world::to_eigen(vehicle.velocity()).norm();
+    if (!target.on_lane && driven > 0.001)
+        return true;
+    const world::VehicleModel& model = world::vehicle_models()[vehicle.model()];
+    const double tail = Vehicle::getLanePosition(mirror.sumo) - model.length;
     // The measures of the lanes differ from what is driven, by less than as much again.
-    const double just = 0.1 + 2 * step_ * world::to_eigen(vehicle.velocity()).norm();
-    if (std::none_of(predecessors.ends.begin(), predecessors.ends.end(), [tail, just](double end) {
-            return tail < -end + just;
-        }))
+    const double just = 0.1 + 2 * driven;
+    const auto passes = [tail, just](double end) { return tail < -end + just; };
+    const auto here = short_predecessors_.find(lane);
+    if (here != short_predecessors_.end() &&
+        std::any_of(here->second.ends.begin(), here->second.ends.end(), passes))
+        return true;
+    const double aside = std::abs(Vehicle::getLateralLanePosition(mirror.sumo)) + model.width / 2;
+    return lane.front() == ':' && passes(0) && aside > libsumo::Lane::getWidth(lane) / 2 - 0.05;
+}
+
+/// Then it enters its lane anew before the step, which makes the lists again, with nothing on the
+/// lane beside. Moved to the lane that it is on it would only get the position: it goes by way of
+/// another one, which leaves its route as it is. Not oftener than needed: for a tick its speed, to
+/// SUMO, is that of a jump to its place beside the centre line.
+void Mirrors::enter_again(const Mirror& mirror,
+                          const world::VehicleState& vehicle,
+                          const Target& target) const {
+    using libsumo::Vehicle;
+    const std::string name = Vehicle::getLaneID(mirror.sumo);
+    if (name.empty() || !lists_go_stale(name, mirror, vehicle, target))
         return;
-    const std::uint32_t before = graph_->edge(graph_->edge_of(predecessors.lane)).lanes.front();
-    Vehicle::moveTo(mirror.sumo, town_->lanes[before].name, 0);
-    Vehicle::moveTo(mirror.sumo, here->first, position);
+    const std::uint32_t lane = lane_named(name);
+    if (lane == world::none || graph_->edge_of(lane) == world::none)
+        return;
+    const std::vector<std::uint32_t>& road = graph_->edge(graph_->edge_of(lane)).lanes;
+    const std::uint32_t other = road.front() == lane ? road.back() : road.front();
+    if (other == lane)
+        return;  // nothing lies beside it
+    const double position = Vehicle::getLanePosition(mirror.sumo);
+    Vehicle::moveTo(mirror.sumo, town_->lanes[other].name, 0);
+    Vehicle::moveTo(mirror.sumo, name, position);
 }
 
 /// SUMO sorts a lane's vehicles when they enter it, and a moved one keeps its place in that order.
@@ -333,7 +365,7 @@ void Mirrors::advance(const world::TickView& last,
         const std::string name = sumo_id(vehicle.id()) + (is_car ? "f" : was_car ? "w" : "");
         Mirror& mirror = find_or_add(vehicle, name, target);
         try {
-            enter_again(mirror, vehicle);
+            enter_again(mirror, vehicle, target);
             move(mirror, vehicle, target);
             if (mirror.edge != world::none)
                 keep_order(mirror, target, cars);

@@ -62,6 +62,7 @@ class Mirrors {
         double angle_deg = 0;
         std::uint32_t lane = world::none;
         double lane_position = 0;  ///< [m] in SUMO's measure
+        bool on_lane = false;      ///< else SUMO has it off the road
     };
 
     Mirror& find_or_add(const world::VehicleState& vehicle,
@@ -71,8 +72,15 @@ class Mirrors {
     void set_route(const Mirror& mirror, const std::vector<std::uint32_t>& way);
     void move(Mirror& mirror, const world::VehicleState& vehicle, const Target& target);
     bool start_where_sumo_has_it(const Mirror& mirror, std::vector<std::uint32_t>& way) const;
+    std::uint32_t lane_named(const std::string& name) const;
     void bring_back(const Mirror& mirror, const Target& target) const;
-    void enter_again(const Mirror& mirror, const world::VehicleState& vehicle) const;
+    bool lists_go_stale(const std::string& lane,
+                        const Mirror& mirror,
+                        const world::VehicleState& vehicle,
+                        const Target& target) const;
+    void enter_again(const Mirror& mirror,
+                     const world::VehicleState& vehicle,
+                     const Target& target) const;
     void keep_order(const Mirror& mirror, const Target& target, std::span<const Car> cars) const;
     std::vector<std::uint32_t> likely_way(std::uint32_t lane, std::uint16_t lamps) const;
 

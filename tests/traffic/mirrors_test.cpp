@@ -26,7 +26,8 @@ using test::vehicle_on;
 
 constexpr std::uint32_t ego = 1;
 constexpr std::uint32_t follower = 2;
-constexpr double sumo_gap = 2.5;  // [m] minGap of the fleet's cars
+constexpr std::uint64_t seed_of_crossings = 1;  // one that SUMO once aborted with
+constexpr double sumo_gap = 2.5;                // [m] minGap of the fleet's cars
 
 double sedan_front() {
     const world::VehicleModel& sedan = world::vehicle_models()[0];
@@ -102,6 +103,29 @@ TEST(Mirrors, TheEgoMayDriveOverAJunctionAnyWay) {
     }
 }
 
+/// As somebody does who lost his way at 10 m/s: over the lanes that turn and go on beside each
+/// other, while cars on those lanes look for what is ahead.
+TEST(Mirrors, AVehicleMayCrossTheLanesOfAJunctionSideways) {
+    const auto& loaded = own_town("town1");
+    const std::uint32_t left = lane(loaded.town, "l1_b1_2");
+    const std::uint32_t middle = lane(loaded.town, "l1_b1_1");
+    const Eigen::Vector2d corner =
+        world::to_eigen(loaded.town.lanes[middle].centre.back()).head<2>();
+    for (int i = 0; i < 60; ++i) {
+        Stage stage(loaded, 0);
+        const double ahead = 2 + 0.1 * i;  // [m] behind the stop line, to where it crosses
+        const auto ego_at = [&](double aside) {
+            return test::vehicle_at(ego, corner.x() + ahead, corner.y() + aside, -1.47, 10);
+        };
+        stage.step({spawn(follower, left, loaded.town.lanes[left].length - 12, 8),
+                    spawn(follower + 1, middle, loaded.town.lanes[middle].length - 12, 8)},
+                   {ego_at(12)});
+        for (double aside = 12; aside > -12; aside -= 0.5)
+            ASSERT_NO_THROW(stage.step({}, {ego_at(aside)})) << ahead << " m on, " << aside;
+        EXPECT_EQ(stage.draft().traffic.cars.size(), 2U);
+    }
+}
+
 TEST(Mirrors, OffTheRoadNothingHappensToOthers) {
     const auto& loaded = own_town("town1");
     Stage stage(loaded, 50);
@@ -111,6 +135,39 @@ TEST(Mirrors, OffTheRoadNothingHappensToOthers) {
         ASSERT_NO_THROW(stage.step({}, {test::vehicle_at(ego, x, 120 + 0.1 * i, 0.05, 60)}));
         EXPECT_EQ(stage.draft().traffic.cars.size(), 50U);
     }
+}
+
+/// Straight on or in a bend, at 1 to 21 m/s, from anywhere to anywhere, over whatever is there.
+TEST(Mirrors, AVehicleMayCrossJunctionsAnyHow) {
+    const auto& loaded = own_town("town1");
+    std::vector<std::uint32_t> inside;
+    for (std::uint32_t i = 0; i < loaded.town.lanes.size(); ++i)
+        if (loaded.town.lanes[i].kind == world::LaneKind::internal)
+            inside.push_back(i);
+    Stage stage(loaded, 100);
+    constexpr double half = 25;  // [m] before and behind the place
+    for (std::uint64_t crossing = 0; crossing < 60; ++crossing) {
+        const auto dice = [crossing](std::uint64_t item) {
+            return world::draw(seed_of_crossings, crossing, world::Purpose::scenario, item);
+        };
+        const auto lane =
+            inside[static_cast<std::size_t>(dice(0) * static_cast<double>(inside.size()))];
+        const auto& line = loaded.town.lanes[lane].centre;
+        double yaw = 2 * std::numbers::pi * dice(1);
+        const double speed = 1 + 20 * dice(2);
+        const double turning = dice(3) < 0.5 ? 0.5 * (dice(4) - 0.5) : 0;  // [rad/s]
+        double x = line[line.size() / 2].x() - half * std::cos(yaw);
+        double y = line[line.size() / 2].y() - half * std::sin(yaw);
+        for (double driven = 0; driven < 2 * half; driven += 0.05 * speed) {
+            x += 0.05 * speed * std::cos(yaw);
+            y += 0.05 * speed * std::sin(yaw);
+            yaw += 0.05 * turning;
+            ASSERT_NO_THROW(stage.step({}, {test::vehicle_at(ego, x, y, yaw, speed)}));
+        }
+        if (dice(5) < 0.3)
+            stage.step({}, {});
+    }
+    EXPECT_EQ(stage.draft().traffic.cars.size(), 100U);
 }
 
 TEST(Mirrors, AVehicleMayGoAndComeBack) {
