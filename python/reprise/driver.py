@@ -116,10 +116,10 @@ class Ego:
         return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
     def __getattr__(self, field: str) -> Any:
-        if field in _STATE:
-            return self._state[field]
-        if field in _MEASURED:
-            return self._measured[field]
+        for fields, of in ((_STATE, "_state"), (_MEASURED, "_measured")):
+            if field in fields:
+                value = self.__dict__[field] = getattr(self, of)[field]  # the next look is a plain attribute
+                return value
         raise AttributeError(f"no '{field}': {', '.join(_STATE + _MEASURED)}")
 
 

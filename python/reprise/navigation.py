@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import functools
 import json
-import math
 import os
 import pathlib
 import shutil
@@ -17,15 +16,11 @@ import numpy as np
 from gymnasium import spaces
 
 from .driver import Control, Observation
-from .nouns import points
 from .simulation import find_program
+from .state import COMMANDS, SIZE, Measured, StateVector
 
-NONE = 0xFFFFFFFF
 TASKS = ("straight", "one_turn", "navigation", "navigation_dynamic")
-COMMANDS = ("follow_lane", "straight", "left", "right")
 CARS = {"town1": 20, "town2": 15}  # of navigation_dynamic, as the paper's benchmark has them
-NEAR = 4  # other vehicles in an observation
-FAR = 50.0  # [m] where they end
 PICTURES = {"rgb84": (84, 84), "rgb200x88": (200, 88)}  # [px] width, height; the paper's agents saw such
 SHARE = 0.3  # of the footprint: beyond it an infraction
 LONGEST = 2.0  # [s] of one infraction; what lasts longer counts again
@@ -77,12 +72,12 @@ def observation_space(obs: str) -> spaces.Box:
     if obs in PICTURES:
         width, height = PICTURES[obs]
         return spaces.Box(0, 255, (height, width, 3), np.uint8)
-    return spaces.Box(-np.inf, np.inf, (14 + 2 * NEAR,), np.float32)
+    return spaces.Box(-np.inf, np.inf, (SIZE,), np.float32)
 
 
 def control_of(action: Sequence[float] | np.ndarray) -> Control:
     """What a car can do of an action."""
-    steer, pedals = np.clip(np.asarray(action, np.float64), -1.0, 1.0).tolist()
+    steer, pedals = (min(max(float(one), -1.0), 1.0) for one in action)
     return Control(throttle=max(pedals, 0.0), brake=max(-pedals, 0.0), steer=steer)
 
 
@@ -114,16 +109,17 @@ class Journey:
     return, the five terms of the paper's reward since the tick before."""
 
     def __init__(self, obs: str, seen: Observation) -> None:
-        self._observe = _picture if obs in PICTURES else _vector
+        self._observe = _picture if obs in PICTURES else StateVector(seen.run)
         self._infractions = Infractions()
-        self._seen, self._measured = seen, _measure(seen)
-        self.observation: np.ndarray = self._observe(seen)
+        self._seen, self._measured = seen, Measured.of(seen)
+        self.observation: np.ndarray = self._observe(seen, self._measured)
 
     def look(self, seen: Observation) -> dict[str, float]:
         """The next tick."""
-        self._seen, self.observation = seen, self._observe(seen)
+        now = Measured.of(seen)
+        self._seen, self.observation = seen, self._observe(seen, now)
         self._infractions.look(seen)
-        return self._go_on(_measure(seen))
+        return self._go_on(now)
 
     def stay(self) -> dict[str, float]:
         """The episode ended in a tick that nobody is shown."""
@@ -131,9 +127,9 @@ class Journey:
 
     def arrive(self) -> dict[str, float]:
         """The same, at the goal."""
-        return self._go_on({**self._measured, "way": 0.0})
+        return self._go_on(self._measured._replace(way=0.0))
 
-    def _go_on(self, now: dict[str, float]) -> dict[str, float]:
+    def _go_on(self, now: Measured) -> dict[str, float]:
         before, self._measured = self._measured, now
         return reward_terms(before, now)
 
@@ -146,55 +142,16 @@ class Journey:
         }
 
 
-def reward_terms(before: dict[str, float], now: dict[str, float]) -> dict[str, float]:
+def reward_terms(before: Measured, now: Measured) -> dict[str, float]:
     """The paper's five, of two ticks one after the other."""
     return {
-        "way": 1000 * (before["way"] - now["way"]),
-        "speed": 0.05 * (now["speed"] - before["speed"]),
-        "damage": -0.00002 * (now["damage"] - before["damage"]),
-        "sidewalk": -2 * (now["sidewalk"] - before["sidewalk"]),
-        "opposite_lane": -2 * (now["opposite_lane"] - before["opposite_lane"]),
+        "way": 1000 * (before.way - now.way),
+        "speed": 0.05 * (now.speed - before.speed),
+        "damage": -0.00002 * (now.damage - before.damage),
+        "sidewalk": -2 * (now.sidewalk - before.sidewalk),
+        "opposite_lane": -2 * (now.opposite_lane - before.opposite_lane),
     }
 
 
-def _measure(seen: Observation) -> dict[str, float]:
-    """way [km], speed [km/h], damage [N s], shares."""
-    ego = seen.ego
-    damage = ego.impulse_vehicles + ego.impulse_walkers + ego.impulse_static
-    return dict(way=seen.way_to_goal / 1000, speed=float(ego.speed) * 3.6, damage=float(damage),
-                sidewalk=float(ego.on_sidewalk), opposite_lane=float(ego.on_opposite_lane))  # fmt: skip
-
-
-def _picture(seen: Observation) -> np.ndarray:
+def _picture(seen: Observation, _: Measured) -> np.ndarray:
     return seen.images["front"].copy()
-
-
-def _vector(seen: Observation) -> np.ndarray:
-    ego, measured = seen.ego, _measure(seen)
-    angle = 0.0
-    if ego.lane != NONE:
-        angle = ego.yaw - _lane_yaw(points(seen.run.town.lanes[int(ego.lane)].centre), ego.position)
-    others = np.concatenate(
-        [
-            points(np.ascontiguousarray(seen.cars["position"]))[:, :2],
-            points(np.ascontiguousarray(seen.vehicles["position"][seen.vehicles["id"] != seen.run.actor]))[:, :2],
-        ]
-    )
-    away = others - ego.position[:2]
-    away = away[np.argsort(np.hypot(away[:, 0], away[:, 1]), kind="stable")[:NEAR]]
-    cos, sin = math.cos(ego.yaw), math.sin(ego.yaw)
-    near = np.full((NEAR, 2), FAR)
-    near[: len(away)] = np.clip(np.column_stack([away @ [cos, sin], away @ [-sin, cos]]), -FAR, FAR)
-    command = [1.0 if seen.turning == name else 0.0 for name in COMMANDS]
-    head = [ego.speed, measured["way"], *command, ego.lane_t, math.sin(angle), math.cos(angle), ego.gap_ahead,
-            measured["opposite_lane"], measured["sidewalk"], measured["damage"] / 1000, ego.steering_angle]  # fmt: skip
-    return np.concatenate([head, near.ravel()]).astype(np.float32)
-
-
-def _lane_yaw(centre: np.ndarray, position: np.ndarray) -> float:
-    """[rad] of the centre line's stretch nearest to a place."""
-    begin, along = centre[:-1, :2], np.diff(centre[:, :2], axis=0)
-    share = np.clip(((position[:2] - begin) * along).sum(1) / np.maximum((along**2).sum(1), 1e-12), 0, 1)
-    away = begin + share[:, None] * along - position[:2]
-    nearest = int(np.argmin((away**2).sum(1)))
-    return math.atan2(along[nearest, 1], along[nearest, 0])
