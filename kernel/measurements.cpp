@@ -44,6 +44,32 @@ Impulses impulses_of(std::uint32_t actor,
     return sum;
 }
 
+/// Bodies at rest tremble by some 1e-12 m a tick; what creeps like that for an hour is elsewhere by
+/// less than the millimetre to which footprints are cut.
+bool has_stood_still(const world::VehicleState& before, const world::VehicleState& now) {
+    constexpr double still = 1e-10;  // [m], and of a quaternion's parts
+    const Eigen::Vector3d way =
+        world::to_eigen(now.position()) - world::to_eigen(before.position());
+    const Eigen::Quaterniond one = world::to_eigen(before.orientation());
+    const Eigen::Quaterniond other = world::to_eigen(now.orientation());
+    return before.model() == now.model() && way.cwiseAbs().maxCoeff() < still &&
+           (other.coeffs() - one.coeffs()).cwiseAbs().maxCoeff() < still;
+}
+
+/// Of its footprint, which is cut exactly: up to 200 us. Who stands still has them already.
+FootprintShares shares_of(const world::TownT& town,
+                          const world::LaneMap& lanes,
+                          const world::VehicleState& vehicle,
+                          const Eigen::Isometry3d& pose_world_vehicle,
+                          const world::TickView& last) {
+    const world::VehicleState* stood = find(last.vehicles(), vehicle.id());
+    const world::Measurement* before = find(last.measurements(), vehicle.id());
+    if (stood != nullptr && before != nullptr && has_stood_still(*stood, vehicle))
+        return {before->on_opposite_lane(), before->on_sidewalk()};
+    return footprint_shares(
+        town, lanes, world::vehicle_models()[vehicle.model()], pose_world_vehicle);
+}
+
 }  // namespace
 
 void measure(const world::TownT& town,
@@ -53,7 +79,6 @@ void measure(const world::TownT& town,
              const world::TickView& last,
              world::TickDraft& next) {
     for (const world::VehicleState& vehicle : next.tick.vehicles) {
-        const world::VehicleModel& model = world::vehicle_models()[vehicle.model()];
         const Eigen::Isometry3d pose_world_vehicle =
             world::pose(vehicle.position(), vehicle.orientation());
         const Eigen::Vector3d ahead = pose_world_vehicle.linear().col(0);
@@ -63,7 +88,7 @@ void measure(const world::TownT& town,
             before == nullptr ? 0.0 : (speed - before->speed()) / step_seconds;
         const auto lane =
             lanes.best(pose_world_vehicle.translation(), std::atan2(ahead.y(), ahead.x()));
-        const FootprintShares shares = footprint_shares(town, lanes, model, pose_world_vehicle);
+        const FootprintShares shares = shares_of(town, lanes, vehicle, pose_world_vehicle, last);
         const Impulses sums = impulses_of(vehicle.id(), before, impacts, next);
         next.tick.measurements.emplace_back(speed,
                                             acceleration,

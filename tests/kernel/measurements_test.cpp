@@ -32,6 +32,28 @@ const world::VehicleModel& sedan() {
 
 }  // namespace
 
+TEST(FootprintShares, OfWhoTremblesAreThoseFromBeforeAndOfWhoRollsAreNew) {
+    const world::TownT town = test::straight_road(400, 2);
+    const world::LaneMap lanes(town);
+    world::TickDraft genesis;
+    const world::SealedTick nothing = world::seal(genesis, {});
+    world::TickDraft first;
+    first.tick.vehicles = {test::vehicle_at(1, 100, 0.3), test::vehicle_at(2, 200, 0.3)};
+    measure(town, lanes, 0.05, {}, nothing.view(), first);
+    // What nobody would measure: so it is seen whether it stays.
+    first.tick.measurements[0].mutate_on_opposite_lane(0.123);
+    first.tick.measurements[1].mutate_on_opposite_lane(0.123);
+    const world::SealedTick last = world::seal(first, {});
+    world::TickDraft next;
+    next.tick.vehicles = {test::vehicle_at(1, 100 + 1e-12, 0.3), test::vehicle_at(2, 200, 0.301)};
+    measure(town, lanes, 0.05, {}, last.view(), next);
+    EXPECT_EQ(next.tick.measurements[0].on_opposite_lane(), 0.123);
+    EXPECT_NEAR(next.tick.measurements[1].on_opposite_lane(),
+                measured({next.tick.vehicles[1]}).on_opposite_lane(),
+                0);
+    EXPECT_GT(next.tick.measurements[1].on_opposite_lane(), 0.3);
+}
+
 TEST(GapAhead, IsFromBumperToBumper) {
     // Rear axles 30 m apart: between the bumpers it is a car's length less, wherever the axle is.
     const double gap = 30 - sedan().length;
