@@ -45,7 +45,7 @@ void read_threads(const std::string& text, RenderOptions& render) {
 void check_cameras(const std::vector<std::string>& cameras) {
     for (auto camera = cameras.begin(); camera != cameras.end(); ++camera)
         if (std::find(cameras.begin(), camera, *camera) != camera)
-            throw CLI::ValidationError("--camera", "'" + *camera + "' is there twice");
+            throw CLI::ValidationError("--sensor", "'" + *camera + "' is there twice");
 }
 
 std::string lower_case_ending(const std::string& path) {
@@ -239,7 +239,7 @@ void check_preset(const CLI::App& command, const RenderOptions& render) {
 /// A rig says itself what its sensors are; a film shows nothing but pictures.
 void check_labels(const CLI::App& command, const RenderOptions& render) {
     if (!render.rig.empty())
-        for (const char* option : {"--camera",
+        for (const char* option : {"--sensor",
                                    "--size",
                                    "--fov",
                                    "--mount",
@@ -342,7 +342,7 @@ void add_render(CLI::App& app, RenderOptions& render, RenderWords& words) {
                     "-o, and the trace only where it is no longer in its place")
         ->type_name("MANIFEST");
     command
-        .add_option("--camera,--sensor",
+        .add_option("--sensor,--camera",
                     render.cameras,
                     "rgb (default), " + joined_but_first(world::sensor_kinds()) +
                         "; several by commas, each into its own folder")
@@ -443,7 +443,7 @@ void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions&
         throw CLI::ValidationError("--ticks", "says what --from and --to said: without these");
     render.heading_up = words.up == "heading";
     for (const char* option : {"--rig",
-                               "--camera",
+                               "--sensor",
                                "--size",
                                "--fov",
                                "--mount",

@@ -115,7 +115,7 @@ Film::Film(const std::filesystem::path& path,
             names.push_back(sensor.name);
         throw world::Error(
             fmt::format("{}: a film shows one camera, and here are {} ({}): say --preset, or "
-                        "--camera with one kind",
+                        "--sensor with one kind",
                         path.string(),
                         names.size(),
                         fmt::join(names, ", ")));

@@ -156,7 +156,7 @@ TEST(RenderingMistakes, AreOneClearLineAndMakeNoFolder) {
         {{"--threads", "2.5"}, threads + "2.5'"},
         {{"--threads", ""}, threads + "'"},
         {{"--threads", "99999999999"}, threads + "99999999999'"},
-        {{"--camera", "rgb,rgb"}, "--camera: 'rgb' is there twice"},
+        {{"--camera", "rgb,rgb"}, "--sensor: 'rgb' is there twice"},
         {{"--size", "0x9"}, "--size: expected WIDTHxHEIGHT such as 800x600, got '0x9'"},
         {{"--size", "100000x100000"},
          "--size: 100000x100000 is too large: at most 4096 pixels a side"},
@@ -164,7 +164,7 @@ TEST(RenderingMistakes, AreOneClearLineAndMakeNoFolder) {
         {{"--fov", "nan"}, "--fov: expected a number from 1 to 200, got 'nan'"},
         {{"--yaw", "nan"}, "--yaw: expected a number from -360 to 360, got 'nan'"},
         {{"--pitch", "inf"}, "--pitch: expected a number from -360 to 360, got 'inf'"},
-        {{"--camera", "depth", "--camera", "rgb,depth"}, "--camera: 'depth' is there twice"},
+        {{"--camera", "depth", "--camera", "rgb,depth"}, "--sensor: 'depth' is there twice"},
     };
     for (const auto& [words, message] : mistakes) {
         std::vector<std::string> all{"render", "t.mcap", "-o", "pictures"};

@@ -255,7 +255,7 @@ TEST_F(Films, MistakesAreOneLineAndLeaveNothing) {
         {{"-o", "run.mp4", "--size", "161x120"},
          "run.mp4: a film's width and height are even numbers, not 161x120"},
         {{"-o", "run.mp4", "--camera", "rgb,depth"},
-         "run.mp4: a film shows one camera, and here are 2 (rgb, depth): say --preset, or --camera "
+         "run.mp4: a film shows one camera, and here are 2 (rgb, depth): say --preset, or --sensor "
          "with one kind"},
         {{"-o", "p", "--preset", "chse"},
          "--preset: no preset 'chse' (did you mean 'chase'?); there are chase, top, driver, orbit "
