@@ -12,6 +12,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "process/program.h"
 #include "world/check.h"
 
 namespace reprise::process {
@@ -73,12 +74,22 @@ Ended how(int status) {
                                                        : Ended{code, 0, 0};
 }
 
+/// The shell would hold the program's socket as well, and nobody would see that the program closes
+/// it. So the program takes the shell's place, where the line is one program's and nothing more:
+/// what is built into a shell is none.
+std::string line_of(const std::string& command) {
+    const bool is_one_line = command.find_first_of(";&|(){}`\n") == std::string::npos;
+    const bool is_one_program =
+        is_one_line && path_of_program(command.substr(0, command.find_first_of(" \t"))).has_value();
+    return is_one_program ? "exec " + command : command;
+}
+
 }  // namespace
 
 Companion::Companion(const std::string& command, int descriptor, const std::string& variable) {
     std::string shell = "/bin/sh";
     std::string option = "-c";
-    std::string line = command;
+    std::string line = line_of(command);
     std::string told = filled_in(variable, descriptor);
     const std::array<char*, 4> words{shell.data(), option.data(), line.data(), nullptr};
     std::vector<char*> environment{told.data()};

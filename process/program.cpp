@@ -34,18 +34,8 @@ bool is_program(const fs::path& path) {
 std::string find(const Program& program) {
     if (program.name.find('/') != std::string::npos)
         return program.name;
-    const char* variable = std::getenv("PATH");
-    std::string places = variable == nullptr ? "" : variable;
-    places += ":/usr/bin";
-    for (std::size_t from = 0; from < places.size();) {
-        const std::size_t to = std::min(places.find(':', from), places.size());
-        if (to > from) {
-            const fs::path path = fs::absolute(places.substr(from, to - from)) / program.name;
-            if (is_program(path))
-                return path;
-        }
-        from = to + 1;
-    }
+    if (auto path = path_of_program(program.name))
+        return *path;
     throw_missing(program);
 }
 
@@ -167,6 +157,24 @@ class Start {
 };
 
 }  // namespace
+
+std::optional<std::string> path_of_program(const std::string& name) {
+    if (name.find('/') != std::string::npos)
+        return is_program(name) ? std::optional(name) : std::nullopt;
+    const char* variable = std::getenv("PATH");
+    std::string places = variable == nullptr ? "" : variable;
+    places += ":/usr/bin";
+    for (std::size_t from = 0; from < places.size();) {
+        const std::size_t to = std::min(places.find(':', from), places.size());
+        if (to > from) {
+            const fs::path path = fs::absolute(places.substr(from, to - from)) / name;
+            if (is_program(path))
+                return path;
+        }
+        from = to + 1;
+    }
+    return std::nullopt;
+}
 
 std::vector<ProgramResult> run_programs(const Children& children,
                                         const std::vector<Program>& programs,

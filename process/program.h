@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct ProgramResult : Ended {
     std::string stopped;  ///< by which signal, such as "crashed (signal 11, ...)"; empty: by none
     std::string said;     ///< both its outputs in the order written
 };
+
+/// Where a program of that name is: looked for in PATH, then in /usr/bin; a name with a '/' is its
+/// path. Nothing where there is none: a word that is built into shells is not.
+std::optional<std::string> path_of_program(const std::string& name);
 
 /// Waits for it. Throws world::Error that names the package when there is no such program.
 ProgramResult run_program(const Program& program);

@@ -1,6 +1,8 @@
 #include "process/companion.h"
 
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,6 +34,17 @@ TEST(Companion, EndsWithAllThatItStarted) {
         EXPECT_TRUE(held.hear());
     }
     EXPECT_FALSE(held.hear()) << "nobody holds the pipe any more";
+}
+
+/// No shell between holds it for the program.
+TEST(Companion, ThatClosesItsDescriptorIsSeenToDoSoWhileItRuns) {
+    const auto script = std::filesystem::path(testing::TempDir()) / "closes.sh";
+    std::ofstream(script) << "eval \"exec ${END#fd:}>&-\"; exec sleep 20";
+    HeldPipe held;
+    Companion companion("sh '" + script.string() + "'", held.ends[1], "END=fd:%d");
+    held.let_go();
+    EXPECT_FALSE(held.hear());
+    EXPECT_FALSE(companion.wait(1)) << "it is its end that was seen";
 }
 
 TEST(Companion, AndItsOwnEndWhenItsOwnerIsKilled) {
