@@ -31,13 +31,44 @@ std::vector<fs::path> town_folders(const fs::path& scenario) {
     };
 }
 
+/// Those in a folder; none where there is no such folder.
+std::vector<fs::path> networks_in(const fs::path& folder) {
+    std::vector<fs::path> found;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.ends_with(".net.xml") || name.ends_with(".net.xml.gz"))
+            found.push_back(entry.path());
+    }
+    return found;
+}
+
+/// The town of that name in the first of the folders that has it, or an empty path. Its network has
+/// the town's name, or is the only one there: a map's, that was imported under another name.
+fs::path network_named(const std::string& town, const std::vector<fs::path>& folders) {
+    if (town.empty() || town.front() == '.')
+        return {};
+    std::error_code ignored;
+    for (const fs::path& folder : folders) {
+        fs::path network = folder / town / (town + ".net.xml");
+        if (fs::exists(network, ignored))
+            return network;
+        const std::vector<fs::path> others = networks_in(folder / town);
+        if (const auto others = networks_in(folder / town); others.size() == 1)
+            return others.front();
+    }
+    return {};
+}
+
 std::vector<std::string> names_in(const std::vector<fs::path>& folders) {
     std::vector<std::string> names;
     for (const fs::path& folder : folders) {
         std::error_code ignored;
-        for (const auto& entry : fs::directory_iterator(folder, ignored))
-            if (entry.is_directory())
-                names.push_back(entry.path().filename().string());
+        for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+            const std::string name = entry.path().filename().string();
+            if (entry.is_directory() && !network_named(name, {folder}).empty())
+                names.push_back(name);
+        }
     }
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -46,12 +77,7 @@ std::vector<std::string> names_in(const std::vector<fs::path>& folders) {
 
 /// The one network in a folder.
 fs::path network_in(const fs::path& folder) {
-    std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string name = entry.path().filename().string();
-        if (name.ends_with(".net.xml") || name.ends_with(".net.xml.gz"))
-            found.push_back(entry.path());
-    }
+    const std::vector<fs::path> found = networks_in(folder);
     if (found.size() != 1)
         throw world::Error(folder.string() + ": is a folder with " +
                            (found.empty() ? "no" : std::to_string(found.size())) +
@@ -92,17 +118,6 @@ bool looks_like_path(const std::string& town) {
            is_map(town);
 }
 
-/// The town of that name in the first of the folders that has it, or an empty path.
-fs::path network_named(const std::string& town, const std::vector<fs::path>& folders) {
-    std::error_code ignored;
-    for (const fs::path& folder : folders) {
-        fs::path network = folder / town / (town + ".net.xml");
-        if (fs::exists(network, ignored))
-            return network;
-    }
-    return {};
-}
-
 std::string joined_names(const std::vector<std::string>& names) {
     std::string list;
     for (const std::string& name : names)
@@ -139,8 +154,7 @@ std::vector<NamedTown> named_towns() {
     const auto folders = town_folders({});
     std::vector<NamedTown> towns;
     for (const std::string& name : names_in(folders))
-        if (fs::path network = network_named(name, folders); !network.empty())
-            towns.push_back({name, network.lexically_normal()});
+        towns.push_back({name, network_named(name, folders).lexically_normal()});
     return towns;
 }
 

@@ -225,6 +225,29 @@ TEST(Lint, TellsFileAndLineOfWhatIsWrong) {
     }
 }
 
+/// As an import leaves it where the folder was given a name of its own. A folder without a network
+/// is no town that one could have meant.
+TEST(Lint, KnowsATownByItsFolderWhateverItsNetworkIsCalled) {
+    const Folder folder;
+    const std::filesystem::path towns = folder / "towns";
+    std::filesystem::create_directories(towns / "mine");
+    std::filesystem::create_directories(towns / "minx");
+    std::filesystem::copy_file(source("scenarios/towns/straight/straight.net.xml"),
+                               towns / "mine" / "map_of_may.net.xml");
+    const auto with_town = [&](const std::string& town) {
+        write_file(folder / "a.lua",
+                   "return scenario 'a' { town = '" + town +
+                       "', duration = 2,\n"
+                       "run = function() wait(1) end }");
+        return reprise({"lint", "a.lua"}, folder.path());
+    };
+    const Result known = with_town("mine");
+    EXPECT_EQ(known.code, 0) << known.out;
+    const Result empty = with_town("minx");
+    EXPECT_EQ(empty.code, 2);
+    EXPECT_THAT(empty.out, HasSubstr("no town 'minx' (did you mean 'mine'?)"));
+}
+
 TEST(Lint, FindsNothingInOurOwnScenarios) {
     std::vector<std::string> words{"lint"};
     for (const auto& entry : std::filesystem::directory_iterator(source("scenarios")))
