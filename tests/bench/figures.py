@@ -103,7 +103,8 @@ def drivers(v):
         f"From Python {v.text('Resets.resets/s', digits=2)} episodes a second begin with the seed of the last one, "
         f"{v.text('Resets.resets/s_other_seed', digits=2)} with another; two environments in\n"
         f"two processes make {v.text('Vector.two_of_one', decimals=2)} times the ticks of one, which has a core for its driver then, and "
-        f"{v.text('Vector.two_of_one_on_a_core', decimals=2)} times those of one on one core; two runs in which nobody drives make "
+        f"{v.text('Vector.two_of_one_on_a_core', decimals=2)} times those of one on one core; "
+        f"asleep between ticks {v.text('Vector.two_of_one_asleep', decimals=2)} times those of one. Two runs in which nobody drives make "
         f"{v.text('Vector.plain_two_of_one', decimals=2)} times those of one.")
 
 

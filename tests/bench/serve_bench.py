@@ -18,6 +18,7 @@ import tempfile
 import time
 
 import reprise
+from reprise.wire import POLLING
 
 TICKS = 1200
 # The run without a driver has the same vehicle, whose brakes are on.
@@ -54,11 +55,11 @@ def measure_resets():
             "resets/s": 1 / same, "resets/s_other_seed": 1 / other}  # fmt: skip
 
 
-def environment(pipe, seed, cores):
+def environment(pipe, seed, cores, polling):
     """A process that steps an episode of its own as often as it is asked to, with what it starts on these cores."""
     os.sched_setaffinity(0, cores)
     control = reprise.Control(brake=1.0)
-    with reprise.Simulation("town1", cars=100, seed=seed) as sim:
+    with reprise.Simulation("town1", cars=100, seed=seed, polling=polling) as sim:
         sim.reset()
         for steps in iter(pipe.recv, 0):
             pipe.send(timed(lambda: sim.run(lambda seen: control, steps)))
@@ -69,9 +70,9 @@ class Environments:
 
     def __init__(self, work, places):
         self.pipes, self.children = [], []
-        for seed, cores in enumerate(places):
+        for seed, place in enumerate(places):
             pipe, theirs = multiprocessing.Pipe()
-            child = multiprocessing.Process(target=work, args=(theirs, seed, cores))
+            child = multiprocessing.Process(target=work, args=(theirs, seed % 2, *place))
             child.start()
             theirs.close()  # only the child has it: the pipe ends with it
             self.pipes.append(pipe)
@@ -115,21 +116,24 @@ def plain(folder, count):
 
 def measure_vector(steps=400, turns=9):
     """Ticks a second of two environments at once, of one, and of one that has a core only, in turns. One with two cores
-    uses both: the next tick is begun while its driver thinks. Beside them two plain runs at once over one: two
-    environments can hardly be more than that."""
+    uses both: the next tick is begun while its driver thinks, and its driver stays awake for it. So the same of drivers
+    that sleep between ticks. Beside them two plain runs at once over one: two environments can hardly be more than that."""
     cores = os.sched_getaffinity(0)
-    places = (cores, cores, {min(cores)})
+    places = ((cores, POLLING), (cores, POLLING), ({min(cores)}, POLLING), (cores, 0.0), (cores, 0.0))
     with Environments(environment, places) as environments, tempfile.TemporaryDirectory() as place:
-        environments.rate((0, 1, 2), steps)  # until queues have formed
+        environments.rate(range(len(places)), steps)  # until queues have formed
         folder = pathlib.Path(place)
         (folder / "alone.lua").write_text(SCENARIO % (TICKS * 0.05, "manual"))
         turns = [(environments.rate((0, 1), steps), environments.rate((turn % 2,), steps),
-                  environments.rate((2,), steps), plain(folder, 2), plain(folder, 1))
+                  environments.rate((2,), steps), plain(folder, 2), plain(folder, 1),
+                  environments.rate((3, 4), steps), environments.rate((3 + turn % 2,), steps))
                  for turn in range(turns)]  # fmt: skip
-    two, one, on_a_core, plain_two, plain_one = (median(column) for column in zip(*turns))
-    ratios, of_core, of_plain = ([both[i] / both[i + j] for both in turns] for i, j in ((0, 1), (0, 2), (3, 1)))
+    two, one, on_a_core, plain_two, plain_one, asleep_two, asleep_one = (median(column) for column in zip(*turns))
+    ratios, of_core, of_plain, of_asleep = ([both[i] / both[i + j] for both in turns]
+                                            for i, j in ((0, 1), (0, 2), (3, 1), (5, 1)))  # fmt: skip
     return {"ticks/s_two": two, "ticks/s_one": one, "ticks/s_one_on_a_core": on_a_core, "ticks/s_plain_two": plain_two,
-            "ticks/s_plain_one": plain_one, "two_of_one": median(ratios), "two_of_one_on_a_core": median(of_core),
+            "ticks/s_plain_one": plain_one, "ticks/s_asleep_two": asleep_two, "ticks/s_asleep_one": asleep_one,
+            "two_of_one_asleep": median(of_asleep), "two_of_one": median(ratios), "two_of_one_on_a_core": median(of_core),
             "plain_two_of_one": median(of_plain),
             "share_of_plain": median([ours / theirs for ours, theirs in zip(ratios, of_plain)])}  # fmt: skip
 

@@ -6,7 +6,7 @@ import unittest
 import serve_bench
 
 
-def steps(pipe, seed, _):
+def steps(pipe, seed, *_):
     """As environment() does, without a simulation; the one with seed 1 is killed by its first order."""
     for count in iter(pipe.recv, 0):
         if seed == 1:
