@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <set>
 #include <string>
 #include <tuple>
+#include <unistd.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -77,9 +80,15 @@ world::WalkerState walker_on(const world::LaneT& lane, double s, double offset, 
 class Scene {
   public:
     Scene(const char* town, const char* lane_name, std::uint32_t cars = 100, std::uint64_t seed = 7)
-        : town_(own_town(town).town),
+        : Scene(own_town(town), lane_name, cars, seed) {}
+
+    Scene(const test::Loaded& loaded,
+          const char* lane_name,
+          std::uint32_t cars = 100,
+          std::uint64_t seed = 7)
+        : town_(loaded.town),
           road_(lane(town_, lane_name)),
-          stage(own_town(town), cars, seed) {
+          stage(loaded, cars, seed) {
         stage.steps(200);
     }
 
@@ -238,6 +247,55 @@ TEST(Lookout, ABusDoesNotSwingOutPastWhatStandsCloseBeforeIt) {
     scene.park("van", scene.free_place(one_lane.s, one_lane.before), 0);
     scene.watch(two_minutes);
     EXPECT_TRUE(scene.touched.empty());
+}
+
+/// Its corner is a hand beyond the line between; there is room beside it all the same.
+TEST(Lookout, AWreckWhoseCornerIsOverTheLineIsPassed) {
+    Scene scene(one_lane.town, one_lane.lane);
+    scene.put_wreck(scene.free_place(one_lane.s, one_lane.before), 0, 0.2);
+    scene.watch(two_minutes);
+    EXPECT_TRUE(scene.touched.empty());
+    EXPECT_GE(scene.passed.size(), one_lane.pass);
+}
+
+/// Town 1 as netconvert makes towns of other maps: SUMO knows no opposite lanes there, and does not
+/// sort a lane's vehicles again.
+class TownWithoutNeighbours {
+  public:
+    TownWithoutNeighbours()
+        : folder_(std::filesystem::temp_directory_path() /
+                  ("reprise_no_neighbours_" + std::to_string(getpid()))) {
+        std::filesystem::create_directory(folder_);
+        const auto network = folder_ / "town1.net.xml";
+        std::ifstream from(std::string(REPRISE_SOURCE_DIR) +
+                           "/scenarios/towns/town1/town1.net.xml");
+        std::ofstream to(network);
+        for (std::string line; std::getline(from, line);)
+            if (line.find("<neigh ") == std::string::npos)
+                to << line << '\n';
+        to.close();
+        loaded = test::load(network);
+    }
+
+    TownWithoutNeighbours(const TownWithoutNeighbours&) = delete;
+    TownWithoutNeighbours& operator=(const TownWithoutNeighbours&) = delete;
+
+    ~TownWithoutNeighbours() { std::filesystem::remove_all(folder_); }
+
+  private:
+    std::filesystem::path folder_;
+
+  public:
+    test::Loaded loaded;
+};
+
+TEST(Lookout, WhoHasPassedAParkedVanDrivesOnWhereSumoKnowsNoOppositeLanes) {
+    const TownWithoutNeighbours town;
+    Scene scene(town.loaded, one_lane.lane);
+    scene.park("van", scene.free_place(one_lane.s, one_lane.before), 0);
+    scene.watch(two_minutes);
+    EXPECT_TRUE(scene.touched.empty());
+    EXPECT_GE(scene.passed.size(), one_lane.pass);
 }
 
 /// Who keeps to its lane passes them by half a metre; who changes lanes there would not.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <libsumo/libsumo.h>
+
 #include "traffic/sight/way_ahead.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
@@ -53,6 +55,21 @@ struct Passing::Stretch {
         return in_oncoming || in_own;
     }
 };
+
+namespace {
+
+/// Does SUMO still have it behind one whom it has passed? It keeps a lane's vehicles in the order
+/// in which they came, unless it knows an opposite lane: there such a one stays its leader, for
+/// whom it would wait for ever.
+bool follows_who_is_passed(const Car& car) {
+    using libsumo::Vehicle;
+    constexpr double far = 100;  // [m]
+    const auto [leader, gap] = Vehicle::getLeader(car.sumo, far);
+    return !leader.empty() &&
+           gap < -(world::vehicle_models()[car.model].length + Vehicle::getLength(leader));
+}
+
+}  // namespace
 
 /// Where the row of things ends that the car stands before; none where it cannot be passed.
 std::optional<double> Passing::end_of_row(const Car& car, double front, double aside) const {
@@ -116,9 +133,12 @@ bool Passing::is_free(const Stretch& stretch,
         if (!passed && stretch.holds(middle, model.length / 2, velocity))
             return false;
     }
+    // In the middle of that lane it drives; what reaches over the line a little leaves it room.
+    const double half = world::vehicle_models()[car.model].width / 2;
     const auto there = obstructions_->on(stretch.opposite);
     return std::none_of(there.begin(), there.end(), [&](const Obstruction& one) {
-        return one.end > stretch.from_end - stretch.length - 5 && one.begin < stretch.from_end + 5;
+        return one.left > -half && one.right < half &&
+               one.end > stretch.from_end - stretch.length - 5 && one.begin < stretch.from_end + 5;
     });
 }
 
@@ -218,8 +238,12 @@ void Passing::follow(Car& car, std::uint64_t tick) const {
         (car.offset != 0 && static_cast<double>(car.standing_ticks) * step_ > gives_up);
     if (!comes_back)
         return;
-    car.pass.reset();
-    car.offset_order = OffsetOrder{{car.offset, 0, pull_out_time, world::Shape::linear}, tick - 1};
+    const bool is_back = car.offset_order ? car.offset_order->change.to == 0 : car.offset == 0;
+    if (!is_back)
+        car.offset_order =
+            OffsetOrder{{car.offset, 0, pull_out_time, world::Shape::linear}, tick - 1};
+    if (!follows_who_is_passed(car))
+        car.pass.reset();
 }
 
 }  // namespace reprise::traffic
