@@ -225,11 +225,18 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
         if (car.sumo.empty() || car.origin == Origin::parked || car.lane == none ||
             car.held_in == tick || (car.speed_order && !car.speed_order->reacts))
             continue;
-        if (car.pass)
+        if (car.pass && car.pass->joins)
+            PullingOut::follow(car);
+        else if (car.pass)
             passing_.follow(car, tick);
         double allowed = allowed_speed(car, cars);
         if (car.held_back && !car.pass && allowed < Passing::speed) {
             passing_.begin(car, cars, last, tick);
+            if (car.pass)
+                allowed = allowed_speed(car, cars);
+        }
+        if (!car.pass && allowed < Passing::speed) {
+            pulling_out_.begin(car, cars, tick);
             if (car.pass)
                 allowed = allowed_speed(car, cars);
         }

@@ -9,6 +9,7 @@
 #include "traffic/sight/meetings.h"
 #include "traffic/sight/obstructions.h"
 #include "traffic/sight/passing.h"
+#include "traffic/sight/pulling_out.h"
 #include "traffic/sight/stand_ins.h"
 #include "traffic/sight/sweeping.h"
 #include "world/episode_generated.h"
@@ -44,6 +45,7 @@ class Lookout {
           obstructions_(town, lanes, step_),
           stand_ins_(town, graph, step_),
           passing_(town, obstructions_, step_),
+          pulling_out_(town, graph, obstructions_, step_),
           meetings_(town, graph, right_of_way, step_),
           sweeping_(obstructions_, meetings_.lines(), graph, step_) {}
 
@@ -84,6 +86,7 @@ class Lookout {
     Obstructions obstructions_;
     StandIns stand_ins_;
     Passing passing_;
+    PullingOut pulling_out_;
     Meetings meetings_;
     Sweeping sweeping_;
 };

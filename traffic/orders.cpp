@@ -166,8 +166,9 @@ double Orders::ordered_speed(const Car& car, std::uint64_t tick) const {
 }
 
 int Orders::braking_mode(const Car& car) const {
-    // Who passes something drives, to SUMO, through it.
-    return speed_mode(car) & ~(limits_braking + (car.pass ? keeps_safe_gap : 0));
+    // Who passes something through the oncoming lane drives, to SUMO, through it.
+    const bool drives_through = car.pass && !car.pass->joins;
+    return speed_mode(car) & ~(limits_braking + (drives_through ? keeps_safe_gap : 0));
 }
 
 void Orders::let_go(const Car& car, std::uint64_t tick) const {

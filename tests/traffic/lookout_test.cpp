@@ -10,6 +10,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/worlds.h"
@@ -228,6 +229,8 @@ struct Place {
 
 constexpr Place three_lanes{"straight", "east_1", 1000, 250, 10};
 constexpr Place one_lane{"town1", "m1_b2_1", 30, 25, 2};
+/// Who comes first has no way left to change lanes as he drives: he pulls out from a standstill.
+constexpr Place close_before_a_queue{"town1", "t1_l1_1", 120, 25, 8};
 
 class LookoutIn : public testing::TestWithParam<std::tuple<Place, Obstacle>> {};
 
@@ -492,7 +495,7 @@ INSTANTIATE_TEST_SUITE_P(
     ,
     LookoutIn,
     testing::Combine(
-        testing::Values(three_lanes, one_lane),
+        testing::Values(three_lanes, one_lane, close_before_a_queue),
         testing::Values(
             Obstacle{"walker", [](Scene& scene, double s) { scene.put_walker(s, 0); }},
             Obstacle{"walker_lying",
@@ -507,7 +510,8 @@ INSTANTIATE_TEST_SUITE_P(
             Obstacle{"wreck", [](Scene& scene, double s) { scene.put_wreck(s, 0, -0.9); }},
             Obstacle{"dead_car", [](Scene& scene, double s) { scene.put_wreck(s, 0, 0); }})),
     [](const auto& info) {
-        return std::string(std::get<0>(info.param).town) + "_" + std::get<1>(info.param).name;
+        const Place& place = std::get<0>(info.param);
+        return fmt::format("{}_{}_{}", place.town, place.lane, std::get<1>(info.param).name);
     });
 
 }  // namespace

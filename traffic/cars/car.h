@@ -43,11 +43,13 @@ struct LaneOrder {
     std::uint64_t until = 0;
 };
 
-/// On its way around what blocks its lane: through the oncoming one; see passing.h.
+/// On its way around what blocks its lane: through the oncoming one, or into the one beside; see
+/// passing.h and pulling_out.h.
 struct PassOrder {
     std::uint32_t lane = world::none;  ///< its own
     double end = 0;                    ///< [m] along that: from there on it comes back
     double pace = 0;                   ///< [m/s] at most, until it is aside
+    bool joins = false;                ///< into the lane beside, where SUMO has it already
 };
 
 /// A car that traffic owns. Positions are world, metres.

@@ -155,6 +155,8 @@ void Cars::add_to(world::Hasher& hasher) const {
             hasher.add(car.pass->lane);
             hasher.add(car.pass->end);
             hasher.add(car.pass->pace);
+            if (car.pass->joins)
+                hasher.add(car.pass->joins);
         }
         if (car.on_call || car.goes_first || car.makes_way) {
             hasher.add(car.on_call);

@@ -5,7 +5,7 @@
 
 #include <libsumo/libsumo.h>
 
-#include "traffic/sight/way_ahead.h"
+#include "traffic/sight/swing.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
@@ -21,8 +21,6 @@ constexpr double first_in_line = 9;      // [m] at most to what is passed
 constexpr double longest_row = 25;       // [m] of what is passed at once
 constexpr double room_to_return = 14;    // [m] of the lane, beside the car's own length
 constexpr double slow_pass = 3.5;        // [m/s] on average
-constexpr double pull_out_time = 2.5;    // [s]
-constexpr double slow_pull_out = 1.4;    // [m/s] of one who stands close behind what he passes
 constexpr double beside_oncoming = 2.4;  // [m] from middle to middle
 constexpr double longest_to_swing = 7;   // [m] the side of a longer one would cut the corner
 constexpr double room_in_queue = 12;     // [m] between the place where it is back and who is there
@@ -142,45 +140,6 @@ bool Passing::is_free(const Stretch& stretch,
     });
 }
 
-/// Pulling out from where it stands, at no more than that pace [m/s], would its side or corner
-/// touch what it passes?
-bool Passing::swings_into_any(const Car& car,
-                              const world::LaneProjection& at,
-                              double aside,
-                              double pace) const {
-    constexpr double sample = 0.05;   // [s]
-    constexpr double quickest = 3;    // [m/s^2] the less time to get aside
-    constexpr double hair = 0.1;      // [m]
-    constexpr double look_ahead = 3;  // [s]
-    const world::VehicleModel& model = world::vehicle_models()[car.model];
-    const world::LaneT& lane = town_->lanes[car.lane];
-    Trail trail = car.trail;
-    double driving = 0;  // [m/s]
-    double driven = 0;   // [m]
-    double offset = 0;   // [m] from where it is now, as CarReader::move_aside has it
-    for (double time = sample; time < look_ahead; time += sample) {
-        driving = std::min(driving + quickest * sample, pace);
-        driven += driving * sample;
-        const double wanted = (aside - car.offset) * std::min(time / pull_out_time, 1.0);
-        offset += std::clamp(wanted - offset, -driving * sample, driving * sample);
-        const world::LanePoint on = world::point_at(lane, at.s + driven);
-        const Eigen::Vector2d left = world::turned_left(world::ahead_of(on.yaw));
-        Eigen::Vector3d front = on.position;
-        front.head<2>() += (at.t + offset) * left;
-        trail.advance(front);
-        BodyBox body;
-        body.ahead = (front - trail.rear()).head<2>().normalized();
-        body.half_length = model.length / 2 + hair;
-        body.half_width = model.width / 2 + hair;
-        body.middle = front.head<2>() - model.length / 2 * body.ahead;
-        for (const Footprint& one : obstructions_->footprints())
-            if (one.id != car.id && std::abs(one.z - car.rear.z()) < world::level_clearance &&
-                overlap(body, {one.centre, one.direction, one.half_length, one.half_width}))
-                return true;
-    }
-    return false;
-}
-
 void Passing::begin(Car& car,
                     const Cars& cars,
                     const world::TickView& last,
@@ -214,9 +173,12 @@ void Passing::begin(Car& car,
     if (!is_free(stretch, car, cars, last))
         return;
     double pace = speed;
-    if (swings_into_any(car, at, aside, pace))
+    const auto touches = [&](double at_pace) {
+        return swings_into_any(car, lane, at, aside, at_pace, obstructions_->footprints());
+    };
+    if (touches(pace))
         pace = slow_pull_out;
-    if (pace < speed && swings_into_any(car, at, aside, pace))
+    if (pace < speed && touches(pace))
         return;
     car.pass = PassOrder{car.lane, *end + model.length + 1, pace};
     car.offset_order =
@@ -225,7 +187,8 @@ void Passing::begin(Car& car,
 
 double Passing::allowed_speed(const Car& car) {
     constexpr double aside_enough = 0.3;  // [m]
-    const bool pulls_out = car.offset_order && car.offset_order->change.to != 0 &&
+    const bool pulls_out = car.offset_order &&
+                           (car.pass->joins || car.offset_order->change.to != 0) &&
                            std::abs(car.offset_order->change.to - car.offset) > aside_enough;
     return pulls_out ? car.pass->pace : speed;
 }

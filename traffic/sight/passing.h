@@ -43,10 +43,6 @@ class Passing {
   private:
     struct Stretch;
 
-    bool swings_into_any(const Car& car,
-                         const world::LaneProjection& at,
-                         double aside,
-                         double pace) const;
     std::optional<double> end_of_row(const Car& car, double front, double aside) const;
     bool is_free(const Stretch& stretch,
                  const Car& car,

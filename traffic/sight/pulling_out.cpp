@@ -1,0 +1,163 @@
+#include "traffic/sight/pulling_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <libsumo/libsumo.h>
+
+#include "traffic/sight/passing.h"
+#include "traffic/sight/swing.h"
+#include "world/geometry2d.h"
+#include "world/models/catalogue.h"
+
+namespace reprise::traffic {
+
+namespace {
+
+using world::none;
+
+constexpr double patience = 3;       // [s]
+constexpr double nearest_thing = 9;  // [m]
+constexpr double way_aside = 12;     // [m] that it drives until it is in the lane beside
+constexpr double way_back = 60;      // [m] for another change, where that lane leads elsewhere
+constexpr double gap_ahead = 6;      // [m]
+constexpr double gap_behind = 2;     // [m] and what it takes who comes to brake
+constexpr double reaction = 1.5;     // [s]
+constexpr double brakes_easily = 3;  // [m/s^2]
+
+/// [m] that one behind needs to let it in.
+double needed_behind(double speed) {
+    return gap_behind + (reaction + speed / (2 * brakes_easily)) * speed;
+}
+
+}  // namespace
+
+/// First behind something that stays there, nobody of SUMO's between.
+bool PullingOut::stands_behind_a_thing(const Car& car, double front, const Cars& cars) const {
+    const double half = world::vehicle_models()[car.model].width / 2;
+    for (const Obstruction& one : obstructions_->on(car.lane)) {
+        if (one.begin < front - 0.3 || one.left < -half || one.right > half)
+            continue;
+        if (one.begin > front + nearest_thing || !one.lasts)
+            return false;
+        const auto all = cars.all();
+        return std::none_of(all.begin(), all.end(), [&](const Car& other) {
+            return other.lane == car.lane && other.origin != Origin::parked && other.id != car.id &&
+                   other.lane_position > car.lane_position &&
+                   other.lane_position - world::vehicle_models()[other.model].length <
+                       car.lane_position + nearest_thing;
+        });
+    }
+    return false;
+}
+
+/// Is it a lane for cars, with room for this one here, on the way to where it goes?
+bool PullingOut::may_use(const Car& car, double front, std::uint32_t beside) const {
+    const world::LaneT& lane = town_->lanes[beside];
+    const double length = world::vehicle_models()[car.model].length;
+    // With its tail on another lane SUMO would have it there, too.
+    if (lane.kind != world::LaneKind::driving || front < length + 1 ||
+        front + way_aside > lane.length)
+        return false;
+    const auto here = std::find(car.route.begin(), car.route.end(), graph_->edge_of(beside));
+    if (here == car.route.end())
+        return false;
+    if (here + 1 == car.route.end() || front + way_back < lane.length)
+        return true;
+    return std::any_of(lane.links.begin(), lane.links.end(), [&](const world::Link& link) {
+        return link.to() != none && graph_->edge_of(link.to()) == *(here + 1);
+    });
+}
+
+/// [m] from the other's bumper on to `front` on the lane, along it; infinity for one who does not
+/// come there. Of one on the road before it is the straight way, the shortest that there is.
+double PullingOut::way_to(const Car& other, std::uint32_t beside, double front) const {
+    const world::LaneT& lane = town_->lanes[beside];
+    if (other.lane == beside)
+        return front - other.lane_position * lane.length / lane.sumo_length;
+    const std::uint32_t edge = graph_->edge_of(beside);
+    if (other.lane != none && graph_->edge_of(other.lane) == edge) {
+        // In the middle of a change of lanes it has a part of its body there, or will have.
+        const world::LaneProjection at = world::project(lane, other.trail.front());
+        const double half = world::vehicle_models()[other.model].width / 2;
+        return std::abs(at.t) < lane.width / 2 + half ? front - at.s : world::infinity;
+    }
+    constexpr std::ptrdiff_t soon = 3;  // edges of its route
+    const auto end =
+        other.route.begin() + std::min(soon, static_cast<std::ptrdiff_t>(other.route.size()));
+    if (std::find(other.route.begin(), end, edge) == end)
+        return world::infinity;
+    const Eigen::Vector3d start = world::point_at(lane, 0).position;
+    return front + (start - other.trail.front()).head<2>().norm();
+}
+
+bool PullingOut::is_free(const Car& car,
+                         std::uint32_t beside,
+                         double front,
+                         const Cars& cars) const {
+    const double length = world::vehicle_models()[car.model].length;
+    for (const Car& other : cars.all()) {
+        if (other.id == car.id || other.origin == Origin::parked || other.lane == none)
+            continue;
+        const double way = way_to(other, beside, front);
+        if (way == world::infinity)
+            continue;
+        const double other_length = world::vehicle_models()[other.model].length;
+        const bool is_ahead = -way - other_length > gap_ahead;
+        const bool is_behind = way - length > needed_behind(other.speed);
+        if (!is_ahead && !is_behind)
+            return false;
+    }
+    const auto there = obstructions_->on(beside);
+    return std::none_of(there.begin(), there.end(), [&](const Obstruction& one) {
+        return one.begin < front + way_aside && one.end > front - length - needed_behind(one.speed);
+    });
+}
+
+void PullingOut::begin(Car& car, const Cars& cars, std::uint64_t tick) const {
+    if (car.origin != Origin::demand || car.speed > 0.1 || car.offset_order || car.makes_way ||
+        static_cast<double>(car.standing_ticks) * step_ < patience)
+        return;
+    const world::LaneT& lane = town_->lanes[car.lane];
+    if (lane.kind != world::LaneKind::driving || (lane.left == none && lane.right == none))
+        return;
+    const Eigen::Vector3d& front = car.trail.front();
+    const world::LaneProjection at = world::project(lane, front);
+    if (!stands_behind_a_thing(car, at.s, cars))
+        return;
+    const bool left_hand = town_->left_hand;
+    for (const std::uint32_t beside :
+         {left_hand ? lane.right : lane.left, left_hand ? lane.left : lane.right}) {
+        if (beside == none)
+            continue;
+        const world::LaneT& next = town_->lanes[beside];
+        const world::LaneProjection there = world::project(next, front);
+        if (!may_use(car, there.s, beside) || !is_free(car, beside, there.s, cars))
+            continue;
+        const auto touches = [&](double pace) {
+            return swings_into_any(
+                car, lane, at, at.t - there.t, pace, obstructions_->footprints());
+        };
+        double pace = Passing::speed;
+        if (touches(pace))
+            pace = slow_pull_out;
+        if (pace < Passing::speed && touches(pace))
+            continue;
+        car.lane = beside;
+        car.lane_position = there.s * next.sumo_length / next.length;
+        libsumo::Vehicle::moveTo(car.sumo, next.name, car.lane_position);
+        car.sumo_front = world::point_at(next, there.s).position;
+        car.slip.setZero();
+        car.offset = there.t;
+        car.offset_order = OffsetOrder{{there.t, 0, pull_out_time, world::Shape::linear}, tick - 1};
+        car.pass = PassOrder{beside, 0, pace, true};
+        return;
+    }
+}
+
+void PullingOut::follow(Car& car) {
+    if (!car.offset_order || car.lane != car.pass->lane)
+        car.pass.reset();
+}
+
+}  // namespace reprise::traffic
