@@ -3,7 +3,7 @@
 namespace reprise::cli {
 
 /// For glibc's malloc in reprise-render, which reads it from GLIBC_TUNABLES before main: a town is
-/// 100 MB of shapes that rays meet in no order, and a picture 90 MB of pixels. In pages of 2 MB,
+/// 100 MB of shapes that rays meet in no order, and a picture 25 MB of pixels. In pages of 2 MB,
 /// and not given back between two pictures, both take a twelfth less time, for 4 % more memory. Who
 /// starts reprise-render says so, unless the user has said something. tests/bench/tables.py says
 /// the same.

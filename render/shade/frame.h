@@ -4,35 +4,19 @@
 #include <vector>
 
 #include "render/look/look.h"
-#include "render/shade/light.h"
+#include "render/shade/tile_pixels.h"
 #include "render/trace/camera.h"
 
 namespace reprise::render {
-
-/// A pixel's surface, in two parts: what it is like, and the light that was found there.
-struct Sample {
-    Look look;
-    Light light;  ///< filtered
-};
-
-/// What the filter between neighbouring pixels looks at, beside which triangle was hit: 64 bytes.
-struct alignas(64) RawLight {
-    Eigen::Vector3f position;  ///< scene
-    float tolerance = 0;       ///< [m] off the plane that still counts as the same surface
-    Eigen::Vector3f flat;      ///< the triangle's normal
-    Light light;
-};
 
 /// A picture in the making. Kept between frames for its memory only: nothing of an old frame is
 /// read.
 struct Frame {
     int width = 0;
     int height = 0;
-    std::vector<Sample> samples;
-    std::vector<RawLight> lights;
-    std::vector<LampLight> lamps;  ///< empty by day
-    std::vector<Color> colors;     ///< radiance times exposure
-    std::vector<float> tones;      ///< how bright each looks, in [0, 1): before edges are refined
+    std::vector<Color> colors;  ///< radiance times exposure
+    std::vector<float> tones;   ///< how bright each looks, in [0, 1): before edges are refined
+    TilePool pool;
 
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +

@@ -55,6 +55,7 @@ void request_light(const ShadingJob& job,
                    const Look& look,
                    int place,
                    std::size_t owner,
+                   TilePixels& pixels,
                    TileRays& rays) {
     const Vector3f origin = offset_origin(at.position, at.flat, at.distance);
     const float facing = look.normal.dot(job.input.sky.to_sun());
@@ -62,7 +63,7 @@ void request_light(const ShadingJob& job,
         rays.sun.add(origin, sun_direction(job, place), infinite, job.mask & ~marking_bit, owner);
     if (job.lamps_matter) {
         const LampSum lamps(job.input, job.sources, look, at.position, at.view);
-        job.frame.lamps[owner] = lamps.light();
+        pixels.lamps[owner] = lamps.light();
         if (lamps.any()) {
             const Vector3f way = lamp_direction(lamps, place);
             rays.lamp.add(origin, way, lamp_reach(way), job.mask & ~marking_bit, owner);
@@ -89,40 +90,37 @@ void request_light(const ShadingJob& job,
 void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
     thread_local TileRays rays;
     rays.clear();
+    TilePixels& pixels = *job.pixels(corner);
     Surfaces surfaces(job.input.scene, job.eye, job.pixel);
     for (int i = 0; i < tile * tile; ++i) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
         if (!job.contains(pixel))
             continue;
-        job.look_ahead(corner, i + block, [&](std::size_t next) {
-            prefetch(&job.frame.lights[next]);
-            prefetch(&job.frame.samples[next].look);
-            prefetch(&job.frame.samples[next].light);
-            surfaces.expect(job.hits[next]);
-        });
+        job.look_ahead(
+            corner, i + block, [&](std::size_t next) { surfaces.expect(job.hits[next]); });
         job.look_ahead(corner, i + 2 * block, [&](std::size_t next) { prefetch(&job.hits[next]); });
         job.look_ahead(corner, i + block / 2, [&](std::size_t next) {
             surfaces.expect_corners(job.hits[next]);
         });
-        const std::size_t index = job.frame.index(pixel.x(), pixel.y());
-        RawLight& raw = job.frame.lights[index];
-        const Hit& hit = job.hits[index];
+        const Hit& hit = job.hits[job.frame.index(pixel.x(), pixel.y())];
         if (hit.instance == no_instance)
             continue;
+        const std::size_t place = tile_place(pixel.x(), pixel.y());
         const Vector3f direction = job.camera.ray(pixel.x() + 0.5, pixel.y() + 0.5).cast<float>();
         Surface at = surfaces.at(hit, direction);
         expose(job.input, at);
-        Sample& sample = job.frame.samples[index];
+        Sample& sample = pixels.samples[place];
         sample.look = shade_surface(job.input, at);
+        RawLight& raw = pixels.lights[place];
         raw.position = at.position;
         raw.flat = at.flat;
         raw.tolerance = 0.01F + 4 * at.distance * job.pixel;
         raw.light = {Color::Zero(), job.sun_matters ? 0.0F : 1.0F, 0.0F, 1.0F};
         if (!asks_for_sky(at))
             raw.light.sky_visibility = at.material == Material::leaf ? 0.7F : 0.95F;
-        request_light(job, at, sample.look, pattern(pixel.x(), pixel.y()), index, rays);
+        request_light(job, at, sample.look, pattern(pixel.x(), pixel.y()), place, pixels, rays);
     }
-    std::vector<RawLight>& lights = job.frame.lights;
+    auto& lights = pixels.lights;
     trace_batch(job, rays, rays.sun, true, [&](std::size_t owner, bool visible) {
         lights[owner].light.sun_visibility =
             visible ? job.input.sky.clouds().sunlight(lights[owner].position) : 0.0F;

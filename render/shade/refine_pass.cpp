@@ -48,6 +48,7 @@ bool is_edge(const ShadingJob& job, int x, int y) {
 /// there.
 struct Neighbour {
     Neighbour(const ShadingJob& job,
+              const TileBlock& tiles,
               const Eigen::Vector2i& pixel,
               const Hit& hit,
               const Surface& at) {
@@ -56,24 +57,24 @@ struct Neighbour {
         for (int i = 0; i < 9; ++i) {
             const int x = std::clamp(pixel.x() + i % 3 - 1, 0, frame.width - 1);
             const int y = std::clamp(pixel.y() + i / 3 - 1, 0, frame.height - 1);
-            const std::size_t next = frame.index(x, y);
-            if (job.hits[next].instance != hit.instance)
+            if (job.hits[frame.index(x, y)].instance != hit.instance)
                 continue;
-            const RawLight& raw = frame.lights[next];
+            const std::size_t next = tile_place(x, y);
+            const RawLight& raw = tiles.pixels(x, y).lights[next];
             const float turned = 1 - raw.flat.dot(at.flat);
             const float away = (raw.position - at.position).norm() + turned * at.distance * 0.01F;
             if (away < least) {
                 least = away;
-                index = next;
+                pixels = &tiles.pixels(x, y);
+                place = next;
                 flush = turned < 0.02F && away < raw.tolerance;
             }
         }
-        found = least < infinite;
     }
 
-    std::size_t index = 0;
-    bool found = false;
-    bool flush = false;  ///< on the same plane, and near: lamps give both the same
+    const TilePixels* pixels = nullptr;  ///< of its tile; null: there is none
+    std::size_t place = 0;               ///< there
+    bool flush = false;                  ///< on the same plane, and near: lamps give both the same
 };
 
 /// What a ray through a part of a pixel hit, and how it is lit.
@@ -131,16 +132,19 @@ void add_subpixel_rays(const ShadingJob& job,
     }
 }
 
-void light_subpixel(const ShadingJob& job, const Eigen::Vector2i& pixel, SubpixelSample& sample) {
+void light_subpixel(const ShadingJob& job,
+                    const TileBlock& tiles,
+                    const Eigen::Vector2i& pixel,
+                    SubpixelSample& sample) {
     const Surface& at = sample.surface;
-    const Neighbour neighbour(job, pixel, sample.hit, at);
-    sample.light = neighbour.found ? job.frame.samples[neighbour.index].light
-                                   : Light{Color::Zero(), 0, 0.8F, 0.8F};
+    const Neighbour neighbour(job, tiles, pixel, sample.hit, at);
+    sample.light = neighbour.pixels != nullptr ? neighbour.pixels->samples[neighbour.place].light
+                                               : Light{Color::Zero(), 0, 0.8F, 0.8F};
     sample.lamps = {};
     if (!job.lamps_matter)
         return;
     sample.lamps = neighbour.flush
-                       ? job.frame.lamps[neighbour.index]
+                       ? neighbour.pixels->lamps[neighbour.place]
                        : LampSum(job.input, job.sources, sample.look, at.position, at.view).light();
 }
 
@@ -157,7 +161,10 @@ Color color_of(const ShadingJob& job, const Ray& ray, const SubpixelSample& samp
 }
 
 /// Adds two places of each pixel; of `pixels` those stay of which the two differ.
-void add_pair(ShadingJob& job, std::size_t first, std::vector<Refined>& pixels) {
+void add_pair(ShadingJob& job,
+              const TileBlock& tiles,
+              std::size_t first,
+              std::vector<Refined>& pixels) {
     Frame& frame = job.frame;
     thread_local TileRays rays;
     thread_local RayBatch batch;
@@ -172,12 +179,8 @@ void add_pair(ShadingJob& job, std::size_t first, std::vector<Refined>& pixels) 
         SubpixelSample& sample = samples[i];
         if (i + 2 * soon < primary.size())
             surfaces.expect(rays.hits[i + 2 * soon]);
-        if (i + soon < primary.size()) {
+        if (i + soon < primary.size())
             surfaces.expect_corners(rays.hits[i + soon]);
-            const std::size_t next = pixels[batch.owner(i + soon)].index;
-            prefetch(&frame.lights[next]);
-            prefetch(&frame.samples[next].light.sun_visibility);
-        }
         sample.hit = rays.hits[i];
         if (sample.hit.instance == no_instance)
             continue;
@@ -185,7 +188,7 @@ void add_pair(ShadingJob& job, std::size_t first, std::vector<Refined>& pixels) 
         expose(job.input, sample.surface);
         sample.look = shade_surface(job.input, sample.surface);
         const auto owner = static_cast<int>(pixels[batch.owner(i)].index);
-        light_subpixel(job, {owner % frame.width, owner / frame.width}, sample);
+        light_subpixel(job, tiles, {owner % frame.width, owner / frame.width}, sample);
         // What looks away from the sun gets nothing of it, whatever is between.
         const bool faces = sample.look.normal.dot(job.input.sky.to_sun()) > 0;
         if (!job.sun_matters || (!faces && sample.look.translucency <= 0))
@@ -225,10 +228,11 @@ void refine_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
     std::vector<Refined> pixels = edges_of(job, corner);
     if (pixels.empty())
         return;
-    add_pair(job, 0, pixels);
+    const TileBlock tiles(job, corner);
+    add_pair(job, tiles, 0, pixels);
     if (pixels.empty())
         return;
-    add_pair(job, pair, pixels);
+    add_pair(job, tiles, pair, pixels);
     for (const Refined& pixel : pixels)
         job.frame.colors[pixel.index] = pixel.sum / pixel.weights;
 }

@@ -33,11 +33,10 @@ bool on_same_surface(const RawLight& own, const RawLight& other) {
            std::abs((other.position - own.position).dot(own.flat)) <= own.tolerance;
 }
 
-Light filtered(const ShadingJob& job, const Eigen::Vector2i& pixel) {
+Light filtered(const ShadingJob& job, const TileBlock& tiles, const Eigen::Vector2i& pixel) {
     const Frame& frame = job.frame;
-    const std::size_t here = frame.index(pixel.x(), pixel.y());
-    const RawLight& own = frame.lights[here];
-    const Hit& hit = job.hits[here];
+    const RawLight& own = tiles.middle().lights[tile_place(pixel.x(), pixel.y())];
+    const Hit& hit = job.hits[frame.index(pixel.x(), pixel.y())];
     Color reflected = Color::Zero();
     __m128 shares = _mm_setzero_ps();
     float count = 0;
@@ -47,9 +46,8 @@ Light filtered(const ShadingJob& job, const Eigen::Vector2i& pixel) {
     const int high = std::min(frame.height - 1, pixel.y() + 1);
     for (int y = low; y <= high; ++y) {
         for (int x = left; x <= right; ++x) {
-            const std::size_t there = frame.index(x, y);
-            const RawLight& other = frame.lights[there];
-            const Hit& other_hit = job.hits[there];
+            const RawLight& other = tiles.pixels(x, y).lights[tile_place(x, y)];
+            const Hit& other_hit = job.hits[frame.index(x, y)];
             if (other_hit.instance != hit.instance ||
                 (other_hit.triangle != hit.triangle && !on_same_surface(own, other)))
                 continue;
@@ -68,14 +66,13 @@ Light filtered(const ShadingJob& job, const Eigen::Vector2i& pixel) {
 
 void combine_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
     Frame& frame = job.frame;
+    const TileBlock tiles(job, corner);
+    TilePixels& own = tiles.middle();
     for (int i = 0; i < tile * tile; ++i) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
         if (!job.contains(pixel))
             continue;
         job.look_ahead(corner, i + block, [&](std::size_t next) {
-            prefetch(&frame.lights[next]);
-            prefetch(&frame.samples[next].look);
-            prefetch(&frame.samples[next].light);
             prefetch(&frame.colors[next]);
             prefetch(&frame.tones[next]);
             prefetch(&job.hits[next]);
@@ -87,14 +84,15 @@ void combine_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         if (hit.instance == no_instance) {
             color = sky_color(job, direction);
         } else {
-            Sample& sample = frame.samples[index];
-            sample.light = filtered(job, pixel);
+            const std::size_t place = tile_place(pixel.x(), pixel.y());
+            Sample& sample = own.samples[place];
+            sample.light = filtered(job, tiles, pixel);
             const float length = direction.norm();
             const Vector3f view = direction / length;
             color = outgoing_radiance(job.input,
                                       sample.look,
                                       sample.light,
-                                      job.lamps_matter ? frame.lamps[index] : LampLight(),
+                                      job.lamps_matter ? own.lamps[place] : LampLight(),
                                       view);
             color = through_atmosphere(job.input.sky, color, job.eye, view, hit.distance * length);
         }
@@ -110,8 +108,6 @@ void shade(const ShadingInput& input,
            Frame& frame) {
     frame.width = camera.width();
     frame.height = camera.height();
-    frame.samples.resize(hits.size());
-    frame.lights.resize(hits.size());
     frame.colors.resize(hits.size());
     frame.tones.resize(hits.size());
     const Vector3f eye = camera.position().cast<float>();
@@ -121,6 +117,7 @@ void shade(const ShadingInput& input,
                    mask,
                    hits,
                    frame,
+                   {},
                    SourceGrid(find_sources(input, eye), eye),
                    false,
                    eye,
@@ -128,18 +125,24 @@ void shade(const ShadingInput& input,
                    sun_directions(input.sky),
                    luminance(input.sky.sun()) / pi > 0.01F * ambient};
     job.lamps_matter = !job.sources.empty() || input.sky.moon().light.maxCoeff() > 0;
-    if (job.lamps_matter)
-        frame.lamps.resize(hits.size());
     // A tile's next stage comes as soon as its neighbours are so far: what they wrote is still in
     // the cache.
     TileStage lit(camera);
     TileStage combined(camera);
-    for_tiles(camera, [&](const Eigen::Vector2i& tile_corner) {
-        light_tile(job, tile_corner);
-        lit.finish(tile_corner, [&](const Eigen::Vector2i& lit_corner) {
-            combine_tile(job, lit_corner);
-            combined.finish(lit_corner,
-                            [&](const Eigen::Vector2i& corner) { refine_tile(job, corner); });
+    TileStage refined(camera);
+    job.tiles.resize(lit.tiles());
+    frame.pool.recall();
+    for_tiles(camera, [&](const Eigen::Vector2i& first) {
+        job.pixels(first) = frame.pool.take();
+        light_tile(job, first);
+        lit.finish(first, [&](const Eigen::Vector2i& second) {
+            combine_tile(job, second);
+            combined.finish(second, [&](const Eigen::Vector2i& third) {
+                refine_tile(job, third);
+                refined.finish(third, [&](const Eigen::Vector2i& done) {
+                    frame.pool.give_back(job.pixels(done));
+                });
+            });
         });
     });
 }

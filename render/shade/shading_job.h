@@ -36,6 +36,7 @@ struct ShadingJob {
     std::uint32_t mask;
     const std::vector<Hit>& hits;
     Frame& frame;
+    std::vector<TilePixels*> tiles;  ///< by rows; those that are being shaded
     SourceGrid sources;
     bool lamps_matter;  ///< is there a lamp, or a moon?
     Eigen::Vector3f eye;
@@ -48,14 +49,56 @@ struct ShadingJob {
         return at.x() < camera.width() && at.y() < camera.height();
     }
 
-    /// Calls `fetch(index in the frame)` for the i-th pixel of a tile, if there is one: what is
-    /// known of 800x600 pixels takes 90 MB, and who comes to the next one waits for memory.
+    /// Calls `fetch(index in the frame)` for the i-th pixel of a tile, if there is one: who comes
+    /// to the next one would wait for memory.
     template <typename Fetch>
     void look_ahead(const Eigen::Vector2i& corner, int i, const Fetch& fetch) const {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
         if (i < tile * tile && contains(pixel))
             fetch(frame.index(pixel.x(), pixel.y()));
     }
+
+    int columns() const { return (camera.width() + tile - 1) / tile; }  ///< of tiles
+
+    /// Of the tile at `corner`.
+    TilePixels*& pixels(const Eigen::Vector2i& corner) {
+        return tiles[static_cast<std::size_t>(corner.y() / tile * columns() + corner.x() / tile)];
+    }
+};
+
+/// Where in its tile a pixel's numbers are.
+inline std::size_t tile_place(int x, int y) {
+    constexpr unsigned side = tile;
+    return static_cast<unsigned>(y) % side * side + static_cast<unsigned>(x) % side;
+}
+
+/// A tile that is being shaded and those around it.
+class TileBlock {
+  public:
+    TileBlock(ShadingJob& job, const Eigen::Vector2i& corner)
+        : left_(corner.x() - tile),
+          top_(corner.y() - tile) {
+        for (int y = 0; y < 3; ++y)
+            for (int x = 0; x < 3; ++x) {
+                const Eigen::Vector2i there(left_ + x * tile, top_ + y * tile);
+                const bool inside = there.minCoeff() >= 0 && job.contains(there);
+                tiles_[static_cast<std::size_t>(y * 3 + x)] = inside ? job.pixels(there) : nullptr;
+            }
+    }
+
+    /// Of the pixel's tile: the pixel is of the picture, and within a tile's side.
+    TilePixels& pixels(int x, int y) const {
+        constexpr unsigned side = tile;
+        return *tiles_[static_cast<unsigned>(y - top_) / side * 3 +
+                       static_cast<unsigned>(x - left_) / side];
+    }
+
+    TilePixels& middle() const { return *tiles_[4]; }
+
+  private:
+    int left_;
+    int top_;
+    std::array<TilePixels*, 9> tiles_;
 };
 
 /// Runs `work(upper left pixel)` for each tile, in parallel.
@@ -66,6 +109,8 @@ void for_tiles(const Camera& camera,
 class TileStage {
   public:
     explicit TileStage(const Camera& camera);
+
+    std::size_t tiles() const { return waited_for_.size(); }
 
     /// Says that the tile at `corner` is finished; calls `next(corner)` for each tile of which it
     /// was the last one among itself and its eight neighbours. From any thread.
