@@ -33,6 +33,8 @@ std::vector<std::uint8_t> npy(const world::SensorFrame& frame) {
     header.resize((header.size() + 1 + 10 + 63) / 64 * 64 - 10 - 1, ' ');
     header += '\n';
     std::vector<std::uint8_t> bytes{0x93, 'N', 'U', 'M', 'P', 'Y', 1, 0};
+    constexpr std::size_t of_event = 13;
+    bytes.reserve(bytes.size() + 2 + header.size() + of_event * frame.events.size());
     put(bytes, static_cast<std::uint16_t>(header.size()));
     bytes.insert(bytes.end(), header.begin(), header.end());
     for (const world::PixelEvent& event : frame.events) {

@@ -170,8 +170,11 @@ void Observer::label(Look& look, std::vector<world::SensorFrame>& frames) {
         const std::vector<Hit>& hits = whole ? look.hits : rows;
         for (const std::size_t i : look.cameras) {
             std::vector<std::uint8_t>& data = frames[i].data;
-            const auto take = [&](const std::vector<std::uint8_t>& bytes) {
-                data.insert(data.end(), bytes.begin(), bytes.end());
+            const auto take = [&](std::vector<std::uint8_t> bytes) {
+                if (whole)
+                    data = std::move(bytes);
+                else
+                    data.insert(data.end(), bytes.begin(), bytes.end());
             };
             switch (look.rig[i].kind) {
                 case world::SensorKind::depth:

@@ -54,8 +54,11 @@ void LookAtTick::seen(std::vector<world::SensorFrame> frames) {
     frames_ = std::move(frames);
     for (std::size_t i = 0; i < looking_.size(); ++i) {
         shown_.push_back(output_.shows(looking_[i]) ? shown(i) : world::SensorFrame());
-        if (!output_.in_order())
+        if (!output_.in_order()) {
             output_.take(looking_[i], frames_[i], shown_[i]);
+            frames_[i] = {};
+            shown_[i] = {};
+        }
         if (boxes_)
             output_.take_boxes(looking_[i],
                                tick().index(),

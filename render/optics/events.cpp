@@ -120,8 +120,15 @@ void find_events(const world::SensorSpec& spec,
                          pictures[i + 1].time_ns);
         }
     });
+    // A town that a car drives through makes a million in a tick: they are not held twice.
+    std::size_t count = 0;
     for (const auto& row : rows)
+        count += row.size();
+    frame.events.reserve(count);
+    for (auto& row : rows) {
         frame.events.insert(frame.events.end(), row.begin(), row.end());
+        row = {};
+    }
     std::sort(frame.events.begin(),
               frame.events.end(),
               [](const world::PixelEvent& one, const world::PixelEvent& other) {
