@@ -301,6 +301,16 @@ TEST(Lookout, WhoHasPassedAParkedVanDrivesOnWhereSumoKnowsNoOppositeLanes) {
     EXPECT_GE(scene.passed.size(), one_lane.pass);
 }
 
+/// The first is stopped in the middle of a change of lanes, which SUMO goes on with wherever the
+/// car is put.
+TEST(Lookout, WhoIsStoppedInTheMiddleOfAChangeOfLanesEndsIt) {
+    Scene scene("town1", "l1_b1_1", 100, 4);
+    scene.put_walker(scene.free_place(120, 25), 0);
+    scene.watch(two_minutes);
+    EXPECT_TRUE(scene.touched.empty());
+    EXPECT_GE(scene.passed.size(), 8U);
+}
+
 /// Who keeps to its lane passes them by half a metre; who changes lanes there would not.
 TEST(Lookout, NobodyChangesLanesOverWhoStandsOnTheLineBetween) {
     for (const std::uint64_t seed : {1, 2, 3}) {

@@ -107,11 +107,14 @@ void LaneChangePace::follow(Cars& cars,
     for (Car& car : cars.all()) {
         if (car.sumo.empty() || car.origin == Origin::parked || car.lane == world::none)
             continue;
+        // It was given its pace, and changes no lanes besides.
+        if (car.pass && car.pass->joins)
+            continue;
         const world::LaneT& lane = town_->lanes[car.lane];
         // A quarter of the cars is asked in each tick.
         if (has_neighbour_[car.lane] && car.origin == Origin::demand && (tick + car.id) % 4 == 0) {
-            const bool may = car.speed > crawl && !car.pass && has_way(car, queues) &&
-                             is_clear(car, obstructions);
+            const bool may =
+                car.speed > crawl && has_way(car, queues) && is_clear(car, obstructions);
             const int mode = !may ? never : car.makes_way ? as_asked : as_it_likes;
             if (mode != car.lane_change_mode)
                 libsumo::Vehicle::setLaneChangeMode(car.sumo, mode);

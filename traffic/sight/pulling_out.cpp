@@ -32,23 +32,28 @@ double needed_behind(double speed) {
 
 }  // namespace
 
-/// First behind something that stays there, nobody of SUMO's between.
-bool PullingOut::stands_behind_a_thing(const Car& car, double front, const Cars& cars) const {
+/// Its body first behind something that stays there, nobody of SUMO's between.
+bool PullingOut::stands_behind_a_thing(const Car& car, const Cars& cars) const {
+    const world::LaneT& own = town_->lanes[car.lane];
     const double half = world::vehicle_models()[car.model].width / 2;
-    for (const Obstruction& one : obstructions_->on(car.lane)) {
-        if (one.begin < front - 0.3 || one.left < -half || one.right > half)
-            continue;
-        if (one.begin > front + nearest_thing || !one.lasts)
+    const auto is_first_on = [&](std::uint32_t lane) {
+        if (lane == none)
             return false;
-        const auto all = cars.all();
-        return std::none_of(all.begin(), all.end(), [&](const Car& other) {
-            return other.lane == car.lane && other.origin != Origin::parked && other.id != car.id &&
-                   other.lane_position > car.lane_position &&
-                   other.lane_position - world::vehicle_models()[other.model].length <
-                       car.lane_position + nearest_thing;
-        });
-    }
-    return false;
+        const world::LaneProjection at = world::project(town_->lanes[lane], car.trail.front());
+        for (const Obstruction& one : obstructions_->on(lane))
+            if (one.begin > at.s - 0.3 && one.left > at.t - half && one.right < at.t + half)
+                return one.lasts && one.begin < at.s + nearest_thing;
+        return false;
+    };
+    if (!is_first_on(car.lane) && !is_first_on(own.left) && !is_first_on(own.right))
+        return false;
+    const auto all = cars.all();
+    return std::none_of(all.begin(), all.end(), [&](const Car& other) {
+        return other.lane == car.lane && other.origin != Origin::parked && other.id != car.id &&
+               other.lane_position > car.lane_position &&
+               other.lane_position - world::vehicle_models()[other.model].length <
+                   car.lane_position + nearest_thing;
+    });
 }
 
 /// Is it a lane for cars, with room for this one here, on the way to where it goes?
@@ -114,44 +119,75 @@ bool PullingOut::is_free(const Car& car,
     });
 }
 
+/// To the middle of that lane, where `there` is its bumper on it, if nothing is in its way.
+bool PullingOut::swing_into(std::uint32_t lane,
+                            const world::LaneProjection& there,
+                            Car& car,
+                            std::uint64_t tick) const {
+    using libsumo::Vehicle;
+    constexpr double at_once = 100;  // [m/s] sideways: SUMO ends a change within its step
+    const world::LaneT& own = town_->lanes[car.lane];
+    const world::LaneProjection at = world::project(own, car.trail.front());
+    const auto touches = [&](double pace) {
+        return swings_into_any(car, own, at, -there.t, pace, obstructions_->footprints());
+    };
+    double pace = Passing::speed;
+    if (touches(pace))
+        pace = slow_pull_out;
+    if (pace < Passing::speed && touches(pace))
+        return false;
+    const world::LaneT& next = town_->lanes[lane];
+    if (Vehicle::getLateralLanePosition(car.sumo) != 0) {
+        car.aside_limit = at_once;
+        Vehicle::setMaxSpeedLat(car.sumo, at_once);
+    } else if (lane != car.lane) {
+        car.lane_position = there.s * next.sumo_length / next.length;
+        Vehicle::moveTo(car.sumo, next.name, car.lane_position);
+    }
+    car.lane = lane;
+    const double s = car.lane_position * next.length / next.sumo_length;
+    car.sumo_front = world::point_at(next, s).position;
+    // What it shows beside SUMO's place is an offset from now on, which it drives off sooner.
+    const Eigen::Vector2d left = world::left_of(world::point_at(next, s).yaw);
+    car.offset = there.t;
+    car.slip = (car.trail.front() - car.sumo_front).head<2>() - car.offset * left;
+    car.offset_order = OffsetOrder{{there.t, 0, pull_out_time, world::Shape::linear}, tick - 1};
+    car.pass = PassOrder{lane, 0, pace, true};
+    return true;
+}
+
 void PullingOut::begin(Car& car, const Cars& cars, std::uint64_t tick) const {
+    using libsumo::Vehicle;
+    constexpr double aside = 0.8;  // [m] SUMO is beyond the middle of a change, the car is not
     if (car.origin != Origin::demand || car.speed > 0.1 || car.offset_order || car.makes_way ||
         static_cast<double>(car.standing_ticks) * step_ < patience)
         return;
     const world::LaneT& lane = town_->lanes[car.lane];
-    if (lane.kind != world::LaneKind::driving || (lane.left == none && lane.right == none))
+    if (lane.kind != world::LaneKind::driving || (lane.left == none && lane.right == none) ||
+        !stands_behind_a_thing(car, cars))
         return;
     const Eigen::Vector3d& front = car.trail.front();
     const world::LaneProjection at = world::project(lane, front);
-    if (!stands_behind_a_thing(car, at.s, cars))
+    if (std::abs(at.t) > aside) {
+        swing_into(car.lane, at, car, tick);
         return;
+    }
+    // In the middle of a change it is there for SUMO's others already.
+    if (const double off = Vehicle::getLateralLanePosition(car.sumo); off != 0) {
+        const std::uint32_t goal = off > 0 ? lane.left : lane.right;
+        if (goal != none && off * Vehicle::getLateralSpeed(car.sumo) > 0)
+            swing_into(goal, world::project(town_->lanes[goal], front), car, tick);
+        return;
+    }
     const bool left_hand = town_->left_hand;
     for (const std::uint32_t beside :
          {left_hand ? lane.right : lane.left, left_hand ? lane.left : lane.right}) {
         if (beside == none)
             continue;
-        const world::LaneT& next = town_->lanes[beside];
-        const world::LaneProjection there = world::project(next, front);
-        if (!may_use(car, there.s, beside) || !is_free(car, beside, there.s, cars))
-            continue;
-        const auto touches = [&](double pace) {
-            return swings_into_any(
-                car, lane, at, at.t - there.t, pace, obstructions_->footprints());
-        };
-        double pace = Passing::speed;
-        if (touches(pace))
-            pace = slow_pull_out;
-        if (pace < Passing::speed && touches(pace))
-            continue;
-        car.lane = beside;
-        car.lane_position = there.s * next.sumo_length / next.length;
-        libsumo::Vehicle::moveTo(car.sumo, next.name, car.lane_position);
-        car.sumo_front = world::point_at(next, there.s).position;
-        car.slip.setZero();
-        car.offset = there.t;
-        car.offset_order = OffsetOrder{{there.t, 0, pull_out_time, world::Shape::linear}, tick - 1};
-        car.pass = PassOrder{beside, 0, pace, true};
-        return;
+        const world::LaneProjection there = world::project(town_->lanes[beside], front);
+        if (may_use(car, there.s, beside) && is_free(car, beside, there.s, cars) &&
+            swing_into(beside, there, car, tick))
+            return;
     }
 }
 

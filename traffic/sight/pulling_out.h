@@ -38,7 +38,11 @@ class PullingOut {
     static void follow(Car& car);
 
   private:
-    bool stands_behind_a_thing(const Car& car, double front, const Cars& cars) const;
+    bool stands_behind_a_thing(const Car& car, const Cars& cars) const;
+    bool swing_into(std::uint32_t lane,
+                    const world::LaneProjection& there,
+                    Car& car,
+                    std::uint64_t tick) const;
     bool may_use(const Car& car, double front, std::uint32_t beside) const;
     bool is_free(const Car& car, std::uint32_t beside, double front, const Cars& cars) const;
     double way_to(const Car& other, std::uint32_t beside, double front) const;

@@ -17,7 +17,6 @@ bool swings_into_any(const Car& car,
                      std::span<const Footprint> footprints) {
     constexpr double sample = 0.05;   // [s]
     constexpr double quickest = 3;    // [m/s^2] the less time to get aside
-    constexpr double hair = 0.1;      // [m]
     constexpr double look_ahead = 3;  // [s]
     const world::VehicleModel& model = world::vehicle_models()[car.model];
     Trail trail = car.trail;
@@ -36,13 +35,15 @@ bool swings_into_any(const Car& car,
         trail.advance(front);
         BodyBox body;
         body.ahead = (front - trail.rear()).head<2>().normalized();
-        body.half_length = model.length / 2 + hair;
-        body.half_width = model.width / 2 + hair;
+        body.half_length = model.length / 2;
+        body.half_width = model.width / 2;
         body.middle = front.head<2>() - model.length / 2 * body.ahead;
-        for (const Footprint& one : footprints)
+        for (const Footprint& one : footprints) {
+            const BodyBox other{one.centre, one.direction, one.half_length, one.half_width};
             if (one.id != car.id && std::abs(one.z - car.rear.z()) < world::level_clearance &&
-                overlap(body, {one.centre, one.direction, one.half_length, one.half_width}))
+                overlap(body, other.widened(one.clearance)))
                 return true;
+        }
     }
     return false;
 }
