@@ -19,7 +19,7 @@ using world::none;
 constexpr double patience = 3;       // [s]
 constexpr double nearest_thing = 9;  // [m]
 constexpr double way_aside = 12;     // [m] that it drives until it is in the lane beside
-constexpr double way_back = 60;      // [m] for another change, where that lane leads elsewhere
+constexpr double way_back = 45;      // [m] for another change, where that lane leads elsewhere
 constexpr double gap_ahead = 6;      // [m]
 constexpr double gap_behind = 2;     // [m] and what it takes who comes to brake
 constexpr double reaction = 1.5;     // [s]
@@ -28,6 +28,13 @@ constexpr double brakes_easily = 3;  // [m/s^2]
 /// [m] that one behind needs to let it in.
 double needed_behind(double speed) {
     return gap_behind + (reaction + speed / (2 * brakes_easily)) * speed;
+}
+
+/// In SUMO, within its step.
+void end_change(Car& car) {
+    constexpr double at_once = 100;  // [m/s] sideways
+    car.aside_limit = at_once;
+    libsumo::Vehicle::setMaxSpeedLat(car.sumo, at_once);
 }
 
 }  // namespace
@@ -125,7 +132,6 @@ bool PullingOut::swing_into(std::uint32_t lane,
                             Car& car,
                             std::uint64_t tick) const {
     using libsumo::Vehicle;
-    constexpr double at_once = 100;  // [m/s] sideways: SUMO ends a change within its step
     const world::LaneT& own = town_->lanes[car.lane];
     const world::LaneProjection at = world::project(own, car.trail.front());
     const auto touches = [&](double pace) {
@@ -138,8 +144,7 @@ bool PullingOut::swing_into(std::uint32_t lane,
         return false;
     const world::LaneT& next = town_->lanes[lane];
     if (Vehicle::getLateralLanePosition(car.sumo) != 0) {
-        car.aside_limit = at_once;
-        Vehicle::setMaxSpeedLat(car.sumo, at_once);
+        end_change(car);
     } else if (lane != car.lane) {
         car.lane_position = there.s * next.sumo_length / next.length;
         Vehicle::moveTo(car.sumo, next.name, car.lane_position);
@@ -168,14 +173,14 @@ void PullingOut::begin(Car& car, const Cars& cars, std::uint64_t tick) const {
         return;
     const Eigen::Vector3d& front = car.trail.front();
     const world::LaneProjection at = world::project(lane, front);
-    if (std::abs(at.t) > aside) {
-        swing_into(car.lane, at, car, tick);
+    if (std::abs(at.t) > aside && swing_into(car.lane, at, car, tick))
         return;
-    }
     // In the middle of a change it is there for SUMO's others already.
     if (const double off = Vehicle::getLateralLanePosition(car.sumo); off != 0) {
         const std::uint32_t goal = off > 0 ? lane.left : lane.right;
-        if (goal != none && off * Vehicle::getLateralSpeed(car.sumo) > 0)
+        if (off * Vehicle::getLateralSpeed(car.sumo) < 0)
+            end_change(car);
+        else if (goal != none)
             swing_into(goal, world::project(town_->lanes[goal], front), car, tick);
         return;
     }
