@@ -20,6 +20,7 @@ constexpr double patience = 3;       // [s]
 constexpr double nearest_thing = 9;  // [m]
 constexpr double way_aside = 12;     // [m] that it drives until it is in the lane beside
 constexpr double way_back = 45;      // [m] for another change, where that lane leads elsewhere
+constexpr double turns_off = 12;     // [s] then it goes where that lane leads; see detours.h
 constexpr double gap_ahead = 6;      // [m]
 constexpr double gap_behind = 2;     // [m] and what it takes who comes to brake
 constexpr double reaction = 1.5;     // [s]
@@ -74,7 +75,8 @@ bool PullingOut::may_use(const Car& car, double front, std::uint32_t beside) con
     const auto here = std::find(car.route.begin(), car.route.end(), graph_->edge_of(beside));
     if (here == car.route.end())
         return false;
-    if (here + 1 == car.route.end() || front + way_back < lane.length)
+    const bool may_turn_off = static_cast<double>(car.standing_ticks) * step_ > turns_off;
+    if (here + 1 == car.route.end() || front + way_back < lane.length || may_turn_off)
         return true;
     return std::any_of(lane.links.begin(), lane.links.end(), [&](const world::Link& link) {
         return link.to() != none && graph_->edge_of(link.to()) == *(here + 1);
@@ -120,9 +122,12 @@ bool PullingOut::is_free(const Car& car,
         if (!is_ahead && !is_behind)
             return false;
     }
+    // In its middle it will drive; what reaches over the line a little leaves it room.
+    const double half = world::vehicle_models()[car.model].width / 2;
     const auto there = obstructions_->on(beside);
     return std::none_of(there.begin(), there.end(), [&](const Obstruction& one) {
-        return one.begin < front + way_aside && one.end > front - length - needed_behind(one.speed);
+        return one.left > -half && one.right < half && one.begin < front + way_aside &&
+               one.end > front - length - needed_behind(one.speed);
     });
 }
 
