@@ -16,15 +16,15 @@ namespace {
 
 using world::none;
 
-constexpr double patience = 3;       // [s]
-constexpr double nearest_thing = 9;  // [m]
-constexpr double way_aside = 12;     // [m] that it drives until it is in the lane beside
-constexpr double way_back = 45;      // [m] for another change, where that lane leads elsewhere
-constexpr double turns_off = 12;     // [s] then it goes where that lane leads; see detours.h
-constexpr double gap_ahead = 6;      // [m]
-constexpr double gap_behind = 2;     // [m] and what it takes who comes to brake
-constexpr double reaction = 1.5;     // [s]
-constexpr double brakes_easily = 3;  // [m/s^2]
+constexpr double patience = 3;        // [s]
+constexpr double nearest_thing = 12;  // [m]
+constexpr double way_aside = 12;      // [m] that it drives until it is in the lane beside
+constexpr double way_back = 45;       // [m] for another change, where that lane leads elsewhere
+constexpr double turns_off = 12;      // [s] then it goes where that lane leads; see detours.h
+constexpr double gap_ahead = 6;       // [m]
+constexpr double gap_behind = 2;      // [m] and what it takes who comes to brake
+constexpr double reaction = 1.5;      // [s]
+constexpr double brakes_easily = 3;   // [m/s^2]
 
 /// [m] that one behind needs to let it in.
 double needed_behind(double speed) {
@@ -169,7 +169,8 @@ bool PullingOut::swing_into(std::uint32_t lane,
 void PullingOut::begin(Car& car, const Cars& cars, std::uint64_t tick) const {
     using libsumo::Vehicle;
     constexpr double aside = 0.8;  // [m] SUMO is beyond the middle of a change, the car is not
-    if (car.origin != Origin::demand || car.speed > 0.1 || car.offset_order || car.makes_way ||
+    const bool goes_aside = car.offset_order && car.offset_order->change.to != 0;
+    if (car.origin != Origin::demand || car.speed > 0.1 || goes_aside || car.makes_way ||
         static_cast<double>(car.standing_ticks) * step_ < patience)
         return;
     const world::LaneT& lane = town_->lanes[car.lane];
@@ -178,15 +179,18 @@ void PullingOut::begin(Car& car, const Cars& cars, std::uint64_t tick) const {
         return;
     const Eigen::Vector3d& front = car.trail.front();
     const world::LaneProjection at = world::project(lane, front);
+    const double off = Vehicle::getLateralLanePosition(car.sumo);
+    if (off * Vehicle::getLateralSpeed(car.sumo) > 0) {
+        // On its way out it is there for SUMO's others already.
+        const std::uint32_t goal = off > 0 ? lane.left : lane.right;
+        if (goal != none)
+            swing_into(goal, world::project(town_->lanes[goal], front), car, tick);
+        return;
+    }
     if (std::abs(at.t) > aside && swing_into(car.lane, at, car, tick))
         return;
-    // In the middle of a change it is there for SUMO's others already.
-    if (const double off = Vehicle::getLateralLanePosition(car.sumo); off != 0) {
-        const std::uint32_t goal = off > 0 ? lane.left : lane.right;
-        if (off * Vehicle::getLateralSpeed(car.sumo) < 0)
-            end_change(car);
-        else if (goal != none)
-            swing_into(goal, world::project(town_->lanes[goal], front), car, tick);
+    if (off != 0) {
+        end_change(car);
         return;
     }
     const bool left_hand = town_->left_hand;
