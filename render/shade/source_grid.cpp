@@ -15,9 +15,17 @@ int cell_of(float metres) {
     return floor_int(metres / cell_size);
 }
 
+/// Of its intensity, at a height where nothing is lost, so far aside of straight ahead: see
+/// lobes.h.
+float low_beam_share(float side) {
+    const auto bell = [](float x) { return (1 + x * x) * (1 + x * x); };
+    return 0.77F / bell(side / 0.20F) + 0.23F / bell(side);
+}
+
 /// About how bright a source makes the brightest place of a square; 0 where it does not reach.
 float rank_of(const LightSource& source, float x, float y) {
     constexpr float half = cell_size / 2;
+    constexpr float diagonal = 1.4142136F * half;
     const float dx = x - source.position.x();
     const float dy = y - source.position.y();
     const float near_x = std::max(std::abs(dx) - half, 0.0F);
@@ -27,11 +35,11 @@ float rank_of(const LightSource& source, float x, float y) {
         return 0;
     float share = 1;
     if (source.lobe == LightSource::Lobe::low_beam) {
-        const float ahead = dx * source.axis.x() + dy * source.axis.y();
-        const float across = std::abs(dx * source.left.x() + dy * source.left.y());
-        if (ahead < -6 || across > 6 + 1.6F * std::max(ahead, 0.0F))
+        const float ahead = dx * source.axis.x() + dy * source.axis.y() + diagonal;
+        const float across = std::abs(dx * source.left.x() + dy * source.left.y()) - diagonal;
+        if (ahead < 0)
             return 0;
-        share = 0.15F;  // most of it goes over the ground
+        share = 0.4F * low_beam_share(std::max(across, 0.0F) / std::max(ahead, 0.25F));
     } else if (source.lobe == LightSource::Lobe::lens || source.lobe == LightSource::Lobe::window) {
         if (dx * source.axis.x() + dy * source.axis.y() < -6)
             return 0;
@@ -59,12 +67,15 @@ SourceGrid::SourceGrid(std::vector<LightSource> sources, const Vector3f& eye)
     ranks_.clear();
 }
 
-/// Those that give less than a part in 250 of the brightest cost as much, and show nothing.
+/// Those that give less than a part in 250 of the brightest cost as much, and show nothing. But a
+/// head lamp leaves dark what is behind it: what can be seen in the dark stays.
 void SourceGrid::drop_faint() {
+    constexpr float seen = 0.2F * lux / pi;
     for (std::size_t at = 0; at < cells_.size(); ++at) {
         const float* ranks = &ranks_[at * most];
+        const float faint = std::min(0.004F * ranks[0], seen);
         std::uint16_t& count = cells_[at].count;
-        while (count > 1 && ranks[count - 1] < 0.004F * ranks[0])
+        while (count > 1 && ranks[count - 1] < faint)
             --count;
     }
 }

@@ -13,7 +13,7 @@ namespace reprise::render {
 /// Squares are fixed in the scene, so that an eye that moves changes nothing.
 class SourceGrid {
   public:
-    static constexpr int most = 12;  ///< in a square
+    static constexpr int most = 20;  ///< in a square
 
     SourceGrid() = default;
     SourceGrid(std::vector<LightSource> sources, const Eigen::Vector3f& eye);
