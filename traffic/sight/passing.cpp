@@ -22,7 +22,6 @@ constexpr double longest_row = 25;       // [m] of what is passed at once
 constexpr double room_to_return = 14;    // [m] of the lane, beside the car's own length
 constexpr double slow_pass = 3.5;        // [m/s] on average
 constexpr double beside_oncoming = 2.4;  // [m] from middle to middle
-constexpr double longest_to_swing = 7;   // [m] the side of a longer one would cut the corner
 constexpr double room_in_queue = 12;     // [m] between the place where it is back and who is there
 
 }  // namespace
@@ -157,8 +156,6 @@ void Passing::begin(Car& car,
     const world::LaneProjection at = world::project(lane, front);
     const auto end = end_of_row(car, at.s, aside);
     const world::VehicleModel& model = world::vehicle_models()[car.model];
-    if (model.length > longest_to_swing)
-        return;
     if (!end || *end + model.length + room_to_return > lane.length)
         return;
     Stretch stretch;

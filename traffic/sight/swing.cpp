@@ -18,12 +18,15 @@ bool swings_into_any(const Car& car,
     constexpr double sample = 0.05;   // [s]
     constexpr double quickest = 3;    // [m/s^2] the less time to get aside
     constexpr double look_ahead = 3;  // [s]
+    constexpr double short_car = 7;   // [m] the side of a longer one cuts the corner much later
     const world::VehicleModel& model = world::vehicle_models()[car.model];
     Trail trail = car.trail;
     double driving = 0;  // [m/s]
     double driven = 0;   // [m]
     double offset = 0;   // [m] from where it is now, as CarReader::move_aside has it
-    for (double time = sample; time < look_ahead; time += sample) {
+    const double tail = model.length > short_car ? model.length : 0;
+    for (double time = sample; time < look_ahead || driven < look_ahead * pace + tail;
+         time += sample) {
         driving = std::min(driving + quickest * sample, pace);
         driven += driving * sample;
         const double wanted = (aside - car.offset) * std::min(time / pull_out_time, 1.0);
