@@ -68,7 +68,8 @@ Look signal_lamp_look(const ShadingInput& input, const Surface& at) {
     Look look;
     look.albedo = light * 0.05F + 0.01F;
     look.f0 = 0.05F;
-    look.roughness = 0.15F;
+    // Lenses are made so that a low sun does not seem to light them (EN 12368: phantom signals).
+    look.roughness = 0.8F;
     if (lit)
         // Lamps outshine what is lit by day: set against the exposure, not the sun.
         look.emission = light * (5.5F / input.sky.exposure());
@@ -114,7 +115,8 @@ Look metal_look(const Surface& at) {
     Look look;
     look.albedo =
         at.material == Material::pole ? Color(.16F, .17F, .17F) : Color(.022F, .024F, .023F);
-    look.roughness = 0.35F;
+    // Cases are dull, and the more so the longer they hang there.
+    look.roughness = at.material == Material::pole ? 0.35F : 0.8F;
     look.f0 = 0.05F;
     return look;
 }

@@ -158,6 +158,34 @@ TEST(Night, LitLampsKeepTheirColourByDayAndNight) {
     }
 }
 
+/// The sun stands low behind the driver, where flat lenses and cases would mirror it to him.
+TEST(Night, LitLampsKeepTheirColourInALowSunThatTheyFace) {
+    const world::TownT town = test::straight_road_with_signal(400);
+    render::Sensors sensors(town);
+    const world::SensorSpec spec =
+        camera(SensorKind::rgb, {town.signals[0].position.x() - 3, -4.1, 3});
+    const auto picture = [&](world::SignalColor color, const world::Weather& weather) {
+        const world::SealedTick tick = test::tick_with({}, {}, {color});
+        return sensors.observe(tick.view(), {spec}, weather)[0].data;
+    };
+    const auto lit = picture(world::SignalColor::red, test::noon());
+    const auto off = picture(world::SignalColor::off, test::noon());
+    std::vector<std::size_t> lens;
+    for (std::size_t i = 0; i < lit.size(); i += 3)
+        if (lit[i] > off[i] + 150)
+            lens.push_back(i);
+    ASSERT_GT(lens.size(), 20U);
+    for (const float deg : {2.0F, 4.0F, 8.0F, 14.0F}) {
+        world::Weather weather = with_sun(test::noon(), deg);
+        weather.mutate_sun_azimuth(180 * degree);
+        const auto low = picture(world::SignalColor::red, weather);
+        const auto red = std::count_if(lens.begin(), lens.end(), [&](std::size_t i) {
+            return low[i] > 200 && low[i + 1] < 90 && low[i + 2] < 90;
+        });
+        EXPECT_GT(static_cast<double>(red), 0.9 * static_cast<double>(lens.size())) << deg;
+    }
+}
+
 TEST(Night, StreetLightsLightTheRoadAndThingsThrowShadows) {
     const world::SealedTick tick = test::tick_with({});
     const world::SensorSpec spec = from_above({100, -1.75, 40});
