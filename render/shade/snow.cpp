@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/look/lamp_colors.h"
 #include "render/shade/frame.h"
 #include "render/shade/streak.h"
 #include "world/hash.h"
@@ -46,11 +47,15 @@ void draw_snow(const ShadingInput& input,
                           Vector3d(std::cos(azimuth), std::sin(azimuth), 0);
     const double time = static_cast<double>(input.tick) * flake_seconds_a_tick;
     const Shelter& shelter = input.scene.town().shelter();
-    // White, lit by the sky from above and by what lies below.
+    // White, lit by the sky from above and by what lies below; by night by 2 lx of a street's
+    // lamps.
     const Color light =
         (0.75F * input.sky.ambient(Eigen::Vector3f::UnitZ()) +
-         0.25F * input.sky.ambient(-Eigen::Vector3f::UnitZ()) + 0.10F * input.sky.sun()) *
+         0.25F * input.sky.ambient(-Eigen::Vector3f::UnitZ()) + 0.10F * input.sky.sun() +
+         street_lamp_color * (0.5F * lux * input.sky.lamplight())) *
         input.sky.exposure();
+    // By night lamps light what is behind a flake, and the flake, which faces them.
+    const float lit = 1.25F * input.sky.lamplight();
     for (std::uint32_t flake = 0; flake < count; ++flake) {
         const double fall = 0.9 + 0.7 * flake_number(flake, 3);  // [m/s] Gunn and Marshall, 1958
         const Vector3d speed = wind - Vector3d(0, 0, fall);
@@ -83,7 +88,8 @@ void draw_snow(const ShadingInput& input,
         draw_streak({from,
                      to,
                      static_cast<float>(std::max(0.5, pixels)),
-                     static_cast<float>(0.8 * fade * share * (0.3 + 0.7 * share))},
+                     static_cast<float>(0.8 * fade * share * (0.3 + 0.7 * share)),
+                     lit},
                     light,
                     hits,
                     frame);

@@ -32,7 +32,9 @@ void draw_streak(const Streak& streak,
                 clamp01(streak.half_width + 0.5F - away) * std::min(1.0F, 2 * streak.half_width);
             // Drops fade in and out of the exposure at the ends.
             const float fade = 4 * share * (1 - share) * 0.6F + 0.4F;
-            frame.colors[index] = mix(frame.colors[index], light, cover * fade * streak.strength);
+            Color& behind = frame.colors[index];
+            const Color own = light.max((streak.lit * behind).min(1.0F));
+            behind = mix(behind, own, cover * fade * streak.strength);
         }
     }
 }

@@ -12,6 +12,7 @@ struct Streak {
     Eigen::Vector3d to;
     float half_width;  ///< [px]
     float strength;    ///< share of the light behind that it replaces
+    float lit = 0;     ///< is at least so many times as bright as what is behind it, up to white
 };
 
 inline constexpr double exposure_time = 1.0 / 60;  ///< [s]
