@@ -116,14 +116,16 @@ bool BackOff::somebody_is_behind(const world::TickView& last, const Ego& ego) co
     std::vector<Body> bodies;
     collect_bodies(last, ego.id, around, 0, bodies);
     const Eigen::Vector2d left(-ego.direction.y(), ego.direction.x());
-    return std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
-        if (std::abs(body.z - ego.position.z()) > world::level_clearance)
+    constexpr double look_step = 0.4;  // [m]
+    return std::any_of(bodies.begin(), bodies.end(), [&](const Body& one) {
+        if (std::abs(one.z - ego.position.z()) > world::level_clearance)
             return false;
+        const Body body = one.seen_in_steps(ego.direction, look_step);
         // Those who come nearer count farther away.
         const double closing = std::max(body.velocity.dot(ego.direction), 0.0);
         for (double back = ego.model->rear_overhang + 0.3;
              back < ego.model->rear_overhang + reach + 1.5 * closing;
-             back += 0.4)
+             back += look_step)
             if (body.meets(ego.position.head<2>() - back * ego.direction, half * left))
                 return true;
         return false;
@@ -142,10 +144,12 @@ bool BackOff::somebody_is_beside_nose(const world::TickView& last,
     const Eigen::Vector2d out = side * Eigen::Vector2d(-ego.direction.y(), ego.direction.x());
     const Eigen::Vector2d middle_out = (ego.model->width / 2 + nose_room / 2) * out;
     const double front = ego.model->length - ego.model->rear_overhang;
-    return std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
-        if (std::abs(body.z - ego.position.z()) > world::level_clearance)
+    constexpr double look_step = 0.3;  // [m]
+    return std::any_of(bodies.begin(), bodies.end(), [&](const Body& one) {
+        if (std::abs(one.z - ego.position.z()) > world::level_clearance)
             return false;
-        for (double ahead = ego.model->wheelbase / 2; ahead < front + nose_room; ahead += 0.3)
+        const Body body = one.seen_in_steps(ego.direction, look_step);
+        for (double ahead = ego.model->wheelbase / 2; ahead < front + nose_room; ahead += look_step)
             if (body.meets(ego.position.head<2>() + ahead * ego.direction + middle_out,
                            nose_room / 2 * out))
                 return true;

@@ -141,6 +141,19 @@ bool Body::meets(const Eigen::Vector2d& middle, const Eigen::Vector2d& half) con
            clip(world::cross(direction, from), world::cross(direction, half), half_width);
 }
 
+Body Body::seen_in_steps(const Eigen::Vector2d& ahead, double step) const {
+    constexpr double rounding = 1e-9;  // [m]
+    const double along = std::abs(direction.dot(ahead));
+    const double across = std::abs(world::cross(direction, ahead));
+    Body seen = *this;
+    if (half_length * along + half_width * across < step / 2 - rounding) {
+        seen.direction = ahead;
+        seen.half_length = step / 2 + rounding;
+        seen.half_width = half_length * across + half_width * along;
+    }
+    return seen;
+}
+
 void collect_bodies(const world::TickView& last,
                     std::uint32_t self,
                     const world::Box& around,
@@ -192,7 +205,7 @@ bool something_is_before(const world::TickView& last,
         const Eigen::Vector2d left(-ahead.y(), ahead.x());
         for (const Body& body : bodies)
             if (std::abs(body.z - ego.position.z()) < world::level_clearance &&
-                body.meets(axle + front * ahead, half * left))
+                body.seen_in_steps(ahead, step).meets(axle + front * ahead, half * left))
                 return true;
         axle += step * ahead;
         yaw += step * curvature;

@@ -38,6 +38,10 @@ struct Body {
 
     /// Does the segment middle +- half touch the box?
     bool meets(const Eigen::Vector2d& middle, const Eigen::Vector2d& half) const;
+
+    /// For who looks with segments across `ahead`, one every `step` [m]: what is thinner than that,
+    /// as a cone or a post is, would lie between two of them. As long along `ahead` as a step then.
+    Body seen_in_steps(const Eigen::Vector2d& ahead, double step) const;
 };
 
 inline bool has_hazard_lights(std::uint16_t lamps) {

@@ -261,8 +261,14 @@ double Hazards::coarse_distance(const Eigen::Vector2d& p_world) const {
 }
 
 /// Where along the path the corridor first touches the body, to 2 cm; infinity: nowhere.
-double Hazards::first_contact(const Body& body, const Path& path) const {
-    const double reach = body.radius() + half_width_ + 2.1;
+double Hazards::first_contact(const Body& one, const Path& path) const {
+    const double reach = one.radius() + half_width_ + 2.1;
+    const auto nearest = std::min_element(
+        coarse_.begin(), coarse_.end(), [&](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+            return (p - one.centre).squaredNorm() < (q - one.centre).squaredNorm();
+        });
+    const std::size_t sample = coarse_index_[static_cast<std::size_t>(nearest - coarse_.begin())];
+    const Body body = one.seen_in_steps(path.points()[sample].direction, Path::spacing);
     const auto touches =
         [&](std::size_t sample, const Eigen::Vector3d& p, const Eigen::Vector2d& direction) {
             const SweptWidth width = corridor_at(path, sample);

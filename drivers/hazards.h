@@ -65,7 +65,7 @@ class Hazards {
     void consider(const Body& body, const Scene& scene);
     void foresee(const Body& body, const Scene& scene, double distance);
     bool place_after(const Body& body, double time, Body& moved) const;
-    double first_contact(const Body& body, const Path& path) const;
+    double first_contact(const Body& one, const Path& path) const;
     double coarse_distance(const Eigen::Vector2d& p_world) const;
 
     const world::TownT* town_;

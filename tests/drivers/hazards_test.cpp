@@ -6,6 +6,7 @@
 
 #include "tests/drivers/kinematic_car.h"
 #include "tests/support/worlds.h"
+#include "world/models/prop_models.h"
 #include "world/units.h"
 
 namespace reprise::drivers {
@@ -27,8 +28,11 @@ class Road {
         path_.finish({});
     }
 
-    double look(std::vector<world::CarState> cars, std::vector<world::WalkerState> walkers = {}) {
+    double look(std::vector<world::CarState> cars,
+                std::vector<world::WalkerState> walkers = {},
+                std::vector<world::PropState> props = {}) {
         world::TickDraft draft;
+        draft.tick.props = std::move(props);
         draft.traffic.cars = std::move(cars);
         draft.traffic.walkers = std::move(walkers);
         const world::SealedTick tick = world::seal(draft, {});
@@ -105,6 +109,29 @@ TEST(Hazards, TheNearestOfSeveralDecides) {
     const double alone = road.look({near});
     EXPECT_EQ(road.look({near, test::car_at(1'000'001, 50, 0, 0, 0)}), alone);
     EXPECT_EQ(road.hazards.overlaps().size(), 2U);
+}
+
+/// Thinner than the steps that the path is looked at in; turned in any way.
+TEST(Hazards, APostOrAConeIsSeenWhereverItStands) {
+    for (const char* name : {"cone", "sign_post", "warning_triangle", "box"}) {
+        const std::uint16_t model = world::find_prop_model(name).value();
+        for (int i = 0; i < 40; ++i) {
+            const double x = 40 + 0.05 * i;
+            const double half_turn = 0.1 * i;
+            Road road(15);
+            const world::PropState prop{world::Vec3(x, 0.3, 0),
+                                        world::Quat(std::cos(half_turn), 0, 0, std::sin(half_turn)),
+                                        {},
+                                        {},
+                                        9,
+                                        model,
+                                        0};
+            const double allowed = road.look({}, {}, {prop});
+            ASSERT_EQ(road.hazards.overlaps().size(), 1U) << name << " at " << x;
+            EXPECT_NEAR(road.hazards.overlaps()[0].s, x, 0.5);
+            EXPECT_LT(allowed, world::infinity);
+        }
+    }
 }
 
 TEST(Hazards, WhoTurnsInBesideOurNoseIsLetIn) {
