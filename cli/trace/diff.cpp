@@ -1,6 +1,7 @@
 #include "cli/trace/diff.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>
@@ -235,9 +236,21 @@ void print_json(const DiffOptions& options,
     say_lines(out.dump(2, ' ', true, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
+/// Two folders of pictures are another program's affair, see cli/reprise.cpp; one is a mistake.
+void check_no_folder(const DiffOptions& options) {
+    const bool first = std::filesystem::is_directory(options.expected);
+    if (first == std::filesystem::is_directory(options.found))
+        return;
+    const std::string& folder = first ? options.expected : options.found;
+    const std::string& other = first ? options.found : options.expected;
+    throw world::Error(
+        fmt::format("{}: expected a folder of pictures, as {} is one", other, folder));
+}
+
 }  // namespace
 
 int diff(const DiffOptions& options) {
+    check_no_folder(options);
     replay::TraceReader expected(options.expected);
     replay::TraceReader found(options.found);
     if (!options.json)

@@ -236,6 +236,8 @@ TEST_F(Manifest, MistakesAreOneLineAndLeaveNothing) {
         {"render --check t.mcap", "this is no manifest"},
         {"render --check no", "no: cannot be read"},
         {"render --check t.mcap --npy", "the manifest says it: without --npy"},
+        {"diff . no", "no: expected a folder of pictures, as . is one"},
+        {"diff t.mcap .", "t.mcap: expected a folder of pictures, as . is one"},
         {"dataset t.mcap -o x --weathers clear_noon,clear_noon", "'clear_noon' is there twice"},
         {"dataset t.mcap -o x --split train:0.5,val:0.2", "shares must be 1 together"},
         {"dataset t.mcap -o x --split train:2", "expected NAME:SHARE,..."},
