@@ -204,11 +204,15 @@ bool Passing::has_no_reason(const Neighbour& one, const PassingScene& scene) con
 }
 
 double Passing::acceleration(const Ego& ego, const DrivingStyle& style) const {
+    // Who comes too near drives up to it, as he would; who stands there comes no nearer.
+    constexpr double stands = 0.3;  // [m/s]
     const double room = stop_s_ - ego.front_s();
+    const bool too_near = room < -0.5;
     const double stop =
-        room < -0.5 || stop_s_ == world::infinity
+        (too_near && ego.speed > stands) || stop_s_ == world::infinity
             ? world::infinity
-            : stop_acceleration(std::max(room, 0.05), ego.speed, style.comfortable_braking, style);
+            : stop_acceleration(
+                  too_near ? 0 : std::max(room, 0.05), ego.speed, style.comfortable_braking, style);
     if (!plan_)
         return stop;
     const double before =
