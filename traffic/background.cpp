@@ -79,7 +79,7 @@ struct Background::Parts {
           spawns(episode, town, graph, points, insertion, placements),
           orders(episode, town, graph, routes),
           lookout(episode, town, lanes, graph, right_of_way, orders),
-          standoffs(town, graph, world::seconds(1, episode.step_ns)),
+          standoffs(town, graph, right_of_way, world::seconds(1, episode.step_ns)),
           bends(town),
           lane_change_pace(town),
           mirrors(town, lanes, graph, world::seconds(1, episode.step_ns)),
@@ -232,6 +232,7 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     parts.lane_change_pace.follow(parts.cars, parts.lookout.obstructions(), next.tick.index);
     parts.rescue_lane.advance(last, parts.cars, parts.mirrors, next.tick.index);
     parts.blue_lamps.advance(last, parts.cars, next.tick.index);
+    parts.standoffs.hold(parts.cars, next.tick.index);
     parts.lookout.advance(last, parts.cars, next.tick.index);
     parts.standoffs.advance(last, parts.cars, next.tick.index);
     parts.signal_orders.follow(next.tick.index);

@@ -5,7 +5,12 @@
 
 #include <libsumo/libsumo.h>
 
+#include "traffic/cars/fleet.h"
+#include "traffic/sight/braking.h"
+#include "traffic/sight/way_ahead.h"
 #include "traffic/sumo.h"
+#include "world/frames.h"
+#include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/units.h"
 
@@ -18,6 +23,12 @@ constexpr double place = 35;       // [m] a junction with the ends of its roads
 constexpr double at_the_line = 3;  // [m] before the end of its lane
 constexpr double has_stopped = 2;  // [s]
 constexpr double halt = 0.3;       // [m/s]
+constexpr double starved = 40;     // [s] without a gap, until who comes lets him in,
+constexpr double asks_again = 60;  // [s] and from there on anew,
+constexpr double sight = 120;      // [m] from wherever he comes,
+constexpr double easily = 2;       // [m/s^2] for whom that is to brake no harder
+constexpr double reaction = 1;     // [s]
+constexpr std::uint64_t lets_in_for = 60;  // [ticks]
 constexpr const char* ignored = "junctionModel.ignoreIDs";
 
 }  // namespace
@@ -78,6 +89,104 @@ std::string Standoffs::standing_near(const Car& car,
     return names;
 }
 
+/// [m] until one is on a way through a junction that goes before `way`; infinity: never, or not
+/// soon.
+double Standoffs::way_to_meeting(const Car& other, std::uint32_t way) const {
+    if (other.lane == world::none || other.sumo.empty())
+        return world::infinity;
+    double left = -other.lane_position;
+    std::uint32_t lane = other.lane;
+    while (lane != world::none && left < sight) {
+        const world::LaneT& on = town_->lanes[lane];
+        if (on.kind == world::LaneKind::internal && right_of_way_->lets_go(way, lane))
+            return left;
+        left += on.sumo_length;
+        lane = lane_after(lane, other, *town_, *graph_);
+    }
+    return world::infinity;
+}
+
+/// Else it would stand in the junction, and those who let it in behind it. Where the next junction
+/// is near, those who come out of this one change lanes already and stop.
+bool Standoffs::has_room_behind(const Car& car, std::uint32_t way, const Cars& cars) const {
+    constexpr double longest_weave = 40;  // [m]
+    constexpr double slow = 2;            // [m/s]
+    constexpr double spare = 3;           // [m]
+    std::uint32_t lane = way;
+    while (lane != world::none && town_->lanes[lane].kind == world::LaneKind::internal)
+        lane = lane_after(lane, car, *town_, *graph_);
+    const double needed = world::vehicle_models()[car.model].length + spare;
+    return lane != world::none && town_->lanes[lane].length > longest_weave &&
+           std::none_of(cars.all().begin(), cars.all().end(), [&](const Car& other) {
+               return other.lane == lane && other.speed < slow &&
+                      other.lane_position - world::vehicle_models()[other.model].length < needed;
+           });
+}
+
+/// Who drives by himself, and comes: he is not asked.
+bool Standoffs::somebody_comes(const Car& car, const world::TickView& last) {
+    const auto vehicles = last.vehicles();
+    return std::any_of(vehicles.begin(), vehicles.end(), [&](const world::VehicleState& vehicle) {
+        const Eigen::Vector2d offset = world::in_plan(vehicle.position()) - car.rear.head<2>();
+        return offset.norm() < sight / 2 && offset.dot(car.ahead) > 0 &&
+               std::hypot(vehicle.velocity().x(), vehicle.velocity().y()) > halt;
+    });
+}
+
+/// Those who come to the junction, go before it there and can stop easily do so at their line; the
+/// others it lets go still. Who was asked once stays asked: he has slowed down.
+void Standoffs::ask_to_let_in(Car& car,
+                              const world::TickView& last,
+                              Cars& cars,
+                              std::uint64_t tick) const {
+    const bool is_inside = town_->lanes[car.lane].kind == world::LaneKind::internal;
+    if (!is_inside && std::fmod(car.stuck_ticks * step_, asks_again) < starved)
+        return;
+    const std::uint32_t way = is_inside ? car.lane : lane_after(car.lane, car, *town_, *graph_);
+    if (way == world::none ||
+        (!is_inside && (!has_room_behind(car, way, cars) || somebody_comes(car, last))))
+        return;
+    car.pushes_past.clear();
+    for (Car& other : cars.all()) {
+        const double left = other.id == car.id ? world::infinity : way_to_meeting(other, way);
+        if (left <= 0 || left == world::infinity || other.on_call || other.origin != Origin::demand)
+            continue;
+        if (other.lets_in_until <= tick &&
+            other.speed * (reaction + other.speed / (2 * easily)) > left - at_the_line)
+            continue;
+        other.lets_in_until = tick + lets_in_for;
+        other.lets_in_way = way;
+        car.pushes_past.push_back(other.id);
+    }
+    if (!car.pushes_past.empty())
+        car.pushes_until = tick + lets_in_for;
+}
+
+/// Past one who came into the junction all the same nobody pushes.
+void Standoffs::stop_pushing_past(const Car& inside, Cars& cars) {
+    for (Car& car : cars.all()) {
+        if (std::erase(car.pushes_past, inside.id) > 0 && car.ignores_standing)
+            libsumo::Vehicle::setParameter(car.sumo, ignored, "");
+    }
+}
+
+void Standoffs::hold(Cars& cars, std::uint64_t tick) const {
+    constexpr double gap = 1;  // [m] before its line
+    for (Car& car : cars.all()) {
+        if (car.lets_in_until <= tick || car.lane == world::none || car.sumo.empty())
+            continue;
+        const double left = way_to_meeting(car, car.lets_in_way);
+        if (left <= 0 || left == world::infinity) {
+            car.lets_in_until = 0;
+            stop_pushing_past(car, cars);
+            continue;
+        }
+        const Braking braking{
+            car.speed, comfortable_braking(car.model), emergency_braking(car.model), step_};
+        car.way_speed = std::min(car.way_speed, braking.speed_before(left, gap, 0));
+    }
+}
+
 void Standoffs::advance(const world::TickView& last, Cars& cars, std::uint64_t tick) const {
     constexpr std::uint64_t every = 20;  // [ticks]
     if (tick % every != 0)
@@ -90,6 +199,9 @@ void Standoffs::advance(const world::TickView& last, Cars& cars, std::uint64_t t
         }
         if (waits(car))
             waiting.push_back(&car);
+        else if (car.ignores_standing && car.pushes_until > tick && car.lane != world::none &&
+                 town_->lanes[car.lane].kind == world::LaneKind::internal)
+            ask_to_let_in(car, last, cars, tick);
     }
     std::stable_sort(waiting.begin(), waiting.end(), [](const Car* one, const Car* other) {
         return one->stuck_ticks > other->stuck_ticks;
@@ -101,8 +213,14 @@ void Standoffs::advance(const world::TickView& last, Cars& cars, std::uint64_t t
             });
         if (waiting[i]->stuck_ticks * step_ < patience * static_cast<double>(before + 1))
             continue;
-        libsumo::Vehicle::setParameter(
-            waiting[i]->sumo, ignored, standing_near(*waiting[i], last, cars));
+        std::string names = standing_near(*waiting[i], last, cars);
+        if (town_->lanes[waiting[i]->lane].kind != world::LaneKind::internal)
+            ask_to_let_in(*waiting[i], last, cars, tick);
+        if (waiting[i]->pushes_until > tick)
+            for (const std::uint32_t id : waiting[i]->pushes_past)
+                if (const Car* other = cars.find(id))
+                    names += other->sumo + ' ';
+        libsumo::Vehicle::setParameter(waiting[i]->sumo, ignored, names);
         waiting[i]->ignores_standing = true;
     }
 }

@@ -156,8 +156,8 @@ TEST(Flow, WhoStandsForAnotherCarForMinutesIsTakenOutWhoeverSeesIt) {
     EXPECT_FALSE(Demand::waits_for_ever(car, step));
 }
 
-/// Of a full town, where a minor road waits for a minute. Town 1 has no dead end, at which cars
-/// leave.
+/// Of a full town, where one waits at a minor road until he is let in. Town 1 has no dead end, at
+/// which cars leave.
 TEST(Flow, NobodyWhoWaitedForLongIsTakenOutAsHeDrivesIntoAJunction) {
     const test::Loaded& town1 = own_town("town1");
     int drove_in = 0;
@@ -171,7 +171,7 @@ TEST(Flow, NobodyWhoWaitedForLongIsTakenOutAsHeDrivesIntoAJunction) {
             for (const world::CarState& car : cars) {
                 int& ticks = waited[car.id()];
                 const bool inside = town1.town.lanes[car.lane()].kind == world::LaneKind::internal;
-                drove_in += inside && ticks > 55 * minute / 60;
+                drove_in += inside && ticks > 41 * minute / 60;
                 ticks = !inside && car.speed() < 1 ? ticks + 1 : 0;
             }
         }

@@ -115,6 +115,8 @@ struct Car {
     std::uint64_t pushes_until = 0;   ///< tick; until then it stops for none of these
     std::uint64_t brushes_until = 0;  ///< tick; until then it stops for no body beside its way
     bool ignores_standing = false;    ///< SUMO was told so
+    std::uint64_t lets_in_until = 0;  ///< tick; until then it stops before that way through
+    std::uint32_t lets_in_way = world::none;  ///< a junction, by which another one comes
 
     // For vehicles with their blue lamps on; see rescue_lane.h and blue_lamps.h.
     bool on_call = false;                ///< its own are on, as of the last tick

@@ -171,6 +171,10 @@ void Cars::add_to(world::Hasher& hasher) const {
             hasher.add(car.brushes_until);
             hasher.add(car.ignores_standing);
         }
+        if (car.lets_in_until != 0) {
+            hasher.add(car.lets_in_until);
+            hasher.add(car.lets_in_way);
+        }
         if (!car.blocked_by.empty())
             hasher.add(std::span<const std::uint32_t>(car.blocked_by));
         if (car.trajectory) {
