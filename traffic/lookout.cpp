@@ -171,16 +171,17 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     Corridor corridor{};
     corridor.braking = {
         car.speed, comfortable_braking(car.model), emergency_braking(car.model), step_};
-    corridor.half_width = model.width / 2 + (car.pass ? corner_reach : 0);
+    const bool passes = passes_or_comes_back(car);
+    corridor.half_width = model.width / 2 + (passes ? corner_reach : 0);
     corridor.wanted_aside = car.offset_order ? car.offset_order->change.to : car.offset;
-    corridor.most_gap = car.pass ? 1 : world::infinity;
+    corridor.most_gap = passes ? 1 : world::infinity;
     corridor.reach = 10 + (Braking::reaction + car.speed / (2 * easy_braking)) * car.speed;
     corridor.z = front.z();
-    corridor.steepest = car.pass ? steepest_pass : steepest_way;
+    corridor.steepest = passes ? steepest_pass : steepest_way;
     corridor.id = car.id;
     constexpr double longest_piece = 3;  // [m] from a footprint's middle to its end
-    if (!car.pass && (!obstructions_.any_near(front.head<2>(), corridor.reach + longest_piece) ||
-                      is_clear(car, corridor.reach)))
+    if (!passes && (!obstructions_.any_near(front.head<2>(), corridor.reach + longest_piece) ||
+                    is_clear(car, corridor.reach)))
         return world::infinity;
     const world::LaneT& lane = town_->lanes[car.lane];
     const world::LaneProjection at = world::project(lane, front);
@@ -190,7 +191,7 @@ double Lookout::allowed_speed(const Car& car, const Cars& cars) const {
     visit_way(car.lane, -at.s, corridor.reach, car, [&](std::uint32_t ahead, double start) {
         look_on(ahead, start, 0, corridor);
     });
-    if (car.pass)
+    if (passes)
         look_at_cars(cars, at.s, car, corridor);
     // A body that has not left the next lane yet, or not come from it.
     for (const std::uint32_t beside : {lane.left, lane.right}) {

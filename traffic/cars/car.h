@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -129,5 +130,12 @@ struct Car {
         ahead = world::ahead_of(new_yaw);
     }
 };
+
+/// SUMO has it in its lane, and it is not there, or not yet: of its own will, not by order.
+inline bool passes_or_comes_back(const Car& car) {
+    constexpr double beside = 0.6;  // [m]
+    return car.pass ||
+           (car.origin == Origin::demand && car.offset_order && std::abs(car.offset) > beside);
+}
 
 }  // namespace reprise::traffic

@@ -23,9 +23,10 @@ struct Footprint {
     double half_length = 0;
     double half_width = 0;
     Eigen::Vector2d velocity;
-    double clearance = 0;   ///< [m] that one who passes leaves beside it
-    bool drives = false;    ///< a vehicle with mass, or on a trajectory: SUMO has a copy of it
-    bool is_afoot = false;  ///< somebody of the town's, who steps aside; no scenario's
+    double clearance = 0;    ///< [m] that one who passes leaves beside it
+    double needs_ahead = 0;  ///< [m] of the oncoming lane, who passes something through it
+    bool drives = false;     ///< a vehicle with mass, or on a trajectory: SUMO has a copy of it
+    bool is_afoot = false;   ///< somebody of the town's, who steps aside; no scenario's
     std::uint32_t id = 0;
 };
 

@@ -217,6 +217,8 @@ void Obstructions::add(const Footprint& footprint) {
         one.gap = gap_behind(footprint, one.lasts);
         if (footprint.drives && lane.length - one.begin < turning_room && is_dead_end(lane))
             one.gap = std::max(one.gap, behind_who_turns);
+        if (footprint.direction.dot(ahead) < 0)
+            one.gap = std::max(one.gap, footprint.needs_ahead);
         one.drives = footprint.drives;
         one.id = footprint.id;
         all_.push_back(one);
@@ -240,9 +242,26 @@ bool Obstructions::any_near(const Eigen::Vector2d& p_world, double reach) const 
     return false;
 }
 
+/// Who comes towards one who is in the oncoming lane lets him come back into his own.
+void Obstructions::tell_who_passes(std::span<const Car> cars) {
+    constexpr double to_come_back = 10;  // [m]
+    for (const Car& car : cars) {
+        if (!passes_or_comes_back(car) || (car.pass && car.pass->joins))
+            continue;
+        double left = 0;
+        if (car.pass)
+            left =
+                car.pass->end - world::project(town_->lanes[car.pass->lane], car.trail.front()).s;
+        for (Footprint& footprint : footprints_)
+            if (footprint.id == car.id)
+                footprint.needs_ahead = std::max(left, 0.0) + to_come_back;
+    }
+}
+
 void Obstructions::look(const world::TickView& last, std::span<const Car> cars) {
     count_halts(last.vehicles());
     gather_footprints(last, cars, footprints_);
+    tell_who_passes(cars);
     for (const Obstruction& one : all_)
         is_obstructed_[one.lane] = false;
     all_.clear();

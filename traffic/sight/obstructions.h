@@ -106,6 +106,7 @@ class Obstructions {
 
     const Around& lanes_around(const Eigen::Vector3d& place, std::uint32_t id, double reach);
     void count_halts(std::span<const world::VehicleState> vehicles);
+    void tell_who_passes(std::span<const Car> cars);
     double stood(std::uint32_t id) const;
     double gap_behind(const Footprint& footprint, bool lasts) const;
     void add(const Footprint& footprint);
