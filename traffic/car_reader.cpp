@@ -130,6 +130,18 @@ Eigen::Vector3d CarReader::bumper_of(const Car& car) const {
     return front;
 }
 
+/// Does its body lie along its lane? In a junction and behind a lane's first metres none need.
+bool CarReader::is_straight(const Car& car) const {
+    constexpr double askew = 0.15;  // [rad]
+    const world::VehicleModel& model = world::vehicle_models()[car.model];
+    if (car.lane == none || town_->lanes[car.lane].kind == world::LaneKind::internal ||
+        car.lane_position < model.length)
+        return true;
+    const world::LaneT& lane = town_->lanes[car.lane];
+    const double middle = car.lane_position * lane.length / lane.sumo_length - model.wheelbase / 2;
+    return std::abs(world::wrap_angle(world::point_at(lane, middle).yaw - car.yaw)) < askew;
+}
+
 /// As its order wants it, and as the car drives: a standing car stands.
 void CarReader::move_aside(Car& car, std::uint64_t tick) const {
     // Metres aside for each metre driven; more with the wheels turned as far as they go.
@@ -138,7 +150,8 @@ void CarReader::move_aside(Car& car, std::uint64_t tick) const {
     const double seconds = static_cast<double>(tick - order.start) * step_;
     const double most = steepest * car.speed * step_;
     car.offset += std::clamp(order.change.value(seconds) - car.offset, -most, most);
-    if (car.offset == 0 && order.change.to == 0 && seconds >= order.change.duration)
+    const bool done = car.offset == 0 && order.change.to == 0 && seconds >= order.change.duration;
+    if (done && (car.origin != Origin::demand || is_straight(car)))
         car.offset_order.reset();
 }
 

@@ -39,6 +39,7 @@ class CarReader {
     void read_lane(Car& car, bool on_its_road) const;
     void enter_lane(Car& car, std::string_view lane) const;
     Eigen::Vector3d bumper_of(const Car& car) const;
+    bool is_straight(const Car& car) const;
     void move_aside(Car& car, std::uint64_t tick) const;
     double lane_yaw_of(const Car& car) const;
     Eigen::Vector3d without_jumps(Car& car, const Eigen::Vector3d& sumo_front) const;

@@ -75,6 +75,55 @@ TEST(Obstructions, WhoWalksOnIsSeenAsIfHeWereSeenForTheFirstTime) {
     EXPECT_GT(seen, 1000U) << "nothing is shown";
 }
 
+/// A car of SUMO's on a road with an oncoming lane, its bumper beside its own lane's middle.
+Car car_beside(const world::TownT& town, double s, double offset, double turned) {
+    Car car;
+    car.id = 1'000'000;
+    car.sumo = "1000000";
+    car.lane = test::lane(town, "m1_b2_1");
+    const world::LaneT& lane = town.lanes[car.lane];
+    car.lane_position = s * lane.sumo_length / lane.length;
+    const world::LanePoint at = world::point_at(lane, s);
+    const Eigen::Vector2d place = at.position.head<2>() + offset * world::left_of(at.yaw);
+    const Eigen::Vector3d front(place.x(), place.y(), at.position.z());
+    car.turn_to(at.yaw + turned);
+    const Eigen::Vector3d back(-car.ahead.x(), -car.ahead.y(), 0);
+    constexpr double length = 3.7;  // [m]
+    car.trail.start(front, back, length);
+    car.rear = front + length * back;
+    return car;
+}
+
+std::vector<Obstruction> seen_by_oncoming(const world::TownT& town, const Car& car) {
+    const world::LaneMap lanes(town);
+    Obstructions obstructions(town, lanes, tick_length);
+    world::TickDraft draft;
+    const world::SealedTick last = world::seal(draft, {});
+    obstructions.look(last.view(), {&car, 1});
+    const auto all = obstructions.on(town.lanes[car.lane].opposite);
+    return {all.begin(), all.end()};
+}
+
+TEST(Obstructions, WhoComesTowardsOneOnAPassLeavesHimTheWayThatHeStillNeeds) {
+    const world::TownT& town = test::own_town("town1").town;
+    const world::LaneT& lane = town.lanes[test::lane(town, "m1_b2_1")];
+    Car car = car_beside(town, 30, lane.width, 0);
+    car.offset = lane.width;
+    car.offset_order = OffsetOrder{{0, lane.width, 2.5, world::Shape::linear}, 0};
+    car.pass = PassOrder{car.lane, 42, 5};
+    const auto seen = seen_by_oncoming(town, car);
+    ASSERT_FALSE(seen.empty());
+    EXPECT_NEAR(seen.front().gap, 12 + 10, 0.1);
+}
+
+TEST(Obstructions, ATailThatIsStillInTheOncomingLaneIsSeenThere) {
+    const world::TownT& town = test::own_town("town1").town;
+    Car car = car_beside(town, 30, 0, -0.5);
+    EXPECT_TRUE(seen_by_oncoming(town, car).empty());
+    car.offset_order = OffsetOrder{{3, 0, 2.5, world::Shape::linear}, 0};
+    EXPECT_FALSE(seen_by_oncoming(town, car).empty());
+}
+
 /// Where a street ends in nothing a vehicle with mass turns around to and fro.
 TEST(Obstructions, WhoStandsAtADeadEndIsLeftRoomToTurnAround) {
     world::TownT town = test::straight_road(120);

@@ -138,7 +138,9 @@ void gather_footprints(const world::TickView& last,
                 footprints);
     // SUMO believes them elsewhere: by order, or where it cut a change of lanes short.
     const auto is_aside = [](const Car& car) {
-        return std::abs(car.offset) > far_aside ||
+        // Its tail is still, where its bumper is back already.
+        const bool passes = car.origin == Origin::demand && car.offset_order;
+        return passes || std::abs(car.offset) > far_aside ||
                std::abs(world::cross(car.ahead, car.slip)) > far_aside;
     };
     for (const Car& car : cars)
