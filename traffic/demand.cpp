@@ -22,6 +22,8 @@ constexpr double far_too_long = 150;  // [s] of standing
 constexpr double not_beside = 30;     // [m]
 // Nobody waits so long inside of a junction but for one who waits for him, or who never moves.
 constexpr double far_too_long_in_junction = 50;  // [s] of standing, whoever sees it,
+// and so does nobody beside one with mass, which it would hit.
+constexpr double far_too_long_wedged = 50;  // [s] of standing, whoever sees it
 // Two in a bend, each with its body in the other one's way, stood before an ego for 26 minutes.
 constexpr double for_ever = 200;    // [s] of standing for another car, whoever sees it,
 constexpr double ring_lasts = 36;   // [s] and for one who stands for it: Standoffs had its turns
@@ -192,6 +194,10 @@ bool Demand::waits_for_ever(const Car& car, double step) {
     return car.stuck_ticks * step > for_ever && !car.waits_for.empty();
 }
 
+bool Demand::is_wedged(const Car& car, double step, std::uint64_t tick) {
+    return car.stuck_ticks * step > far_too_long_wedged && car.wedged_until > tick;
+}
+
 bool Demand::is_longest_in_a_ring(const Car& car, const Cars& cars) const {
     if (car.stuck_ticks * step_ < ring_lasts)
         return false;
@@ -214,8 +220,10 @@ bool Demand::is_stuck(const Car& car, const Cars& cars, const world::TickView& l
         (stood > far_too_long && !is_seen(car.rear, last, not_beside)) ||
         waits_for_ever(car, step_) || is_longest_in_a_ring(car, cars))
         return true;
-    return stood > far_too_long_in_junction && car.lane_position > at_its_edge &&
-           right_of_way_->is_crossed(car.lane) &&
+    const bool is_in_junction =
+        car.lane_position > at_its_edge && right_of_way_->is_crossed(car.lane);
+    return ((stood > far_too_long_in_junction && is_in_junction) ||
+            is_wedged(car, step_, last.index())) &&
            (stood > in_a_row || !is_seen(car.rear, last, not_beside) ||
             !is_right_behind_another(car, cars, last));
 }

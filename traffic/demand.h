@@ -40,6 +40,10 @@ class Demand {
     /// taken out whoever sees it: nobody else will solve it. `step` [s] of a tick.
     static bool waits_for_ever(const Car& car, double step);
 
+    /// Has it stood for long at the flank of a vehicle with mass, which it must not hit and which
+    /// waits for it, perhaps? SUMO knows of no such waiting, and its driver cannot back off.
+    static bool is_wedged(const Car& car, double step, std::uint64_t tick);
+
   private:
     void hear_of_wrecks(const world::TickView& last);
     bool is_seen(const Eigen::Vector3d& p, const world::TickView& last, double sight) const;

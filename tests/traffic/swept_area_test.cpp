@@ -211,5 +211,68 @@ TEST(SweptArea, ABusRollsSlowlyPastPeopleAtTheKerbAndBlocksNoJunctionForThem) {
     EXPECT_GT(shown, 0) << "nobody is in its way: nothing is shown";
 }
 
+/// How long somebody's bus stands behind a junction, its tail still in it, where somebody with mass
+/// has come to stand at its flank: he waits for it, perhaps. [s]; none: no bus came by.
+std::optional<double> bus_is_wedged(std::uint64_t seed) {
+    const test::Loaded& loaded = own_town("town1");
+    const world::VehicleModel& bicycle =
+        world::vehicle_models()[world::find_vehicle_model("bicycle").value()];
+    const auto bus = static_cast<std::uint16_t>(world::find_vehicle_model("bus").value());
+    Stage stage(loaded, 60, seed);
+    std::vector<world::VehicleState> vehicles;
+    std::uint32_t id = world::none;
+    double outside = 0;  // side on which its tail swings out; left positive
+    double stood = 0;
+    for (int tick = 0; tick < 9000 && stood < 100; ++tick) {
+        stage.step({}, vehicles);
+        for (const world::CarState& car : stage.draft().traffic.cars) {
+            const bool turns_in = id == world::none && car.model() == bus &&
+                                  car.lane() != world::none && car.speed() > 2 &&
+                                  loaded.town.lanes[car.lane()].kind == world::LaneKind::internal;
+            if (!turns_in)
+                continue;
+            const world::LaneT& way = loaded.town.lanes[car.lane()];
+            const world::LanePoint end = world::point_at(way, way.length);
+            const double turned = std::remainder(end.yaw - world::point_at(way, 0).yaw, 2 * M_PI);
+            if (std::abs(turned) < 1 || car.lane_s() > 2)
+                continue;
+            id = car.id();
+            outside = turned > 0 ? -1 : 1;
+            const Eigen::Vector2d stop = end.position.head<2>() + 8 * world::ahead_of(end.yaw);
+            vehicles = {test::vehicle_at(beside, stop.x(), stop.y(), end.yaw, 0)};
+        }
+        const world::CarState* car = id == world::none ? nullptr : stage.car(id);
+        if (car == nullptr) {
+            if (id != world::none)
+                break;
+            continue;
+        }
+        const BodyBox body = bus_body(*car);
+        stood = car->speed() < 0.05F ? stood + 0.05 : 0;
+        if (stood > 2 && stood < 2.06 &&
+            vehicles[0].model() != *world::find_vehicle_model("bicycle")) {
+            const Eigen::Vector2d at = body.middle - (body.half_length - 0.2) * body.ahead +
+                                       outside * (body.half_width + bicycle.width / 2 + 0.06) *
+                                           world::turned_left(body.ahead);
+            vehicles = {test::vehicle_at(
+                beside, at.x(), at.y(), std::atan2(body.ahead.y(), body.ahead.x()), 0)};
+            vehicles[0].mutate_model(world::find_vehicle_model("bicycle").value());
+        }
+    }
+    return id == world::none ? std::nullopt : std::optional(stood);
+}
+
+TEST(SweptArea, ABusThatCannotGoOnForWhoStandsAtItsFlankIsTakenOut) {
+    int shown = 0;
+    for (const std::uint64_t seed : {1, 3, 6}) {
+        const std::optional<double> stood = bus_is_wedged(seed);
+        if (!stood)
+            continue;
+        EXPECT_LT(*stood, 60) << seed;
+        shown += *stood > 45;
+    }
+    EXPECT_GT(shown, 0) << "no bus is held: nothing is shown";
+}
+
 }  // namespace
 }  // namespace reprise::traffic

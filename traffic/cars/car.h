@@ -115,6 +115,7 @@ struct Car {
         pushes_past;                  ///< ids of those who stand in its way, and it in theirs
     std::uint64_t pushes_until = 0;   ///< tick; until then it stops for none of these
     std::uint64_t brushes_until = 0;  ///< tick; until then it stops for no body beside its way
+    std::uint64_t wedged_until = 0;   ///< tick; a vehicle stands at its flank, which it would hit
     bool ignores_standing = false;    ///< SUMO was told so
     std::uint64_t lets_in_until = 0;  ///< tick; until then it stops before that way through
     std::uint32_t lets_in_way = world::none;  ///< a junction, by which another one comes

@@ -18,7 +18,8 @@ struct Sweeping::Beside {
 
     struct Near {
         BodyBox body;
-        double room = 0;  ///< [m] left beside it
+        double room = 0;            ///< [m] left beside it
+        bool never_yields = false;  ///< it has mass, and stands
 
         BodyBox roomy() const { return body.widened(room); }
     };
@@ -56,7 +57,8 @@ void Sweeping::gather(const Car& car, bool all, Beside& beside) const {
             continue;
         (one.is_afoot ? beside.people : beside.others)
             .push_back({{one.centre, one.direction, one.half_length, one.half_width},
-                        all || speed > stands ? hair : finest_hair});
+                        all || speed > stands ? hair : finest_hair,
+                        one.drives && speed < stands});
     }
 }
 
@@ -78,6 +80,7 @@ double Sweeping::allowed_speed(Car& car, std::uint64_t tick) const {
     constexpr double waits = 40;                // [s]
     constexpr double crawl = 0.6;               // [m/s] people step back from a tail that comes so
     constexpr std::uint64_t goes_on_for = 200;  // [ticks]
+    constexpr std::uint64_t remembered = 20;    // [ticks]
     if (car.pass)
         return world::infinity;
     const bool is_long = world::vehicle_models()[car.model].length > longest_short_car;
@@ -89,11 +92,14 @@ double Sweeping::allowed_speed(Car& car, std::uint64_t tick) const {
     beside.keep_to(way);
     if (beside.is_empty())
         return world::infinity;
-    const auto touches = [&](const std::vector<Beside::Near>& bodies, double driven) {
+    const auto touched = [&](const std::vector<Beside::Near>& bodies, double driven) {
         const BodyBox body = way.at(driven);
-        return std::any_of(bodies.begin(), bodies.end(), [&](const Beside::Near& other) {
+        return std::find_if(bodies.begin(), bodies.end(), [&](const Beside::Near& other) {
             return overlap(body, other.roomy());
         });
+    };
+    const auto touches = [&](const std::vector<Beside::Near>& bodies, double driven) {
+        return touched(bodies, driven) != bodies.end();
     };
     const Braking braking{
         car.speed, comfortable_braking(car.model), emergency_braking(car.model), step_};
@@ -102,9 +108,13 @@ double Sweeping::allowed_speed(Car& car, std::uint64_t tick) const {
     for (double driven = spacing; driven <= end; driven += spacing) {
         if (!std::isfinite(allowed) && touches(beside.people, driven))
             allowed = std::max(crawl, braking.speed_before(driven - spacing, 0, 0));
-        if (touches(beside.others, driven)) {
-            if (is_long && car.standing_ticks * step_ > waits && driven <= 2 * spacing)
+        const auto other = touched(beside.others, driven);
+        if (other != beside.others.end()) {
+            const bool has_waited = car.standing_ticks * step_ > waits && driven <= 2 * spacing;
+            if (is_long && has_waited)
                 car.brushes_until = tick + goes_on_for;
+            if (has_waited && other->never_yields)
+                car.wedged_until = tick + remembered;
             return std::min(allowed, braking.speed_before(driven - spacing, 0, 0));
         }
     }

@@ -20,7 +20,7 @@ namespace reprise::traffic {
 ///         for long may never go away, and then brushing past is the driver's business; but never
 ///         past vehicles with mass, which it would hit. A short one looks at these alone; it would
 ///         stand before one that stands for ever if it wanted more than it needs.
-/// KEEPS   with each car, until when it brushes past.
+/// KEEPS   with each car, until when it brushes past, and that it cannot: Demand takes it out then.
 class Sweeping {
   public:
     /// All must outlive this. `step` [s] of a tick.
