@@ -206,7 +206,7 @@ TEST(SweptArea, ABusRollsSlowlyPastPeopleAtTheKerbAndBlocksNoJunctionForThem) {
         EXPECT_TRUE(past.came_through) << name;
         EXPECT_LT(past.stood, alone.stood + 3) << name;
         EXPECT_GT(past.touched, 0) << name;
-        EXPECT_LT(past.fastest_in_reach, 0.8) << name;
+        EXPECT_LT(past.fastest_in_reach, 0.2) << name << ": who stands has no way out, or not yet";
     }
     EXPECT_GT(shown, 0) << "nobody is in its way: nothing is shown";
 }

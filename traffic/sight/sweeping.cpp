@@ -20,6 +20,7 @@ struct Sweeping::Beside {
         BodyBox body;
         double room = 0;            ///< [m] left beside it
         bool never_yields = false;  ///< it has mass, and stands
+        bool stands = false;
 
         BodyBox roomy() const { return body.widened(room); }
     };
@@ -58,7 +59,8 @@ void Sweeping::gather(const Car& car, bool all, Beside& beside) const {
         (one.is_afoot ? beside.people : beside.others)
             .push_back({{one.centre, one.direction, one.half_length, one.half_width},
                         all || speed > stands ? hair : finest_hair,
-                        one.drives && speed < stands});
+                        one.drives && speed < stands,
+                        speed < stands});
     }
 }
 
@@ -79,6 +81,7 @@ double Sweeping::allowed_speed(Car& car, std::uint64_t tick) const {
     constexpr double spacing = 0.5;             // [m]
     constexpr double waits = 40;                // [s]
     constexpr double crawl = 0.6;               // [m/s] people step back from a tail that comes so
+    constexpr double creep = 0.1;               // [m/s] before who does not, though it comes so
     constexpr std::uint64_t goes_on_for = 200;  // [ticks]
     constexpr std::uint64_t remembered = 20;    // [ticks]
     if (car.pass)
@@ -104,6 +107,13 @@ double Sweeping::allowed_speed(Car& car, std::uint64_t tick) const {
     const Braking braking{
         car.speed, comfortable_braking(car.model), emergency_braking(car.model), step_};
     double allowed = touches(beside.people, 0) ? crawl : world::infinity;
+    // Who is held up himself needs time to find a way out; one that stopped he would not mind.
+    const BodyBox now = way.at(0);
+    const BodyBox soon = way.at(spacing);
+    if (std::any_of(beside.people.begin(), beside.people.end(), [&](const Beside::Near& one) {
+            return one.stands && (overlap(now, one.body) || overlap(soon, one.body));
+        }))
+        allowed = std::max(creep, braking.speed_before(0, 0, 0));
     const double end = std::min(Beside::looked_at, way.length());
     for (double driven = spacing; driven <= end; driven += spacing) {
         if (!std::isfinite(allowed) && touches(beside.people, driven))
