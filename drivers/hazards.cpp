@@ -267,8 +267,8 @@ double Hazards::first_contact(const Body& one, const Path& path) const {
         coarse_.begin(), coarse_.end(), [&](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
             return (p - one.centre).squaredNorm() < (q - one.centre).squaredNorm();
         });
-    const std::size_t sample = coarse_index_[static_cast<std::size_t>(nearest - coarse_.begin())];
-    const Body body = one.seen_in_steps(path.points()[sample].direction, Path::spacing);
+    const std::size_t beside = coarse_index_[static_cast<std::size_t>(nearest - coarse_.begin())];
+    const Body body = one.seen_in_steps(path.points()[beside].direction, Path::spacing);
     const auto touches =
         [&](std::size_t sample, const Eigen::Vector3d& p, const Eigen::Vector2d& direction) {
             const SweptWidth width = corridor_at(path, sample);

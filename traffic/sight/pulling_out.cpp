@@ -139,8 +139,10 @@ bool PullingOut::swing_into(std::uint32_t lane,
     using libsumo::Vehicle;
     const world::LaneT& own = town_->lanes[car.lane];
     const world::LaneProjection at = world::project(own, car.trail.front());
+    // One that tries again may have got a part of the way already.
+    const double aside = car.offset - there.t;
     const auto touches = [&](double pace) {
-        return swings_into_any(car, own, at, -there.t, pace, obstructions_->footprints());
+        return swings_into_any(car, own, at, aside, pace, obstructions_->footprints());
     };
     double pace = Passing::speed;
     if (touches(pace))
