@@ -243,31 +243,37 @@ void soak(Look& look, const ShadingInput& input, const Surface& at, float lane_d
 
 }  // namespace
 
+namespace {
+
+Look far_field(const Surface& at) {
+    Look look;
+    look.albedo = field(at);
+    return look;
+}
+
+Look dry_ground(const Surface& at, float lane_distance) {
+    switch (at.material) {
+        case Material::asphalt:
+            return asphalt(at, lane_distance);
+        case Material::marking:
+            return paint(at, lane_distance);
+        case Material::pavement:
+            return pavement(at);
+        case Material::kerb:
+        case Material::deck:
+            return kerb(at);
+        default:
+            return at.tag == land_far_off ? far_field(at) : grass(at);
+    }
+}
+
+}  // namespace
+
 Look ground_look(const ShadingInput& input, const Surface& at) {
     const bool road = at.material == Material::asphalt || at.material == Material::marking;
     const float lane_distance =
         road ? input.scene.lanes().distance(at.position.x(), at.position.y()) : 4;
-    Look look;
-    switch (at.material) {
-        case Material::asphalt:
-            look = asphalt(at, lane_distance);
-            break;
-        case Material::marking:
-            look = paint(at, lane_distance);
-            break;
-        case Material::pavement:
-            look = pavement(at);
-            break;
-        case Material::kerb:
-        case Material::deck:
-            look = kerb(at);
-            break;
-        default:
-            if (at.tag == land_far_off)
-                look.albedo = field(at);
-            else
-                look = grass(at);
-    }
+    Look look = dry_ground(at, lane_distance);
     look.normal = at.normal;
     if (at.wetness > 0)
         soak(look, input, at, lane_distance);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "render/scene/tracer.h"
 
@@ -33,10 +34,20 @@ struct Plane {
 };
 
 /// In double precision, as pictures are. `last` is the plane that a neighbour met: often this one
-/// meets it, too.
-Echo echo_of(const Scene& scene, const Hit& hit, const Beam& beam, Plane& last) {
-    Echo echo;
-    echo.hit = hit;
+/// meets it, too. Written where it stays, number by number: who copies several at once that were
+/// just written one by one waits until they have arrived in memory, a twelfth of a sweep.
+void find_echo(const Scene& scene, const Hit& hit, const Beam& beam, Plane& last, Echo& echo) {
+    echo.hit.distance = hit.distance;
+    echo.hit.instance = hit.instance;
+    echo.hit.triangle = hit.triangle;
+    echo.hit.u = hit.u;
+    echo.hit.v = hit.v;
+    if (hit.instance == no_instance) {
+        echo.instance = nullptr;
+        echo.distance = std::numeric_limits<double>::infinity();
+        echo.cosine = 0;
+        return;
+    }
     echo.instance = &scene.instance(hit.instance);
     if (last.instance != echo.instance || last.triangle != hit.triangle)
         last = Plane(*echo.instance, hit.triangle);
@@ -46,7 +57,6 @@ Echo echo_of(const Scene& scene, const Hit& hit, const Beam& beam, Plane& last) 
     // At grazing angles the plane's equation is ill-conditioned: the tracer's distance is kept.
     echo.distance = std::abs(distance - found) <= 1e-3 + 1e-2 * found ? distance : found;
     echo.cosine = static_cast<float>(std::min(1.0, std::abs(along) / last.length));
-    return echo;
 }
 
 }  // namespace
@@ -70,9 +80,7 @@ void find_echoes(const Scene& scene,
         }
         trace_nearest(scene, std::span(rays).first(count), true, std::span(hits).first(count));
         for (std::size_t i = 0; i < count; ++i)
-            echoes[first + i] = hits[i].instance == no_instance
-                                    ? Echo()
-                                    : echo_of(scene, hits[i], beams[first + i], last);
+            find_echo(scene, hits[i], beams[first + i], last, echoes[first + i]);
     }
 }
 

@@ -110,7 +110,7 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         Surface at = surfaces.at(hit, direction);
         expose(job.input, at);
         Sample& sample = pixels.samples[place];
-        sample.look = shade_surface(job.input, at);
+        make_in(sample.look, [&] { return shade_surface(job.input, at); });
         RawLight& raw = pixels.lights[place];
         raw.position = at.position;
         raw.flat = at.flat;

@@ -132,6 +132,14 @@ void add_subpixel_rays(const ShadingJob& job,
     }
 }
 
+/// Who asks for the light at this pixel soon would wait for memory.
+void expect_light(const ShadingJob& job, const TileBlock& tiles, std::size_t index) {
+    const auto owner = static_cast<int>(index);
+    const std::size_t place = tile_place(owner % job.frame.width, owner / job.frame.width);
+    prefetch(&tiles.middle().lights[place]);
+    prefetch(&tiles.middle().samples[place].light);
+}
+
 void light_subpixel(const ShadingJob& job,
                     const TileBlock& tiles,
                     const Eigen::Vector2i& pixel,
@@ -179,14 +187,16 @@ void add_pair(ShadingJob& job,
         SubpixelSample& sample = samples[i];
         if (i + 2 * soon < primary.size())
             surfaces.expect(rays.hits[i + 2 * soon]);
-        if (i + soon < primary.size())
+        if (i + soon < primary.size()) {
             surfaces.expect_corners(rays.hits[i + soon]);
+            expect_light(job, tiles, pixels[batch.owner(i + soon)].index);
+        }
         sample.hit = rays.hits[i];
         if (sample.hit.instance == no_instance)
             continue;
-        sample.surface = surfaces.at(sample.hit, primary[i].direction);
+        make_in(sample.surface, [&] { return surfaces.at(sample.hit, primary[i].direction); });
         expose(job.input, sample.surface);
-        sample.look = shade_surface(job.input, sample.surface);
+        make_in(sample.look, [&] { return shade_surface(job.input, sample.surface); });
         const auto owner = static_cast<int>(pixels[batch.owner(i)].index);
         light_subpixel(job, tiles, {owner % frame.width, owner / frame.width}, sample);
         // What looks away from the sun gets nothing of it, whatever is between.

@@ -76,6 +76,11 @@ void combine_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
             prefetch(&frame.colors[next]);
             prefetch(&frame.tones[next]);
             prefetch(&job.hits[next]);
+            const Eigen::Vector2i there = tile_pixel(i + block);
+            const std::size_t place = tile_place(there.x(), there.y());
+            prefetch(&own.lights[place]);
+            prefetch(&own.samples[place].look);
+            prefetch(&own.samples[place].light);
         });
         const std::size_t index = frame.index(pixel.x(), pixel.y());
         const Vector3f direction = job.camera.ray(pixel.x() + 0.5, pixel.y() + 0.5).cast<float>();

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <new>
+#include <type_traits>
 #include <vector>
 
 #include "render/look/look.h"
@@ -17,6 +19,14 @@ struct Sample {
     Look look;
     Light light;  ///< filtered
 };
+
+/// `place` becomes what `make()` says, which is made where it stays: who copies numbers together
+/// that were just written one by one waits until they have arrived in memory.
+template <typename Made, typename Make>
+void make_in(Made& place, const Make& make) {
+    static_assert(std::is_trivially_destructible_v<Made>);
+    ::new (static_cast<void*>(&place)) Made(make());
+}
 
 /// What the filter between neighbouring pixels looks at, beside which triangle was hit: 64 bytes.
 struct alignas(64) RawLight {
