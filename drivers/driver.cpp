@@ -167,6 +167,7 @@ world::Control Autopilot::decide(const world::TickView& last) {
         return control;
     }
     state.take_jump(ego);
+    state.style = style_on(last.tick->road_friction(), state.descent(ego), state.car);
 
     state.at_end = state.way().ended() && state.way().path().end() - ego.front_s() < end_reach;
 
@@ -177,10 +178,11 @@ world::Control Autopilot::decide(const world::TickView& last) {
     const double acceleration =
         told ? state.obedient_acceleration(last, ego) : state.careful_acceleration(last, ego);
     if (state.pid && !told) {
-        const double most = std::min(std::sqrt(state.way().path().at(ego.front_s()).squared_speed),
-                                     state.speed_order.target());
-        const PidDriver::Answer said =
-            state.pid->drive(ego, state.way().path(), acceleration, most, state.step);
+        const double most = std::min(
+            std::sqrt(state.style.share * state.way().path().at(ego.front_s()).squared_speed),
+            state.speed_order.target());
+        const PidDriver::Answer said = state.pid->drive(
+            ego, state.way().path(), acceleration, most, state.style.share, state.step);
         control.mutate_throttle(said.pedals.throttle);
         control.mutate_brake(said.pedals.brake);
         control.mutate_steer(said.steer);
@@ -228,7 +230,7 @@ double DriverState::careful_acceleration(const world::TickView& last, Ego& ego) 
     acceleration = std::min(acceleration, approach_turn(last, ego));
     take_jump(ego);
     plan_wide_turns(ego);
-    passing.follow(last, ego, way());
+    passing.follow(last, ego, way(), style);
     acceleration = std::min(acceleration, look_around(last, ego));
     pass(last, ego);
     acceleration =
@@ -286,7 +288,7 @@ double DriverState::past_junction_things(const world::TickView& last, const Ego&
     if (!passing.plan() || passing.plan()->uses != PassingPlan::Uses::junction)
         return world::infinity;
     const double speed = std::max(ego.speed, 0.0);
-    const double reach = 0.4 + 0.3 * speed + speed * speed / (2 * braking);
+    const double reach = 0.4 + 0.3 * speed + speed * speed / (2 * braking * style.share);
     if (!something_is_before(last, ego, reach))
         return world::infinity;
     if (speed < 0.1)
@@ -306,8 +308,8 @@ double DriverState::last_resort(const world::TickView& last, const Ego& ego) {
     constexpr double patience = 5;    // [s]
     constexpr double back = 2;        // [m]
     const double speed = std::max(ego.speed, 0.0);
-    const double reach = 0.1 + reaction * speed + speed * speed / (2 * braking);
-    if (speed > fastest || !something_is_before(last, ego, reach, stands)) {
+    const double reach = 0.1 + reaction * speed + speed * speed / (2 * braking * style.share);
+    if (speed > fastest * style.speed_share() || !something_is_before(last, ego, reach, stands)) {
         held_ticks = 0;
         return world::infinity;
     }

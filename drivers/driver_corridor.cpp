@@ -138,7 +138,7 @@ double DriverState::tracked_beside(const Ego& ego) const {
 void DriverState::pass(const world::TickView& last, const Ego& ego) {
     if (!may_overtake || pid || way().keeps_lane() || lateral_order.side(tick, step) != 0)
         return;
-    if (passing.consider(last, ego, way(), hazards.overlaps(), tracked_beside(ego))) {
+    if (passing.consider(last, ego, way(), hazards.overlaps(), tracked_beside(ego), style)) {
         hazards.look(last, ego, way().path(), style, corridor(ego));
         const PassingPlan& plan = *passing.plan();
         news = {world::EventKind::overtakes, plan.row.front(), through(plan.uses)};
@@ -211,7 +211,7 @@ void DriverState::take_jump(const Ego& ego) {
     if (std::abs(beside - passing.plan()->bypass.offset(s)) > same_line) {
         passing.drop();
         if (lateral_order.side(tick, step) == 0)
-            passing.come_back(ego, beside);
+            passing.come_back(ego, beside, style);
     }
 }
 

@@ -46,6 +46,17 @@ double DriverState::change_lanes(const world::TickView& last, Ego& ego) {
     return world::infinity;
 }
 
+/// The steepest way down of what is seen of the road, as a sine; 0 where it only rises.
+double DriverState::descent(const Ego& ego) const {
+    constexpr double sight = 60;     // [m]
+    constexpr double look_step = 4;  // [m]
+    const Path& path = way().path();
+    double steepest = 0;
+    for (double ahead = 0; ahead <= sight; ahead += look_step)
+        steepest = std::max(steepest, -path.climb(ego.rear_axle_s + ahead, look_step / 2));
+    return steepest;
+}
+
 /// The speed that lanes, curves and the scenario's cap allow, and dead ends. [m/s^2]
 double DriverState::cruise(const Ego& ego) const {
     const Path& path = way().path();
@@ -56,7 +67,8 @@ double DriverState::cruise(const Ego& ego) const {
     const double s = ego.rear_axle_s + middle + ego.speed * step;
     const auto squared_speed = [&](double at) {
         const double most = path.at(at).squared_speed;
-        return has_wide_turn ? std::min(most, wide_turn->at(at - middle).squared_speed) : most;
+        return style.share *
+               (has_wide_turn ? std::min(most, wide_turn->at(at - middle).squared_speed) : most);
     };
     const double here = squared_speed(s);
     const double allowed = std::sqrt(here);
@@ -65,7 +77,7 @@ double DriverState::cruise(const Ego& ego) const {
         acceleration +=
             std::clamp((squared_speed(s + 1) - here) / 2, -style.comfortable_braking, 0.0);
     }
-    acceleration = std::clamp(acceleration, -4.0, style.acceleration);
+    acceleration = std::clamp(acceleration, -4 * style.share, style.acceleration);
     if (changing) {
         const double as_told = ordered_acceleration(ego);
         // A change takes what it takes, as long as the road allows the speed.

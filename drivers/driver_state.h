@@ -41,6 +41,7 @@ struct DriverState {
     void plan_wide_turns(const Ego& ego);
     double change_lanes(const world::TickView& last, Ego& ego);
     void begin_orders(const world::TickView& last, const Ego& ego);
+    double descent(const Ego& ego) const;
     double cruise(const Ego& ego) const;
     double ordered_acceleration(const Ego& ego) const;
     double obedient_acceleration(const world::TickView& last, Ego& ego);

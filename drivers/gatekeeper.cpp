@@ -157,7 +157,7 @@ double Gatekeeper::decide(const world::TickView& last,
                           std::span<const Overlap> overlaps,
                           const DrivingStyle& style,
                           double step) {
-    const double sight = std::max(40.0, ego.speed * ego.speed / 3 + 15);
+    const double sight = std::max(40.0, ego.speed * ego.speed / (3 * style.share) + 15);
     for (const Gate& gate : way.gates()) {
         const double to_line = gate.s - ego.front_s();
         if (to_line > sight)
@@ -168,7 +168,7 @@ double Gatekeeper::decide(const world::TickView& last,
                 return creep_speed - ego.speed;
             continue;
         }
-        if (must_stop(last, ego, way, gate, overlaps, step)) {
+        if (must_stop(last, ego, way, gate, overlaps, style, step)) {
             // Whoever comes to stop nearer to the line need not stamp on the brake for it.
             const double distance = std::max(to_line - line_distance, to_line / 2);
             return stop_acceleration(distance, ego.speed, style.comfortable_braking, style);
@@ -184,14 +184,17 @@ bool Gatekeeper::must_stop(const world::TickView& last,
                            const Way& way,
                            const Gate& gate,
                            std::span<const Overlap> overlaps,
+                           const DrivingStyle& style,
                            double step) {
+    // As on a dry road: what the road gives counts for all of it.
+    const double squared = ego.speed * ego.speed / style.share;
     const double to_line = gate.s - ego.front_s();
-    const double needed = ego.speed * ego.speed / (2 * std::max(to_line, 0.1));
+    const double needed = squared / (2 * std::max(to_line, 0.1));
     const SignalColor color =
         ignores_lights_ ? ignored(color_of(last, gate.signal)) : color_of(last, gate.signal);
     if (color == SignalColor::yellow) {
         const double room = std::max(to_line - line_distance, to_line / 2);
-        return stops_at_yellow(gate, ego.speed * ego.speed / (2 * std::max(room, 0.1)));
+        return stops_at_yellow(gate, squared / (2 * std::max(room, 0.1)));
     }
     if (color == SignalColor::red || color == SignalColor::red_yellow) {
         const bool drove_on = gate.serial == yellow_gate_ && !yellow_stop_ && ego.speed > 3;
@@ -205,7 +208,7 @@ bool Gatekeeper::must_stop(const world::TickView& last,
     bool stop = !has_room(ego, way, gate, overlaps, step);
     if (must_give_way(gate, color)) {
         const bool give_way =
-            must_halt(gate, color, ego, to_line) || !has_gap(last, ego, way, gate);
+            must_halt(gate, color, ego, to_line) || !has_gap(last, ego, way, gate, style);
         if (gate.serial != waiting_gate_) {
             waiting_gate_ = gate.serial;
             waited_ticks_ = 0;
@@ -265,7 +268,8 @@ bool Gatekeeper::has_room(const Ego& ego,
 bool Gatekeeper::has_gap(const world::TickView& last,
                          const Ego& ego,
                          const Way& way,
-                         const Gate& gate) const {
+                         const Gate& gate,
+                         const DrivingStyle& style) const {
     const SignalColor our_color = color_of(last, gate.signal);
     const auto threatens = [&](const Comer& comer, std::uint32_t lane) {
         return std::any_of(
@@ -275,12 +279,15 @@ bool Gatekeeper::has_gap(const world::TickView& last,
                 const SignalColor their_color = color_of(last, conflict.signal);
                 if (!conflict.inside && !goes_first(conflict, their_color, our_color, gate.turn))
                     return false;
-                const double top = std::max(
-                    {ego.speed, std::sqrt(way.path().at(conflict.our_s).squared_speed), 3.0});
+                const double allowed =
+                    std::sqrt(style.share * way.path().at(conflict.our_s).squared_speed);
+                const double top = std::max({ego.speed, allowed, 3 * style.speed_share()});
                 const double ahead = conflict.our_s - ego.front_s();
-                const Stay ours{
-                    travel_time(ahead - space_margin, ego.speed, 2, top),
-                    travel_time(ahead + ego.model->length + space_margin, ego.speed, 1.5, top)};
+                const Stay ours{travel_time(ahead - space_margin, ego.speed, 2 * style.share, top),
+                                travel_time(ahead + ego.model->length + space_margin,
+                                            ego.speed,
+                                            1.5 * style.share,
+                                            top)};
                 return conflicts(comer, conflict, ours, town_->lanes[lane]);
             });
     };

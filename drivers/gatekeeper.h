@@ -48,6 +48,7 @@ class Gatekeeper {
                    const Way& way,
                    const Gate& gate,
                    std::span<const Overlap> overlaps,
+                   const DrivingStyle& style,
                    double step);
     bool stops_at_yellow(const Gate& gate, double needed);
     bool must_halt(const Gate& gate, world::SignalColor color, const Ego& ego, double to_line);
@@ -59,7 +60,8 @@ class Gatekeeper {
     bool has_gap(const world::TickView& last,
                  const Ego& ego,
                  const Way& way,
-                 const Gate& gate) const;
+                 const Gate& gate,
+                 const DrivingStyle& style) const;
 
     const world::TownT* town_;
     std::uint32_t yellow_gate_ = world::none;  ///< serial of the gate that the next field is about

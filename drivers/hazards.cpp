@@ -76,8 +76,8 @@ Hazards::Hazards(const world::TownT& town) : town_(&town) {
     overlaps_.reserve(64);
 }
 
-void Hazards::make_corridor(const Ego& ego, const Path& path) {
-    const double sight = std::clamp(20 + 4 * ego.speed, 30.0, 150.0);
+void Hazards::make_corridor(const Ego& ego, const Path& path, const DrivingStyle& style) {
+    const double sight = std::clamp(20 + 4 * ego.speed / style.speed_share(), 30.0, 150.0);
     half_width_ = ego.model->width / 2 + side_margin_;
     sight_start_ = ego.front_s() - 1;
     coarse_.clear();
@@ -128,9 +128,10 @@ void Hazards::look(const world::TickView& last,
     acceleration_ = world::infinity;
     if (path.points().size() < 2)
         return;
-    make_corridor(ego, path);
+    make_corridor(ego, path, style);
+    horizon_ = horizon / style.speed_share();
     const Scene scene{ego, path, style};
-    collect_bodies(last, ego.id, box_, horizon, bodies_);
+    collect_bodies(last, ego.id, box_, horizon_, bodies_);
     for (Body& body : bodies_) {
         if (swings_out(body))
             body.half_width += swing;
@@ -158,7 +159,7 @@ bool Hazards::swings_out(const Body& body) const {
 void Hazards::consider(const Body& body, const Scene& scene) {
     const double distance = coarse_distance(body.centre) - body.radius() - half_width_;
     // Half a coarse step is the most that the coarse polyline can overlook.
-    if (distance > 2.1 + horizon * body.speed)
+    if (distance > 2.1 + horizon_ * body.speed)
         return;
     const double contact = distance > 2.1 ? world::infinity : first_contact(body, scene.path);
     if (contact == world::infinity) {
@@ -177,7 +178,7 @@ void Hazards::consider(const Body& body, const Scene& scene) {
 /// Somebody beside the path: will they be on it when we come?
 void Hazards::foresee(const Body& body, const Scene& scene, double distance) {
     const Ego& ego = scene.ego;
-    if (body.speed < 0.3 || distance > 2.1 + horizon * body.speed)
+    if (body.speed < 0.3 || distance > 2.1 + horizon_ * body.speed)
         return;
     // Who drives beside or behind us in our direction will look out for us.
     const Eigen::Vector2d nose =
@@ -190,7 +191,7 @@ void Hazards::foresee(const Body& body, const Scene& scene, double distance) {
     double left = 0;
     double contact = world::infinity;
     Body moved = body;
-    for (double time = look_step; time <= horizon; time += look_step) {
+    for (double time = look_step; time <= horizon_; time += look_step) {
         if (!place_after(body, time, moved))
             break;
         const double touched = first_contact(moved, scene.path);
@@ -202,7 +203,7 @@ void Hazards::foresee(const Body& body, const Scene& scene, double distance) {
     }
     if (contact == world::infinity)
         return;
-    if (left > horizon - look_step / 2)
+    if (left > horizon_ - look_step)
         left += 1;  // still there at the end of our foresight
 
     const double along = moved.speed * moved.direction.dot(scene.path.at(contact).direction);
@@ -222,12 +223,13 @@ void Hazards::foresee(const Body& body, const Scene& scene, double distance) {
     // at the same time, half a second more or less.
     if (gap < 0)
         return;
-    const double speed = std::max(ego.speed, 2.0);
+    const double speed = std::max(ego.speed, 2 * scene.style.speed_share());
     const double come = gap / speed;
     const double gone = (gap + ego.model->length + 2 * body.half_width) / speed;
     if (come > left + 0.5 || gone < entered - 0.5)
         return;
-    acceleration_ = std::min(acceleration_, stop_acceleration(gap - 1, ego.speed, 3, scene.style));
+    acceleration_ = std::min(
+        acceleration_, stop_acceleration(gap - 1, ego.speed, 3 * scene.style.share, scene.style));
 }
 
 /// Where the body will be: along its lane when it follows one, straight on otherwise. False when

@@ -59,7 +59,7 @@ class Hazards {
   private:
     struct Scene;
 
-    void make_corridor(const Ego& ego, const Path& path);
+    void make_corridor(const Ego& ego, const Path& path, const DrivingStyle& style);
     SweptWidth corridor_at(const Path& path, std::size_t sample) const;
     bool swings_out(const Body& body) const;
     void consider(const Body& body, const Scene& scene);
@@ -78,6 +78,7 @@ class Hazards {
     const world::VehicleModel* model_ = nullptr;  ///< of ours, while looking
     std::span<const SweptWidth> swept_;           ///< while looking
     double side_margin_ = 0;                      ///< [m] while looking
+    double horizon_ = 0;                          ///< [s] of foresight, while looking
     std::vector<Overlap> overlaps_;
     double acceleration_ = std::numeric_limits<double>::infinity();
 };

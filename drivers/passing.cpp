@@ -27,13 +27,16 @@ constexpr double slow_down = 2;         // [m/s^2]
 
 }  // namespace
 
-void Passing::follow(const world::TickView& last, const Ego& ego, const Way& way) {
+void Passing::follow(const world::TickView& last,
+                     const Ego& ego,
+                     const Way& way,
+                     const DrivingStyle& style) {
     stop_s_ = world::infinity;
     missing_room_ = 0;
     if (!plan_)
         return;
     Bypass& line = plan_->bypass;
-    const PassingScene where{last, ego, way, *map_, {}, 0, 0};
+    const PassingScene where{last, ego, way, *map_, {}, 0, 0, style.share};
     const double s = where.tracked_s();
     if (s > line.back_end) {
         plan_.reset();
@@ -43,7 +46,7 @@ void Passing::follow(const world::TickView& last, const Ego& ego, const Way& way
     if (s >= line.back_start)
         return;
     look_along(last, ego, way.path(), far_behind, far_ahead, neighbours_);
-    const PassingScene scene{last, ego, way, *map_, neighbours_, line.offset(s), 0};
+    const PassingScene scene{last, ego, way, *map_, neighbours_, line.offset(s), 0, style.share};
 
     // Who moves is passed when it is passed.
     double front = -world::infinity;
@@ -66,7 +69,7 @@ void Passing::follow(const world::TickView& last, const Ego& ego, const Way& way
     // Not out yet, and somebody comes: not now.
     const double out = (line.offset(s) - line.from) / (line.aside - line.from);
     if ((out < hardly_out && s < line.out_end && !is_free(scene, *plan_)) || has_driven_on(ego))
-        come_back(ego, line.offset(s));
+        come_back(ego, line.offset(s), style);
 }
 
 /// Who stood, and was to be passed, is ahead of us again: behind it there is our lane.
@@ -85,7 +88,8 @@ bool Passing::consider(const world::TickView& last,
                        const Ego& ego,
                        const Way& way,
                        std::span<const Overlap> overlaps,
-                       double beside) {
+                       double beside,
+                       const DrivingStyle& style) {
     if (plan_ && !comes_back())
         return false;
     const auto nearest =
@@ -106,7 +110,7 @@ bool Passing::consider(const world::TickView& last,
         return false;
     watch(*first);
     const double watched = watched_ticks_ * step_;
-    const PassingScene scene{last, ego, way, *map_, neighbours_, beside, watched};
+    const PassingScene scene{last, ego, way, *map_, neighbours_, beside, watched, style.share};
     const double wait = patience(*first, scene);
     const double gap = nearest->s - ego.front_s();
     // Who waits before a junction looks across it.
@@ -135,13 +139,13 @@ bool Passing::consider(const world::TickView& last,
     return false;
 }
 
-void Passing::come_back(const Ego& ego, double beside) {
+void Passing::come_back(const Ego& ego, double beside, const DrivingStyle& style) {
     const double s = ego.rear_axle_s + tracked_ahead(*ego.model);
     PassingPlan home;
     home.speed = home.out_speed = std::max(ego.speed, 3.0);
     home.bypass.aside = home.bypass.from = beside;
     home.bypass.out_start = home.bypass.out_end = home.bypass.back_start = s;
-    home.bypass.back_end = s + step_length(*ego.model, beside, home.speed);
+    home.bypass.back_end = s + step_length(*ego.model, beside, home.speed, style.share);
     plan_ = std::move(home);
 }
 
@@ -160,7 +164,8 @@ void Passing::watch(const Neighbour& one) {
 /// who waits, or drives.
 double Passing::patience(const Neighbour& one, const PassingScene& scene) const {
     const Body& body = one.body;
-    const double allowed = std::sqrt(scene.way.path().at(scene.tracked_s()).squared_speed);
+    const double allowed =
+        std::sqrt(scene.share * scene.way.path().at(scene.tracked_s()).squared_speed);
     const bool goes_our_way = one.along > 0.9 * body.speed && allowed > worth_it * one.along;
     switch (body.kind) {
         case BodyKind::prop:
@@ -219,8 +224,9 @@ double Passing::acceleration(const Ego& ego, const DrivingStyle& style) const {
         std::max(plan_->bypass.out_start - ego.rear_axle_s - tracked_ahead(*ego.model), 0.0);
     const bool is_out = ego.rear_axle_s + tracked_ahead(*ego.model) > plan_->bypass.out_end;
     const double most = is_out ? plan_->speed : plan_->out_speed;
-    const double allowed = std::sqrt(most * most + 2 * slow_down * before);
-    return std::min(stop, std::clamp(pass_gain * (allowed - ego.speed), -3.0, style.acceleration));
+    const double allowed = std::sqrt(most * most + 2 * slow_down * style.share * before);
+    return std::min(
+        stop, std::clamp(pass_gain * (allowed - ego.speed), -3 * style.share, style.acceleration));
 }
 
 int Passing::side(const Ego& ego) const {

@@ -33,7 +33,10 @@ class Passing {
 
     /// Goes on with the line, if there is one: comes back when those who were passed are behind, or
     /// when somebody comes and it is hardly out.
-    void follow(const world::TickView& last, const Ego& ego, const Way& way);
+    void follow(const world::TickView& last,
+                const Ego& ego,
+                const Way& way,
+                const DrivingStyle& style);
 
     /// Is the first of `overlaps` to be passed, and can it be? True: there is a line now. `beside`:
     /// the car's place, left of the path. [m]
@@ -41,7 +44,8 @@ class Passing {
                   const Ego& ego,
                   const Way& way,
                   std::span<const Overlap> overlaps,
-                  double beside);
+                  double beside,
+                  const DrivingStyle& style);
 
     /// [m/s^2] that the line allows, or the wish for room before what is to be passed.
     double acceleration(const Ego& ego, const DrivingStyle& style) const;
@@ -63,7 +67,7 @@ class Passing {
     }
 
     /// The line leads from where the car is, `beside` metres left of the path, back to it.
-    void come_back(const Ego& ego, double beside);
+    void come_back(const Ego& ego, double beside, const DrivingStyle& style);
 
     /// The path is counted from elsewhere.
     void shift(double distance);

@@ -85,7 +85,8 @@ double next_gate(const Way& way, double s) {
 bool somebody_comes(const PassingScene& scene, const PassingPlan& plan) {
     const double s = scene.tracked_s();
     const double back = plan.bypass.back_end;
-    const double time = travel_time(back - s, scene.ego.speed, pace, plan.speed) + spare_time;
+    const double time =
+        travel_time(back - s, scene.ego.speed, pace * scene.share, plan.speed) + spare_time;
     const LaneGraph& graph = scene.map.graph;
     const world::TownT& town = graph.town();
     const auto reach = [&](double speed, double limit) {
@@ -174,7 +175,7 @@ PassingPlan line_past(const PassingScene& scene, const Row& row, bool to_left, d
     way.aside = to_left ? std::max(way.aside, 0.0) : std::min(way.aside, 0.0);
     const double width = way.aside - way.from;
     const double s = scene.tracked_s();
-    const double limit = std::sqrt(scene.way.path().at(s).squared_speed);
+    const double limit = std::sqrt(scene.share * scene.way.path().at(s).squared_speed);
     plan.speed = std::min({row.speed, std::max(limit, 3.0), most});
 
     const double least = Bypass::shortest_step(width, sharpest_step(model));
@@ -182,10 +183,12 @@ PassingPlan line_past(const PassingScene& scene, const Row& row, bool to_left, d
     const double ahead = way.out_end - s;
     plan.room = least + before_them + 0.3 - scene.to_front();
     plan.missing = std::max(least - ahead, 0.0);
-    const double wanted = step_length(model, width, std::min(scene.ego.speed, plan.speed));
+    const double wanted =
+        step_length(model, width, std::min(scene.ego.speed, plan.speed), scene.share);
     const double length = std::clamp(ahead, std::min(least, wanted), wanted);
     way.out_start = way.out_end - length;
-    plan.out_speed = std::min(plan.speed, Bypass::fastest(width, length, quickest_step));
+    plan.out_speed =
+        std::min(plan.speed, Bypass::fastest(width, length, quickest_step * scene.share));
     plan.speed = std::min({plan.speed, std::max(plan.out_speed, brisk), most});
 
     // Those who go on are some metres farther when we have passed them.
@@ -194,7 +197,7 @@ PassingPlan line_past(const PassingScene& scene, const Row& row, bool to_left, d
         const double gain = std::max(plan.speed - row.along, 1.0);
         way.back_start += row.along * (way.back_start - s) / gain + row.along;
     }
-    way.back_end = way.back_start + step_length(model, way.aside, plan.speed);
+    way.back_end = way.back_start + step_length(model, way.aside, plan.speed, scene.share);
     return plan;
 }
 
@@ -311,7 +314,7 @@ std::optional<PassingPlan> plan_side(const PassingScene& scene,
         // Too fast to turn out so soon: later, when it has slowed down.
         const double braking =
             (scene.ego.speed * scene.ego.speed - plan.out_speed * plan.out_speed) /
-            (2 * slow_braking);
+            (2 * slow_braking * scene.share);
         const double until = plan.bypass.out_start - scene.tracked_s() +
                              0.3 * (plan.bypass.out_end - plan.bypass.out_start);
         plan.is_free = braking <= std::max(until, 0.0) && is_free(scene, plan);
@@ -345,9 +348,9 @@ double clearance_of(const Neighbour& one) {
                : from_things;
 }
 
-double step_length(const world::VehicleModel& model, double width, double speed) {
+double step_length(const world::VehicleModel& model, double width, double speed, double share) {
     const double least = Bypass::shortest_step(width, sharpest_step(model));
-    const double gentle = speed / Bypass::fastest(width, 1, gentle_step);
+    const double gentle = speed / Bypass::fastest(width, 1, gentle_step * share);
     return std::max(least, std::min(gentle, longest_step));
 }
 

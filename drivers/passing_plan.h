@@ -22,6 +22,7 @@ struct PassingScene {
     std::span<const Neighbour> neighbours;
     double beside = 0;  ///< [m] left of the path, where the car is
     double waited = 0;  ///< [s] for the first of them
+    double share = 1;   ///< as in DrivingStyle
 
     /// Of the point that is steered along the path. [m]
     double tracked_s() const;
@@ -62,7 +63,7 @@ std::optional<PassingPlan> plan_passing(const PassingScene& scene, const Neighbo
 /// Once planned: is it still so that nobody comes?
 bool is_free(const PassingScene& scene, const PassingPlan& plan);
 
-/// [m] of a step aside at that speed.
-double step_length(const world::VehicleModel& model, double width, double speed);
+/// [m] of a step aside at that speed; `share` as in DrivingStyle.
+double step_length(const world::VehicleModel& model, double width, double speed, double share);
 
 }  // namespace reprise::drivers

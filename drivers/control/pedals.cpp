@@ -10,8 +10,21 @@ namespace {
 constexpr double settling = 0.5;       // [s] of the last metre before a stop
 constexpr double approach_gain = 1.2;  // [1/s]
 constexpr double braking_beyond = 3;   // [m/s^2] more than this only to avoid a collision
+constexpr double used_grip = 0.6;      // share of the tyres' grip, in comfort
+constexpr double least_share = 0.05;   // where the road is as steep as it is slippery
 
 }  // namespace
+
+DrivingStyle style_on(double road_friction, double descent, const world::CarModel& car) {
+    DrivingStyle style;
+    const double left = road_friction * car.grip - std::max(descent, 0.0);
+    const double comfort = used_grip * left * world::gravity;
+    style.share = std::clamp(comfort / style.comfortable_braking, least_share, 1.0);
+    style.acceleration *= style.share;
+    style.comfortable_braking *= style.share;
+    style.time_gap /= style.speed_share();
+    return style;
+}
 
 double stop_acceleration(double distance, double speed, double comfort, const DrivingStyle& style) {
     if (distance <= 0)
@@ -36,7 +49,8 @@ double follow_acceleration(double gap,
     const double ratio = wish / std::max(gap, 0.1);
     const double idm = style.acceleration * (1 - ratio * ratio);
     const double needed = closing > 0 ? closing * closing / (2 * std::max(gap - 1, 0.2)) : 0;
-    return std::max({idm, -std::max(braking_beyond, 1.3 * needed), -style.hardest_braking});
+    return std::max(
+        {idm, -std::max(braking_beyond * style.share, 1.3 * needed), -style.hardest_braking});
 }
 
 double travel_time(double distance, double speed, double acceleration, double top_speed) {

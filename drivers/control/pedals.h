@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "world/digest.h"
@@ -15,7 +16,17 @@ struct DrivingStyle {
     double hardest_braking = 8;
     double time_gap = 1.5;
     double standing_gap = 2.5;
+
+    /// Of what it does on a dry road, the share of every acceleration that this road allows. Speeds
+    /// are the root of it smaller, so that every distance stays as it is.
+    double share = 1;
+
+    double speed_share() const { return std::sqrt(share); }
 };
+
+/// On a road of that friction (Tick.road_friction), which falls by `descent` (sine): as ever where
+/// the tyres hold well enough for it, slower on snow and ice.
+DrivingStyle style_on(double road_friction, double descent, const world::CarModel& car);
 
 /// The acceleration that brings the car to a stop after `distance` metres. Large when there is far
 /// to go; brakes harder than `comfort` only where it must. On the curve

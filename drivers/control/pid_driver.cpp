@@ -37,9 +37,9 @@ void Pid::add_to(world::Hasher& hasher) const {
 }
 
 PidDriver::Answer PidDriver::drive(
-    const Ego& ego, const Path& path, double allowed, double most, double step) {
-    stops_ = stops_ ? allowed < goes_above : allowed < stops_below;
-    const double target = stops_ ? 0 : std::min(cruise, most);
+    const Ego& ego, const Path& path, double allowed, double most, double share, double step) {
+    stops_ = stops_ ? allowed < goes_above * share : allowed < stops_below * share;
+    const double target = stops_ ? 0 : std::min(cruise * std::sqrt(share), most);
     const double answer = speed_.answer(kmh * (target - ego.speed), step);
     Answer said;
     if (answer >= 0 && target > 0)

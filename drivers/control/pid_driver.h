@@ -47,8 +47,9 @@ class PidDriver {
     };
 
     /// `allowed`: [m/s^2] what those in the way, lights and right of way allow; `most`: [m/s] what
-    /// the road and the scenario allow.
-    Answer drive(const Ego& ego, const Path& path, double allowed, double most, double step);
+    /// the road and the scenario allow; `share` as in DrivingStyle.
+    Answer drive(
+        const Ego& ego, const Path& path, double allowed, double most, double share, double step);
 
     void add_to(world::Hasher& hasher) const;
 

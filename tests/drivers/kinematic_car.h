@@ -96,6 +96,7 @@ class Drive {
 
     void step() {
         world::TickDraft draft;
+        draft.tick.road_friction = 1;
         draft.tick.index = ++tick;
         draft.tick.vehicles = {car.state(1)};
         draft.tick.vehicles[0].mutable_position().mutate_z(z + car.slope * car.x);
