@@ -244,6 +244,31 @@ TEST(Passing, WhereThereIsNoRoomItWaits) {
     }
 }
 
+/// For room he backed off, for want of it he drove up again, and so to and fro.
+TEST(Passing, WhoFindsNoRoomStandsStillInTheEnd) {
+    for (const double gap : {2.0, 3.0, 5.0})
+        for (const double behind : {1.0, 2.0, 3.0}) {
+            Overtaker drive({2});
+            const world::VehicleModel& van =
+                world::vehicle_models()[*world::find_vehicle_model("van")];
+            drive.cars = {car_on(60, 0, 0, 0)};
+            drive.place(ours, 0, 0);
+            const double nose = drive.car.front();
+            const double tail = world::vehicle_models()[drive.car.model].rear_overhang;
+            drive.place(ours, 60 - van.rear_overhang - gap - nose, 0);
+            drive.cars.push_back(
+                car_on(drive.car.x - tail - behind - van.length + van.rear_overhang, 0, 0, 0));
+            drive.cars.back().mutate_id(51);
+            double moved = 0;  // [m] to and fro
+            for (double x = 0; drive.seconds() < 90 && drive.car.x < 60; x = drive.car.x) {
+                drive.step();
+                moved += drive.seconds() > 30 ? std::abs(drive.car.x - x) : 0;
+            }
+            EXPECT_TRUE(drive.car.x >= 60 || moved < 0.3)
+                << gap << " m, and " << behind << " m behind: " << moved << " m";
+        }
+}
+
 TEST(Passing, NobodyUnasked) {
     for (const Street& street : {Street{2, true}, Street{1, false, 5.5}}) {
         Drive drive(town_of(street));

@@ -49,9 +49,10 @@ std::uint32_t lane_of(const world::TownT& town, const char* name) {
     return world::none;
 }
 
-Car car_on(const world::TownT& town, std::uint32_t id, double front) {
+Car car_on(const world::TownT& town, std::uint32_t id, double front, std::uint16_t model = 0) {
     Car car;
     car.id = id;
+    car.model = model;
     car.sumo = "known";
     car.lane = lane_of(town, "east_1");
     car.lane_position = front;
@@ -65,7 +66,10 @@ Car car_on(const world::TownT& town, std::uint32_t id, double front) {
 }
 
 /// Does who stands `gap` [m] behind a vehicle with mass, which has stood for long, go around it?
-bool passes(const world::TownT& town, double gap, const std::vector<double>& queue_ahead = {}) {
+bool passes(const world::TownT& town,
+            double gap,
+            const std::vector<double>& queue_ahead = {},
+            std::uint16_t model = 0) {
     const world::LaneT& lane = town.lanes[lane_of(town, "east_1")];
     const world::VehicleModel& sedan = world::vehicle_models()[0];
     const double rear_end = 50;  // [m] of who stands
@@ -74,7 +78,7 @@ bool passes(const world::TownT& town, double gap, const std::vector<double>& que
         test::tick_with({test::vehicle_at(9, at.position.x(), at.position.y(), at.yaw)});
     Cars cars;
     world::TickDraft draft;
-    cars.add(car_on(town, 1000000, rear_end - gap), "", 0, draft);
+    cars.add(car_on(town, 1000000, rear_end - gap, model), "", 0, draft);
     for (const double front : queue_ahead)
         cars.add(car_on(town, 1000000 + static_cast<std::uint32_t>(front), front), "", 0, draft);
     const world::LaneMap lanes(town);
@@ -92,6 +96,18 @@ TEST(Passing, WhoStandsCloseBehindHasNoRoomToPullOut) {
     EXPECT_TRUE(passes(town, 5.5)) << "nothing is shown";
     EXPECT_FALSE(passes(town, 2.4));
     EXPECT_FALSE(passes(town, 1.5));
+}
+
+/// The longer it is the later its side clears the corner.
+TEST(Passing, LorriesAndBusesNeedMoreRoomThanCars) {
+    const world::TownT town = road_with_a_bend(1000);
+    const std::uint16_t lorry = *world::find_vehicle_model("lorry");
+    const std::uint16_t bus = *world::find_vehicle_model("bus");
+    EXPECT_TRUE(passes(town, 3));
+    EXPECT_FALSE(passes(town, 3, {}, lorry));
+    EXPECT_TRUE(passes(town, 4.5, {}, lorry));
+    EXPECT_FALSE(passes(town, 4.5, {}, bus));
+    EXPECT_TRUE(passes(town, 6, {}, bus));
 }
 
 /// Who has stood for long in a queue waits as everybody there does.
