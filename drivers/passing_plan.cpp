@@ -222,6 +222,25 @@ std::optional<PassingPlan::Uses> road_for(const PassingScene& scene,
     return std::nullopt;
 }
 
+/// Does anything of the town stand beside the path where the line leads? On the path nothing does.
+bool meets_the_town(const PassingScene& scene, const PassingPlan& plan) {
+    constexpr double step = 2;      // [m]
+    constexpr double beside = 0.3;  // [m] from there on it is not the path
+    const Path& path = scene.way.path();
+    const double reach = scene.ego.model->width / 2 + from_poles;
+    const double end = std::min(plan.bypass.back_end + scene.to_front(), path.end());
+    const auto at = [&](double s) {
+        const PathPoint here = path.at(s);
+        const Eigen::Vector3d left(-here.direction.y(), here.direction.x(), 0);
+        return Eigen::Vector3d(here.position + plan.bypass.offset(s) * left);
+    };
+    for (double s = std::max(plan.bypass.out_start, scene.tracked_s()); s < end; s += step)
+        if (std::abs(plan.bypass.offset(s)) > beside &&
+            !scene.map.clearances.is_clear(at(s), at(s + step), reach))
+            return true;
+    return false;
+}
+
 bool reaches_junction(const PassingScene& scene, const PassingPlan& plan) {
     const auto& gates = scene.way.gates();
     return std::any_of(gates.begin(), gates.end(), [&](const Gate& gate) {
@@ -290,6 +309,8 @@ std::optional<PassingPlan> plan_side(const PassingScene& scene,
                 uses = PassingPlan::Uses::junction;
         }
         if (!uses || row.front - row.rear > longest_row)
+            return std::nullopt;
+        if (meets_the_town(scene, plan))
             return std::nullopt;
         plan.uses = *uses;
         bool grown = false;

@@ -57,6 +57,27 @@ bool LateralClearances::is_sidewalk(const Eigen::Vector3d& p_world) const {
     return slab && lanes_->at(p_world).empty();
 }
 
+bool LateralClearances::is_on_level(const Thing& thing, double z) {
+    const double above = thing.z - z;
+    return above >= lowest_thing - world::level_clearance && above <= world::level_clearance;
+}
+
+bool LateralClearances::is_clear(const Eigen::Vector3d& from_world,
+                                 const Eigen::Vector3d& to_world,
+                                 double reach) const {
+    const Eigen::Vector2d from = from_world.head<2>();
+    const Eigen::Vector2d to = to_world.head<2>();
+    world::Box box;
+    box.take(from, reach);
+    box.take(to, reach);
+    const auto near = things_by_place_.near(box);
+    return std::none_of(near.begin(), near.end(), [&](std::uint32_t index) {
+        const Thing& thing = things_[index];
+        return is_on_level(thing, from_world.z()) &&
+               world::distance_to(thing.outline, from, to) < thing.radius + reach;
+    });
+}
+
 LateralClearance LateralClearances::look(const Eigen::Vector3d& p_world,
                                          const Eigen::Vector2d& side) const {
     const Eigen::Vector3d across(side.x(), side.y(), 0);
@@ -72,8 +93,7 @@ LateralClearance LateralClearances::look(const Eigen::Vector3d& p_world,
     box.take(from + sight * side, aside);
     for (const std::uint32_t index : things_by_place_.near(box)) {
         const Thing& thing = things_[index];
-        const double above = thing.z - p_world.z();
-        if (above < lowest_thing - world::level_clearance || above > world::level_clearance)
+        if (!is_on_level(thing, p_world.z()))
             continue;
         // Halve: how far can one go?
         double free = 0;

@@ -33,6 +33,11 @@ class LateralClearances {
     /// Things count from half a metre beside the line on: lines half a metre apart miss none.
     LateralClearance look(const Eigen::Vector3d& p_world, const Eigen::Vector2d& side) const;
 
+    /// Does nothing stand within `reach` [m] of the straight line between them?
+    bool is_clear(const Eigen::Vector3d& from_world,
+                  const Eigen::Vector3d& to_world,
+                  double reach) const;
+
   private:
     /// Seen from above: an outline, a line or a point, and how far it reaches beyond.
     struct Thing {
@@ -42,6 +47,7 @@ class LateralClearances {
     };
 
     bool is_sidewalk(const Eigen::Vector3d& p_world) const;
+    static bool is_on_level(const Thing& thing, double z);
 
     const world::TownT* town_;
     const world::LaneMap* lanes_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "drivers/driver.h"
@@ -75,10 +76,13 @@ struct KinematicCar {
 /// A driver in a kinematic car, in a world that the test moves by hand.
 class Drive {
   public:
-    explicit Drive(world::TownT town_of_test, std::uint64_t seed = 7, std::uint16_t model = 0)
+    explicit Drive(world::TownT town_of_test,
+                   std::uint64_t seed = 7,
+                   std::uint16_t model = 0,
+                   std::span<const world::Obstacle> obstacles = {})
         : town(std::move(town_of_test)),
           lanes(town),
-          map(town, lanes, {}),
+          map(town, lanes, obstacles),
           start(episode()) {
         start.seed = seed;
         car.model = model;

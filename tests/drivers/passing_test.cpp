@@ -67,7 +67,8 @@ world::WalkerState person_on(double x, double y, bool down) {
 }
 
 struct Overtaker : Drive {
-    explicit Overtaker(const Street& street) : Drive(town_of(street)) {
+    explicit Overtaker(const Street& street, std::span<const world::Obstacle> obstacles = {})
+        : Drive(town_of(street), 7, 0, obstacles) {
         autopilot->may_overtake(true);
     }
 };
@@ -165,6 +166,27 @@ TEST(Passing, AConeWithinALaneThatIsWideEnough) {
     EXPECT_LT(outcome.farthest_left, 2.75 - 0.9) << "it leaves its lane";
     EXPECT_GT(outcome.x, 300);
     EXPECT_FALSE(outcome.stood);
+}
+
+/// Wide lanes are narrower than they say, in maps that have one width for all of a lane.
+TEST(Passing, NotWhereAPoleStandsBesideTheThing) {
+    world::Obstacle pole;
+    pole.shape = world::Obstacle::Shape::cylinder;
+    pole.half = {0.1, 0.1, 2};
+    pole.radius = 0.1;
+    for (const double x : {114.0, 120.0, 125.0}) {
+        pole.position = {x, -2.2, 0};
+        Overtaker drive({1, false, 7.7}, {&pole, 1});
+        drive.place(ours, 20, 10);
+        drive.props = {prop_on(120, 0.2)};
+        double to_pole = 1e9;
+        while (drive.seconds() < 60 && drive.car.x < 300) {
+            drive.step();
+            to_pole = std::min(to_pole, distance_to(drive, {x, -2.2}, 0, 0.07, 0.07));
+        }
+        EXPECT_GT(to_pole, 0.1) << "pole at " << x;
+        EXPECT_GE(drive.car.x, 300) << "there is room on the other side";
+    }
 }
 
 TEST(Passing, PeopleAndBicyclesAtAMetre) {
