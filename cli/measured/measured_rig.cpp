@@ -37,7 +37,8 @@ MeasuredRig::MeasuredRig(const RenderOptions& options,
                          const Ticks& ticks)
     : options_(options),
       trace_(trace),
-      ticks_(ticks) {
+      ticks_(ticks),
+      usual_(trace.episode()) {
     look_up_rig();
     const auto every = static_cast<std::uint32_t>(ticks.every);
     const bool has_periods = options.recorded_rig || !options.rig.empty();
@@ -99,7 +100,7 @@ std::string MeasuredRig::mounted_on(std::size_t sensor) const {
 }
 
 /// Whom a rig file says, 0 for the world; of a recorded rig who carried it; else who was named, or
-/// the first vehicle with mass.
+/// who usually does.
 std::optional<std::uint32_t> MeasuredRig::carrier(std::size_t sensor,
                                                   const world::TickView& tick) const {
     std::uint32_t actor = named_.value_or(0);
@@ -109,8 +110,8 @@ std::optional<std::uint32_t> MeasuredRig::carrier(std::size_t sensor,
             return actor;
     } else if (options_.recorded_rig) {
         actor = rig_.sensors.front().actor;
-    } else if (!named_ && !tick.vehicles().empty()) {
-        actor = tick.vehicles().front().id();
+    } else if (!named_) {
+        actor = usual_.in(tick).value_or(0);
     }
     return actor != 0 && world::find_pose(tick, actor) ? std::optional(actor) : std::nullopt;
 }

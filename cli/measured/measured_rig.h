@@ -9,6 +9,7 @@
 
 #include "cli/options/render_options.h"
 #include "cli/pictures/cameras.h"
+#include "cli/pictures/usual_carrier.h"
 #include "replay/trace_reader.h"
 #include "world/external/rig.h"
 
@@ -59,6 +60,7 @@ class MeasuredRig {
     std::vector<std::string> carriers_;  ///< of a rig file's, by name; else empty
     std::vector<std::optional<std::uint32_t>> carrier_ids_;  ///< of a rig file's; else empty
     std::optional<std::uint32_t> named_;
+    UsualCarrier usual_;
 };
 
 }  // namespace reprise::cli

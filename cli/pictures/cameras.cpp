@@ -1,7 +1,6 @@
 #include "cli/pictures/cameras.h"
 
 #include <algorithm>
-#include <charconv>
 #include <numbers>
 #include <numeric>
 
@@ -42,18 +41,6 @@ world::SensorRig make_rig(const RenderOptions& options) {
     return rig;
 }
 
-/// Of an imported trace, which has cars only: the one that it was recorded for.
-std::optional<std::uint32_t> hero_of(const world::EpisodeT& episode) {
-    for (const world::ParameterT& parameter : episode.parameters) {
-        std::uint32_t id = 0;
-        const char* end = parameter.value.data() + parameter.value.size();
-        if (parameter.key == "hero" && std::from_chars(parameter.value.data(), end, id) ==
-                                           std::from_chars_result{end, std::errc()})
-            return id;
-    }
-    return std::nullopt;
-}
-
 render::PresetWish wish_of(const RenderOptions& options) {
     using enum render::Preset;
     render::PresetWish wish;
@@ -82,8 +69,7 @@ world::Viewpoint eye_of(const world::TickView& tick, std::uint32_t actor) {
 
 Cameras::Cameras(const RenderOptions& options, replay::TraceReader& trace, const Ticks& ticks)
     : options_(options),
-      hero_(hero_of(trace.episode())),
-      imported_(!trace.episode().imported_from.empty()) {
+      usual_(trace.episode()) {
     if (!options.actor.empty())
         named_ = replay::find_actor(trace, options.actor);
     if (options.recorded_rig)
@@ -134,11 +120,8 @@ std::uint32_t Cameras::followed(replay::TraceReader& trace, const Ticks& ticks) 
     if (named_)
         return *named_;
     for (std::uint64_t index = ticks.from; index <= ticks.to; ++index) {
-        const world::TickView tick = trace.tick(index).view;
-        if (!tick.vehicles().empty())
-            return tick.vehicles().front().id();
-        if (imported_ && hero_ && world::find(tick.cars(), *hero_) != nullptr)
-            return *hero_;
+        if (const auto usual = usual_.in(trace.tick(index).view))
+            return *usual;
     }
     throw world::Error(trace.path().string() +
                        ": no vehicle with mass in these ticks; say with --actor whom to look at");
@@ -198,10 +181,8 @@ std::optional<std::uint32_t> Cameras::actor(const world::TickView& tick) const {
     }
     if (named_)
         return world::find_pose(tick, *named_) ? named_ : std::nullopt;
-    if (imported_)
-        return hero_ && world::find(tick.cars(), *hero_) != nullptr ? hero_ : std::nullopt;
-    if (!tick.vehicles().empty())
-        return tick.vehicles().front().id();
+    if (const auto usual = usual_.in(tick))
+        return usual;
     // A rig's sensors may all have carriers of their own.
     const bool all_named =
         !carrier_ids_.empty() && std::all_of(carrier_ids_.begin(), carrier_ids_.end(), [](auto id) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/options/render_options.h"
+#include "cli/pictures/usual_carrier.h"
 #include "render/views/preset_camera.h"
 #include "replay/trace_reader.h"
 #include "world/external/rig.h"
@@ -63,8 +64,7 @@ class Cameras {
 
     const RenderOptions& options_;
     std::optional<std::uint32_t> named_;
-    std::optional<std::uint32_t> hero_;  ///< of an imported trace
-    bool imported_ = false;
+    UsualCarrier usual_;
     world::SensorRig sensors_;
     std::optional<world::Rig> recorded_;
     std::vector<std::string> carriers_;  ///< of a rig file's sensors, by name; else empty

@@ -73,6 +73,15 @@ TEST_F(Importing, MakesATraceThatIsRenderedFromTheHero) {
     EXPECT_THAT(folder_.files(), Contains("pictures/000021.png"));
 }
 
+TEST_F(Importing, MakesATraceWhoseHeroCarriesEverySensor) {
+    const Result result = on_trace(
+        {"render", "-o", "scans", "--sensor", "lidar,radar,gnss,imu,obstacle", "--every", "1s"});
+    EXPECT_EQ(result.code, 0) << result.out;
+    EXPECT_THAT(folder_.files(), Contains("scans/lidar/000021.ply"));
+    EXPECT_THAT(folder_.files(), Contains("scans/radar/000021.ply"));
+    EXPECT_THAT(read_file(folder_ / "scans/gnss.csv"), HasSubstr("\n21,"));
+}
+
 TEST_F(Importing, SaysWhatACutOffLogLost) {
     make_log({"--cut", "100"});
     const Result result = reprise({"import", "drive.log", "-o", "cut.mcap"}, folder_.path());
