@@ -248,6 +248,22 @@ TEST(SetOffset, IsKeptWithinATenthOfAMetre) {
         0.1);
 }
 
+/// The centre line of t3_r1_1 has corners of 13 degrees.
+TEST(SetOffset, TrafficDrivesEvenlyAroundTheCornersOfItsLane) {
+    for (const double offset : {-1.4, 1.4}) {
+        const Drive drive(in_town1(
+            spawned("t3_r1_1", 10, of_traffic) + fmt::format("ego:set_offset({}) wait(99)", offset),
+            0,
+            24));
+        for (std::size_t i = 40; i < drive.seen.size(); ++i) {
+            const Seen& now = drive.seen[i];
+            const double moved = (now.position - drive.seen[i - 1].position).norm();
+            EXPECT_NEAR(moved, now.speed * step, 0.25 * now.speed * step + 0.01)
+                << offset << " m aside, tick " << now.tick;
+        }
+    }
+}
+
 TEST(SetOffset, OutlivesJunctionsAndChangesOfLanesAndGoesBack) {
     const Drive lanes(in_town("straight",
                               spawned("east_1", 14) +
