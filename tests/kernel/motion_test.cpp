@@ -254,7 +254,7 @@ TEST(SetOffset, TrafficDrivesEvenlyAroundTheCornersOfItsLane) {
         const Drive drive(in_town1(
             spawned("t3_r1_1", 10, of_traffic) + fmt::format("ego:set_offset({}) wait(99)", offset),
             0,
-            24));
+            18));
         for (std::size_t i = 40; i < drive.seen.size(); ++i) {
             const Seen& now = drive.seen[i];
             const double moved = (now.position - drive.seen[i - 1].position).norm();
