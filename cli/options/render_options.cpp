@@ -144,7 +144,18 @@ void part_kinds(RenderOptions& render) {
 void check_view(const CLI::App& command, const RenderOptions& render) {
     if (!render.cameras.empty() || render.measured.empty())
         return;
-    for (const char* option : {"--size", "--fov", "--own-car"})
+    for (const char* option : {"--size",
+                               "--fov",
+                               "--own-car",
+                               "--preset",
+                               "--overlay",
+                               "--boxes",
+                               "--calibration",
+                               "--depth-coding",
+                               "--classes",
+                               "--events",
+                               "--npy",
+                               "--exr"})
         if (command.count(option) > 0)
             throw CLI::ValidationError(
                 option,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "cli/process/progress.h"
 #include "world/check.h"
 
@@ -31,6 +33,7 @@ std::unique_ptr<LookAtTick> Renderer::look(std::uint64_t index,
                                            bool last) {
     std::vector<std::size_t> looking = cameras_.due(index);
     const bool due = !looking.empty();
+    due_ = due_ || due;
     std::erase_if(looking, [&](std::size_t i) { return !output_.wants(i, index); });
     carried_ = carried_ || (due && looking.empty());
     if (looking.empty())
@@ -48,6 +51,18 @@ std::unique_ptr<LookAtTick> Renderer::look(std::uint64_t index,
     look->point(cameras_, looking, *actor, weather.at(look->tick()), last);
     pictures_ += looking.size();
     return look;
+}
+
+void Renderer::refuse_gap(const Ticks& ticks) const {
+    std::uint64_t next = ticks.to + 1;
+    while (next <= trace_.last() && cameras_.due(next).empty())
+        ++next;
+    throw world::Error(fmt::format(
+        "{}: no camera of the rig looks in ticks {} to {}{}; --every says other ticks than the rig",
+        trace_.path().string(),
+        ticks.from,
+        ticks.to,
+        next <= trace_.last() ? fmt::format("; the next one does in tick {}", next) : ""));
 }
 
 void Renderer::look_at_all(render::Sensors& sensors, const Ticks& ticks, const std::string& doing) {
@@ -70,6 +85,8 @@ void Renderer::look_at_all(render::Sensors& sensors, const Ticks& ticks, const s
         return nullptr;
     });
     progress.clear();
+    if (!due_)
+        refuse_gap(ticks);
     if (!carried_)
         throw world::Error("no vehicle to mount the camera on in these ticks of " +
                            trace_.path().string());

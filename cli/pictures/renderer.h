@@ -29,6 +29,7 @@ class Renderer {
 
   private:
     std::unique_ptr<LookAtTick> look(std::uint64_t index, const ChosenWeather& weather, bool last);
+    [[noreturn]] void refuse_gap(const Ticks& ticks) const;
 
     replay::TraceReader& trace_;
     const Cameras& cameras_;
@@ -37,6 +38,7 @@ class Renderer {
     std::optional<std::vector<render::ParkedVehicle>> parked_;  ///< where boxes are wished
     std::vector<ChosenWeather> weathers_;
     std::size_t pictures_ = 0;
+    bool due_ = false;  ///< has a camera looked, or would have?
     bool carried_ = false;
 };
 

@@ -31,6 +31,18 @@ using Json = nlohmann::ordered_json;
 constexpr double farthest_place = 1e6;  // [m] in the world
 constexpr std::size_t most_rig_sensors = 1000;
 
+/// For a message of one line.
+std::string shown(const Json& json) {
+    constexpr std::size_t most = 60;
+    std::string text = json.dump();
+    if (text.size() <= most)
+        return text;
+    std::size_t end = most;
+    while ((static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80)
+        --end;  // not within a sign of several bytes
+    return text.substr(0, end) + "...";
+}
+
 /// A JSON object whose keys are known, and where it is, for messages.
 class Table {
   public:
@@ -38,7 +50,7 @@ class Table {
         : json_(json),
           where_(std::move(where)) {
         if (!json.is_object())
-            refuse("expected { ... }, got " + json.dump());
+            refuse("expected { ... }, got " + shown(json));
         for (const auto& [key, value] : json.items())
             if (std::find(known.begin(), known.end(), key) == known.end())
                 refuse(fmt::format("unknown key '{}'{}", key, world::did_you_mean(key, known)));
@@ -58,7 +70,7 @@ class Table {
         if (value == nullptr)
             return std::nullopt;
         if (!value->is_string())
-            refuse(fmt::format("'{}' must be a text, got {}", key, value->dump()));
+            refuse(fmt::format("'{}' must be a text, got {}", key, shown(*value)));
         return value->get<std::string>();
     }
 
@@ -71,14 +83,14 @@ class Table {
         const double number = value.is_number() ? value.get<double>() : std::nan("");
         if (!(number >= low && number <= high))
             refuse(fmt::format(
-                "'{}' must be a number in [{:g}, {:g}], got {}", key, low, high, value.dump()));
+                "'{}' must be a number in [{:g}, {:g}], got {}", key, low, high, shown(value)));
         return number;
     }
 
     std::int64_t whole(const std::string& key, const Json& value, std::int64_t high) const {
         const auto number = within(key, value, 1, static_cast<double>(high));
         if (number != std::floor(number))
-            refuse(fmt::format("'{}' must be a whole number, got {}", key, value.dump()));
+            refuse(fmt::format("'{}' must be a whole number, got {}", key, shown(value)));
         return static_cast<std::int64_t>(number);
     }
 
@@ -87,7 +99,7 @@ class Table {
         const Json* value = find(key);
         if (value != nullptr && (!value->is_array() || value->size() != length))
             refuse(
-                fmt::format("'{}' must be {} numbers [ ... ], got {}", key, length, value->dump()));
+                fmt::format("'{}' must be {} numbers [ ... ], got {}", key, length, shown(*value)));
         return value;
     }
 
@@ -190,7 +202,7 @@ std::uint32_t period_of(const Table& table, std::uint64_t step_ns) {
             fmt::format("'rate_hz' must be {:g} over a whole number, as a tick is {:g} s, got {}",
                         ticks_a_second,
                         1 / ticks_a_second,
-                        rate->dump()));
+                        shown(*rate)));
     return static_cast<std::uint32_t>(std::lround(ticks));
 }
 
@@ -286,6 +298,21 @@ void read_sensor(const Json& json, const std::string& where, std::uint64_t step_
     file.rig.every.push_back(period_of(table, step_ns));
 }
 
+/// 0: the world; none: who usually does.
+std::optional<std::uint32_t> find_carrier(const std::string& name,
+                                          const std::string& where,
+                                          replay::TraceReader& trace) {
+    if (name.empty())
+        return std::nullopt;
+    if (name == "world")
+        return 0;
+    try {
+        return replay::find_actor(trace, name);
+    } catch (const world::Error& error) {
+        throw world::Error(where + ": " + error.what());
+    }
+}
+
 }  // namespace
 
 RigFile read_rig_file(const std::filesystem::path& path, replay::TraceReader& trace) {
@@ -299,28 +326,22 @@ RigFile read_rig_file(const std::filesystem::path& path, replay::TraceReader& tr
         table.refuse(
             fmt::format("{} sensors, where {} is the most", sensors->size(), most_rig_sensors));
     RigFile file;
+    std::vector<std::string> places;
     const std::vector<std::ptrdiff_t> lines = lines_of_sensors(text);
     REPRISE_CHECK(lines.size() >= sensors->size(), path.string());
     for (std::size_t i = 0; i < sensors->size(); ++i) {
         const Json& one = (*sensors)[i];
         const bool named = one.is_object() && one.contains("name") && one["name"].is_string() &&
                            world::is_sensor_name(one["name"].get<std::string>());
-        read_sensor(one,
-                    fmt::format("{}:{}: sensor {}{}",
-                                path.string(),
-                                lines[i],
-                                i + 1,
-                                named ? " '" + one["name"].get<std::string>() + "'" : ""),
-                    trace.episode().step_ns,
-                    file);
+        places.push_back(fmt::format("{}:{}: sensor {}{}",
+                                     path.string(),
+                                     lines[i],
+                                     i + 1,
+                                     named ? " '" + one["name"].get<std::string>() + "'" : ""));
+        read_sensor(one, places.back(), trace.episode().step_ns, file);
     }
-    for (const std::string& carrier : file.carriers) {
-        std::optional<std::uint32_t>& id = file.carrier_ids.emplace_back();
-        if (carrier == "world")
-            id = 0;
-        else if (!carrier.empty())
-            id = replay::find_actor(trace, carrier);
-    }
+    for (std::size_t i = 0; i < places.size(); ++i)
+        file.carrier_ids.push_back(find_carrier(file.carriers[i], places[i], trace));
     return file;
 }
 

@@ -312,7 +312,12 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     EXPECT_THAT(of_sensor("\n\"yaw_deg\": 1e999\n"),
                 HasSubstr("rig.json:2: a number is too large"));
     EXPECT_THAT(of_sensor("\"postion\": [1, 2, 3]"), HasSubstr("(did you mean 'position'?)"));
-    EXPECT_THAT(of_sensor("\"actor\": \"ega\""), HasSubstr("(did you mean 'ego'?)"));
+    EXPECT_THAT(
+        of_sensor("\n\"actor\": \"ega\""),
+        testing::ContainsRegex("rig.json:1: sensor 1 'a': .*t.mcap: no actor 'ega' .did you"));
+    EXPECT_THAT(
+        of_sensor("\"position\": [" + std::string(5000, '[') + std::string(5000, ']') + "]"),
+        testing::EndsWith("[[[[[[...\n"));
     EXPECT_THAT(of_sensor("\"rate_hz\": 3"), HasSubstr("20 over a whole number"));
     EXPECT_THAT(of_sensor("\"type\": \"lidar\", \"size\": [64, 64]"),
                 HasSubstr("'size' is of cameras; what a lidar measures, its 'attributes' say"));
@@ -326,6 +331,30 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     EXPECT_THAT(
         reprise({"render", folder_ / "t.mcap", "-o", folder_ / "none", "--sensor", "instnce"}).out,
         HasSubstr("did you mean 'instance'"));
+}
+
+TEST_F(Rendering, TicksInWhichNoCameraOfARigLooksAreNamed) {
+    const std::string file = folder_ / "rig.json";
+    write_file(file, R"({ "sensors": [ { "name": "a", "every": 39, "size": [9, 9] } ] })");
+    const auto refusal = [&](const std::string& ticks) {
+        const Result result = reprise({"render",
+                                       folder_ / "t.mcap",
+                                       "-o",
+                                       folder_ / "none",
+                                       "--rig",
+                                       file,
+                                       "--ticks",
+                                       ticks});
+        EXPECT_EQ(result.code, 2) << ticks;
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "none")) << ticks;
+        return result.out;
+    };
+    using testing::HasSubstr;
+    EXPECT_THAT(refusal("30..33"),
+                HasSubstr("no camera of the rig looks in ticks 30 to 33; the next one does in tick "
+                          "39;"));
+    EXPECT_THAT(refusal("79..79"),
+                HasSubstr("no camera of the rig looks in ticks 79 to 79; --every"));
 }
 
 TEST_F(Rendering, AMountIsAtMostAsFarAwayAsThatOfARigFile) {
@@ -379,7 +408,18 @@ TEST_F(Rendering, WhatAKindOfSensorDoesNotHaveIsRefusedInARigFileAndAmongOptions
         refused_in_file(kind, R"("fov_deg": 5)", "'fov_deg'" + is_of_cameras);
         refused_in_file(
             kind, R"("attributes": { "own_car": 1 })", "'attributes': unknown key 'own_car'");
-        for (const std::string option : {"--size=5x5", "--fov=5", "--own-car"})
+        for (const std::string option : {"--size=5x5",
+                                         "--fov=5",
+                                         "--own-car",
+                                         "--preset=chase",
+                                         "--overlay",
+                                         "--boxes",
+                                         "--calibration",
+                                         "--depth-coding=mm",
+                                         "--classes=paper",
+                                         "--events=csv",
+                                         "--npy",
+                                         "--exr"})
             refused({"--sensor", kind, option},
                     option.substr(0, option.find('=')) + ": is of cameras, and of --sensor " +
                         kind + " none is one");
