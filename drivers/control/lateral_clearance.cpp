@@ -12,6 +12,7 @@ namespace {
 constexpr double step = 0.2;           // [m] of the search for kerbs
 constexpr double aside = 0.35;         // [m] things count this far beside the line
 constexpr double lowest_thing = -0.3;  // [m] below the road
+constexpr double edge = 0.3;           // [m] beside a lane that are still road
 
 /// A box or a prism as its outline, a cylinder as a point.
 world::Loop outline_of(const world::Obstacle& obstacle) {
@@ -46,6 +47,18 @@ LateralClearances::LateralClearances(const world::TownT& town,
         things_.push_back(std::move(thing));
     }
     things_by_place_ = world::BoxGrid(entries);
+    entries.clear();
+    for (const world::JunctionT& junction : town.junctions) {
+        world::Loop outline;
+        for (const world::Vec3& p : junction.outline)
+            outline.emplace_back(p.x(), p.y());
+        if (outline.empty())
+            continue;
+        entries.push_back(
+            {world::box_around(outline, 0), static_cast<std::uint32_t>(junctions_.size())});
+        junctions_.push_back(std::move(outline));
+    }
+    junctions_by_place_ = world::BoxGrid(entries);
 }
 
 /// As physics has it: slabs are cut clear of lanes.
@@ -78,15 +91,33 @@ bool LateralClearances::is_clear(const Eigen::Vector3d& from_world,
     });
 }
 
+/// Between the lanes of a junction there is road, too; whether it lies above or below is not asked.
+bool LateralClearances::is_road(const Eigen::Vector3d& p_world) const {
+    if (!lanes_->at(p_world, edge).empty())
+        return true;
+    const Eigen::Vector2d p = p_world.head<2>();
+    const auto near = junctions_by_place_.at(p);
+    return std::any_of(near.begin(), near.end(), [&](std::uint32_t index) {
+        return world::contains(junctions_[index], p);
+    });
+}
+
 LateralClearance LateralClearances::look(const Eigen::Vector3d& p_world,
                                          const Eigen::Vector2d& side) const {
     const Eigen::Vector3d across(side.x(), side.y(), 0);
-    LateralClearance clearance{sight, sight};
-    for (double far = step; far < sight; far += step)
-        if (is_sidewalk(p_world + far * across)) {
+    LateralClearance clearance{sight, sight, sight};
+    bool on_road = is_road(p_world);  // who is led over a meadow has no verge
+    for (double far = step; far < sight; far += step) {
+        const Eigen::Vector3d place = p_world + far * across;
+        if (is_sidewalk(place)) {
             clearance.to_kerb = far - step / 2;
             break;
         }
+        if (on_road && !is_road(place)) {
+            clearance.to_verge = far - step / 2;
+            on_road = false;
+        }
+    }
     const Eigen::Vector2d from = p_world.head<2>();
     world::Box box;
     box.take(from, aside);

@@ -16,6 +16,7 @@ namespace reprise::drivers {
 /// LateralClearances sees.
 struct LateralClearance {
     double to_kerb = 0;      ///< to the first sidewalk
+    double to_verge = 0;     ///< to where no more road is: grass
     double to_obstacle = 0;  ///< to the first thing that stands: pole, trunk, wall, building
 };
 
@@ -48,11 +49,14 @@ class LateralClearances {
 
     bool is_sidewalk(const Eigen::Vector3d& p_world) const;
     static bool is_on_level(const Thing& thing, double z);
+    bool is_road(const Eigen::Vector3d& p_world) const;
 
     const world::TownT* town_;
     const world::LaneMap* lanes_;
     std::vector<Thing> things_;
     world::BoxGrid things_by_place_;
+    std::vector<world::Loop> junctions_;  ///< outlines
+    world::BoxGrid junctions_by_place_;
 };
 
 }  // namespace reprise::drivers

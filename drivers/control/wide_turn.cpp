@@ -26,6 +26,7 @@ constexpr std::size_t fewest_stations = 12;  // behind the axle, and some ahead
 // What counts as much as what.
 constexpr double driven_error = 0.01;      // [m]
 constexpr double kerb_error = 0.05;        // [m]
+constexpr double verge_error = 0.2;        // [m]
 constexpr double obstacle_error = 0.02;    // [m]
 constexpr double middle_error = 1.0;       // [m]
 constexpr double steering_error = 0.03;    // [1/m^2] change of curvature along the track
@@ -245,6 +246,9 @@ void WideTurnPlan::add_corner(BandEquations& equations, const Corner& corner) co
         const double over_kerb = offset - std::max(clearance.to_kerb - from_kerb, least_clearance);
         if (over_kerb > 0)
             equations.add(corner.station - 1, corner.change, sign * over_kerb, kerb_error);
+        const double over_verge = offset - std::max(clearance.to_verge, least_clearance);
+        if (over_verge > 0)
+            equations.add(corner.station - 1, corner.change, sign * over_verge, verge_error);
         const double over_obstacle =
             offset - std::max(clearance.to_obstacle - from_obstacle, least_clearance);
         if (over_obstacle > 0)

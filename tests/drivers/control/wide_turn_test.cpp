@@ -123,6 +123,31 @@ TEST_P(LongVehicles, KeepOffTheKerbsOfATightCorner) {
     EXPECT_LT(sharpest, model.max_steering_angle);
 }
 
+/// A tighter one, with grass where the sidewalks are. An ego that swung out over it to turn right
+/// met the slab of a sidewalk further on.
+TEST_P(LongVehicles, StayOnTheRoadWhereGrassIsBeside) {
+    const auto index = *world::find_vehicle_model(GetParam());
+    const world::VehicleModel& model = world::vehicle_models()[index];
+    world::TownT town;
+    town.name = "corner";
+    const double tightest = 3.4;
+    for (const double left : {0.0, 3.5})
+        town.lanes.push_back(make_lane(
+            "lane", Turtle(0, left, 0).ahead(60).turn(-quarter_turn, tightest + left).ahead(60)));
+    Drive drive(town, 7, index);
+    drive.place(0, 5, 8);
+    double off = 0;  // [m] farthest beside the road
+    while (drive.seconds() < 40 && drive.car.y > -40) {
+        drive.step();
+        for (const Eigen::Vector2d& place :
+             outline_of(model, {drive.car.x, drive.car.y}, drive.car.yaw))
+            while (off < 3 && drive.lanes.at({place.x(), place.y(), 0}, off).empty())
+                off += 0.05;
+    }
+    EXPECT_LT(drive.car.y, -40) << "does not get round";
+    EXPECT_LT(off, 0.6);
+}
+
 TEST(WideTurnPlan, WaitsForTheCarThatItWouldSwingInto) {
     const auto index = *world::find_vehicle_model("bus");
     const world::VehicleModel& bus = world::vehicle_models()[index];
