@@ -29,6 +29,7 @@
 #include "replay/trace_reader.h"
 #include "replay/trace_writer.h"
 #include "scripting/scenario.h"
+#include "scripting/spawned_names.h"
 #include "world/check.h"
 #include "world/external/external_drivers.h"
 #include "world/printable.h"
@@ -232,26 +233,18 @@ void check_drivers(const BranchOptions& options) {
                 options.scripts.size()));
 }
 
-/// Whether a script may spawn somebody of this name, as far as its text says: it stands there, or
-/// without the number at its end, as in 'car_' .. i.
-bool may_spawn(const std::string& script, const std::string& name) {
-    return script.find(name.substr(0, name.find_last_not_of("0123456789") + 1)) !=
-           std::string::npos;
-}
-
-/// The texts of what goes on behind a branch.
-std::vector<std::string> scripts_of(const world::EpisodeT& episode, const world::BranchT& branch) {
+/// The Lua texts of what goes on behind a branch, with what was said to their parameters.
+std::vector<std::string> texts_of(const world::EpisodeT& episode, const world::BranchT& branch) {
     std::vector<std::string> texts{episode.scenario};
-    const auto add_files = [&](const auto& files) {
-        for (const auto& file : files)
-            texts.push_back(file.text);
+    const auto add_parameters = [&](const auto& parameters) {
+        for (const auto& parameter : parameters)
+            texts.push_back(parameter.value);
     };
-    add_files(episode.files);
+    add_parameters(episode.parameters);
     const auto take_over = [&](const world::BranchT& by) {
-        if (by.scenario.empty())
-            return;
-        texts = {by.scenario};
-        add_files(by.files);
+        if (!by.scenario.empty())
+            texts = {by.scenario};
+        add_parameters(by.parameters);
     };
     for (const world::BranchT& one : episode.branches)
         take_over(one);
@@ -282,9 +275,9 @@ void check_names(const There& there,
                     ? "is there no longer"
                     : "is driven by nobody in another program: its driver is not 'external'"));
         const bool may_come = std::any_of(what_ifs.begin(), what_ifs.end(), [&](const auto& one) {
-            const auto texts = scripts_of(episode, one.branch);
+            const auto texts = texts_of(episode, one.branch);
             return std::any_of(texts.begin(), texts.end(), [&](const std::string& text) {
-                return may_spawn(text, name);
+                return scripting::may_name(text, name);
             });
         });
         if (!may_come)

@@ -219,7 +219,16 @@ TEST_F(DriverBranch, ANameThatNobodyHasIsAMistake) {
                 HasSubstr("--driver own: at 50t 'own' is driven by nobody in another program"));
     EXPECT_THAT(branch({"--script", "rain.lua", "brake.lua", "--driver", "egoo=" + steady}, "b", 2),
                 HasSubstr("--driver egoo: nobody is called that"));
+    // What looks alike is not the name.
+    for (const std::string name : {"ego2", "7", "o"})
+        EXPECT_THAT(branch({"--driver", name + "=" + steady}, "b.mcap", 2, "left.mcap"),
+                    HasSubstr("--driver " + name + ": nobody is called that"));
     EXPECT_EQ(folder_.files(), before);
+    // Who has no name of its own is called as its model.
+    write_script("unnamed",
+                 "for i = 1, 2 do spawn{ model = 'van', driver = 'external' } end wait(1)");
+    branch({"--script", "unnamed.lua", "--driver", "van=" + steady, "--driver", "van_2=" + steady},
+           "unnamed.mcap");
     // Who may still come is waited for.
     EXPECT_THAT(branch({"--script", "later.lua", "--driver", "car_2=" + steady}, "b.mcap"),
                 HasSubstr("--driver car_2: nobody was spawned with that name"));
