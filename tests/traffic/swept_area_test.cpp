@@ -211,6 +211,64 @@ TEST(SweptArea, ABusRollsSlowlyPastPeopleAtTheKerbAndBlocksNoJunctionForThem) {
     EXPECT_GT(shown, 0) << "nobody is in its way: nothing is shown";
 }
 
+struct Encounter {
+    double deepest = 0;  ///< [m] of the two in each other
+    double waited = 0;   ///< [s] near each other, both of them standing
+    bool bus_is_through = false;
+    bool other_is_through = false;
+};
+
+/// A bus stands in a narrow bend for half a minute, behind a car that stands there, as a queue
+/// does; another one of this model comes towards it. `place` [m] along the lane, of the car.
+Encounter meet_bus_in_bend(const char* model, double place) {
+    constexpr std::uint32_t ahead = 11;
+    constexpr std::uint32_t other = 12;
+    constexpr int ticks = 1600;
+    constexpr int queue_ends = 700;  // tick
+    const auto& loaded = own_town("town1");
+    const world::TownT& town = loaded.town;
+    const std::uint32_t there = lane(town, "a2_l1_1");
+    const std::uint32_t back = lane(town, "l1_a2_1");
+    world::CommandT bus = spawn(the_bus, there, place - 45, 5);
+    bus.model = world::find_vehicle_model("bus").value();
+    world::CommandT comes = spawn(other, back, 5, 5);
+    comes.model = world::find_vehicle_model(model).value();
+    const world::CommandT stop = test::command(world::CommandKind::set_speed, ahead);  // to 0
+    const world::CommandT go = test::command(world::CommandKind::free_speed, ahead);
+    Stage stage(loaded, 0);
+    Encounter met;
+    for (int tick = 0; tick < ticks; ++tick) {
+        std::vector<world::CommandT> commands;
+        if (tick == 0)
+            commands = {bus, spawn(ahead, there, place), comes, stop};
+        if (tick == queue_ends)
+            commands = {go};
+        stage.step(commands);
+        const world::CarState* one = stage.car(the_bus);
+        const world::CarState* two = stage.car(other);
+        if (one == nullptr || two == nullptr)
+            continue;
+        met.bus_is_through |= one->lane() != there;
+        met.other_is_through |= two->lane() != back;
+        met.deepest = std::max(met.deepest, depth(bus_body(*one), bus_body(*two)));
+        if (std::max(one->speed(), two->speed()) < 0.05F && !met.other_is_through)
+            met.waited += 0.05;
+    }
+    return met;
+}
+
+TEST(SweptArea, WhoComesTowardsABusInABendLeavesItItsWay) {
+    int waited = 0;
+    for (const char* model : {"lorry", "bus"})
+        for (const double place : {50.0, 52.0, 53.0, 54.0, 56.0, 60.0}) {
+            const Encounter met = meet_bus_in_bend(model, place);
+            EXPECT_TRUE(met.bus_is_through && met.other_is_through) << model << ", " << place;
+            EXPECT_LT(met.deepest, 0.05) << model << ", " << place;
+            waited += met.waited > 10;
+        }
+    EXPECT_GT(waited, 6) << "few had to wait: little is shown";
+}
+
 /// How long somebody's bus stands behind a junction, its tail still in it, where somebody with mass
 /// has come to stand at its flank: he waits for it, perhaps. [s]; none: no bus came by.
 std::optional<double> bus_is_wedged(std::uint64_t seed) {

@@ -365,6 +365,20 @@ bool Meetings::is_all_on_its_lane(const Driver& driver) {
     return driver.car->lane_position > 2 * driver.half_length;
 }
 
+/// In a bend a long one lies over the oncoming lane, often for as long as a queue stands there. Who
+/// came up to its body would soon be in its way, too, and neither would ever get past.
+bool Meetings::lies_in_way_of(const Driver& driver, const Driver& comer) const {
+    const auto on_the_road = [&](const Driver& each) {
+        return lines_.town().lanes[each.car->lane].kind != world::LaneKind::internal;
+    };
+    return 2 * driver.half_length > longest_short_car && on_the_road(driver) &&
+           is_all_on_its_lane(driver) && on_the_road(comer) &&
+           graph_->edge_of(driver.car->lane) != graph_->edge_of(comer.car->lane) &&
+           comer.seen->first_on(driver.seen->now()).is_any &&
+           !driver.seen->first_on(comer.seen->now()).is_any &&
+           stop_before_way(comer, driver).is_possible;
+}
+
 void Meetings::meet(Driver& one, Driver& other) {
     prepare(one);
     prepare(other);
@@ -383,6 +397,10 @@ void Meetings::meet(Driver& one, Driver& other) {
         return let_past(one, other);
     if (overlap(one.seen->now(), other.seen->now()))
         return part(one, other);
+    if (lies_in_way_of(one, other))
+        return wait(other, one, stop_before_way(other, one));
+    if (lies_in_way_of(other, one))
+        return wait(one, other, stop_before_way(one, other));
     const bool first = !other_follows && one.seen->would_meet(*other.seen);
     const bool second = !one_follows && other.seen->would_meet(*one.seen);
     if (!first && !second)

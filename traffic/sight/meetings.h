@@ -23,9 +23,11 @@ namespace reprise::traffic {
 /// GOES    by the bodies of the next seconds, of each two that could meet and of which neither
 ///         follows the other. Of two who would meet one waits before the other's way: who must by
 ///         the rules, else who comes there later; the other one, where he can no longer. Who has
-///         begun to wait keeps to it. When both have stood for long the other one tries, and where
-///         they block each other for good, one pushes past, for which the other one stands still;
-///         not where it would be through the other one. Who lies in another one gets no deeper in.
+///         begun to wait keeps to it. Before a long one that lies over his way in a bend who comes
+///         towards it waits where he leaves it its own. When both have stood for long the other one
+///         tries, and where they block each other for good, one pushes past, for which the other
+///         one stands still; not where it would be through the other one. Who lies in another one
+///         gets no deeper in.
 /// KEEPS   with each car, whom it waits for, and whom it pushes past until when; what was worked
 ///         out for who stands, which decides nothing but the cost: a quarter of the cars stands.
 class Meetings {
@@ -120,6 +122,7 @@ class Meetings {
     bool leaves_junction(const Driver& driver) const;
     bool lets_out(const Driver& driver, const Driver& other) const;
     bool first_waits(const Driver& one, const Driver& other) const;
+    bool lies_in_way_of(const Driver& driver, const Driver& comer) const;
     static bool follows(const Driver& driver, const Driver& leader);
     static bool is_all_on_its_lane(const Driver& driver);
     static Stop stop_at(const Driver& driver,
