@@ -43,12 +43,16 @@ LampSum::LampSum(const ShadingInput& input,
                  const Vector3f& view)
     : moon_(input.sky.moon()) {
     const std::span<const std::uint16_t> near = grid.near(position);
+    const bool shining = shines(look);
+    if (shining)
+        shines_.fill(0);
     for (; count_ < near.size(); count_ += 4) {
         add_four(grid, &near[count_], near.size() - count_, look, position);
-        if (shines(look))
+        if (shining)
             add_shine(grid, &near[count_], look, view);
     }
     add_moon(look);
+    part(shining);
     const float white = 1 / input.sky.exposure();
     light_.arriving = held_back(light_.arriving, brightest * white);
     light_.shine = held_back(light_.shine, brightest_shine * white);
@@ -108,8 +112,10 @@ void LampSum::add_shine(const SourceGrid& grid,
         // A head lamp's mirror is wide: just before the car its highlight is a pale spot, not a
         // point.
         const float point = source.lobe == LightSource::Lobe::low_beam ? 0.35F : 1.0F;
-        light_.shine +=
+        const Color mirrored =
             source.intensity * factor_[count_ + i] * (pi * point * std::min(shine, 20.0F));
+        light_.shine += mirrored;
+        shines_[count_ + i] = luminance(mirrored);
     }
 }
 
@@ -128,6 +134,24 @@ void LampSum::add_moon(const Look& look) {
     radius_[count_] = 14;
     gives_[count_++] = gives;
     sum_ += gives;
+}
+
+/// Says what share the strongest source has: of what arrives, which changes little from pixel to
+/// pixel, so that neighbours ask the same one; highlights dance with each ripple.
+void LampSum::part(bool shining) {
+    float shine = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        shine += shining ? shines_[i] : 0.0F;
+        if (gives_[i] > gives_[strongest_])
+            strongest_ = i;
+    }
+    if (sum_ <= 0)
+        return;
+    rest_ = sum_ - gives_[strongest_];
+    if (is_one())
+        return;
+    light_.strongest = gives_[strongest_] / sum_;
+    light_.strongest_shine = shine > 0 ? shines_[strongest_] / shine : light_.strongest;
 }
 
 }  // namespace reprise::render

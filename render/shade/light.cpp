@@ -19,6 +19,11 @@ Color multi_bounce(float visibility, const Color& albedo) {
     return (((visibility * a + b) * visibility + c) * visibility).max(visibility);
 }
 
+/// Of all lamps' light, of which the strongest gives so much.
+float lit_share(const Light& light, float strongest) {
+    return strongest * light.lamp_visibility + (1 - strongest) * light.rest_visibility;
+}
+
 }  // namespace
 
 Vector3f mirror_direction(const Vector3f& view, const Vector3f& normal, const Vector3f& flat) {
@@ -42,10 +47,10 @@ Color outgoing_radiance(const ShadingInput& input,
     Color arriving = sky.sun() * ((front + back) * light.sun_visibility / pi) +
                      sky.ambient(normal) * multi_bounce(light.sky_visibility, look.albedo);
     // Streets and walls send some of their lamps' light back into the shadows.
-    arriving += lamps.arriving * (0.06F + 0.94F * light.lamp_visibility);
+    arriving += lamps.arriving * (0.06F + 0.94F * lit_share(light, lamps.strongest));
     const float mirror = fresnel(look.f0, -view.dot(normal)) * look.gloss;
     Color color = look.albedo * arriving * (1 - mirror) + look.emission + light.reflected * mirror +
-                  lamps.shine * light.lamp_visibility;
+                  lamps.shine * lit_share(light, lamps.strongest_shine);
     if (front > 0 && light.sun_visibility > 0) {
         const Vector3f half = (sky.to_sun() - view).normalized();
         const float shine = fresnel(look.f0, half.dot(sky.to_sun())) *

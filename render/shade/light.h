@@ -9,8 +9,8 @@ struct Light {
     Color reflected = Color::Zero();  ///< radiance from where a mirror would show
     float sun_visibility = 1;         ///< share of the sun's disc that is seen
     float sky_visibility = 1;         ///< share of the sky that is not hidden by things near
-    float lamp_visibility = 0;        ///< share of what lamps and the moon give that arrives
-    float none = 0;                   ///< so that shares are added up four at once
+    float lamp_visibility = 0;  ///< share of the strongest lamp's, or the moon's, that arrives
+    float rest_visibility = 0;  ///< likewise of all other lamps
 };
 
 /// Where a mirror lying there would show: never into the surface itself.

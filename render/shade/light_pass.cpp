@@ -13,7 +13,8 @@ constexpr float near_things = 2.4F;  // [m] how far things hide the sky from eac
 constexpr float far_corners = 90;    // [m]
 constexpr float mirror_reach = 150;  // [m]
 
-/// One of 16 places in the pattern; 4 x 4 neighbours have all of them (Bayer's order).
+/// One of 16 places in the pattern; 4 x 4 neighbours have all of them (Bayer's order). Where x + y
+/// is even they are below 8, see asks_strongest().
 int pattern(int x, int y) {
     static constexpr std::array<int, 16> order{
         0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
@@ -31,7 +32,7 @@ Color mirrored_radiance(const ShadingJob& job,
     Surface at = Surfaces(input.scene, ray.origin, footprint_scale).at(hit, ray.direction);
     expose(input, at);
     const Look look = shade_surface(input, at);
-    Light light{Color::Zero(), job.sun_matters ? 0.6F : 1.0F, 0.75F, 0.75F};
+    Light light{Color::Zero(), job.sun_matters ? 0.6F : 1.0F, 0.75F, 0.75F, 0.75F};
     if (look.gloss > 0)
         light.reflected =
             input.sky.radiance(mirror_direction(at.view, look.normal, at.flat), false) * 0.8F;
@@ -115,7 +116,7 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         raw.position = at.position;
         raw.flat = at.flat;
         raw.tolerance = 0.01F + 4 * at.distance * job.pixel;
-        raw.light = {Color::Zero(), job.sun_matters ? 0.0F : 1.0F, 0.0F, 1.0F};
+        raw.light = {Color::Zero(), job.sun_matters ? 0.0F : 1.0F, 0.0F, 1.0F, 1.0F};
         if (!asks_for_sky(at))
             raw.light.sky_visibility = at.material == Material::leaf ? 0.7F : 0.95F;
         request_light(job, at, sample.look, pattern(pixel.x(), pixel.y()), place, pixels, rays);
@@ -126,7 +127,8 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
             visible ? job.input.sky.clouds().sunlight(lights[owner].position) : 0.0F;
     });
     trace_batch(job, rays, rays.lamp, false, [&](std::size_t owner, bool visible) {
-        lights[owner].light.lamp_visibility = visible ? 1.0F : 0.0F;
+        Light& light = lights[owner].light;
+        light.lamp_visibility = light.rest_visibility = visible ? 1.0F : 0.0F;
     });
     // Into a half sphere each: as packets that run alike they take four times as long.
     trace_batch(job, rays, rays.sky, false, [&](std::size_t owner, bool visible) {

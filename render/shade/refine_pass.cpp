@@ -147,7 +147,7 @@ void light_subpixel(const ShadingJob& job,
     const Surface& at = sample.surface;
     const Neighbour neighbour(job, tiles, pixel, sample.hit, at);
     sample.light = neighbour.pixels != nullptr ? neighbour.pixels->samples[neighbour.place].light
-                                               : Light{Color::Zero(), 0, 0.8F, 0.8F};
+                                               : Light{Color::Zero(), 0, 0.8F, 0.8F, 0.8F};
     sample.lamps = {};
     if (!job.lamps_matter)
         return;

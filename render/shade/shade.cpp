@@ -33,12 +33,19 @@ bool on_same_surface(const RawLight& own, const RawLight& other) {
            std::abs((other.position - own.position).dot(own.flat)) <= own.tolerance;
 }
 
+/// Of which of a pixel's shares its rays knew: sun, sky, the strongest lamp, the rest.
+__m128 answers(int x, int y) {
+    return ((x + y) & 1) == 0 ? _mm_setr_ps(1, 1, 1, 0) : _mm_setr_ps(1, 1, 0, 1);
+}
+
 Light filtered(const ShadingJob& job, const TileBlock& tiles, const Eigen::Vector2i& pixel) {
     const Frame& frame = job.frame;
     const RawLight& own = tiles.middle().lights[tile_place(pixel.x(), pixel.y())];
     const Hit& hit = job.hits[frame.index(pixel.x(), pixel.y())];
     Color reflected = Color::Zero();
+    // Pixels answer for the strongest lamp or for the rest, see LampLight: each has its own mean.
     __m128 shares = _mm_setzero_ps();
+    __m128 counts = _mm_setzero_ps();
     float count = 0;
     const int left = std::max(0, pixel.x() - 2);
     const int right = std::min(frame.width - 1, pixel.x() + 1);
@@ -51,14 +58,21 @@ Light filtered(const ShadingJob& job, const TileBlock& tiles, const Eigen::Vecto
             if (other_hit.instance != hit.instance ||
                 (other_hit.triangle != hit.triangle && !on_same_surface(own, other)))
                 continue;
-            shares = _mm_add_ps(shares, _mm_loadu_ps(&other.light.sun_visibility));
+            const __m128 counted = answers(x, y);
+            shares += counted * _mm_loadu_ps(&other.light.sun_visibility);
+            counts += counted;
             // Single bright spots would leave squares.
             reflected += other.light.reflected;
             count += 1;
         }
     }
     Light mean{reflected / count};
-    _mm_storeu_ps(&mean.sun_visibility, _mm_div_ps(shares, _mm_set1_ps(count)));
+    _mm_storeu_ps(&mean.sun_visibility, shares / _mm_max_ps(counts, _mm_set1_ps(1)));
+    // A place whose neighbours all asked for the other has that one's answer.
+    if (_mm_cvtss_f32(_mm_shuffle_ps(counts, counts, 2)) == 0)
+        mean.lamp_visibility = mean.rest_visibility;
+    if (_mm_cvtss_f32(_mm_shuffle_ps(counts, counts, 3)) == 0)
+        mean.rest_visibility = mean.lamp_visibility;
     return mean;
 }
 

@@ -213,7 +213,7 @@ inline const Eigen::Vector3f& sun_direction(const ShadingJob& job, int place) {
 
 /// To one of the lamps that light a place, or to the moon: from there to its middle.
 inline Eigen::Vector3f lamp_direction(const LampSum& lamps, int place) {
-    return lamps.towards((static_cast<float>(place) + 0.5F) / 16, disc_point((place * 5 + 3) & 15));
+    return lamps.towards(place, disc_point((place * 5 + 3) & (lamps.is_one() ? 15 : 7)));
 }
 
 /// How much of a way to a lamp [m] is free of the lamp's own housing.

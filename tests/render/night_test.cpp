@@ -202,6 +202,43 @@ TEST(Night, StreetLightsLightTheRoadAndThingsThrowShadows) {
     EXPECT_NEAR(at(shaded, 70), at(open, 70), 4) << "on the lamp's side nothing changes";
 }
 
+/// A lamp behind a wall would throw a long highlight onto the wet road before it. What another lamp
+/// gives there is seen as if the first one was not there, without spots of that highlight.
+TEST(Night, WhatHidesALampHidesItsHighlightOnWetRoadAsWell) {
+    world::Weather weather = clear_night();
+    weather.mutate_wetness(0.9F);
+    weather.mutate_puddles(0.5F);
+    const auto road = [&](bool hidden_lamp) {
+        world::TownT town = street_with_light(false);
+        const world::Prop light = town.props[0];
+        town.props = {
+            world::Prop(world::Vec3(94, -1, 0), 1.5708, 24, 0.3, 4, 0, 0, world::PropKind::wall, 0),
+            world::Prop(world::Vec3(68, -5, 0), 1.5708, 2, 0.2, 7.5, 0, 0, light.kind(), 0)};
+        if (hidden_lamp)
+            town.props.push_back(light);
+        world::SensorSpec spec = camera(SensorKind::rgb, {80, -1.75, 2});
+        spec.fov = 0.6;
+        return look(town, test::tick_with({}), spec, weather);
+    };
+    const auto with = road(true);
+    const auto without = road(false);
+    // The wall's foot is at row 97, and at row 112 the road is 2.5 m before it.
+    double sum = 0;
+    double squares = 0;
+    constexpr int count = 12 * 80;
+    for (int row = 100; row < 112; ++row)
+        for (int column = 20; column < 100; ++column) {
+            const double more = mean(with, 1, column, row, column, row) -
+                                mean(without, 1, column, row, column, row);
+            sum += more;
+            squares += more * more;
+        }
+    // Walls send some of the lamp's light back; what that leaves is even.
+    const double even = sum / count;
+    EXPECT_LT(even, 2);
+    EXPECT_LT(std::sqrt(squares / count - even * even), 0.75);
+}
+
 TEST(Night, LowBeamsLightTheRoadAheadButNotAbove) {
     world::TownT town = test::straight_road(400);
     // A wall of 10 m across the road, 30 m before the car.
