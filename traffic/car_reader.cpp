@@ -13,6 +13,7 @@
 
 #include <libsumo/libsumo.h>
 
+#include "traffic/roads/even_yaw.h"
 #include "traffic/vehicle_lookup.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
@@ -196,21 +197,11 @@ double CarReader::lane_yaw_of(const Car& car) const {
     return world::point_at(on, car.lane_position * on.length / on.sumo_length).yaw;
 }
 
-/// As that, but turning evenly where the centre line has a corner: who is aside of it would be
-/// thrown back or forward there, by the corner's angle times how far aside it is.
 double CarReader::even_lane_yaw_of(const Car& car) const {
-    constexpr double farthest = 3;  // [m] to both sides; up to the lane's ends
     if (car.lane == none)
         return car.yaw;
     const world::LaneT& on = town_->lanes[car.lane];
-    const double s = car.lane_position * on.length / on.sumo_length;
-    const double reach = std::clamp(std::min(s, on.length - s), 0.0, farthest);
-    const world::LanePoint behind = world::point_at(on, s - reach);
-    const world::LanePoint ahead = world::point_at(on, s + reach);
-    if (behind.yaw == ahead.yaw)
-        return behind.yaw;
-    const Eigen::Vector3d chord = ahead.position - behind.position;
-    return std::atan2(chord.y(), chord.x());
+    return even_yaw_at(on, car.lane_position * on.length / on.sumo_length);
 }
 
 /// The pose that the car shows, after its bumper.

@@ -264,6 +264,28 @@ TEST(SetOffset, TrafficDrivesEvenlyAroundTheCornersOfItsLane) {
     }
 }
 
+/// A van stands in a bend with corners, and who waits behind it joins the lane beside.
+TEST(PullingOut, BeginsWhereTheCarStands) {
+    for (const int s : {96, 102}) {
+        const std::string van = fmt::format(
+            "spawn{{ model = 'van', driver = 'parked', lane = 'l1_b1_2', s = {} }} wait(99)", s);
+        std::map<std::uint32_t, Eigen::Vector3d> before;
+        for (const KeptTick& tick : run(in_town1(van, 100, 36))) {
+            const world::TickView view = tick.recorded().view;
+            std::map<std::uint32_t, Eigen::Vector3d> now;
+            for (const world::CarState& car : view.cars()) {
+                now[car.id()] = world::to_eigen(car.position());
+                if (const auto was = before.find(car.id()); was != before.end()) {
+                    EXPECT_LT((now[car.id()] - was->second).norm(),
+                              1.3 * static_cast<double>(car.speed()) * step + 0.1)
+                        << "van at " << s << ", car " << car.id() << ", tick " << view.index();
+                }
+            }
+            before = std::move(now);
+        }
+    }
+}
+
 TEST(SetOffset, OutlivesJunctionsAndChangesOfLanesAndGoesBack) {
     const Drive lanes(in_town("straight",
                               spawned("east_1", 14) +

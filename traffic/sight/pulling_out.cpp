@@ -5,6 +5,7 @@
 
 #include <libsumo/libsumo.h>
 
+#include "traffic/roads/even_yaw.h"
 #include "traffic/sight/passing.h"
 #include "traffic/sight/swing.h"
 #include "world/geometry2d.h"
@@ -160,7 +161,7 @@ bool PullingOut::swing_into(std::uint32_t lane,
     const double s = car.lane_position * next.length / next.sumo_length;
     car.sumo_front = world::point_at(next, s).position;
     // What it shows beside SUMO's place is an offset from now on, which it drives off sooner.
-    const Eigen::Vector2d left = world::left_of(world::point_at(next, s).yaw);
+    const Eigen::Vector2d left = world::left_of(even_yaw_at(next, s));
     car.offset = there.t;
     car.slip = (car.trail.front() - car.sumo_front).head<2>() - car.offset * left;
     car.offset_order = OffsetOrder{{there.t, 0, pull_out_time, world::Shape::linear}, tick - 1};
