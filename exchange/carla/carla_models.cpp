@@ -135,7 +135,7 @@ bool is_womanly(const world::WalkerModel& model) {
 }
 
 bool is_sound(const CarlaBox& box) {
-    return box.extent.minCoeff() > 10 && box.extent.maxCoeff() < 5000;  // [cm]
+    return (box.extent.array() > 10).all() && (box.extent.array() < 5000).all();  // [cm]
 }
 
 }  // namespace

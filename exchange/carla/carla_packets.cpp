@@ -100,7 +100,8 @@ class PacketReader {
                         double largest,
                         const char* what,
                         std::uint32_t actor) {
-        if (!(value.cwiseAbs().maxCoeff() <= largest))
+        // Not their maximum: which number that is where one is none, depends on their order.
+        if (!(value.array().abs() <= largest).all())
             throw Malformed(fmt::format("the {} of actor {} is ({:g}, {:g}, {:g})",
                                         what,
                                         actor,

@@ -40,7 +40,7 @@ class Surveyor {
         for (const CarlaBox& trigger : frame.triggers) {
             const auto light = found.lights.find(trigger.actor);
             if (light == found.lights.end() ||
-                !(trigger.middle.cwiseAbs().maxCoeff() < farthest_trigger))
+                !(trigger.middle.array().abs() < farthest_trigger).all())
                 continue;
             light->second = from_carla(trigger.middle);
             found.lights_have_triggers = true;
@@ -98,9 +98,9 @@ class Surveyor {
         const auto recorded = boxes_.find(id);
         // What is no number is not less than anything.
         if (recorded != boxes_.end() &&
-            recorded->second.middle.cwiseAbs().maxCoeff() < largest_box &&
-            recorded->second.extent.minCoeff() > 0 &&
-            recorded->second.extent.maxCoeff() < largest_box)
+            (recorded->second.middle.array().abs() < largest_box).all() &&
+            (recorded->second.extent.array() > 0).all() &&
+            (recorded->second.extent.array() < largest_box).all())
             box = recorded->second;
         if (role.actor.kind == CarlaKind::walker) {
             const CarlaModel model = walker_model_for(role.actor);

@@ -153,9 +153,14 @@ TEST(CarlaLog, NamesThePacketAndTheByteOfWhatIsNoNumber) {
     const std::string bytes = carla_log("--frames 3 --additional");
     for (const Place& place : {Place{2, 2 + 4 + 1, "EventAdd: the place of actor"},
                                Place{6, 2 + 4, "Position: the place of actor"},
+                               Place{6, 2 + 4 + 4, "Position: the place of actor"},
+                               Place{6, 2 + 4 + 8, "Position: the place of actor"},
                                Place{6, 2 + 4 + 12, "Position: the rotation of actor"},
+                               Place{6, 2 + 4 + 16, "Position: the rotation of actor"},
+                               Place{6, 2 + 4 + 20, "Position: the rotation of actor"},
                                Place{8, 2 + 4 + 8, "the brake of actor"},
-                               Place{12, 2 + 4, "the velocity of actor"}})
+                               Place{12, 2 + 4, "the velocity of actor"},
+                               Place{12, 2 + 4 + 8, "the velocity of actor"}})
         for (const float value :
              {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
             std::string bad = bytes;
