@@ -15,6 +15,8 @@ constexpr double from_people = 1.0;      // [m] kept from people and two-wheeler
 constexpr double tracking = 0.15;        // [m] that the car may be beside its line
 constexpr double from_edge = 0.15;       // [m] kept from the road's edge
 constexpr double steering_share = 0.7;   // of the greatest curvature
+constexpr double tightest_share = 0.95;  // of one who has waited long, and stands too near
+constexpr double tightest_speed = 1.2;   // [m/s] of that one, while it turns out
 constexpr double gentle_step = 1.2;      // [m/s^2] to the side
 constexpr double quickest_step = 2.0;    // [m/s^2] to the side
 constexpr double slow_braking = 2.5;     // [m/s^2] before it
@@ -36,8 +38,8 @@ constexpr double over_junction = 3;  // [m/s] where no lanes tell who may come
 constexpr double on_road = 0.3;      // [m] that the surfaces of lanes may leave between them
 constexpr double from_poles = 0.2;   // [m]
 
-double sharpest_step(const world::VehicleModel& model) {
-    return steering_share * std::tan(model.max_steering_angle) / model.wheelbase;
+double sharpest_step(const world::VehicleModel& model, double share = steering_share) {
+    return share * std::tan(model.max_steering_angle) / model.wheelbase;
 }
 
 bool overlaps(double low, double high, double other_low, double other_high) {
@@ -178,10 +180,13 @@ PassingPlan line_past(const PassingScene& scene, const Row& row, bool to_left, d
     const double limit = std::sqrt(scene.share * scene.way.path().at(s).squared_speed);
     plan.speed = std::min({row.speed, std::max(limit, 3.0), most});
 
-    const double least = Bypass::shortest_step(width, sharpest_step(model));
+    double least = Bypass::shortest_step(width, sharpest_step(model));
     way.out_end = row.rear - before_them;
     const double ahead = way.out_end - s;
     plan.room = least + before_them + 0.3 - scene.to_front();
+    const bool is_tight = least > ahead && scene.waited > long_wait;
+    if (is_tight)
+        least = Bypass::shortest_step(width, sharpest_step(model, tightest_share));
     plan.missing = std::max(least - ahead, 0.0);
     const double wanted =
         step_length(model, width, std::min(scene.ego.speed, plan.speed), scene.share);
@@ -190,6 +195,8 @@ PassingPlan line_past(const PassingScene& scene, const Row& row, bool to_left, d
     plan.out_speed =
         std::min(plan.speed, Bypass::fastest(width, length, quickest_step * scene.share));
     plan.speed = std::min({plan.speed, std::max(plan.out_speed, brisk), most});
+    if (is_tight)
+        plan.out_speed = std::min(plan.out_speed, tightest_speed);
 
     // Those who go on are some metres farther when we have passed them.
     way.back_start = row.front + scene.to_rear() + behind_them;

@@ -168,6 +168,24 @@ TEST(Passing, AConeWithinALaneThatIsWideEnough) {
     EXPECT_FALSE(outcome.stood);
 }
 
+/// Who stands behind it leaves no room to go back.
+TEST(Passing, WhoStandsALittleTooNearTurnsOutTightlyInTheEnd) {
+    for (const double gap : {6.1, 6.5}) {
+        Overtaker drive({2});
+        drive.place(ours, 60, 0);
+        world::CarState behind = car_on(60 - 1 - 0.5 - 3.7, 0, 0, 0, "sedan");
+        behind.mutate_id(51);
+        drive.cars = {car_on(60 + 3.7 + gap + 1.1, 0, 0, 0), behind};
+        double clearance = 1e9;
+        while (drive.seconds() < 60 && drive.car.x < 300) {
+            drive.step();
+            clearance = std::min(clearance, distance_to(drive, drive.cars[0]));
+        }
+        EXPECT_GT(clearance, 0.3) << gap << " m";
+        EXPECT_GE(drive.car.x, 300) << gap << " m";
+    }
+}
+
 /// Wide lanes are narrower than they say, in maps that have one width for all of a lane.
 TEST(Passing, NotWhereAPoleStandsBesideTheThing) {
     world::Obstacle pole;
