@@ -105,8 +105,10 @@ void Crowd::advance(const world::TickView& last, OnFoot& next) {
         walker.body = neighbours_.index_of(walker.body);
         want(walker, tick);
     }
+    look_at_stopped();
     for (Walker& walker : walkers_) {
         make_way(walker);
+        step_back(walker);
         avoid(walker);
     }
     flee();

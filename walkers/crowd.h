@@ -116,6 +116,8 @@ class Crowd {
     void want(Walker& walker, std::uint64_t tick);
     double speed_at_gate(Walker& walker, double speed);
     void make_way(Walker& walker);
+    void look_at_stopped();
+    void step_back(Walker& walker) const;
     static Neighbours::From keeps_from(const Walker& walker);
     void avoid(Walker& walker);
     void flee();
@@ -142,6 +144,7 @@ class Crowd {
     Neighbours neighbours_;
     std::array<bool, 2> knows_posts_{};  ///< beside the pavement, and beside the streets
     Places people_;                      ///< of this crowd, in this tick
+    std::vector<RoadUser> stopped_;      ///< in junctions, in this tick
     Places on_road_;                     ///< those of them who are
     std::vector<Body> around_;           ///< of one, while looking
     std::vector<Walker> walkers_;        ///< by id

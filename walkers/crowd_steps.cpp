@@ -183,6 +183,46 @@ void Crowd::make_way(Walker& walker) {
     }
 }
 
+/// Who stands on a way over a junction: those in the lanes before it have no need to turn.
+void Crowd::look_at_stopped() {
+    constexpr double stands = 0.2;  // [m/s]
+    stopped_.clear();
+    for (const RoadUser& user : users_.all())
+        if (std::abs(user.speed) < stands && user.lane < town_->lanes.size() &&
+            town_->lanes[user.lane].kind == world::LaneKind::internal)
+            stopped_.push_back(user);
+}
+
+/// Who waits at the kerb for a while with somebody's flank at his knees steps back from it, and
+/// stays there: that one may have to turn where he stands, and wait for him as he does for that
+/// one.
+void Crowd::step_back(Walker& walker) const {
+    constexpr std::uint32_t patience_beside = 60;  // ticks of waiting
+    constexpr double room = 1;                     // [m]
+    constexpr double stays = 0.3;                  // [m] beyond
+    constexpr double pace = 0.6;                   // [m/s]
+    if (walker.waited < patience_beside || walker.may_enter || walker.entered)
+        return;
+    const Eigen::Vector2d p = walker.place.position.head<2>();
+    for (const RoadUser& user : stopped_) {
+        const world::VehicleModel& body = world::vehicle_models()[user.model];
+        const Eigen::Vector2d ahead = world::ahead_of(user.yaw);
+        const Eigen::Vector2d from =
+            p - user.rear_axle - (body.length / 2 - body.rear_overhang) * ahead;
+        const double along = from.dot(ahead);
+        const double left = world::cross(ahead, from);
+        const double beyond = along - std::clamp(along, -body.length / 2, body.length / 2);
+        const double beside = left - std::clamp(left, -body.width / 2, body.width / 2);
+        const double gap = std::hypot(beyond, beside) - walker.person.radius;
+        if (gap > room + stays || (beyond == 0 && beside == 0))
+            continue;
+        const Eigen::Vector2d away = beyond * ahead + beside * world::turned_left(ahead);
+        walker.wanted =
+            gap > room ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(pace * away.normalized());
+        return;
+    }
+}
+
 /// Who gets nowhere for long squeezes past the post that leaves no room.
 Neighbours::From Crowd::keeps_from(const Walker& walker) {
     constexpr std::uint32_t squeezes = 60;  // ticks in its way

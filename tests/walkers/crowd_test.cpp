@@ -455,6 +455,50 @@ TEST(Crowd, WhoStandsInACornerBehindSomebodyLetsHimOut) {
     EXPECT_GT(beside, 500) << "it is no proof where nobody passes";
 }
 
+/// A car that has stopped on a crossing, to turn over the corner where they wait, waits for them.
+TEST(Crowd, WhoWaitsBesideACarThatStandsInAJunctionStepsBack) {
+    constexpr double gap = 0.3;  // [m] from the kerb to its flank
+    Scene scene(300);
+    const auto& lanes = scene.town().lanes;
+    const auto internal =
+        static_cast<std::uint32_t>(std::find_if(lanes.begin(),
+                                                lanes.end(),
+                                                [](const world::LaneT& lane) {
+                                                    return lane.kind == world::LaneKind::internal;
+                                                }) -
+                                   lanes.begin());
+    std::uint32_t id = 10;
+    for (const world::LaneT& lane : lanes) {
+        if (lane.kind != world::LaneKind::crossing)
+            continue;
+        const world::VehicleModel& model = world::vehicle_models()[0];
+        const Eigen::Vector2d end = world::in_plan(lane.centre.front());
+        const Eigen::Vector2d over = (world::in_plan(lane.centre.back()) - end).normalized();
+        const Eigen::Vector2d ahead = world::turned_left(over);
+        const Eigen::Vector2d p =
+            end + (gap + model.width / 2) * over - (model.length / 2 - model.rear_overhang) * ahead;
+        scene.cars.push_back(test::car_at(id++, p.x(), p.y(), std::atan2(ahead.y(), ahead.x())));
+        scene.cars.back().mutate_lane(internal);
+    }
+    std::map<std::uint32_t, int> beside;  // [ticks] by id
+    int waited = 0;
+    for (int tick = 1; tick <= 2000; ++tick)
+        for (const world::WalkerState& walker : scene.step())
+            for (const world::CarState& car : scene.cars) {
+                const double across = distance_from_side(walker, car);
+                waited += across > 1 && across < 1.6 && walker.speed() < 0.1F;
+                if (across > 0.25 && across < 0.8 && walker.speed() < 0.1F)
+                    ++beside[walker.id()];
+            }
+    const auto most =
+        std::max_element(beside.begin(), beside.end(), [](const auto& one, const auto& other) {
+            return one.second < other.second;
+        });
+    ASSERT_NE(most, beside.end());
+    EXPECT_LT(most->second, 500) << "of 2,000 ticks; without it 1,817";
+    EXPECT_GT(waited, 10'000) << "it is no proof where nobody waits";
+}
+
 TEST(Crowd, IsTheSameForTheSameSeedAndAnotherForAnother) {
     Scene one(60);
     Scene same(60);
