@@ -214,9 +214,11 @@ void Crowd::step_back(Walker& walker) const {
         const double beyond = along - std::clamp(along, -body.length / 2, body.length / 2);
         const double beside = left - std::clamp(left, -body.width / 2, body.width / 2);
         const double gap = std::hypot(beyond, beside) - walker.person.radius;
-        if (gap > room + stays || (beyond == 0 && beside == 0))
+        if (gap > room + stays)
             continue;
-        const Eigen::Vector2d away = beyond * ahead + beside * world::turned_left(ahead);
+        Eigen::Vector2d away = beyond * ahead + beside * world::turned_left(ahead);
+        if (away.isZero())  // whose tail lies over him
+            away = std::copysign(1.0, left) * world::turned_left(ahead);
         walker.wanted =
             gap > room ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(pace * away.normalized());
         return;

@@ -81,7 +81,9 @@ double Sweeping::allowed_speed(Car& car, std::uint64_t tick) const {
     constexpr double spacing = 0.5;             // [m]
     constexpr double waits = 40;                // [s]
     constexpr double crawl = 0.6;               // [m/s] people step back from a tail that comes so
-    constexpr double creep = 0.1;               // [m/s] before who does not, though it comes so
+    constexpr double creep = 0.1;               // [m/s] before who does not, though it comes so,
+    constexpr double deep = 0.3;                // [m] and no further over him than this
+    constexpr double lets_out = 5;              // [s] without waiting for him to get out
     constexpr std::uint64_t goes_on_for = 200;  // [ticks]
     constexpr std::uint64_t remembered = 20;    // [ticks]
     if (car.pass)
@@ -114,6 +116,11 @@ double Sweeping::allowed_speed(Car& car, std::uint64_t tick) const {
             return one.stands && (overlap(now, one.body) || overlap(soon, one.body));
         }))
         allowed = std::max(creep, braking.speed_before(0, 0, 0));
+    if (car.standing_ticks * step_ < lets_out &&
+        std::any_of(beside.people.begin(), beside.people.end(), [&](const Beside::Near& one) {
+            return one.stands && depth(now, one.body) > deep;
+        }))
+        allowed = braking.speed_before(0, 0, 0);
     const double end = std::min(Beside::looked_at, way.length());
     for (double driven = spacing; driven <= end; driven += spacing) {
         if (!std::isfinite(allowed) && touches(beside.people, driven))
