@@ -9,7 +9,7 @@
 
 #include "cli/options/render_options.h"
 #include "cli/pictures/cameras.h"
-#include "cli/pictures/usual_carrier.h"
+#include "cli/trace/usual_carrier.h"
 #include "replay/trace_reader.h"
 #include "world/external/rig.h"
 

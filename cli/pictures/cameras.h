@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/options/render_options.h"
-#include "cli/pictures/usual_carrier.h"
+#include "cli/trace/usual_carrier.h"
 #include "render/views/preset_camera.h"
 #include "replay/trace_reader.h"
 #include "world/external/rig.h"

@@ -1,4 +1,4 @@
-#include "cli/pictures/usual_carrier.h"
+#include "cli/trace/usual_carrier.h"
 
 #include <charconv>
 
