@@ -144,8 +144,8 @@ class Crowd {
     Neighbours neighbours_;
     std::array<bool, 2> knows_posts_{};  ///< beside the pavement, and beside the streets
     Places people_;                      ///< of this crowd, in this tick
-    std::vector<RoadUser> stopped_;      ///< in junctions, in this tick
     Places on_road_;                     ///< those of them who are
+    std::vector<RoadUser> stopped_;      ///< in junctions, in this tick
     std::vector<Body> around_;           ///< of one, while looking
     std::vector<Walker> walkers_;        ///< by id
     std::uint32_t next_id_ = first_walker_id;

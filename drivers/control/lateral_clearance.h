@@ -30,7 +30,7 @@ class LateralClearances {
                       const world::LaneMap& lanes,
                       std::span<const world::Obstacle> obstacles);
 
-    /// From p_world towards `side` (unit, in plan). About 20 us.
+    /// From p_world towards `side` (unit, in plan). About 10 us.
     /// Things count from half a metre beside the line on: lines half a metre apart miss none.
     LateralClearance look(const Eigen::Vector3d& p_world, const Eigen::Vector2d& side) const;
 

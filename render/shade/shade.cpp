@@ -38,6 +38,8 @@ __m128 answers(int x, int y) {
     return ((x + y) & 1) == 0 ? _mm_setr_ps(1, 1, 1, 0) : _mm_setr_ps(1, 1, 0, 1);
 }
 
+/// `among_lamps`: by day nobody asks for lamps, and no answers are told apart.
+template <bool among_lamps>
 Light filtered(const ShadingJob& job, const TileBlock& tiles, const Eigen::Vector2i& pixel) {
     const Frame& frame = job.frame;
     const RawLight& own = tiles.middle().lights[tile_place(pixel.x(), pixel.y())];
@@ -58,15 +60,24 @@ Light filtered(const ShadingJob& job, const TileBlock& tiles, const Eigen::Vecto
             if (other_hit.instance != hit.instance ||
                 (other_hit.triangle != hit.triangle && !on_same_surface(own, other)))
                 continue;
-            const __m128 counted = answers(x, y);
-            shares += counted * _mm_loadu_ps(&other.light.sun_visibility);
-            counts += counted;
+            const __m128 its = _mm_loadu_ps(&other.light.sun_visibility);
+            if constexpr (among_lamps) {
+                const __m128 counted = answers(x, y);
+                shares += counted * its;
+                counts += counted;
+            } else {
+                shares += its;
+            }
             // Single bright spots would leave squares.
             reflected += other.light.reflected;
             count += 1;
         }
     }
     Light mean{reflected / count};
+    if constexpr (!among_lamps) {
+        _mm_storeu_ps(&mean.sun_visibility, shares / _mm_set1_ps(count));
+        return mean;
+    }
     _mm_storeu_ps(&mean.sun_visibility, shares / _mm_max_ps(counts, _mm_set1_ps(1)));
     // A place whose neighbours all asked for the other has that one's answer.
     if (_mm_cvtss_f32(_mm_shuffle_ps(counts, counts, 2)) == 0)
@@ -105,7 +116,8 @@ void combine_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         } else {
             const std::size_t place = tile_place(pixel.x(), pixel.y());
             Sample& sample = own.samples[place];
-            sample.light = filtered(job, tiles, pixel);
+            sample.light = job.lamps_matter ? filtered<true>(job, tiles, pixel)
+                                            : filtered<false>(job, tiles, pixel);
             const float length = direction.norm();
             const Vector3f view = direction / length;
             color = outgoing_radiance(job.input,

@@ -18,8 +18,10 @@ namespace reprise::traffic {
 ///         those who wait themselves, in the middle of a junction, is to block it.
 /// GOES    a long vehicle looks at all who stand or lie there, and not for ever: who stands there
 ///         for long may never go away, and then brushing past is the driver's business; but never
-///         past vehicles with mass, which it would hit. A short one looks at these alone; it would
-///         stand before one that stands for ever if it wanted more than it needs.
+///         past vehicles with mass, which it would hit. Over people it creeps, and stops for
+///         seconds at a time where its body would be deep in one. A short one looks at vehicles
+///         with mass alone; it would stand before one that stands for ever if it wanted more than
+///         it needs.
 /// KEEPS   with each car, until when it brushes past, and that it cannot: Demand takes it out then.
 class Sweeping {
   public:
