@@ -74,6 +74,42 @@ std::vector<std::string> side_by_side(const RenderOptions& options) {
     return weathers;
 }
 
+/// How something is written that none of the sensors makes: who asks for it waits for files in
+/// vain.
+void check_formats(const RenderOptions& options,
+                   const Cameras& cameras,
+                   const Measurements& measurements) {
+    struct Format {
+        std::string_view option;
+        std::vector<std::string> kinds;
+    };
+
+    const std::vector<std::string> floats{"depth", "flow", "normals"};
+    const std::vector<Format> formats{
+        {"--depth-coding", {"depth"}},
+        {"--classes", {"semantic"}},
+        {"--events", {"dvs"}},
+        {"--npy", floats},
+        {"--exr", floats},
+        {"--points", {"lidar", "semantic_lidar", "radar"}},
+        {"--readings", {"gnss", "imu", "collision", "lane_invasion", "obstacle"}}};
+    std::vector<std::string> made;
+    for (const world::SensorRig& rig : {cameras.sensors(), measurements.sensors()})
+        for (const world::SensorSpec& sensor : rig)
+            made.emplace_back(world::EnumNameSensorKind(sensor.kind));
+    for (const auto& [option, kinds] : formats) {
+        const bool asked = std::any_of(options.said.begin(),
+                                       options.said.end(),
+                                       [&](const auto& said) { return said.first == option; });
+        if (asked &&
+            std::find_first_of(made.begin(), made.end(), kinds.begin(), kinds.end()) == made.end())
+            throw world::Error(fmt::format("{}: says how {} {} written, and none is made here",
+                                           option,
+                                           fmt::join(kinds, ", "),
+                                           kinds.size() > 1 ? "are" : "is"));
+    }
+}
+
 std::unique_ptr<PictureOutput> open_output(const RenderOptions& options,
                                            const Cameras& cameras,
                                            const Ticks& ticks,
@@ -127,6 +163,7 @@ int render(const RenderOptions& options) {
     const Ticks ticks = ticks_to_render(options, trace);
     Measurements measurements(options, trace, ticks);
     const Cameras cameras(options, trace, ticks);
+    check_formats(options, cameras, measurements);
     const bool film = !film_ending(options.output).empty();
     if (film && cameras.sensors().empty())
         throw world::Error(options.output + ": a film shows a camera, and there is none in " +

@@ -52,7 +52,7 @@ CLI::Validator a_weather_course() {
     return CLI::Validator(
         [](std::string& text) -> std::string {
             try {
-                if (text != "recorded")
+                if (!world::changes_of_recorded(text))
                     world::WeatherCourse{text};
                 return "";
             } catch (const world::Error& error) {

@@ -20,7 +20,8 @@ CLI::Validator one_of(std::vector<std::string> words, const std::string& what);
 /// A weather as world::read_weather takes it: a preset, numbers, or both.
 CLI::Validator a_weather();
 
-/// A weather that may change over time, as world::WeatherCourse takes it, or "recorded".
+/// A weather that may change over time, as world::WeatherCourse takes it, or "recorded", also
+/// with changes.
 CLI::Validator a_weather_course();
 
 /// Adds --ticks A..B and --actor NAME: one spelling wherever ticks and an actor are chosen.

@@ -260,10 +260,17 @@ void check_labels(const CLI::App& command, const RenderOptions& render) {
                                    "--attribute"})
             if (command.count(option) > 0)
                 throw CLI::ValidationError(option, "--rig says itself what its sensors are");
-    if (!film_ending(render.output).empty() &&
-        (render.boxes || render.calibration || render.npy || render.exr))
-        throw CLI::ValidationError(
-            "--output", "--boxes, --calibration, --npy and --exr are of pictures in a folder");
+    if (!film_ending(render.output).empty())
+        for (const char* option : {"--boxes",
+                                   "--calibration",
+                                   "--npy",
+                                   "--exr",
+                                   "--depth-coding",
+                                   "--events",
+                                   "--points",
+                                   "--readings"})
+            if (command.count(option) > 0)
+                throw CLI::ValidationError(option, "is of files in a folder, not of a film");
     if (!render.preset.empty() && render.calibration)
         throw CLI::ValidationError("--calibration",
                                    "a preset's camera is not mounted; --boxes says where it is");

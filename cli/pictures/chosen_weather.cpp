@@ -4,12 +4,11 @@
 #include <string_view>
 
 #include "world/check.h"
+#include "world/weather/weather_text.h"
 
 namespace reprise::cli {
 
 namespace {
-
-constexpr const char* word_for_recorded = "recorded";
 
 std::vector<std::string> parted(const std::string& text, char by) {
     std::vector<std::string> parts(1);
@@ -28,7 +27,7 @@ void add(std::vector<std::string>& list, const std::string& weather) {
                 list.push_back(preset.name);
         return;
     }
-    if (weather != word_for_recorded)
+    if (!world::changes_of_recorded(weather))
         world::WeatherCourse{weather};  // throws where it is none
     list.push_back(weather);
 }
@@ -36,12 +35,17 @@ void add(std::vector<std::string>& list, const std::string& weather) {
 }  // namespace
 
 ChosenWeather::ChosenWeather(const std::string& text, double step) : step_(step) {
-    if (!text.empty() && text != word_for_recorded)
+    if (const auto changes = world::changes_of_recorded(text))
+        changes_ = *changes;
+    else if (!text.empty())
         course_.emplace(text);
 }
 
 world::Weather ChosenWeather::at(const world::TickView& tick) const {
-    return course_ ? course_->at(static_cast<double>(tick.index()) * step_) : *tick.tick->weather();
+    if (course_)
+        return course_->at(static_cast<double>(tick.index()) * step_);
+    const world::Weather& recorded = *tick.tick->weather();
+    return changes_.empty() ? recorded : world::read_weather(changes_, recorded).weather;
 }
 
 std::vector<std::string> weather_list(const std::string& text) {

@@ -12,17 +12,21 @@ namespace reprise::cli {
 /// Under which weather a run is looked at: one that somebody says, or as it was recorded.
 class ChosenWeather {
   public:
-    /// "" and "recorded": as recorded, tick by tick; else what world::WeatherCourse takes. `step`:
-    /// [s] of a tick. Throws world::Error.
+    /// "" and "recorded": as recorded, tick by tick; "recorded,rain=5": so, but for these numbers;
+    /// else what world::WeatherCourse takes. `step`: [s] of a tick. Throws world::Error.
     ChosenWeather(const std::string& text, double step);
 
     world::Weather at(const world::TickView& tick) const;
 
-    /// Nothing: as recorded.
+    /// Nothing: as recorded, but for changes().
     const std::optional<world::WeatherCourse>& course() const { return course_; }
+
+    /// Of what was recorded. Empty: none.
+    const std::string& changes() const { return changes_; }
 
   private:
     std::optional<world::WeatherCourse> course_;
+    std::string changes_;
     double step_;
 };
 

@@ -35,6 +35,8 @@ Json numbers_of(const world::Weather& weather) {
 
 Json weather_of(const RenderOptions& options) {
     const ChosenWeather chosen(options.weather, 1);
+    if (!chosen.changes().empty())
+        return "as recorded, but " + chosen.changes();
     if (!chosen.course())
         return "as recorded";
     Json stops = Json::array();

@@ -153,6 +153,15 @@ std::string read(const std::filesystem::path& path) {
     return std::move(bytes).str();
 }
 
+[[noreturn]] void refuse_as_no_json(const std::filesystem::path& path,
+                                    const std::string& text,
+                                    std::size_t place) {
+    throw world::Error(
+        fmt::format("{}:{}: this is no JSON, where {{ \"sensors\": [ ... ] }} was expected",
+                    path.string(),
+                    line_at(text, place)));
+}
+
 /// Refuses what says a key of an object twice: the last would count, and nobody is told.
 Json parse(const std::filesystem::path& path, const std::string& text) {
     std::istringstream stream(text);
@@ -169,13 +178,13 @@ Json parse(const std::filesystem::path& path, const std::string& text) {
                                            value.get<std::string>()));
         return true;
     };
+    // The parser takes it as the end, and would let anything follow.
+    if (const std::size_t nul = text.find('\0'); nul != std::string::npos)
+        refuse_as_no_json(path, text, nul);
     try {
         return Json::parse(stream, hold);
     } catch (const Json::parse_error& error) {
-        throw world::Error(
-            fmt::format("{}:{}: this is no JSON, where {{ \"sensors\": [ ... ] }} was expected",
-                        path.string(),
-                        line_at(text, error.byte)));
+        refuse_as_no_json(path, text, error.byte);
     } catch (const Json::exception&) {
         // Its end shows where the next sign is.
         throw world::Error(

@@ -292,6 +292,9 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     };
     using testing::HasSubstr;
     EXPECT_THAT(mistake("{ \"sensors\": [\n nan ] }"), HasSubstr("rig.json:2: this is no JSON"));
+    EXPECT_THAT(mistake("{ \"sensors\": [ { \"name\": \"a\", \"size\": [8, 8] } ] }\n" +
+                        std::string("\0 junk", 6)),
+                HasSubstr("rig.json:2: this is no JSON"));
     EXPECT_THAT(mistake("{ \"sensors\": [] }"), HasSubstr("rig.json: expected { \"sensors\": ["));
     EXPECT_THAT(
         mistake("{ \"sensors\":\n [ { \"name\": \"a\", \"actor\": \"[{\\\"],\", \"position\": [0,\n"
@@ -425,6 +428,55 @@ TEST_F(Rendering, WhatAKindOfSensorDoesNotHaveIsRefusedInARigFileAndAmongOptions
                         kind + " none is one");
         refused({"--sensor", kind, "--attribute", "own_car=1"},
                 "--attribute: none of these sensors has an attribute 'own_car'");
+    }
+}
+
+TEST_F(Rendering, AFormatOfWhatIsNotMadeIsRefused) {
+    const std::string file = folder_ / "rig.json";
+    write_file(file, R"({ "sensors": [ { "name": "a" }, { "name": "b", "type": "gnss" } ] })");
+    for (const auto& looks : {std::vector<std::string>{"--rig", file}, {"--sensor", "rgb,gnss"}})
+        for (const std::string option : {"--npy",
+                                         "--exr",
+                                         "--events=npy",
+                                         "--depth-coding=cm",
+                                         "--classes=carla",
+                                         "--points=ply"}) {
+            std::vector<std::string> words{
+                "render", folder_ / "t.mcap", "-o", folder_ / "none", option};
+            words.insert(words.end(), looks.begin(), looks.end());
+            const Result result = reprise(words);
+            EXPECT_EQ(result.code, 2) << option;
+            EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+            EXPECT_THAT(result.out, testing::HasSubstr("and none is made here"));
+            EXPECT_THAT(result.out, testing::HasSubstr(option.substr(0, option.find('='))));
+            EXPECT_FALSE(std::filesystem::exists(folder_ / "none")) << option;
+        }
+}
+
+TEST_F(Rendering, WhatWasRecordedIsChangedByNumbersBehindIt) {
+    const auto picture = [&](const std::string& weather) {
+        const Folder pictures;
+        const Result result = reprise({"render",
+                                       folder_ / "t.mcap",
+                                       "-o",
+                                       pictures.path().string(),
+                                       "--size=32x24",
+                                       "--ticks=40",
+                                       "--weather",
+                                       weather});
+        EXPECT_EQ(result.code, 0) << result.out;
+        return read_file(pictures / "000040.png");
+    };
+    const std::string foggy = picture("recorded,fog=50");
+    EXPECT_EQ(foggy, picture("clear_noon,fog=50")) << "under clear noon it was recorded";
+    EXPECT_NE(foggy, picture("recorded"));
+    for (const std::string weather :
+         {"recorded,", "recorded,clear_noon", "0s:recorded,1s:rain=5"}) {
+        const Result result =
+            reprise({"render", folder_ / "t.mcap", "-o", folder_ / "none", "--weather", weather});
+        EXPECT_EQ(result.code, 2) << weather;
+        EXPECT_THAT(result.out, testing::ContainsRegex("behind recorded|stands alone"));
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "none")) << weather;
     }
 }
 

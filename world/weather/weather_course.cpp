@@ -53,6 +53,21 @@ double seconds_of(const std::string& time) {
 
 }  // namespace
 
+std::optional<std::string> changes_of_recorded(const std::string& text) {
+    const std::string word = "recorded";
+    if (text == word)
+        return "";
+    if (text.compare(0, word.size() + 1, word + ",") != 0 || text.find(':') != std::string::npos)
+        return std::nullopt;
+    std::string changes = text.substr(word.size() + 1);
+    const std::string first = changes.substr(0, changes.find(','));
+    if (first.find('=') == std::string::npos)
+        throw Error(
+            fmt::format("expected KEY=VALUE such as rain=8 behind recorded, got '{}'", first));
+    read_weather(changes);
+    return changes;
+}
+
 WeatherCourse::WeatherCourse(const std::string& text) : name_(text) {
     if (text.find(':') == std::string::npos) {
         stops_.push_back({0, read_weather(text)});
@@ -60,6 +75,11 @@ WeatherCourse::WeatherCourse(const std::string& text) : name_(text) {
     }
     for (const Timed& timed : parted(text)) {
         const double at = seconds_of(timed.time);
+        if (changes_of_recorded(timed.what))
+            throw Error(
+                fmt::format("{}: what was recorded has times of its own: recorded, or "
+                            "recorded,rain=8, stands alone",
+                            timed.time));
         if (!stops_.empty() && at <= stops_.back().at)
             throw Error(fmt::format(
                 "{}: the stop before is at {:g}s: times must grow", timed.time, stops_.back().at));

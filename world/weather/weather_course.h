@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,5 +35,10 @@ class WeatherCourse {
     std::string name_;
     std::vector<WeatherStop> stops_;  ///< at least one, by time
 };
+
+/// Of "recorded,rain=5,fog=300" the changes to what a run recorded: "rain=5,fog=300", which
+/// read_weather() takes upon each tick's weather. Empty of "recorded" itself; nothing of any other
+/// text. Throws Error where what follows is no change.
+std::optional<std::string> changes_of_recorded(const std::string& text);
 
 }  // namespace reprise::world
