@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "world/check.h"
+#include "world/external/sensor.h"
 #include "world/units.h"
 
 namespace reprise::exchange {
@@ -47,12 +48,20 @@ json sensors_of(const fs::path& folder) {
     return manifest["sensors"];
 }
 
-/// Says of points where they were measured. `named`: the sensor's folder; "": it is the only one.
+/// Its points are files named by tick.
+bool makes_points(const json& sensor) {
+    const auto kind = world::find_sensor_kind(sensor.at("type").get<std::string>());
+    return kind && world::is_ranging(*kind) && *kind != world::SensorKind::obstacle;
+}
+
+/// Says of points where they were measured. `named`: the sensor's folder; "": it is the only one
+/// that makes points, beside whatever cameras.
 void place(RenderedSensor& sensor, const fs::path& folder, const std::string& named) {
     const json sensors = sensors_of(folder);
     try {
+        const bool alone = std::count_if(sensors.begin(), sensors.end(), makes_points) == 1;
         for (const json& one : sensors) {
-            if (one.at("name") != named && !(named.empty() && sensors.size() == 1))
+            if (one.at("name") != named && !(named.empty() && alone && makes_points(one)))
                 continue;
             const json& at = one.at("position");
             sensor.place.position = {

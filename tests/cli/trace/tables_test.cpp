@@ -244,6 +244,23 @@ TEST_F(Tables, ScenesTakePointsOnlyFromWhereTheirPlaceIsSaid) {
     const Result good = scenes("good.mcap");
     EXPECT_EQ(good.code, 0) << good.out;
     EXPECT_THAT(good.out, HasSubstr("and 1 point cloud"));
+    // A camera beside it, whose pictures lie in the same folder.
+    ASSERT_EQ(reprise({"render",
+                       "a.mcap",
+                       "-o",
+                       "seen",
+                       "--sensor",
+                       "rgb,lidar",
+                       "--size",
+                       "32x24",
+                       "--ticks",
+                       "20..20"},
+                      folder->path())
+                  .code,
+              0);
+    const Result both = scenes("both.mcap");
+    EXPECT_EQ(both.code, 0) << both.out;
+    EXPECT_THAT(both.out, HasSubstr("and 1 point cloud"));
     const Result nowhere = scenes("no/such.mcap");
     EXPECT_EQ(nowhere.code, 2);
     EXPECT_THAT(nowhere.out, HasSubstr("no/such.mcap: cannot write the export"));
