@@ -153,6 +153,8 @@ void Crowd::add_to(world::Hasher& hasher) const {
     hasher.add(next_id_);
     hasher.add(tries_);
     lights_.add_to(hasher);
+    if (!walkers_.empty())
+        users_.add_to(hasher);
     for (const Walker& walker : walkers_) {
         const Eigen::Vector3d& p = walker.place.position;
         hasher.add(
@@ -176,6 +178,10 @@ void Crowd::add_to(world::Hasher& hasher) const {
                           walker.was_at_tick,
                           walker.down_until,
                           walker.draws}});
+        if (walker.lets != 0) {
+            hasher.add(walker.lets);
+            hasher.add(walker.let_for);
+        }
         if (!walker.way.empty())
             hasher.add(world::to_vec3(walker.way.back().position));
     }

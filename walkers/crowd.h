@@ -77,6 +77,8 @@ class Crowd {
         bool entered = false;          ///< the next gate: he is past the kerb
         bool gave_up = false;          ///< to cross anywhere, on this way
         std::uint32_t waited = 0;      ///< [ticks] at the next gate
+        std::uint32_t lets = 0;        ///< id of a car that may go first there; 0: none
+        std::uint32_t let_for = 0;     ///< [ticks] by now; one a gate
         std::uint32_t stuck = 0;       ///< [ticks] in somebody's way
         Eigen::Vector2d was_at{0, 0};  ///< where he was last seen to get on, or to wait
         std::uint64_t was_at_tick = 0;
@@ -115,6 +117,7 @@ class Crowd {
     static bool is_out_of_patience(const Walker& walker);
     void want(Walker& walker, std::uint64_t tick);
     double speed_at_gate(Walker& walker, double speed);
+    bool lets_one_go(Walker& walker, const Gate& gate) const;
     void make_way(Walker& walker);
     void look_at_stopped();
     void step_back(Walker& walker) const;

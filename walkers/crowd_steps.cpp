@@ -117,7 +117,7 @@ double Crowd::speed_at_gate(Walker& walker, double speed) {
         if (!behind && !on_the_next && (walker.corner <= gate.last + 1 || walker.on_road))
             break;
         ++walker.gate;
-        walker.waited = 0;
+        walker.waited = walker.lets = walker.let_for = 0;
         walker.entered = false;
     }
     if (walker.gate >= walker.gates.size())
@@ -143,13 +143,32 @@ double Crowd::speed_at_gate(Walker& walker, double speed) {
     if (gate.marked && (!gate.signals.empty() || walker.waited > asked))
         pace.trust = gate.signals.empty() ? Trust::all : Trust::seen;
     pace.progress = std::min(pace.progress, 0.0);
-    walker.may_enter = may_enter(gate, pace, lights_, traffic_);
-    if (walker.may_enter) {
+    walker.may_enter = may_enter(gate, pace, lights_, traffic_) && !lets_one_go(walker, gate);
+    if (walker.may_enter)
         return speed;
-    }
     if (left < 2)
         ++walker.waited;
     return std::min(speed, std::max(0.0, 1.5 * (left - hold)));
+}
+
+/// Where people keep crossing who drives would wait for all of them: of those who come to the kerb
+/// while he has stood for long each lets him go first, for as long as he may take to notice.
+bool Crowd::lets_one_go(Walker& walker, const Gate& gate) const {
+    constexpr std::uint32_t at_most = 200;  // ticks, most of them for who still is on the road
+    if (!gate.marked || !gate.signals.empty() || walker.let_for > at_most)
+        return false;
+    if (walker.let_for == 0)
+        for (const Conflict& conflict : gate.conflicts)
+            if (walker.lets == 0)
+                walker.lets = traffic_.long_waiting(conflict);
+    if (walker.lets == 0)
+        return false;
+    const bool is_gone =
+        std::none_of(gate.conflicts.begin(), gate.conflicts.end(), [&](const Conflict& conflict) {
+            return traffic_.is_before(conflict, walker.lets);
+        });
+    walker.let_for = is_gone ? at_most + 1 : walker.let_for + 1;
+    return !is_gone && walker.let_for <= at_most;
 }
 
 /// Does he get on, or wait as he should?

@@ -60,7 +60,7 @@ bool Crowd::take_way(Walker& walker, const WalkMap::Place& goal) {
     walker.corner = 1;
     walker.gates = gates_of(walker.way, *town_, *lanes_, lights_, traffic_);
     walker.gate = 0;
-    walker.waited = walker.stuck = 0;
+    walker.waited = walker.stuck = walker.lets = walker.let_for = 0;
     return true;
 }
 

@@ -137,6 +137,7 @@ void RoadTraffic::look(std::span<const RoadUser> users) {
                                user.front_s,
                                std::abs(user.speed),
                                world::vehicle_models()[user.model].length,
+                               user.stood,
                                seems_to_yield(user.speed, user.acceleration),
                                user.id});
     std::sort(comers_.begin(), comers_.end(), [](const Comer& one, const Comer& other) {
@@ -144,32 +145,70 @@ void RoadTraffic::look(std::span<const RoadUser> users) {
     });
 }
 
+std::span<const RoadTraffic::Comer> RoadTraffic::comers_on(std::uint32_t lane) const {
+    const auto first = std::lower_bound(
+        comers_.begin(), comers_.end(), lane, [](const Comer& one, std::uint32_t wanted) {
+            return one.lane < wanted;
+        });
+    auto last = first;
+    while (last != comers_.end() && last->lane == lane)
+        ++last;
+    return {first, last};
+}
+
+std::uint32_t RoadTraffic::long_waiting(const Conflict& conflict) const {
+    constexpr double for_long = 15;  // [s]
+    constexpr double close = 8;      // [m]
+    double nearest = close;
+    std::uint32_t id = 0;
+    for (const Conflict::Approach& approach : conflict.approaches) {
+        const auto& links = town_->lanes[approach.lane].links;
+        if (approach.distance < 0 ||
+            std::any_of(links.begin(), links.end(), [](const world::Link& link) {
+                return link.signal() != world::none;
+            }))
+            continue;
+        for (const Comer& comer : comers_on(approach.lane)) {
+            const double left = approach.distance - comer.s;
+            if (comer.stood < for_long || comer.speed > standing || left < 0 || left >= nearest)
+                continue;
+            nearest = left;
+            id = comer.id;
+        }
+    }
+    return id;
+}
+
+bool RoadTraffic::is_before(const Conflict& conflict, std::uint32_t id) const {
+    for (const Conflict::Approach& approach : conflict.approaches)
+        for (const Comer& comer : comers_on(approach.lane))
+            if (comer.id == id && approach.distance - comer.s + comer.length >= -1)
+                return true;
+    return false;
+}
+
 bool RoadTraffic::is_free(const Conflict& conflict,
                           Stay stay,
                           Trust trust,
                           bool around_standing) const {
     for (const Conflict::Approach& approach : conflict.approaches) {
-        auto comer = std::lower_bound(
-            comers_.begin(), comers_.end(), approach.lane, [](const Comer& one, auto wanted) {
-                return one.lane < wanted;
-            });
-        for (; comer != comers_.end() && comer->lane == approach.lane; ++comer) {
-            const double left = approach.distance - comer->s;  // [m] of its front to the place
-            if (left + comer->length < -1)
+        for (const Comer& comer : comers_on(approach.lane)) {
+            const double left = approach.distance - comer.s;  // [m] of its front to the place
+            if (left + comer.length < -1)
                 continue;  // is past it
-            if (comer->speed < standing && (left >= at_bumper || around_standing))
+            if (comer.speed < standing && (left >= at_bumper || around_standing))
                 continue;
-            if (comer->speed < standing)
+            if (comer.speed < standing)
                 return false;  // stands on it
-            const double clears = (left + comer->length + 1) / std::max(comer->speed, standing);
+            const double clears = (left + comer.length + 1) / std::max(comer.speed, standing);
             if (clears + behind_it < stay.from)
                 continue;  // is past it by then
-            const double arrives = left / (comer->speed + 1);
+            const double arrives = left / (comer.speed + 1);
             if (arrives > stay.to + before_us)
                 continue;  // comes later
             const double room = left - stop_short;
-            const bool trusted = trust == Trust::all || (trust == Trust::seen && comer->yields);
-            if (trusted && room > 0 && comer->speed * comer->speed / (2 * room) < painless)
+            const bool trusted = trust == Trust::all || (trust == Trust::seen && comer.yields);
+            if (trusted && room > 0 && comer.speed * comer.speed / (2 * room) < painless)
                 continue;
             return false;
         }

@@ -51,16 +51,25 @@ class RoadTraffic {
     /// the car would else wait for ever.
     bool is_free(const Conflict& conflict, Stay stay, Trust trust, bool around_standing) const;
 
+    /// Who has stood for long close before this place, not at a light: perhaps because people keep
+    /// crossing. 0: nobody.
+    std::uint32_t long_waiting(const Conflict& conflict) const;
+
+    /// Has he yet to drive over this place?
+    bool is_before(const Conflict& conflict, std::uint32_t id) const;
+
   private:
     struct Comer {
         std::uint32_t lane = 0;
         double s = 0;  ///< [m] of its front
         double speed = 0;
         double length = 0;
+        double stood = 0;     ///< [s]
         bool yields = false;  ///< as far as one can see
         std::uint32_t id = 0;
     };
 
+    std::span<const Comer> comers_on(std::uint32_t lane) const;
     void add_approaches(std::uint32_t lane, double distance, Conflict& conflict) const;
 
     const world::TownT* town_;

@@ -1,5 +1,6 @@
 #include "walkers/road_users.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "world/frames.h"
@@ -33,6 +34,39 @@ void RoadUsers::look(const world::TickView& last, double step) {
     all_.clear();
     add_cars(last, step);
     add_vehicles(last, step);
+    count_halts(step);
+}
+
+void RoadUsers::count_halts(double step) {
+    constexpr double slow = 0.5;  // [m/s]
+    constexpr double got_on = 2;  // [m]
+    std::vector<Halt> halts;
+    for (RoadUser& user : all_) {
+        const auto before = std::lower_bound(
+            halts_.begin(), halts_.end(), user.id, [](const Halt& one, std::uint32_t id) {
+                return one.id < id;
+            });
+        const bool goes_on = before != halts_.end() && before->id == user.id &&
+                             (user.rear_axle - before->place).norm() < got_on;
+        if (!goes_on && std::abs(user.speed) > slow)
+            continue;
+        halts.push_back(goes_on ? *before : Halt{user.id, user.rear_axle, 0});
+        ++halts.back().ticks;
+        user.stood = halts.back().ticks * step;
+    }
+    std::sort(halts.begin(), halts.end(), [](const Halt& one, const Halt& other) {
+        return one.id < other.id;
+    });
+    halts_ = std::move(halts);
+}
+
+void RoadUsers::add_to(world::Hasher& hasher) const {
+    constexpr std::uint32_t for_long = 200;  // ticks
+    for (const Halt& one : halts_)
+        if (one.ticks > for_long) {
+            hasher.add(one.id);
+            hasher.add(one.ticks);
+        }
 }
 
 void RoadUsers::add_cars(const world::TickView& last, double step) {

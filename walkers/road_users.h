@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "world/digest.h"
 #include "world/tick.h"
 
 namespace reprise::walkers {
@@ -21,13 +22,15 @@ struct RoadUser {
     double acceleration = 0;         ///< [m/s^2] along yaw
     std::uint32_t lane = world::none;
     double front_s = 0;  ///< [m] of its front, along that lane
+    double stood = 0;    ///< [s] that it has got nowhere; who creeps by a step has not got on
     std::uint16_t model = 0;
     std::uint32_t id = 0;
 };
 
 /// Everybody on the roads, where he will be when the next tick is over: one tick of going on as he
-/// did. Nobody on foot waits for traffic to have made its own step of that tick, so both are made
-/// at the same time; what a driver does differently within it is centimetres.
+/// did. Keeps how long each has stood. Nobody on foot waits for traffic to have made its own step
+/// of that tick, so both are made at the same time; what a driver does differently within it is
+/// centimetres.
 class RoadUsers {
   public:
     /// Called for tick after tick: how fast somebody turns is seen from one to the next. `step`:
@@ -37,7 +40,17 @@ class RoadUsers {
     /// SUMO's cars, then vehicles with mass, each by id.
     std::span<const RoadUser> all() const { return all_; }
 
+    /// Nothing where nobody has stood for long.
+    void add_to(world::Hasher& hasher) const;
+
   private:
+    /// Somebody who gets nowhere, since when, and from where.
+    struct Halt {
+        std::uint32_t id = 0;
+        Eigen::Vector2d place{0, 0};
+        std::uint32_t ticks = 0;
+    };
+
     struct Seen {
         std::uint32_t id = 0;
         Eigen::Vector2d place{0, 0};
@@ -46,9 +59,11 @@ class RoadUsers {
 
     void add_cars(const world::TickView& last, double step);
     void add_vehicles(const world::TickView& last, double step);
+    void count_halts(double step);
 
     std::vector<RoadUser> all_;
     std::vector<Seen> before_;  ///< cars in the tick before, by id
+    std::vector<Halt> halts_;   ///< by id
 };
 
 }  // namespace reprise::walkers

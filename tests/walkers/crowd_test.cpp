@@ -499,6 +499,72 @@ TEST(Crowd, WhoWaitsBesideACarThatStandsInAJunctionStepsBack) {
     EXPECT_GT(waited, 10'000) << "it is no proof where nobody waits";
 }
 
+/// Before every crossing without lights, on the lane that leads there; without those at lights.
+void stop_cars_at_crossings(Scene& scene) {
+    const world::TownT& town = scene.town();
+    const WalkerLights lights(town);
+    const RoadTraffic traffic(town, scene.lanes());
+    const world::VehicleModel& model = world::vehicle_models()[0];
+    std::uint32_t id = 10;
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
+        const world::LaneT& crossing = town.lanes[i];
+        if (crossing.kind != world::LaneKind::crossing || !lights.of_crossing(i).empty())
+            continue;
+        for (const Conflict& conflict : traffic.conflicts(world::to_eigen(crossing.centre.front()),
+                                                          world::to_eigen(crossing.centre.back())))
+            for (const auto& [index, distance] : conflict.approaches) {
+                const world::LaneT& lane = town.lanes[index];
+                const double s = std::min(lane.length - 0.5, distance - 3);
+                if (lane.kind != world::LaneKind::driving || distance - s > 6 ||
+                    std::any_of(lane.links.begin(), lane.links.end(), [](const auto& link) {
+                        return link.signal() != world::none;
+                    }))
+                    continue;
+                const world::LanePoint at = world::point_at(lane, s);
+                const Eigen::Vector2d p =
+                    at.position.head<2>() -
+                    (model.length - model.rear_overhang) * world::ahead_of(at.yaw);
+                scene.cars.push_back(test::car_at(id++, p.x(), p.y(), at.yaw));
+                scene.cars.back().mutate_lane(index);
+                scene.cars.back().mutate_lane_s(static_cast<float>(s));
+            }
+    }
+}
+
+/// At a crossing that people keep coming to a queue of cars would never get over it.
+TEST(Crowd, WhoComesToACrossingLetsOneGoWhoHasStoodThereForLong) {
+    constexpr int for_long = 300;  // ticks
+    Scene scene(300);
+    stop_cars_at_crossings(scene);
+    ASSERT_GT(scene.cars.size(), 10U);
+    const WalkerLights lights(scene.town());
+    std::vector<const world::LaneT*> unlit;
+    for (std::uint32_t i = 0; i < scene.town().lanes.size(); ++i)
+        if (scene.town().lanes[i].kind == world::LaneKind::crossing &&
+            lights.of_crossing(i).empty())
+            unlit.push_back(&scene.town().lanes[i]);
+    std::map<std::uint32_t, int> stood;  // [ticks] by id
+    int early = 0;                       // ticks
+    int waited = 0;
+    int longest = 0;
+    for (int tick = 1; tick <= 2400; ++tick)
+        for (const world::WalkerState& walker : scene.step()) {
+            const Eigen::Vector3d p = place_of(walker);
+            const bool waits =
+                walker.speed() < 0.1F &&
+                std::any_of(unlit.begin(), unlit.end(), [&](const world::LaneT* crossing) {
+                    return is_on(*crossing, p, 1, -0.5) && !is_on(*crossing, p, -1, 0);
+                });
+            int& ticks = stood[walker.id()];
+            ticks = waits ? ticks + 1 : 0;
+            (tick < for_long ? early : waited) += waits;
+            longest = std::max(longest, ticks);
+        }
+    EXPECT_EQ(early, 0);
+    EXPECT_GT(waited, 8'000) << "ticks of all; without it 1,627";
+    EXPECT_LT(longest, 220) << "who does not go is not waited for";
+}
+
 TEST(Crowd, IsTheSameForTheSameSeedAndAnotherForAnother) {
     Scene one(60);
     Scene same(60);
