@@ -76,6 +76,11 @@ Line start_of(const Line& line) {
     return {way.at(window), way.at(2 * window)};
 }
 
+bool is_slowed_whole(const world::LaneT& lane) {
+    return world::is_for_cars(lane) &&
+           (lane.kind == world::LaneKind::internal || lane.sumo_length < short_lane);
+}
+
 }  // namespace
 
 Bends::Bends(const world::TownT& town) : town_(&town), bends_(town.lanes.size()) {
@@ -94,12 +99,30 @@ Bends::Bends(const world::TownT& town) : town_(&town), bends_(town.lanes.size())
                 behind[index] = start_of(in_plan_of(town.lanes[next]));
         }
     }
+    std::vector<double> limits(town.lanes.size(), world::infinity);
     for (std::size_t i = 0; i < town.lanes.size(); ++i)
         if (world::is_for_cars(town.lanes[i]))
-            add_lane(town.lanes[i], before[i], behind[i]);
+            limits[i] = add_lane(town.lanes[i], before[i], behind[i]);
+    for (std::size_t i = 0; i < town.lanes.size(); ++i)
+        if (is_slowed_whole(town.lanes[i]))
+            slow_before_bends(town.lanes[i], limits[i]);
 }
 
-void Bends::add_lane(const world::LaneT& lane, const Line& before, const Line& behind) {
+/// Who comes onto a long lane too fast for a bend soon behind its start could not slow down there.
+void Bends::slow_before_bends(const world::LaneT& lane, double limit) const {
+    constexpr double firm_braking = 4;  // [m/s^2]
+    double wanted = limit;
+    for (const world::Link& link : lane.links)
+        if (link.via() == world::none && link.to() != world::none)
+            for (const Bend& bend : bends_[link.to()])
+                wanted = std::min(
+                    wanted, std::sqrt(bend.speed * bend.speed + 2 * firm_braking * bend.from));
+    if (wanted < std::min(limit, lane.speed_limit))
+        libsumo::Lane::setMaxSpeed(lane.name, wanted);
+}
+
+/// [m/s] that it is slowed to as a whole; infinite: is not.
+double Bends::add_lane(const world::LaneT& lane, const Line& before, const Line& behind) {
     constexpr double spacing = 1;  // [m]
     const Line own = in_plan_of(lane);
     Line line = before;
@@ -127,11 +150,13 @@ void Bends::add_lane(const world::LaneT& lane, const Line& before, const Line& b
         }
     }
     if (bends.empty())
-        return;
-    if (lane.kind == world::LaneKind::internal || lane.sumo_length < short_lane)
+        return world::infinity;
+    if (is_slowed_whole(lane)) {
         libsumo::Lane::setMaxSpeed(lane.name, least);
-    else
-        bends_[static_cast<std::size_t>(&lane - town_->lanes.data())] = std::move(bends);
+        return least;
+    }
+    bends_[static_cast<std::size_t>(&lane - town_->lanes.data())] = std::move(bends);
+    return world::infinity;
 }
 
 /// [m/s] for the bends of its lane, or 0 where there is none ahead.

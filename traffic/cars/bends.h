@@ -28,9 +28,10 @@ class Bends {
         double speed = 0;  ///< [m/s]
     };
 
-    void add_lane(const world::LaneT& lane,
-                  const std::vector<Eigen::Vector2d>& before,
-                  const std::vector<Eigen::Vector2d>& behind);
+    double add_lane(const world::LaneT& lane,
+                    const std::vector<Eigen::Vector2d>& before,
+                    const std::vector<Eigen::Vector2d>& behind);
+    void slow_before_bends(const world::LaneT& lane, double limit) const;
     double limit_at(const Car& car) const;
 
     const world::TownT* town_;

@@ -1,0 +1,61 @@
+#include "traffic/cars/bends.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/towns.h"
+#include "tests/support/worlds.h"
+#include "tests/traffic/stage.h"
+#include "world/frames.h"
+
+namespace reprise::traffic {
+namespace {
+
+/// Three hundred metres straight on, a junction, and on the road behind it soon a narrow bend.
+constexpr const char* road = R"(<net version="1.9">
+<location netOffset="0,0" convBoundary="0,-100,400,0" origBoundary="0,-100,400,0" projParameter="!"/>
+<edge id=":j_0" function="internal"><lane id=":j_0_0" index="0" speed="20" length="10"
+  shape="300,0 310,0"/></edge>
+<edge id="a" from="w" to="j" priority="1"><lane id="a_0" index="0" speed="20" length="300"
+  shape="0,0 300,0"/></edge>
+<edge id="b" from="j" to="e" priority="1"><lane id="b_0" index="0" speed="20" length="100.9"
+  shape="310,0 322,0 323.9,-0.4 325.5,-1.5 326.6,-3.1 327,-5 327,-86"/></edge>
+<junction id="w" type="dead_end" x="0" y="0" incLanes="" intLanes="" shape="0,2 0,-2"/>
+<junction id="j" type="priority" x="305" y="0" incLanes="a_0" intLanes=":j_0_0"
+  shape="300,2 310,2 310,-2 300,-2"><request index="0" response="0" foes="0" cont="0"/></junction>
+<junction id="e" type="dead_end" x="327" y="-86" incLanes="b_0" intLanes="" shape="325,-86 329,-86"/>
+<connection from="a" to="b" fromLane="0" toLane="0" via=":j_0_0" dir="s" state="M"/>
+<connection from=":j_0" to="b" fromLane="0" toLane="0" dir="s" state="M"/>
+</net>
+)";
+
+TEST(Bends, SoonBehindAJunctionAreSeenFromBeforeIt) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / "bends_test";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "road.net.xml") << road;
+    const test::Loaded loaded = test::load(folder / "road.net.xml");
+    test::Stage stage(loaded, 0);
+    stage.step({test::spawn(1, test::lane(loaded.town, "a_0"), 150, 15)});
+    double sideways = 0;  // [m/s^2]
+    double turned = 0;    // [rad]
+    double yaw = 0;
+    for (int tick = 0; tick < 900; ++tick) {
+        stage.step();
+        const world::CarState* car = stage.car(1);
+        if (car == nullptr)
+            break;
+        const double turn = std::abs(world::wrap_angle(double{car->yaw()} - yaw));
+        turned += turn;
+        sideways = std::max(sideways, double{car->speed()} * turn / 0.05);
+        yaw = double{car->yaw()};
+    }
+    EXPECT_NEAR(turned, 1.571, 0.1) << "it is no proof before the bend";
+    EXPECT_LT(sideways, 6) << "without it 21";
+}
+
+}  // namespace
+}  // namespace reprise::traffic
