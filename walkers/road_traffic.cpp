@@ -158,7 +158,7 @@ std::span<const RoadTraffic::Comer> RoadTraffic::comers_on(std::uint32_t lane) c
 
 std::uint32_t RoadTraffic::long_waiting(const Conflict& conflict) const {
     constexpr double for_long = 15;  // [s]
-    constexpr double close = 8;      // [m]
+    constexpr double close = 10;     // [m] over two crossings one behind the other as well
     double nearest = close;
     std::uint32_t id = 0;
     for (const Conflict::Approach& approach : conflict.approaches) {
