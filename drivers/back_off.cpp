@@ -79,7 +79,8 @@ bool BackOff::notice_circling(const Ego& ego, double s, double steer) {
 }
 
 bool BackOff::make_room(double distance, const world::TickView& last, const Ego& ego) {
-    if (going_back_ || tries_ >= most_more || somebody_is_behind(last, ego))
+    if (going_back_ || tries_ >= most_more || leaves_its_lanes(ego) ||
+        somebody_is_behind(last, ego))
         return false;
     begin(distance, ego);
     ++tries_;
@@ -132,6 +133,24 @@ bool BackOff::somebody_is_behind(const world::TickView& last, const Ego& ego) co
     });
 }
 
+/// Its tail is about to? From off the road nothing leads back, and across other lanes it would
+/// stand in the way of whom it makes room for. Who is there already may go on.
+bool BackOff::leaves_its_lanes(const Ego& ego) const {
+    constexpr double edge = 0.3;           // [m] beside them
+    constexpr double soon = 0.4;           // [m]
+    constexpr double against_them = -0.4;  // cosine
+    const auto is_on_them = [&](double behind) {
+        const Eigen::Vector2d back = behind * ego.direction;
+        const Eigen::Vector3d place = ego.position - Eigen::Vector3d(back.x(), back.y(), 0);
+        const auto lanes = map_->lanes.at(place, edge);
+        return std::any_of(lanes.begin(), lanes.end(), [&](const world::LaneMap::Found& found) {
+            const double yaw = world::point_at(map_->town.lanes[found.lane], found.at.s).yaw;
+            return world::ahead_of(yaw).dot(ego.direction) > against_them;
+        });
+    };
+    return is_on_them(0) && !is_on_them(ego.model->rear_overhang + soon);
+}
+
 /// Going back with the wheels turned, the nose swings out to the other side. `side`: 1 left, -1
 /// right.
 bool BackOff::somebody_is_beside_nose(const world::TickView& last,
@@ -182,7 +201,7 @@ BackOff::Move BackOff::next(const world::TickView& last,
     if (straight)
         move.steer = 0;
     const bool may_swing = straight && std::abs(ego.steering_angle) > nearly_straight;
-    if (!done && !may_swing && !somebody_is_behind(last, ego))
+    if (!done && !may_swing && !leaves_its_lanes(ego) && !somebody_is_behind(last, ego))
         move.speed = backwards;
     standing_ticks_ = std::abs(ego.speed) < 0.1 ? standing_ticks_ + 1 : 0;
     return move;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "drivers/control/ego.h"
+#include "drivers/road_map.h"
 #include "drivers/way/path.h"
 #include "world/digest.h"
 #include "world/tick.h"
@@ -13,9 +14,9 @@ namespace reprise::drivers {
 /// What a driver does whose car does not move though it should: goes back a little and tries again.
 ///
 /// MUST    notice after two seconds that the car is held by what it touches; look behind itself;
-/// end. ASSUMES that what one is pressed against shows in the impulses that a car measures of
-/// itself. GOES    backwards along the path, its tail turned towards it, so that the next try leads
-/// past;
+///         stay on the road, and out of lanes that lead the other way; end.
+/// ASSUMES that what one is pressed against shows in the impulses that a car measures of itself.
+/// GOES    backwards along the path, its tail turned towards it, so that the next try leads past;
 ///         farther the next time, when there was one before.
 /// KEEPS   for how long it pushes, where it goes back, and how often it did.
 class BackOff {
@@ -25,8 +26,8 @@ class BackOff {
         double steer = 0;  ///< as in Control
     };
 
-    /// `step`: [s] of a tick.
-    explicit BackOff(double step) : step_(step) {}
+    /// `map` must outlive this. `step`: [s] of a tick.
+    BackOff(const RoadMap& map, double step) : map_(&map), step_(step) {}
 
     /// After each tick: `throttle` is what was given in it. True: it has pushed for too long, and
     /// begins to go back.
@@ -59,8 +60,10 @@ class BackOff {
   private:
     void begin(double distance, const Ego& ego);
     bool somebody_is_behind(const world::TickView& last, const Ego& ego) const;
+    bool leaves_its_lanes(const Ego& ego) const;
     bool somebody_is_beside_nose(const world::TickView& last, const Ego& ego, double side) const;
 
+    const RoadMap* map_;
     double step_;
     double impulse_ = 0;                ///< [N s] taken up so far, of all kinds
     std::uint32_t pushing_ticks_ = 0;   ///< of throttle, contact and standing

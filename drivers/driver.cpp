@@ -37,7 +37,7 @@ DriverState::DriverState(std::uint32_t actor_id,
       hazards(road_map.town),
       gatekeeper(road_map.town),
       passing(road_map, step),
-      back_off(step) {
+      back_off(road_map, step) {
     if (pilot == world::Pilot::pid)
         pid.emplace();
 }

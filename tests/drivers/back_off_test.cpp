@@ -96,6 +96,25 @@ TEST(BackOff, NotIntoWhoStandsBehind) {
     EXPECT_GT(least, model.length) << "touches who stands behind it";
 }
 
+/// One that made room in a junction again and again went back over the lane of the other one, and
+/// off the road, where it stayed.
+TEST(BackOff, NotOffItsLanes) {
+    constexpr double tail_at = 2;  // [m] before the lane's start
+    const world::VehicleModel& model = world::vehicle_models()[0];
+    Drive drive(long_lane());
+    drive.place(0, tail_at + model.rear_overhang, 0);
+    Wall wall(drive.car.x + drive.car.front() + 0.1);
+    std::vector<std::string> news;
+    double least = 1e9;
+    while (drive.seconds() < 60) {
+        wall.step(drive, news);
+        least = std::min(least, drive.car.x - model.rear_overhang);
+    }
+    EXPECT_FALSE(news.empty());
+    EXPECT_LT(least, 1) << "as far as it can";
+    EXPECT_GT(least, -0.3);
+}
+
 TEST(BackOff, ItsNoseDoesNotSwingIntoWhoStandsBesideIt) {
     // It stands 0.8 m left of its path, and would turn its tail to the path, its nose away from it.
     constexpr double aside = 0.8;
@@ -202,9 +221,10 @@ TEST(BackOff, NotWhoWasToldASpeed) {
 }
 
 TEST(BackOff, AfterSixSecondsAtFullLockWithoutGettingOn) {
+    const Drive drive(long_lane());
     const drivers::Ego ego = drivers::ego_of(vehicle_at(1, 0, 0, 0, 0.5));
     const auto seconds_until = [&](double steer, double speed_along) {
-        drivers::BackOff back_off(0.05);
+        drivers::BackOff back_off(drive.map, 0.05);
         for (int tick = 1; tick <= 400; ++tick)
             if (back_off.notice_circling(ego, 100 + 0.05 * tick * speed_along, steer))
                 return 0.05 * tick;
