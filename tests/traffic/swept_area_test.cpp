@@ -42,7 +42,8 @@ struct BusDrive {
     double deepest = 0;            ///< [m] in somebody
     double fastest_in_reach = 0;   ///< [m/s] while it swings over who stands there
     double farthest = 0;           ///< [m] of a rear corner beyond its lane's edge
-    Eigen::Vector2d corner{0, 0};  ///< where that was
+    Eigen::Vector2d corner{0, 0};  ///< where that was,
+    int corner_tick = 0;           ///< and when
 };
 
 bool stands_in(const world::Obstacle& wall, const BodyBox& body) {
@@ -139,6 +140,7 @@ BusDrive drive_bus(const char* name,
             const double s = world::project(town.lanes[from], p).s;
             if (s > 0 && s < town.lanes[from].length - 0.5 && out > drive.farthest) {
                 drive.farthest = out;
+                drive.corner_tick = tick;
                 drive.corner = corner - 0.15 * side * world::turned_left(body.ahead);
             }
         }
@@ -173,6 +175,55 @@ TEST(SweptArea, ABusWaitsForWhoStandsWhereItsTailSwingsOut) {
         const BusDrive past = drive_bus(name, alone.corner);
         EXPECT_EQ(past.touched, 0) << name << ": its tail swings out by " << alone.farthest;
         EXPECT_TRUE(past.came_through) << name;
+    }
+    EXPECT_GT(shown, 2) << "no tail swings out: nothing is shown";
+}
+
+/// At a red light a bus waited to turn off, an ego came up beside it: both started, and its tail
+/// came over the line.
+TEST(SweptArea, ABusKeepsItsTailOffWhoDrivesPastIt) {
+    const auto& loaded = own_town("town1");
+    const auto bicycle = world::find_vehicle_model("bicycle").value();
+    const world::VehicleModel& model = world::vehicle_models()[bicycle];
+    int shown = 0;
+    for (const char* name : bends) {
+        const BusDrive alone = drive_bus(name, std::nullopt);
+        if (alone.farthest < 0.25)
+            continue;
+        ++shown;
+        for (const int late : {-45, -30, -15, 0, 15, 30, 45}) {
+            const double speed = 3.5;
+            Stage stage(loaded, 0);
+            const std::uint32_t from = lane(loaded.town, name);
+            const double length = loaded.town.lanes[from].length;
+            const double yaw = world::point_at(loaded.town.lanes[from], length - 1).yaw;
+            // Beside the line, where the corner comes farthest over it.
+            const world::LaneProjection there =
+                world::project(loaded.town.lanes[from], {alone.corner.x(), alone.corner.y(), 0});
+            const double aside =
+                std::copysign(loaded.town.lanes[from].width / 2 + 0.2, there.t) - there.t;
+            const Eigen::Vector2d start =
+                alone.corner + aside * world::turned_left(world::ahead_of(yaw));
+            world::CommandT bus = spawn(the_bus, from, length - 20, 5);
+            bus.model = world::find_vehicle_model("bus").value();
+            stage.step({bus});
+            int touched = 0;
+            for (int tick = 1; tick < alone.corner_tick + 100; ++tick) {
+                const Eigen::Vector2d middle =
+                    start + 0.05 * (tick - alone.corner_tick - late) * speed * world::ahead_of(yaw);
+                const Eigen::Vector2d p =
+                    middle - (model.length / 2 - model.rear_overhang) * world::ahead_of(yaw);
+                std::vector<world::VehicleState> vehicles{
+                    test::vehicle_at(beside, p.x(), p.y(), yaw, speed)};
+                vehicles[0].mutate_model(bicycle);
+                stage.step({}, vehicles);
+                const world::CarState* car = stage.car(the_bus);
+                if (car != nullptr)
+                    touched += overlap(bus_body(*car),
+                                       {middle, world::ahead_of(yaw), model.length / 2, 0.3});
+            }
+            EXPECT_EQ(touched, 0) << name << ", " << late << " ticks later";
+        }
     }
     EXPECT_GT(shown, 2) << "no tail swings out: nothing is shown";
 }

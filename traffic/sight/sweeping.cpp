@@ -21,8 +21,16 @@ struct Sweeping::Beside {
         double room = 0;            ///< [m] left beside it
         bool never_yields = false;  ///< it has mass, and stands
         bool stands = false;
+        Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< of one that drives past
 
         BodyBox roomy() const { return body.widened(room); }
+
+        /// In so many seconds, if it goes on.
+        BodyBox later(double seconds) const {
+            BodyBox there = roomy();
+            there.middle += seconds * velocity;
+            return there;
+        }
     };
 
     std::vector<Near> others;
@@ -57,10 +65,12 @@ void Sweeping::gather(const Car& car, bool all, Beside& beside) const {
         if (speed > (one.drives ? hardly_faster : slow))
             continue;
         (one.is_afoot ? beside.people : beside.others)
-            .push_back({{one.centre, one.direction, one.half_length, one.half_width},
-                        all || speed > stands ? hair : finest_hair,
-                        one.drives && speed < stands,
-                        speed < stands});
+            .push_back(
+                {{one.centre, one.direction, one.half_length, one.half_width},
+                 all || speed > stands ? hair : finest_hair,
+                 one.drives && speed < stands,
+                 speed < stands,
+                 all && one.drives && speed > stands ? one.velocity : Eigen::Vector2d(0, 0)});
     }
 }
 
@@ -70,7 +80,9 @@ void Sweeping::Beside::keep_to(const WayAhead& way) {
     const BodyBox now = way.at(0);
     const BodyBox corridor = way.corridor(looked_at, now.ahead);
     for (std::vector<Near>* bodies : {&others, &people})
-        std::erase_if(*bodies, [&](const Near& one) { return !overlap(corridor, one.roomy()); });
+        std::erase_if(*bodies, [&](const Near& one) {
+            return one.velocity.isZero() && !overlap(corridor, one.roomy());
+        });
     for (Near& one : others)
         if (overlap(now, one.roomy()))
             one.room = 0;
@@ -83,6 +95,7 @@ double Sweeping::allowed_speed(Car& car, std::uint64_t tick) const {
     constexpr double crawl = 0.6;               // [m/s] people step back from a tail that comes so
     constexpr double creep = 0.1;               // [m/s] before who does not, though it comes so,
     constexpr double deep = 0.3;                // [m] and no further over him than this
+    constexpr double least_pace = 2;            // [m/s] that it will have in a moment
     constexpr double lets_out = 5;              // [s] without waiting for him to get out
     constexpr std::uint64_t goes_on_for = 200;  // [ticks]
     constexpr std::uint64_t remembered = 20;    // [ticks]
@@ -99,8 +112,10 @@ double Sweeping::allowed_speed(Car& car, std::uint64_t tick) const {
         return world::infinity;
     const auto touched = [&](const std::vector<Beside::Near>& bodies, double driven) {
         const BodyBox body = way.at(driven);
+        const double time = driven / std::max(car.speed, least_pace);
         return std::find_if(bodies.begin(), bodies.end(), [&](const Beside::Near& other) {
-            return overlap(body, other.roomy());
+            return overlap(body, other.roomy()) ||
+                   (!other.velocity.isZero() && overlap(body, other.later(time)));
         });
     };
     const auto touches = [&](const std::vector<Beside::Near>& bodies, double driven) {

@@ -21,7 +21,7 @@ namespace reprise::traffic {
 ///         past vehicles with mass, which it would hit. Over people it creeps, and stops for
 ///         seconds at a time where its body would be deep in one. A short one looks at vehicles
 ///         with mass alone; it would stand before one that stands for ever if it wanted more than
-///         it needs.
+///         it needs. Of a vehicle with mass that drives past a long one thinks where that will be.
 /// KEEPS   with each car, until when it brushes past, and that it cannot: Demand takes it out then.
 class Sweeping {
   public:
