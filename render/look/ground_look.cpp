@@ -9,6 +9,45 @@ namespace {
 
 using Eigen::Vector3f;
 
+/// How deep a crack is, [0, 1]: cracks are borders between plates a metre and a half wide, of which
+/// the share `cracked` has broken apart. They wander, meet in threes, and never curl.
+float crack(float x, float y, float cracked) {
+    constexpr float plates = 0.65F;  // [1/m]
+    constexpr float askew = 0.7F;    // of a plate, how far its middle is out of the lattice
+    const float u = plates * x + 0.13F * value_noise(x * 2.1F, y * 2.1F, 20) +
+                    0.035F * value_noise(x * 9, y * 9, 21);
+    const float v = plates * y + 0.13F * value_noise(x * 2.1F, y * 2.1F, 22) +
+                    0.035F * value_noise(x * 9, y * 9, 23);
+    const int column = floor_int(u);
+    const int row = floor_int(v);
+    const std::uint64_t square = lattice_place(column, row);
+    alignas(16) std::array<float, 4> aside;
+    alignas(16) std::array<float, 4> ahead;
+    _mm_store_ps(aside.data(), noise_corners(square, 24));
+    _mm_store_ps(ahead.data(), noise_corners(square, 25));
+    // The two nearest middles of plates, and whom they belong to.
+    std::array<float, 2> nearest{9, 9};
+    std::array<float, 2> plate{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const float dx = static_cast<float>(i % 2) + askew * (aside[i] - 0.5F) -
+                         (u - static_cast<float>(column));
+        const float dy =
+            static_cast<float>(i / 2) + askew * (ahead[i] - 0.5F) - (v - static_cast<float>(row));
+        const float distance = dx * dx + dy * dy;
+        const float own = aside[i] + ahead[i];
+        if (distance < nearest[0]) {
+            nearest = {distance, nearest[0]};
+            plate = {own, plate[0]};
+        } else if (distance < nearest[1]) {
+            nearest[1] = distance;
+            plate[1] = own;
+        }
+    }
+    if (fraction(37 * (plate[0] + plate[1])) > cracked)
+        return 0;
+    return smooth_step(0.015F, 0.004F, std::sqrt(nearest[1]) - std::sqrt(nearest[0]));
+}
+
 /// Small, repaired and cracked places: all from noise that is fixed to the world.
 Look asphalt(const Surface& at, float lane_distance) {
     const float x = at.position.x();
@@ -40,15 +79,13 @@ Look asphalt(const Surface& at, float lane_distance) {
         tone *= 1 - 0.17F * track * wear - 0.14F * oil * wear;
     }
     tone *= 1 + 0.16F * smooth_step(1.2F, 1.75F, lane_distance);
-    // Cracks run where a noise crosses its mean, in some places only.
+    // Cracks are in some places only.
     const float crack_detail = detail(at, 0.06F);
     const float place = crack_detail > 0
                             ? smooth_step(0.58F, 0.70F, fractal_noise(x * 0.13F, y * 0.13F, 2, 30))
                             : 0.0F;
-    if (place > 0) {
-        const float line = std::abs(fractal_noise(x * 1.3F, y * 1.3F, 4, 20) - 0.5F);
-        tone *= 1 - 0.5F * crack_detail * place * smooth_step(0.010F, 0.003F, line);
-    }
+    if (place > 0)
+        tone *= 1 - 0.6F * crack_detail * crack(x, y, place);
     Look look;
     look.albedo = Color(tone * 1.03F, tone, tone * 0.96F);
     look.roughness = 0.75F - 0.15F * track;
