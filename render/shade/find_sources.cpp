@@ -37,14 +37,15 @@ class Collection {
                   const Vector3f& facing,
                   const Color& color,
                   float candelas,
-                  float reach) {
+                  float reach,
+                  Lobe lobe) {
         add({position,
              facing,
              Vector3f::Zero(),
              color * (candelas * candela),
              reach * far_shine_,
              0.1F,
-             Lobe::lens},
+             lobe},
             far_small);
     }
 
@@ -97,7 +98,8 @@ void Collection::add_heads() {
                      head.facing,
                      light,
                      (head.for_walkers ? 40.0F : 200.0F) * input_.sky.lamplight(),
-                     14);
+                     14,
+                     Lobe::signal);
         };
         if (color == SignalColor::red || color == SignalColor::red_yellow ||
             color == SignalColor::stop)
@@ -159,7 +161,8 @@ void Collection::add_car_lens(const Instance& car,
              (car.pose.linear().cast<float>() * facing).normalized(),
              color,
              candelas,
-             9);
+             9,
+             Lobe::lens);
 }
 
 void Collection::add_car(const Instance& car) {

@@ -12,7 +12,8 @@ struct LightSource {
     enum class Lobe : std::uint8_t {
         street,    ///< down and to all sides, least straight down, none above the horizon
         lantern,   ///< all around, but not up
-        lens,      ///< of a signal or a car: mostly ahead
+        lens,      ///< of a car: mostly ahead
+        signal,    ///< of a signal: a narrow bundle, for who comes towards it
         window,    ///< as a flat surface that shines evenly
         low_beam,  ///< a head lamp's: wide, bright below a line that rises at the kerb's side
     };

@@ -40,7 +40,8 @@ float rank_of(const LightSource& source, float x, float y) {
         if (ahead < 0)
             return 0;
         share = 0.4F * low_beam_share(std::max(across, 0.0F) / std::max(ahead, 0.25F));
-    } else if (source.lobe == LightSource::Lobe::lens || source.lobe == LightSource::Lobe::window) {
+    } else if (source.lobe == LightSource::Lobe::lens || source.lobe == LightSource::Lobe::signal ||
+               source.lobe == LightSource::Lobe::window) {
         if (dx * source.axis.x() + dy * source.axis.y() < -6)
             return 0;
     }

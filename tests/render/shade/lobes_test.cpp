@@ -11,8 +11,8 @@ namespace {
 using Eigen::Vector3f;
 using Lobe = LightSource::Lobe;
 
-constexpr std::array<Lobe, 5> all_lobes{
-    Lobe::street, Lobe::lantern, Lobe::lens, Lobe::window, Lobe::low_beam};
+constexpr std::array<Lobe, 6> all_lobes{
+    Lobe::street, Lobe::lantern, Lobe::lens, Lobe::signal, Lobe::window, Lobe::low_beam};
 
 /// What hangs looks down, all else along x.
 LightSource source(Lobe lobe) {
@@ -76,11 +76,14 @@ TEST(Lobes, OfWhatHangsGoDownAndOfLensesAhead) {
         << "least straight down";
     EXPECT_GT(share(Lobe::lantern, {1, 0, 0}), 0.9F);
     EXPECT_EQ(share(Lobe::lantern, {0, 0, 1}), 0);
-    for (const Lobe lobe : {Lobe::lens, Lobe::window}) {
+    for (const Lobe lobe : {Lobe::lens, Lobe::signal, Lobe::window}) {
         EXPECT_FLOAT_EQ(share(lobe, {1, 0, 0}), 1);
         EXPECT_EQ(share(lobe, {-1, 0, 0}), 0);
     }
     EXPECT_LT(share(Lobe::lens, turned(45, 0)), share(Lobe::window, turned(45, 0)));
+    // EN 12368: no arcade beside the road is painted green.
+    EXPECT_NEAR(share(Lobe::signal, turned(12, 0)), 0.5F, 0.05F);
+    EXPECT_LT(share(Lobe::signal, turned(30, 0)), 0.011F);
 }
 
 /// ECE R112: dazzles nobody who comes, and shows the kerb's side farther.
@@ -93,6 +96,24 @@ TEST(Lobes, OfALowBeamEndsAtALineThatRisesOnTheKerbsSide) {
     EXPECT_LT(share(Lobe::low_beam, turned(0, -12)), 0.2F * brightest) << "just before the car";
     EXPECT_EQ(share(Lobe::low_beam, turned(80, -1.2F)), 0);
     EXPECT_EQ(share(Lobe::low_beam, turned(180, -1.2F)), 0);
+}
+
+/// From where half of what is just below its line arrives to where an eighth does. [degrees]
+float edge(float left_deg) {
+    const auto highest = [&](float part) {
+        const float most = share(Lobe::low_beam, turned(left_deg, -1));
+        float up = 8;
+        while (share(Lobe::low_beam, turned(left_deg, up)) < part * most)
+            up -= 0.02F;
+        return up;
+    };
+    return highest(0.125F) - highest(0.5F);
+}
+
+TEST(Lobes, OfALowBeamEndSoftlyOnFacadesAndSharplyBeforeWhoComes) {
+    EXPECT_LT(edge(2), 0.6F);
+    for (const float left : {40.0F, -40.0F})
+        EXPECT_GT(edge(left), 0.9F) << left;
 }
 
 /// What a low beam 0.66 m above the road gives it, so far ahead and to the left. [lx a candela]
