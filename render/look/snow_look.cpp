@@ -5,10 +5,11 @@ namespace reprise::render {
 
 namespace {
 
-/// Snow lies on what stays where it is; what drives and walks shakes it off.
+/// Snow lies on what stays where it is; who walks shakes it off.
 bool keeps_snow(Kind kind) {
-    return kind == Kind::ground || kind == Kind::marking || kind == Kind::town ||
-           kind == Kind::tree || kind == Kind::plant || kind == Kind::prop || kind == Kind::parked;
+    return kind == Kind::car_body || kind == Kind::ground || kind == Kind::marking ||
+           kind == Kind::town || kind == Kind::tree || kind == Kind::plant || kind == Kind::prop ||
+           kind == Kind::parked;
 }
 
 /// Where wheels roll, less is left: in their two tracks the road shows first. In [0, 1].
@@ -22,23 +23,35 @@ float left_by_wheels(const ShadingInput& input, const Surface& at) {
     return 1 - 0.22F * driven - 0.40F * track;
 }
 
+/// How much stays on what slopes so. A drive leaves it on roofs and bonnets, not on panes.
+float share_of_slope(const Surface& at) {
+    if (at.material == Material::leaf)
+        return 0.35F + 0.45F * clamp01(at.normal.z());
+    const bool drives = at.instance->kind == Kind::car_body;
+    return drives ? smooth_step(0.86F, 0.97F, at.normal.z())
+                  : smooth_step(0.30F, 0.75F, at.normal.z());
+}
+
 }  // namespace
 
 void lay_snow(Look& look, const ShadingInput& input, const Surface& at) {
     if (!(at.snow > 0) || !keeps_snow(at.instance->kind))
         return;
-    const bool leaf = at.material == Material::leaf;
-    const float up =
-        leaf ? 0.35F + 0.45F * clamp01(at.normal.z()) : smooth_step(0.30F, 0.75F, at.normal.z());
+    const float up = share_of_slope(at);
     if (up <= 0)
         return;
-    const float x = at.position.x();
-    const float y = at.position.y();
+    // What drives takes its patches with it; they are smaller, and have edges.
+    const bool drives = at.instance->kind == Kind::car_body;
+    const float x =
+        drives ? 2.5F * at.local.x() + 7 * unit(hash(at.instance->actor, 149)) : at.position.x();
+    const float y = drives ? 2.5F * at.local.y() : at.position.y();
+    const float soft = drives ? 0.10F : 0.30F;
     // Patches: a cover of c lies on the share c of places, thinner where the noise is low.
-    const float patch = 0.6F * fractal_noise(x * 0.4F, y * 0.4F, 3, 140) +
-                        0.4F * fractal_noise(x * 3.1F + at.position.z(), y * 3.1F, 2, 144);
-    const float cover = at.snow * left_by_wheels(input, at);
-    const float share = up * smooth_step(patch - 0.30F, patch + 0.30F, 1.6F * cover - 0.30F);
+    const float patch =
+        0.6F * fractal_noise(x * 0.4F, y * 0.4F, 3, 140) +
+        0.4F * fractal_noise(x * 3.1F + (drives ? 0 : at.position.z()), y * 3.1F, 2, 144);
+    const float cover = at.snow * (drives ? 0.65F : left_by_wheels(input, at));
+    const float share = up * smooth_step(patch - soft, patch + soft, 1.6F * cover - 0.30F);
     if (share <= 0)
         return;
     const float grain = detail(at, 0.3F);

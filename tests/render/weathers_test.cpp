@@ -133,6 +133,22 @@ TEST(Snow, WhitensTheGroundByItsCover) {
     EXPECT_GT(last, 1.6 * first);
 }
 
+TEST(Snow, LiesInPatchesOnTheRoofOfACarAndGoesWithIt) {
+    render::Sensors sensors(test::straight_road(400));
+    const auto roof = [&](double x, const char* said) {
+        const world::SealedTick tick = test::tick_with({test::vehicle_at(1, x, -1.75)});
+        world::SensorSpec spec = test::camera(world::SensorKind::rgb, {x + 0.9, -1.75, 4});
+        spec.pitch = -1.5;
+        spec.fov = 0.5;  // within its roof
+        return sensors.observe(tick.view(), {spec}, weather(said))[0];
+    };
+    const char* snowy = "overcast_noon,wetness=0,wind=0,snow_cover=0.7";
+    const auto bare = roof(100, "overcast_noon,wetness=0,wind=0");
+    const auto white = roof(100, snowy);
+    EXPECT_GT(difference(bare, white), 6);
+    EXPECT_LT(difference(white, roof(103.7, snowy)), 0.3 * difference(bare, white));
+}
+
 TEST(Shelter, KeepsTheRoadBelowABridgeDryAndFreeOfSnow) {
     render::Sensors sensors(test::bridge());
     const world::SealedTick tick = test::tick_with({});
