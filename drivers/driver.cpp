@@ -8,6 +8,7 @@
 #include "drivers/control/steering.h"
 #include "drivers/driver_state.h"
 #include "world/check.h"
+#include "world/frames.h"
 #include "world/units.h"
 
 namespace reprise::drivers {
@@ -297,9 +298,9 @@ double DriverState::past_junction_things(const world::TickView& last, const Ego&
 }
 
 /// Whatever the plan says: what stands where the wheels lead now is not driven into. Where the car
-/// is off its line, as behind a step back, hazards look at another place than it comes to. As late
-/// as it can be, as wheels turn on; fast ones keep to their line. Who is held by it goes back.
-/// [m/s^2]
+/// is off its line, as behind a step back, hazards look at another place than it comes to, and
+/// there are poles and walls. As late as it can be, as wheels turn on; fast ones keep to their
+/// line. Who is held by it goes back. [m/s^2]
 double DriverState::last_resort(const world::TickView& last, const Ego& ego) {
     constexpr double fastest = 7;     // [m/s]
     constexpr double stands = 0.5;    // [m/s]
@@ -309,7 +310,8 @@ double DriverState::last_resort(const world::TickView& last, const Ego& ego) {
     constexpr double back = 2;        // [m]
     const double speed = std::max(ego.speed, 0.0);
     const double reach = 0.1 + reaction * speed + speed * speed / (2 * braking * style.share);
-    if (speed > fastest * style.speed_share() || !something_is_before(last, ego, reach, stands)) {
+    if (speed > fastest * style.speed_share() ||
+        (!something_is_before(last, ego, reach, stands) && !town_is_before(ego, reach))) {
         held_ticks = 0;
         return world::infinity;
     }
@@ -322,6 +324,36 @@ double DriverState::last_resort(const world::TickView& last, const Ego& ego) {
             fmt::format("backs off {:.1f} m, from what its wheels lead into", back_off.distance())};
     }
     return -braking;
+}
+
+/// Do the wheels lead into a pole or a wall? Of who creeps, with wheels turned far or askew of its
+/// way: others are on it.
+bool DriverState::town_is_before(const Ego& ego, double reach) const {
+    constexpr double creeping = 3;    // [m/s]
+    constexpr double far = 0.6;       // of the greatest angle
+    constexpr double step_on = 0.25;  // [m]
+    constexpr double margin = 0.05;   // [m]
+    constexpr double askew = 0.4;     // [rad]
+    const bool is_askew =
+        std::abs(world::wrap_angle(ego.yaw - way().path().at(ego.rear_axle_s).yaw)) > askew;
+    if (std::abs(ego.speed) > creeping ||
+        (!is_askew && std::abs(ego.steering_angle) < far * ego.model->max_steering_angle))
+        return false;
+    const double front = ego.model->length - ego.model->rear_overhang;
+    const double curvature = std::tan(ego.steering_angle) / ego.model->wheelbase;
+    Eigen::Vector3d axle = ego.position;
+    double yaw = ego.yaw;
+    for (double driven = 0; driven < reach + step_on; driven += step_on) {
+        const Eigen::Vector3d ahead(std::cos(yaw), std::sin(yaw), 0);
+        const Eigen::Vector3d left(-ahead.y(), ahead.x(), 0);
+        const Eigen::Vector3d bow = axle + front * ahead;
+        const Eigen::Vector3d side = ego.model->width / 2 * left;
+        if (!map->clearances.is_clear(bow - side, bow + side, margin))
+            return true;
+        axle += step_on * ahead;
+        yaw += step_on * curvature;
+    }
+    return false;
 }
 
 /// Hands and feet while we turn around; when that is done, a new path on the lane behind it.

@@ -8,6 +8,8 @@
 
 #include "tests/drivers/kinematic_car.h"
 #include "tests/support/worlds.h"
+#include "world/geometry2d.h"
+#include "world/obstacle.h"
 #include "world/units.h"
 
 namespace reprise::test {
@@ -207,6 +209,51 @@ TEST(BackOff, FromWhatItsWheelsLeadInto) {
         }
         EXPECT_TRUE(goes_back || drive.car.x > 80) << "from " << aside << " m beside";
     }
+}
+
+/// Back from a junction's middle, askew, it began a turn that its wheels could not follow any more:
+/// over the pavement, into a pole.
+TEST(BackOff, FromAPoleThatItsWheelsLeadInto) {
+    const world::VehicleModel& model = world::vehicle_models()[0];
+    const auto begin = [](Drive& drive) {
+        drive.place(0, 40, 0);
+        drive.car.yaw = 1;
+    };
+    const auto road = [] {
+        world::TownT town = long_lane();
+        town.lanes.push_back(make_lane("beside", Turtle(0, -3.5, 0).ahead(600)));
+        return town;
+    };
+    const auto left_corner = [&](const Drive& drive, double in) {
+        const Eigen::Vector2d ahead(std::cos(drive.car.yaw), std::sin(drive.car.yaw));
+        return Eigen::Vector2d(Eigen::Vector2d(drive.car.x, drive.car.y) +
+                               (drive.car.front() - in) * ahead +
+                               (model.width / 2 - in) * world::turned_left(ahead));
+    };
+    Drive alone(road());
+    begin(alone);
+    while (alone.seconds() < 10 && alone.car.odometer < 1.5)
+        alone.step();
+    ASSERT_GT(std::abs(alone.car.steering_angle), 0.6 * model.max_steering_angle);
+    world::Obstacle pole;
+    pole.shape = world::Obstacle::Shape::cylinder;
+    pole.position << left_corner(alone, 0.2), 0;
+    pole.half = {0.1, 0.1, 2};
+    pole.radius = 0.1;
+    const std::vector<world::Obstacle> obstacles{pole};
+    Drive drive(road(), 7, 0, obstacles);
+    begin(drive);
+    int touched = 0;
+    while (drive.seconds() < 60) {
+        drive.step();
+        const Eigen::Vector2d to =
+            pole.position.head<2>() - Eigen::Vector2d(drive.car.x, drive.car.y);
+        const Eigen::Vector2d ahead(std::cos(drive.car.yaw), std::sin(drive.car.yaw));
+        touched += to.dot(ahead) < drive.car.front() + 0.1 && to.dot(ahead) > 0 &&
+                   std::abs(world::cross(ahead, to)) < model.width / 2 + 0.1;
+    }
+    EXPECT_EQ(touched, 0) << "ticks";
+    EXPECT_GT(drive.car.x, 60) << "gets on";
 }
 
 TEST(BackOff, NotWhoWasToldASpeed) {
