@@ -46,6 +46,15 @@ Said read_change(const std::string& part) {
     return said;
 }
 
+/// Small, and without '_': names are written together or apart.
+std::string letters_of(const std::string& name) {
+    std::string letters;
+    for (const char sign : name)
+        if (sign != '_')
+            letters += sign >= 'A' && sign <= 'Z' ? static_cast<char>(sign - 'A' + 'a') : sign;
+    return letters;
+}
+
 /// A number without its value; or the nearest name, or else the first that begins so: 'hard_rain'
 /// is that of noon.
 std::string hint(const std::string& text, const std::vector<std::string>& names) {
@@ -56,8 +65,9 @@ std::string hint(const std::string& text, const std::vector<std::string>& names)
     }
     if (std::string near = did_you_mean(text, names); !near.empty() || text.size() < 3)
         return near;
+    const std::string letters = letters_of(text);
     for (const std::string& name : names)
-        if (name.compare(0, text.size(), text) == 0)
+        if (letters_of(name).compare(0, letters.size(), letters) == 0)
             return " (did you mean '" + name + "'?)";
     return "";
 }

@@ -75,6 +75,9 @@ TEST(WeatherText, MistakesAreOneLineThatHelps) {
         const std::size_t begin = hint.find("mean '") + 6;
         EXPECT_NO_THROW(read_weather(hint.substr(begin, hint.find("'?") - begin))) << hint;
     }
+    EXPECT_EQ(mistake("hardrain").substr(0, 58),
+              "no weather 'hardrain' (did you mean 'hard_rain_noon'?); re")
+        << "names are written together or apart";
     EXPECT_EQ(mistake("rian=3").substr(0, 41), "no number 'rian' (did you mean 'rain'?); ");
     EXPECT_EQ(mistake("rain=-1"), "'rain' must be in [0, 200] mm/h, got -1");
     EXPECT_EQ(mistake("fog=5"), "'fog' must be in [10, 100000] m, got 5");
