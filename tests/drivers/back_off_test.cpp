@@ -98,8 +98,8 @@ TEST(BackOff, NotIntoWhoStandsBehind) {
     EXPECT_GT(least, model.length) << "touches who stands behind it";
 }
 
-/// One that made room in a junction again and again went back over the lane of the other one, and
-/// off the road, where it stayed.
+/// Who makes room again and again in a junction would come over the lane of the other one, and off
+/// the road, from where nothing leads back.
 TEST(BackOff, NotOffItsLanes) {
     constexpr double tail_at = 2;  // [m] before the lane's start
     const world::VehicleModel& model = world::vehicle_models()[0];
@@ -211,8 +211,7 @@ TEST(BackOff, FromWhatItsWheelsLeadInto) {
     }
 }
 
-/// Back from a junction's middle, askew, it began a turn that its wheels could not follow any more:
-/// over the pavement, into a pole.
+/// Who stands askew of his way may begin a turn that his wheels cannot follow.
 TEST(BackOff, FromAPoleThatItsWheelsLeadInto) {
     const world::VehicleModel& model = world::vehicle_models()[0];
     const auto begin = [](Drive& drive) {
