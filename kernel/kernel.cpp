@@ -174,22 +174,43 @@ void Kernel::begin() {
     close(Stage::scenario, next);
 
     // 2. and 3. traffic: background cars and signals; pedestrians. Neither reads what the other
-    // does in this tick.
+    // does in this tick, nor do the drivers, whose turn comes later.
+    parts.side_thread.drop();
     const std::span<const world::CommandT> commands = next.tick.commands;
+    const std::uint64_t tick = next.tick.index;
     walkers::OnFoot on_foot;
     const auto drive = [&] { parts.background.advance(last, next); };
-    const auto walk = [&] { on_foot = parts.pedestrians.advance(last, commands); };
+    const auto walk = [&] {
+        on_foot = parts.pedestrians.advance(last, commands);
+        parts.roster.decide(last, tick);
+    };
     if (parts.pedestrians.are_many()) {
         parts.side_thread.both(drive, walk);
     } else {
         drive();
         walk();
     }
+    look_ahead(next.tick.index + 1);
     parts.lamps.light_cars(next);
     close(Stage::traffic, next);
     add(std::move(on_foot), next);
     close(Stage::pedestrians, next);
     parts.next = std::move(next);
+}
+
+/// Traffic's cars are as they are until they make their next step: what that needs of them another
+/// processor works out while this one makes the other stages. Where nobody walks its thread would
+/// have to be woken for this alone, which costs a processor more than it saves the other one.
+void Kernel::look_ahead(std::uint64_t tick) {
+    Parts& parts = *parts_;
+    if (!parts.pedestrians.are_many() || !parts.background.are_many())
+        return;
+    parts.side_thread.offer([&background = parts.background, tick] {
+        try {
+            background.look_ahead(tick);
+        } catch (...) {  // whoever makes the step hears of it
+        }
+    });
 }
 
 void Kernel::begin_step() {

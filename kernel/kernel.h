@@ -60,6 +60,7 @@ class Kernel {
 
   private:
     void begin();
+    void look_ahead(std::uint64_t tick);
     void take_branch(std::uint64_t tick);
     void note_outcome(world::TickDraft& next);
     void close(Stage stage, world::TickDraft& next);

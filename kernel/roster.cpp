@@ -348,27 +348,45 @@ bool Roster::is_free(const world::TickView& last,
            std::none_of(said.begin(), said.end(), spawned_near);
 }
 
+/// Neither where a trajectory drives nor where nothing of it can be seen yet.
+bool Roster::decides(const Entry& entry,
+                     std::uint32_t id,
+                     const world::TickView& last,
+                     std::uint64_t tick) {
+    return entry.autopilot && (entry.follows_until == 0 || tick > entry.follows_until) &&
+           entry.moved_at != tick && find(last.vehicles(), id) != nullptr;
+}
+
 /// The autopilot plans a new route when it next decides; what it then finds impossible is the
-/// mistake of the line that asked for the route. What it does of its own will is an event.
-world::Control Roster::decide(Entry& entry,
-                              const world::TickView& last,
-                              world::TickDraft& next) const {
-    try {
-        const world::Control control = entry.autopilot->decide(last);
-        if (const drivers::DriverNews* news = entry.autopilot->news()) {
-            world::EventT event;
-            event.kind = news->kind;
-            event.actor = control.actor();
-            event.other = news->other;
-            event.position = world::find(last.vehicles(), control.actor())->position();
-            event.text = news->text;
-            next.tick.events.push_back(std::move(event));
+/// mistake of the line that asked for the route.
+void Roster::decide(const world::TickView& last, std::uint64_t tick) {
+    for (auto& [id, entry] : entries_) {
+        if (!decides(entry, id, last, tick))
+            continue;
+        try {
+            entry.control = entry.autopilot->decide(last);
+        } catch (const world::Error& error) {
+            entry.mistake = std::make_exception_ptr(world::Error(episode_->scenario_path + ":" +
+                                                                 std::to_string(entry.route_line) +
+                                                                 ": " + error.what()));
         }
-        return control;
-    } catch (const world::Error& error) {
-        throw world::Error(episode_->scenario_path + ":" + std::to_string(entry.route_line) + ": " +
-                           error.what());
     }
+}
+
+/// What the autopilot does of its own will is an event.
+void Roster::tell_news(const Entry& entry,
+                       const world::TickView& last,
+                       world::TickDraft& next) const {
+    const drivers::DriverNews* news = entry.autopilot->news();
+    if (news == nullptr)
+        return;
+    world::EventT event;
+    event.kind = news->kind;
+    event.actor = entry.control.actor();
+    event.other = news->other;
+    event.position = world::find(last.vehicles(), entry.control.actor())->position();
+    event.text = news->text;
+    next.tick.events.push_back(std::move(event));
 }
 
 void Roster::apply_controls(std::span<const world::Control> controls,
@@ -382,13 +400,15 @@ void Roster::apply_controls(std::span<const world::Control> controls,
         found->second.rolls_until = 0;
     }
     for (auto& [id, entry] : entries_) {
+        if (entry.mistake)
+            std::rethrow_exception(entry.mistake);
         const bool in_last_tick = find(last.vehicles(), id) != nullptr;
         if (next.tick.index > entry.follows_until)
             entry.follows_until = 0;
         if (entry.autopilot && entry.follows_until > 0)
             entry.control = {0, 0, 0, id, 0, false, false};  // a trajectory drives
-        else if (entry.autopilot && in_last_tick && entry.moved_at != next.tick.index)
-            entry.control = decide(entry, last, next);
+        else if (decides(entry, id, last, next.tick.index))
+            tell_news(entry, last, next);
         else if (!entry.autopilot && !entry.scripted && entry.rolls_until > 0 &&
                  next.tick.index > entry.rolls_until)
             entry.control = parked_control(id);  // nobody took the wheel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <map>
 #include <optional>
 #include <span>
@@ -30,8 +31,13 @@ class Roster {
     /// Fills in the place of a vehicle that the scenario left to chance.
     void apply_commands(const world::TickView& last, world::TickDraft& next, Physics& physics);
 
-    /// Stage 2: writes next.tick.controls, one for each vehicle: the autopilot's decision from the
-    /// last tick, or for manual ones the newest of `controls`.
+    /// Behind the commands of `tick`: what each autopilot decides from the last one, for
+    /// apply_controls. Touches nothing but them, so other stages may run meanwhile. What one of
+    /// them throws is thrown by apply_controls.
+    void decide(const world::TickView& last, std::uint64_t tick);
+
+    /// Stage 2: writes next.tick.controls, one for each vehicle: the autopilot's decision, or for
+    /// manual ones the newest of `controls`.
     void apply_controls(std::span<const world::Control> controls,
                         const world::TickView& last,
                         world::TickDraft& next);
@@ -66,6 +72,7 @@ class Roster {
         /// Last tick in which a trajectory says where it is; 0: none.
         std::uint64_t follows_until = 0;
         std::uint64_t moved_at = 0;  ///< tick in which it was put elsewhere or given another speed
+        std::exception_ptr mistake{};  ///< why its autopilot cannot decide
         std::uint64_t wrecked_at = 0;  ///< tick; 0: it is none
         std::uint32_t told = 0;        ///< a wreck: bit for each CommandKind that was answered
     };
@@ -87,7 +94,11 @@ class Roster {
                               std::uint16_t model,
                               const Physics& physics) const;
     void roll(Entry& entry, const world::CommandT& spawn, double climb, std::uint64_t tick) const;
-    world::Control decide(Entry& entry, const world::TickView& last, world::TickDraft& next) const;
+    static bool decides(const Entry& entry,
+                        std::uint32_t id,
+                        const world::TickView& last,
+                        std::uint64_t tick);
+    void tell_news(const Entry& entry, const world::TickView& last, world::TickDraft& next) const;
     void despawn(const world::CommandT& command, world::TickDraft& next, Physics& physics);
     void spawn(const world::TickView& last,
                world::CommandT& command,

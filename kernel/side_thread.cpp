@@ -2,6 +2,7 @@
 
 #include <sched.h>
 #include <system_error>
+#include <utility>
 
 #include "world/arithmetic.h"
 #include "world/check.h"
@@ -19,10 +20,14 @@ bool has_another_processor() {
 }  // namespace
 
 SideThread::~SideThread() {
+    if (state_ != State::idle)
+        take_back();
+    state_ = State::idle;
     rest();
 }
 
 void SideThread::rest() {
+    drop();
     tried_ = false;
     if (!thread_.joinable())
         return;
@@ -56,9 +61,24 @@ void SideThread::run() {
         if (state != State::offered) {
             state_.wait(state);
         } else if (state_.compare_exchange_strong(state, State::taken)) {
+            const bool lingers = more_follows_;
             work();
             tell(State::done);
+            if (lingers)
+                linger();
         }
+    }
+}
+
+/// Awake until there is work again, for about a hundred microseconds: to wake somebody takes
+/// tens of them, from the one who does. Whoever else wants the processor gets it.
+void SideThread::linger() const {
+    constexpr int times = 200;
+    for (int i = 0; i < times; ++i) {
+        const State state = state_.load(std::memory_order_relaxed);
+        if (state != State::done && state != State::idle)
+            return;
+        std::this_thread::yield();
     }
 }
 
@@ -71,35 +91,62 @@ void SideThread::work() noexcept {
     }
 }
 
-void SideThread::both(const std::function<void()>& here, const std::function<void()>& there) {
+void SideThread::offer_it() {
     if (!tried_)
         start();
-    there_ = &there;
     error_ = nullptr;
     if (thread_.joinable())
         tell(State::offered);
     else
         state_ = State::offered;
+}
+
+/// True: the other thread has not begun, and will not. False: it is done.
+bool SideThread::take_back() {
+    State state = State::offered;
+    const bool ours = state_.compare_exchange_strong(state, State::taken) || state == State::idle;
+    while (!ours && state != State::done) {
+        state_.wait(state);
+        state = state_.load();
+    }
+    return ours;
+}
+
+void SideThread::both(const std::function<void()>& here, const std::function<void()>& there) {
+    drop();
+    there_ = &there;
+    more_follows_ = false;
+    offer_it();
     std::exception_ptr error_here;
     try {
         here();
     } catch (...) {
         error_here = std::current_exception();
     }
-    State state = State::offered;
-    if (state_.compare_exchange_strong(state, State::taken)) {
+    if (take_back())
         work();
-    } else {
-        while (state != State::done) {
-            state_.wait(state);
-            state = state_.load();
-        }
-    }
     state_ = State::idle;
     if (error_here)
         std::rethrow_exception(error_here);
     if (error_)
         std::rethrow_exception(error_);
+}
+
+void SideThread::offer(std::function<void()> there) {
+    drop();
+    offered_ = std::move(there);
+    there_ = &offered_;
+    more_follows_ = true;
+    offer_it();
+}
+
+void SideThread::drop() {
+    if (state_ == State::idle)
+        return;
+    const bool done = !take_back();
+    state_ = State::idle;
+    if (done && error_)
+        std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
 }  // namespace reprise::kernel

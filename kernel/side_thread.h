@@ -22,7 +22,16 @@ class SideThread {
     /// did. 10 us more than the longer of the two.
     void both(const std::function<void()>& here, const std::function<void()>& there);
 
-    /// Ends the other thread until it is needed again: so that the process can be copied.
+    /// Does `there` in the other thread while this one goes on, until drop(). Both() is to follow
+    /// soon: until then the other thread stays awake.
+    void offer(std::function<void()> there);
+
+    /// Returns once what was offered is done, or will never be: where the other thread has not
+    /// begun by now. Throws what it threw. Nothing where nothing was offered.
+    void drop();
+
+    /// As drop(), and ends the other thread until it is needed again: so that the process can be
+    /// copied.
     void rest();
 
   private:
@@ -30,11 +39,16 @@ class SideThread {
 
     void start();
     void run();
+    void offer_it();
+    bool take_back();
+    void linger() const;
     void work() noexcept;
     void tell(State state);
 
     std::atomic<State> state_ = State::idle;
     const std::function<void()>* there_ = nullptr;
+    std::function<void()> offered_;
+    bool more_follows_ = false;
     std::exception_ptr error_;
     std::thread thread_;
     bool tried_ = false;  ///< to start it

@@ -247,6 +247,15 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     parts.reader.write(parts.cars, next);
 }
 
+void Background::look_ahead(std::uint64_t tick) {
+    parts_->lookout.look_ahead(parts_->cars, tick);
+}
+
+bool Background::are_many() const {
+    constexpr std::size_t many = 30;
+    return parts_->cars.size() >= many;
+}
+
 std::uint64_t Background::digest() const {
     world::Hasher hasher;
     parts_->cars.add_to(hasher);

@@ -33,6 +33,15 @@ class Background {
     /// spawned/despawned events. Keeps the number of background cars.
     void advance(const world::TickView& last, world::TickDraft& next);
 
+    /// Works out beforehand what the next advance, which makes `tick`, will need, if nothing
+    /// happens to the cars until then. Changes nothing that can be asked here: for another thread,
+    /// in the time between two advances. What it throws is of no interest: whoever advances hears
+    /// of it.
+    void look_ahead(std::uint64_t tick);
+
+    /// Are there enough cars that looking ahead in a thread of its own pays?
+    bool are_many() const;
+
     /// Of all that this keeps: every car unrounded, with its route, trail and orders; the signals;
     /// the mirrors. SUMO's own memory cannot be read: what it holds (its drivers' random streams,
     /// say) shows in the cars and signals, in the tick in which it first matters.

@@ -60,6 +60,12 @@ class Lookout {
     /// Before SUMO's step, behind the orders.
     void advance(const world::TickView& last, Cars& cars, std::uint64_t tick);
 
+    /// Behind SUMO's step: what can be told of the next tick already. Changes nothing that can be
+    /// asked here, as Meetings::look_ahead.
+    void look_ahead(const Cars& cars, std::uint64_t tick) {
+        meetings_.look_ahead(cars.all(), tick);
+    }
+
     /// Beside what the cars keep; nothing where nothing is in the way.
     void add_to(world::Hasher& hasher) const {
         obstructions_.add_to(hasher);

@@ -15,9 +15,9 @@ namespace reprise::test {
 
 namespace {
 
-world::Recording street_life(unsigned walkers, double seconds) {
+world::Recording street_life(unsigned walkers, double seconds, unsigned cars = 20) {
     world::Recording recording = in_town1(
-        "spawn{ name = 'ego', model = 'sedan', driver = 'autopilot' } wait(600)", 20, seconds);
+        "spawn{ name = 'ego', model = 'sedan', driver = 'autopilot' } wait(600)", cars, seconds);
     recording.episode.walkers = walkers;
     recording.episode.walker_seed = 5;
     recording.episode.jaywalkers = 0.2;
@@ -52,11 +52,12 @@ TEST(CrowdRuns, VerifyFindsNothingInARunOfAHundredWalkers) {
     std::filesystem::remove(path);
 }
 
-/// Traffic and those on foot make their steps at once where there are two processors.
+/// Where there are two processors traffic and those on foot make their steps at once, drivers
+/// decide meanwhile, and cars look ahead to the next step.
 TEST(CrowdRuns, OneProcessorMakesTheRunThatSeveralMake) {
     const auto chain_of = [] {
         return world::to_hex(
-            run(street_life(60, 10)).back().recorded().view.tick->digests()->chain());
+            run(street_life(60, 20, 80)).back().recorded().view.tick->digests()->chain());
     };
     const std::string several = chain_of();
     const OneProcessor alone;

@@ -1,5 +1,6 @@
 #include "kernel/side_thread.h"
 
+#include <atomic>
 #include <filesystem>
 #include <iterator>
 #include <stdexcept>
@@ -62,9 +63,49 @@ TEST(SideThread, LeavesTheProcessAloneWhereItRests) {
         int done = 0;
         side.both([&] { ++done; }, [] {});
         EXPECT_EQ(done, 1);
+        side.offer([] {});
         side.rest();
         EXPECT_EQ(threads(), before);
     }
+}
+
+TEST(SideThread, WhatIsOfferedIsDoneOnceOrNotAtAll) {
+    constexpr int times = 5'000;
+    std::atomic<int> offered = 0;
+    int there = 0;
+    int taken = 0;
+    SideThread side;
+    for (int i = 1; i <= times; ++i) {
+        const int before = offered;
+        side.offer([&] { ++offered; });
+        if (i % 2 == 0)  // enough of them for it to begin
+            for (int waits = 0; offered == before && waits < 1000; ++waits)
+                std::this_thread::yield();
+        side.drop();
+        const int now = offered;
+        ASSERT_TRUE(now == before || now == before + 1);
+        taken += now - before;
+        side.both([] {}, [&] { ++there; });
+        ASSERT_EQ(there, i);
+        ASSERT_EQ(offered, now) << "begun behind drop";
+    }
+    EXPECT_GT(taken, 0);
+    side.offer([] { throw std::runtime_error("offered"); });
+    try {
+        side.drop();  // may come before it has begun
+    } catch (const std::runtime_error& error) {
+        EXPECT_EQ(std::string(error.what()), "offered");
+    }
+    side.both([] {}, [&] { ++there; });
+    EXPECT_EQ(there, times + 1) << "goes on behind a fault";
+    side.offer([&] { ++offered; });  // and ends with it
+}
+
+TEST(SideThread, OnOneProcessorNothingThatIsOfferedIsDone) {
+    const test::OneProcessor alone;
+    SideThread side;
+    side.offer([] { FAIL(); });
+    side.drop();
 }
 
 TEST(SideThread, OnOneProcessorDoesBothInTheThreadThatAsks) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -406,6 +408,92 @@ TEST(Meetings, WhoStandsIsSeenAsIfHeWereSeenForTheFirstTime) {
                 }
         }
     EXPECT_GT(held, 100);
+}
+
+/// What the meetings of these cars come to.
+struct Outcome {
+    std::vector<double> allowed;
+    std::vector<std::vector<std::uint32_t>> waits_for;
+    std::vector<std::vector<std::uint32_t>> pushes_past;
+
+    bool operator==(const Outcome&) const = default;
+};
+
+Outcome outcome_of(Meetings& meetings, Cars cars, std::uint64_t tick) {
+    meetings.look(cars, tick);
+    Outcome outcome;
+    for (std::size_t i = 0; i < cars.size(); ++i) {
+        outcome.allowed.push_back(meetings.allowed_speed(i));
+        outcome.waits_for.push_back(cars[i].waits_for);
+        outcome.pushes_past.push_back(cars[i].pushes_past);
+    }
+    return outcome;
+}
+
+/// Whatever happens to the cars after it looked ahead, it finds what one finds who did not.
+TEST(Meetings, WhatWasForeseenHoldsUntilSomethingHappensToTheCars) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const RightOfWay right_of_way(town, {});
+    const std::vector<Entry> entries = entries_of(town);
+    constexpr std::uint64_t tick = 100;
+    world::TickDraft draft;
+    Entry way;        // of the first car,
+    Entry other_way;  // and of one who comes later
+    const std::vector<std::function<void(Cars&)>> changes{
+        [](Cars&) {},
+        [](Cars& cars) { cars[1].speed = 1; },
+        [](Cars& cars) { cars[1].lane_position -= 6; },
+        [](Cars& cars) { cars[0].standing_ticks = cars[1].standing_ticks = 200; },
+        [](Cars& cars) { cars[0].waits_for.clear(); },
+        [](Cars& cars) {
+            cars[0].pushes_past = {8};
+            cars[0].pushes_until = tick + 50;
+        },
+        [](Cars& cars) { cars[1].offset = 2; },
+        [](Cars& cars) { cars[1].pass = PassOrder{}; },
+        [](Cars& cars) { cars[1].sumo.clear(); },
+        [&](Cars& cars) { cars.remove(1, draft); },
+        [&](Cars& cars) {
+            cars.add(
+                car_before(town, graph, 9, "sedan", way.first, way.second, 1, 0), "", 0, draft);
+        },
+        [&](Cars& cars) {
+            cars[0].route = {graph.edge_of(way.first), graph.edge_after(other_way.second)};
+        },
+    };
+    std::vector<int> mattered(changes.size(), 0);
+    for (const Entry& one : entries)
+        for (const Entry& other : entries) {
+            if (graph.edge_of(one.first) >= graph.edge_of(other.first) ||
+                town.lanes[one.second].junction != town.lanes[other.second].junction)
+                continue;
+            way = other_way = one;
+            for (const Entry& third : entries)
+                if (third.first == one.first && third.second != one.second)
+                    other_way = third;
+            Cars cars;
+            cars.add(
+                car_before(town, graph, 7, "sedan", one.first, one.second, 5, 6), "", 0, draft);
+            cars.add(
+                car_before(town, graph, 8, "bus", other.first, other.second, 6, 6), "", 0, draft);
+            cars[0].waits_for = {8};
+            Meetings fresh(town, graph, right_of_way, meeting_step);
+            const Outcome unchanged = outcome_of(fresh, cars, tick);
+            for (std::size_t i = 0; i < changes.size(); ++i) {
+                Meetings ahead(town, graph, right_of_way, meeting_step);
+                ahead.look_ahead(cars.all(), tick);
+                Cars later = cars;
+                changes[i](later);
+                Meetings anew(town, graph, right_of_way, meeting_step);
+                const Outcome wanted = outcome_of(anew, later, tick);
+                EXPECT_EQ(outcome_of(ahead, later, tick), wanted) << "change " << i;
+                mattered[i] += static_cast<int>(wanted != unchanged);
+            }
+        }
+    EXPECT_EQ(mattered.front(), 0);
+    for (std::size_t i = 1; i < changes.size(); ++i)
+        EXPECT_GT(mattered[i], 0) << "change " << i << " shows nothing";
 }
 
 /// In the junction, so far [m] along its lane, and there for long.

@@ -94,6 +94,25 @@ void Meetings::Pose::take(const Car& car) {
     route = car.route;
 }
 
+bool Meetings::Manner::is_of(const Car& car) const {
+    return standing_ticks == car.standing_ticks && stuck_ticks == car.stuck_ticks &&
+           pushes_until == car.pushes_until && pushes_past == car.pushes_past &&
+           waits_for == car.waits_for;
+}
+
+void Meetings::Manner::take(const Car& car) {
+    standing_ticks = car.standing_ticks;
+    stuck_ticks = car.stuck_ticks;
+    pushes_until = car.pushes_until;
+    pushes_past = car.pushes_past;
+    waits_for = car.waits_for;
+}
+
+bool Meetings::takes_part(const Car& car) {
+    return !car.sumo.empty() && car.origin != Origin::parked && car.lane != none && !car.pass &&
+           std::abs(car.offset) <= beside_its_lane;
+}
+
 /// One for each of them, in their order: of who was there before, his own.
 void Meetings::remember(std::span<const Car> cars) {
     const auto is_its = [](const Car& car, const std::unique_ptr<Memory>& memory) {
@@ -133,21 +152,22 @@ Meetings::Place Meetings::place_of(const Car& car, const Driver& driver) const {
     return place;
 }
 
-void Meetings::gather(Cars& cars) {
-    const auto all = cars.all();
-    remember(all);
-    drivers_.resize(all.size());
+void Meetings::gather(std::span<const Car> cars) {
+    remember(cars);
+    drivers_.resize(cars.size());
     places_.clear();
-    allowed_.assign(all.size(), world::infinity);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        Car& car = all[i];
+    allowed_.assign(cars.size(), world::infinity);
+    for (std::size_t i = 0; i < cars.size(); ++i) {
+        const Car& car = cars[i];
         Driver& driver = drivers_[i];
         driver.car = nullptr;
         driver.waits_for.clear();
         driver.blocked_by.clear();
-        if (car.sumo.empty() || car.origin == Origin::parked || car.lane == none || car.pass ||
-            std::abs(car.offset) > beside_its_lane)
+        if (!takes_part(car))
             continue;
+        driver.manner.take(car);
+        driver.pushes_until = car.pushes_until;
+        driver.pushes_past = car.pushes_past;
         const world::VehicleModel& model = world::vehicle_models()[car.model];
         driver.car = &car;
         driver.seen = nullptr;
@@ -261,16 +281,16 @@ void Meetings::push_past(Driver& one, Driver& other) const {
     const double its_depth = other.seen->depth_in(one.seen->now(), other.reach);
     if (std::min(depth, its_depth) > deepest_push)
         return;
-    Car& car = depth <= its_depth ? *one.car : *other.car;
-    if (car.pushes_until <= tick_)
-        car.pushes_past.clear();
-    car.pushes_past.push_back(depth <= its_depth ? other.car->id : one.car->id);
-    car.pushes_until = tick_ + pushes_for;
+    Driver& driver = depth <= its_depth ? one : other;
+    if (driver.pushes_until <= tick_)
+        driver.pushes_past.clear();
+    driver.pushes_past.push_back(depth <= its_depth ? other.car->id : one.car->id);
+    driver.pushes_until = tick_ + pushes_for;
 }
 
 bool Meetings::pushes_past(const Driver& driver, const Driver& other) const {
-    const auto& ids = driver.car->pushes_past;
-    return driver.car->pushes_until > tick_ &&
+    const auto& ids = driver.pushes_past;
+    return driver.pushes_until > tick_ &&
            std::find(ids.begin(), ids.end(), other.car->id) != ids.end();
 }
 
@@ -382,7 +402,7 @@ bool Meetings::lies_in_way_of(const Driver& driver, const Driver& comer) const {
 void Meetings::meet(Driver& one, Driver& other) {
     prepare(one);
     prepare(other);
-    const bool pushes = one.car->pushes_until > tick_ || other.car->pushes_until > tick_;
+    const bool pushes = one.pushes_until > tick_ || other.pushes_until > tick_;
     if ((!pushes && !one.seen->may_touch(*other.seen)) ||
         !overlap(one.seen->corridor(), other.seen->corridor()))
         return;
@@ -413,9 +433,7 @@ void Meetings::meet(Driver& one, Driver& other) {
         wait(other, one, stop_before_way(other, one));
 }
 
-void Meetings::look(Cars& cars, std::uint64_t tick) {
-    tick_ = tick;
-    gather(cars);
+void Meetings::look_at_pairs() {
     double farthest = 0;
     for (const Place& place : places_)
         farthest = std::max(farthest, place.reach + longest_body / 2);
@@ -434,10 +452,46 @@ void Meetings::look(Cars& cars, std::uint64_t tick) {
                 meet(drivers_[one.driver], drivers_[other.driver]);
         }
     }
+}
+
+void Meetings::look_ahead(std::span<const Car> cars, std::uint64_t tick) {
+    tick_ = tick;
+    ahead_of_ = 0;
+    gather(cars);
+    look_at_pairs();
+    ahead_of_ = tick;
+}
+
+/// Are they just as they were when it looked ahead to this tick?
+bool Meetings::has_foreseen(std::span<const Car> cars, std::uint64_t tick) const {
+    if (ahead_of_ != tick || drivers_.size() != cars.size())
+        return false;
+    for (std::size_t i = 0; i < cars.size(); ++i) {
+        const Car& car = cars[i];
+        const Driver& driver = drivers_[i];
+        if (memories_[i]->id != car.id || takes_part(car) != (driver.car != nullptr) ||
+            (driver.car != nullptr && !(driver.manner.is_of(car) && memories_[i]->pose.is_of(car))))
+            return false;
+    }
+    return true;
+}
+
+void Meetings::look(Cars& cars, std::uint64_t tick) {
     const auto all = cars.all();
+    if (!has_foreseen(all, tick)) {
+        tick_ = tick;
+        gather(all);
+        look_at_pairs();
+    }
+    ahead_of_ = 0;
     for (std::size_t i = 0; i < drivers_.size(); ++i) {
-        all[i].waits_for = drivers_[i].waits_for;
-        all[i].blocked_by = drivers_[i].blocked_by;
+        const Driver& driver = drivers_[i];
+        all[i].waits_for = driver.waits_for;
+        all[i].blocked_by = driver.blocked_by;
+        if (driver.car == nullptr)
+            continue;
+        all[i].pushes_until = driver.pushes_until;
+        all[i].pushes_past = driver.pushes_past;
     }
 }
 

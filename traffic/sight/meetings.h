@@ -41,6 +41,11 @@ class Meetings {
     /// As the cars are now, in the tick being made.
     void look(Cars& cars, std::uint64_t tick);
 
+    /// What look() will find in that tick, if nothing happens to the cars until then; where
+    /// something does, it looks anew. Changes nothing that can be asked here: another thread may do
+    /// it while nobody else changes or asks anything of the cars or of this.
+    void look_ahead(std::span<const Car> cars, std::uint64_t tick);
+
     /// [m/s] for cars[index] in the next tick, as of the last look; infinite where nobody is met.
     double allowed_speed(std::size_t index) const { return allowed_[index]; }
 
@@ -48,15 +53,30 @@ class Meetings {
     const LaneLines& lines() const { return lines_; }
 
   private:
+    /// What decides about a car beside its pose.
+    struct Manner {
+        std::uint32_t standing_ticks = 0;
+        std::uint32_t stuck_ticks = 0;
+        std::uint64_t pushes_until = 0;
+        std::vector<std::uint32_t> pushes_past;  ///< ids
+        std::vector<std::uint32_t> waits_for;    ///< ids, of the last look
+
+        bool is_of(const Car& car) const;
+        void take(const Car& car);
+    };
+
     /// One of the cars.
     struct Driver {
-        Car* car = nullptr;
+        const Car* car = nullptr;
         double reach = 0;  ///< [m] of way that is looked at
         double half_length = 0;
         Eigen::Vector2d middle;
-        Foresight* seen = nullptr;              ///< once it is asked for
-        std::vector<std::uint32_t> waits_for;   ///< ids, of this tick
-        std::vector<std::uint32_t> blocked_by;  ///< likewise
+        Foresight* seen = nullptr;               ///< once it is asked for
+        std::vector<std::uint32_t> waits_for;    ///< ids, of this tick
+        std::vector<std::uint32_t> blocked_by;   ///< likewise
+        std::uint64_t pushes_until = 0;          ///< tick
+        std::vector<std::uint32_t> pushes_past;  ///< ids
+        Manner manner;                           ///< with which it came
     };
 
     /// What decides about most pairs, side by side in memory; by `x`, then by the cars' ids.
@@ -103,7 +123,10 @@ class Meetings {
         double time = 0;  ///< [s] until it is there
     };
 
-    void gather(Cars& cars);
+    static bool takes_part(const Car& car);
+    bool has_foreseen(std::span<const Car> cars, std::uint64_t tick) const;
+    void gather(std::span<const Car> cars);
+    void look_at_pairs();
     void remember(std::span<const Car> cars);
     Place place_of(const Car& car, const Driver& driver) const;
     bool is_between_lanes(const Car& car) const;
@@ -143,6 +166,7 @@ class Meetings {
     std::vector<Place> places_;
     std::vector<std::unique_ptr<Memory>> memories_;  ///< [i] of cars[i]
     std::uint64_t tick_ = 0;
+    std::uint64_t ahead_of_ = 0;  ///< tick that was looked at ahead; 0: none
 };
 
 }  // namespace reprise::traffic
