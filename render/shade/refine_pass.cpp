@@ -16,7 +16,8 @@ using Eigen::Vector3f;
 constexpr std::array<std::array<double, 2>, 4> subpixel_offsets{
     {{.375, .125}, {.625, .875}, {.875, .375}, {.125, .625}}};
 constexpr std::size_t pair = 2;
-constexpr float even = 0.045F;  ///< [tone] steps that nobody sees as stairs
+constexpr float even = 0.045F;       ///< [tone] steps that nobody sees as stairs
+constexpr float least_step = 0.01F;  ///< [tone] between two things
 
 bool is_edge(const ShadingJob& job, int x, int y) {
     const Frame& frame = job.frame;
@@ -37,7 +38,7 @@ bool is_edge(const ShadingJob& job, int x, int y) {
     if (above(2 * even) != 0)
         return true;
     // Smaller steps only count where another thing begins: before the sky they are its own.
-    const int steep = above(own != no_instance ? 0.01F : even);
+    const int steep = above(own != no_instance ? least_step : even);
     for (unsigned side = 0; side < 4 && steep != 0; ++side)
         if ((steep >> side & 1) != 0 && own != job.hits[sides[side]].instance)
             return true;
@@ -54,6 +55,7 @@ struct Neighbour {
               const Surface& at) {
         const Frame& frame = job.frame;
         float least = infinite;
+        float farthest = infinite;  // squared
         for (int i = 0; i < 9; ++i) {
             const int x = std::clamp(pixel.x() + i % 3 - 1, 0, frame.width - 1);
             const int y = std::clamp(pixel.y() + i / 3 - 1, 0, frame.height - 1);
@@ -61,10 +63,15 @@ struct Neighbour {
                 continue;
             const std::size_t next = tile_place(x, y);
             const RawLight& raw = tiles.pixels(x, y).lights[next];
+            const float squared = (raw.position - at.position).squaredNorm();
+            // Farther than the closest so far, however it is turned: no root is needed.
+            if (squared > farthest)
+                continue;
             const float turned = 1 - raw.flat.dot(at.flat);
-            const float away = (raw.position - at.position).norm() + turned * at.distance * 0.01F;
+            const float away = std::sqrt(squared) + turned * at.distance * 0.01F;
             if (away < least) {
                 least = away;
+                farthest = 1.01F * away * away;
                 pixels = &tiles.pixels(x, y);
                 place = next;
                 flush = turned < 0.02F && away < raw.tolerance;
@@ -100,14 +107,30 @@ struct Refined {
     }
 };
 
+/// Of four pixels in a row, bit by bit, those that may be edges: most of a picture is even.
+unsigned uneven_of_four(const Frame& frame, int x, int y) {
+    if (x == 0 || y == 0 || x + 4 >= frame.width || y + 1 >= frame.height)
+        return 15;
+    const float* tones = &frame.tones[frame.index(x, y)];
+    const __m128 own = _mm_loadu_ps(tones);
+    const auto step = [&](std::ptrdiff_t to) {
+        return _mm_andnot_ps(_mm_set1_ps(-0.0F), _mm_loadu_ps(tones + to) - own);
+    };
+    const __m128 steps = _mm_max_ps(_mm_max_ps(step(-1), step(1)),
+                                    _mm_max_ps(step(-frame.width), step(frame.width)));
+    return static_cast<unsigned>(_mm_movemask_ps(_mm_cmpgt_ps(steps, _mm_set1_ps(least_step))));
+}
+
 std::vector<Refined> edges_of(const ShadingJob& job, const Eigen::Vector2i& corner) {
     std::vector<Refined> found;
-    for (int i = 0; i < tile * tile; ++i) {
-        const Eigen::Vector2i pixel = corner + tile_pixel(i);
-        if (!job.contains(pixel))
+    for (int i = 0; i < tile * tile; i += 4) {
+        const Eigen::Vector2i first = corner + tile_pixel(i);
+        if (!job.contains(first))
             continue;
-        if (is_edge(job, pixel.x(), pixel.y()))
-            found.push_back({job.frame.index(pixel.x(), pixel.y())});
+        const unsigned uneven = uneven_of_four(job.frame, first.x(), first.y());
+        for (int x = first.x(); x < std::min(first.x() + 4, job.frame.width); ++x)
+            if ((uneven >> (x - first.x()) & 1) != 0 && is_edge(job, x, first.y()))
+                found.push_back({job.frame.index(x, first.y())});
     }
     return found;
 }
