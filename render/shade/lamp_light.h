@@ -26,9 +26,9 @@ inline bool asks_strongest(int place) {
 /// The light of one place, source by source.
 class LampSum {
   public:
-    /// `view`: unit vector from the eye to the place.
+    /// `view`: unit vector from the eye to the place. `near` is moved there, and has to stay there.
     LampSum(const ShadingInput& input,
-            const SourceGrid& grid,
+            NearSources& near,
             const Look& look,
             const Eigen::Vector3f& position,
             const Eigen::Vector3f& view);
@@ -45,33 +45,35 @@ class LampSum {
     Eigen::Vector3f towards(int place, const Eigen::Vector2f& spot) const;
 
   private:
-    void add_four(const SourceGrid& grid,
-                  const std::uint16_t* sources,
-                  std::size_t count,
-                  const Look& look,
-                  const Eigen::Vector3f& position);
-    void add_shine(const SourceGrid& grid,
-                   const std::uint16_t* sources,
-                   const Look& look,
-                   const Eigen::Vector3f& view);
+    void add_four(std::size_t first, const Look& look, const Lanes3& position);
+    void add_shine(std::size_t first, const Look& look, const Eigen::Vector3f& view);
     void add_moon(const Look& look);
-    void part(bool shining);
+    void find_strongest();
+    void part();
+
+    static constexpr float beyond = 3000;     // [m] where the moon's rays end
+    static constexpr float moon_radius = 14;  // [m] there
 
     std::size_t one_of_rest(float place) const;
 
-    Eigen::Vector3f to_source(std::size_t i) const {
-        return {to_source_x_[i], to_source_y_[i], to_source_z_[i]};
-    }
+    bool is_moon(std::size_t i) const { return i >= near_.size(); }
 
-    using Numbers = std::array<float, SourceGrid::most + 1>;  // the moon is the last one
+    /// To the source's place, or to beyond everything.
+    Eigen::Vector3f to_source(std::size_t i) const;
+
+    /// Of each near source, to a multiple of four; behind them the moon.
+    using Numbers = std::array<float, SourceGrid::most + 1>;
 
     LampLight light_;
+    const NearSources& near_;
     const Moon& moon_;
+    Eigen::Vector3f position_;
     std::size_t count_ = 0;  // of what gives nothing, too
+    Lanes3 arriving_;        // of every fourth source
     float sum_ = 0;          // of what they give
     float rest_ = 0;         // without the strongest
+    float shine_ = 0;        // luminance of all highlights
     std::size_t strongest_ = 0;
-    alignas(16) Numbers to_source_x_, to_source_y_, to_source_z_, radius_;
     alignas(16) Numbers factor_;  // on the intensity
     alignas(16) Numbers gives_;   // luminance
     Numbers shines_;              // luminance of the highlight; of wet ground only
@@ -93,6 +95,11 @@ inline std::size_t LampSum::one_of_rest(float place) const {
     return chosen;
 }
 
+inline Eigen::Vector3f LampSum::to_source(std::size_t i) const {
+    return is_moon(i) ? Eigen::Vector3f(moon_.to_moon * beyond)
+                      : Eigen::Vector3f(near_.source(i).position - position_);
+}
+
 inline Eigen::Vector3f LampSum::towards(int place, const Eigen::Vector2f& spot) const {
     const std::size_t chosen = asks_strongest(place) || is_one()
                                    ? strongest_
@@ -100,7 +107,8 @@ inline Eigen::Vector3f LampSum::towards(int place, const Eigen::Vector2f& spot) 
     const Eigen::Vector3f way = to_source(chosen);
     const Eigen::Vector3f across = way.unitOrthogonal();
     const Eigen::Vector3f up = across.cross(way).normalized();
-    return way + radius_[chosen] * (spot.x() * across + spot.y() * up);
+    const float radius = is_moon(chosen) ? moon_radius : near_.source(chosen).radius;
+    return way + radius * (spot.x() * across + spot.y() * up);
 }
 
 }  // namespace reprise::render

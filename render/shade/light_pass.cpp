@@ -23,6 +23,7 @@ int pattern(int x, int y) {
 
 /// What a mirror ray met, lit without rays of its own.
 Color mirrored_radiance(const ShadingJob& job,
+                        NearSources& near,
                         const Ray& ray,
                         const Hit& hit,
                         float footprint_scale) {
@@ -38,7 +39,7 @@ Color mirrored_radiance(const ShadingJob& job,
             input.sky.radiance(mirror_direction(at.view, look.normal, at.flat), false) * 0.8F;
     LampLight lamps;
     if (job.lamps_matter)
-        lamps = LampSum(input, job.sources, look, at.position, at.view).light();
+        lamps = LampSum(input, near, look, at.position, at.view).light();
     const Color color = outgoing_radiance(input, look, light, lamps, at.view);
     // Lamps would leave single dots: what one ray finds stands for 16 pixels. By night their shine
     // on what is wet is added up, see LampSum.
@@ -56,6 +57,7 @@ void request_light(const ShadingJob& job,
                    const Look& look,
                    int place,
                    std::size_t owner,
+                   NearSources& near,
                    TilePixels& pixels,
                    TileRays& rays) {
     const Vector3f origin = offset_origin(at.position, at.flat, at.distance);
@@ -63,7 +65,7 @@ void request_light(const ShadingJob& job,
     if (job.sun_matters && (facing > 0 || look.translucency > 0))
         rays.sun.add(origin, sun_direction(job, place), infinite, job.mask & ~marking_bit, owner);
     if (job.lamps_matter) {
-        const LampSum lamps(job.input, job.sources, look, at.position, at.view);
+        const LampSum lamps(job.input, near, look, at.position, at.view);
         pixels.lamps[owner] = lamps.light();
         if (lamps.any()) {
             const Vector3f way = lamp_direction(lamps, place);
@@ -93,6 +95,7 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
     rays.clear();
     TilePixels& pixels = *job.pixels(corner);
     Surfaces surfaces(job.input.scene, job.eye, job.pixel);
+    NearSources near(job.sources);
     for (int i = 0; i < tile * tile; ++i) {
         const Eigen::Vector2i pixel = corner + tile_pixel(i);
         if (!job.contains(pixel))
@@ -119,7 +122,8 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
         raw.light = {Color::Zero(), job.sun_matters ? 0.0F : 1.0F, 0.0F, 1.0F, 1.0F};
         if (!asks_for_sky(at))
             raw.light.sky_visibility = at.material == Material::leaf ? 0.7F : 0.95F;
-        request_light(job, at, sample.look, pattern(pixel.x(), pixel.y()), place, pixels, rays);
+        request_light(
+            job, at, sample.look, pattern(pixel.x(), pixel.y()), place, near, pixels, rays);
     }
     auto& lights = pixels.lights;
     trace_batch(job, rays, rays.sun, true, [&](std::size_t owner, bool visible) {
@@ -138,7 +142,7 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
     trace_nearest(job.input.scene, mirror, false, std::span(rays.hits).first(mirror.size()));
     for (std::size_t i = 0; i < mirror.size(); ++i)
         lights[rays.mirror.owner(i)].light.reflected =
-            mirrored_radiance(job, mirror[i], rays.hits[i], job.pixel * 2);
+            mirrored_radiance(job, near, mirror[i], rays.hits[i], job.pixel * 2);
 }
 
 }  // namespace reprise::render

@@ -62,26 +62,36 @@ SourceRow::SourceRow(const LightSource& source)
       left(source.left),
       luminance(render::luminance(source.intensity)),
       up(source.axis.cross(source.left)),
-      radius(source.radius) {}
+      radius(source.radius),
+      intensity(source.intensity.x(), source.intensity.y(), source.intensity.z()) {}
 
 __m128 lobe_shares(const FourSources& sources, const Lanes3& way) {
-    const auto of = [&](Lobe lobe, __m128 share) {
+    __m128 shares = _mm_setzero_ps();
+    const auto add = [&](Lobe lobe, __m128 share) {
         const __m128 is = _mm_cmpeq_ps(sources.lobe, four(static_cast<float>(lobe)));
-        return _mm_and_ps(is, share);
+        shares = _mm_or_ps(shares, _mm_and_ps(is, share));
     };
     const __m128 ahead = way.dot(sources.axis);
     const __m128 forward = at_least(0, ahead);
-    const __m128 street = smooth_step(0.10F, 0.42F, -way.z) * (four(1.3F) + four(0.6F) * way.z);
-    const __m128 fourth = forward * forward * forward * forward;
-    const __m128 lens = fourth * fourth;  // ECE R6, R7: a half or less 25 degrees off
-    // EN 12368, wide: about a half 12 degrees off, a hundredth at 30.
-    const __m128 signal = (lens * lens) * (lens * lens);
-    const __m128 lamps =
-        _mm_or_ps(of(Lobe::street, street), of(Lobe::lantern, smooth_step(0.75F, 0.2F, way.z)));
-    const __m128 panes = _mm_or_ps(_mm_or_ps(of(Lobe::lens, lens), of(Lobe::signal, signal)),
-                                   of(Lobe::window, forward));
-    const __m128 beams = of(Lobe::low_beam, ahead);
-    return _mm_or_ps(_mm_or_ps(lamps, panes), low_beam_shares(sources, way, beams));
+    // Lamps that are alike stand together, see SourceGrid: most fours have one kind or two.
+    if (sources.any(Lobe::low_beam)) {
+        const __m128 is = _mm_cmpeq_ps(sources.lobe, four(static_cast<float>(Lobe::low_beam)));
+        shares = low_beam_shares(sources, way, _mm_and_ps(is, ahead));
+    }
+    if (sources.any(Lobe::street))
+        add(Lobe::street, smooth_step(0.10F, 0.42F, -way.z) * (four(1.3F) + four(0.6F) * way.z));
+    if (sources.any(Lobe::lantern))
+        add(Lobe::lantern, smooth_step(0.75F, 0.2F, way.z));
+    if (sources.any(Lobe::lens) || sources.any(Lobe::signal)) {
+        const __m128 fourth = forward * forward * forward * forward;
+        const __m128 lens = fourth * fourth;
+        add(Lobe::lens, lens);  // ECE R6, R7: a half or less 25 degrees off
+        // EN 12368, wide: about a half 12 degrees off, a hundredth at 30.
+        add(Lobe::signal, (lens * lens) * (lens * lens));
+    }
+    if (sources.any(Lobe::window))
+        add(Lobe::window, forward);
+    return shares;
 }
 
 }  // namespace reprise::render

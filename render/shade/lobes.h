@@ -25,6 +25,10 @@ struct Lanes3 {
         return {a.x - b.x, a.y - b.y, a.z - b.z};
     }
 
+    friend Lanes3 operator+(const Lanes3& a, const Lanes3& b) {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+
     friend Lanes3 operator*(const Lanes3& a, __m128 b) { return {a.x * b, a.y * b, a.z * b}; }
 
     __m128 x, y, z;
@@ -44,11 +48,16 @@ struct SourceRow {
     float luminance;  ///< of the intensity
     Eigen::Vector3f up;
     float radius;
+    Eigen::Vector3f intensity;
+    float unused = 0;
 };
 
+/// Four sources, lane by lane.
 struct FourSources {
+    FourSources() = default;
+
     FourSources(const SourceRow& a, const SourceRow& b, const SourceRow& c, const SourceRow& d) {
-        static_assert(sizeof(SourceRow) == 16 * sizeof(float));
+        static_assert(sizeof(SourceRow) == 20 * sizeof(float));
         const auto turn = [&](int row, Lanes3& vectors, __m128& numbers) {
             const auto of = [&](const SourceRow& source) {
                 return _mm_load_ps(source.position.data() + std::ptrdiff_t{4} * row);
@@ -57,14 +66,24 @@ struct FourSources {
             numbers = of(d);
             _MM_TRANSPOSE4_PS(vectors.x, vectors.y, vectors.z, numbers);
         };
+        __m128 nothing;
         turn(0, position, narrows);
         turn(1, axis, lobe);
         turn(2, left, luminance);
         turn(3, up, radius);
+        turn(4, intensity, nothing);
+        for (const SourceRow* source : {&a, &b, &c, &d})
+            lobes |= 1U << static_cast<unsigned>(source->lobe);
     }
 
-    Lanes3 position, axis, left, up;
+    /// Is one of them such a lamp?
+    bool any(LightSource::Lobe kind) const {
+        return (lobes >> static_cast<unsigned>(kind) & 1) != 0;
+    }
+
+    Lanes3 position, axis, left, up, intensity;
     __m128 narrows, lobe, luminance, radius;
+    unsigned lobes = 0;  ///< bit by bit, which there are among them
 };
 
 /// lobe_share() of each along its own way.

@@ -166,6 +166,7 @@ void expect_light(const ShadingJob& job, const TileBlock& tiles, std::size_t ind
 void light_subpixel(const ShadingJob& job,
                     const TileBlock& tiles,
                     const Eigen::Vector2i& pixel,
+                    NearSources& near,
                     SubpixelSample& sample) {
     const Surface& at = sample.surface;
     const Neighbour neighbour(job, tiles, pixel, sample.hit, at);
@@ -176,7 +177,7 @@ void light_subpixel(const ShadingJob& job,
         return;
     sample.lamps = neighbour.flush
                        ? neighbour.pixels->lamps[neighbour.place]
-                       : LampSum(job.input, job.sources, sample.look, at.position, at.view).light();
+                       : LampSum(job.input, near, sample.look, at.position, at.view).light();
 }
 
 Color color_of(const ShadingJob& job, const Ray& ray, const SubpixelSample& sample) {
@@ -205,6 +206,7 @@ void add_pair(ShadingJob& job,
     const std::span<const Ray> primary = batch.rays();
     trace_nearest(job.input.scene, primary, true, std::span(rays.hits).first(primary.size()));
     Surfaces surfaces(job.input.scene, job.eye, job.pixel * 0.6F);
+    NearSources near(job.sources);
     constexpr std::size_t soon = 3;
     for (std::size_t i = 0; i < primary.size(); ++i) {
         SubpixelSample& sample = samples[i];
@@ -221,7 +223,7 @@ void add_pair(ShadingJob& job,
         expose(job.input, sample.surface);
         make_in(sample.look, [&] { return shade_surface(job.input, sample.surface); });
         const auto owner = static_cast<int>(pixels[batch.owner(i)].index);
-        light_subpixel(job, tiles, {owner % frame.width, owner / frame.width}, sample);
+        light_subpixel(job, tiles, {owner % frame.width, owner / frame.width}, near, sample);
         // What looks away from the sun gets nothing of it, whatever is between.
         const bool faces = sample.look.normal.dot(job.input.sky.to_sun()) > 0;
         if (!job.sun_matters || (!faces && sample.look.translucency <= 0))

@@ -81,13 +81,15 @@ void SourceGrid::drop_faint() {
     }
 }
 
-/// Low beams, whose lobes take the longest, are in as few fours as can be.
+/// Each four has as few kinds as can be: every kind takes its time.
 void SourceGrid::sort_by_lobe() {
+    const auto before = [&](std::uint16_t a, std::uint16_t b) {
+        const LightSource::Lobe of_a = sources_[a].lobe;
+        const LightSource::Lobe of_b = sources_[b].lobe;
+        return of_a != of_b ? of_a > of_b : a < b;
+    };
     for (Cell& cell : cells_)
-        std::stable_partition(
-            cell.sources.begin(), cell.sources.begin() + cell.count, [&](std::uint16_t index) {
-                return sources_[index].lobe == LightSource::Lobe::low_beam;
-            });
+        std::sort(cell.sources.begin(), cell.sources.begin() + cell.count, before);
 }
 
 void SourceGrid::enter(std::uint16_t index) {
@@ -126,13 +128,32 @@ void SourceGrid::enter(std::size_t at, float rank, std::uint16_t index) {
     ranks[place] = rank;
 }
 
-std::span<const std::uint16_t> SourceGrid::near(const Vector3f& position) const {
+int SourceGrid::cell(const Vector3f& position) const {
     const int column = cell_of(position.x()) - west_;
     const int row = cell_of(position.y()) - south_;
-    if (cells_.empty() || column < 0 || column >= side || row < 0 || row >= side)
+    const bool inside = !cells_.empty() && column >= 0 && column < side && row >= 0 && row < side;
+    return inside ? row * side + column : -1;
+}
+
+std::span<const std::uint16_t> SourceGrid::near(int cell) const {
+    if (cell < 0)
         return {};
-    const Cell& cell = cells_[static_cast<std::size_t>(row * side + column)];
-    return std::span(cell.sources).first(cell.count);
+    const Cell& here = cells_[static_cast<std::size_t>(cell)];
+    return std::span(here.sources).first(here.count);
+}
+
+void NearSources::gather(const Vector3f& position) {
+    const int cell = grid_.cell(position);
+    if (cell == cell_)
+        return;
+    cell_ = cell;
+    near_ = grid_.near(cell);
+    // The last four is filled up with its last one, which nobody counts.
+    const auto row = [&](std::size_t i) -> const SourceRow& {
+        return grid_.row(near_[std::min(i, near_.size() - 1)]);
+    };
+    for (std::size_t i = 0; i < near_.size(); i += 4)
+        fours_[i / 4] = FourSources(row(i), row(i + 1), row(i + 2), row(i + 3));
 }
 
 }  // namespace reprise::render

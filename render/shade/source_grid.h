@@ -20,8 +20,11 @@ class SourceGrid {
 
     bool empty() const { return sources_.empty(); }
 
-    /// Indices of those that may reach a place; behind them others follow, to a multiple of four.
-    std::span<const std::uint16_t> near(const Eigen::Vector3f& position) const;
+    /// Of what holds a place; negative: none does.
+    int cell(const Eigen::Vector3f& position) const;
+
+    /// Indices of those that may reach places in a cell, lobe by lobe.
+    std::span<const std::uint16_t> near(int cell) const;
 
     const LightSource& source(std::uint16_t index) const { return sources_[index]; }
 
@@ -31,7 +34,6 @@ class SourceGrid {
     struct Cell {
         std::uint16_t count = 0;
         std::array<std::uint16_t, most> sources{};
-        static_assert(most % 4 == 0);
     };
 
     void enter(std::uint16_t index);
@@ -45,6 +47,28 @@ class SourceGrid {
     std::vector<float> ranks_;  // while it is built: how bright each of a cell's is
     int west_ = 0;              // of the first cell, in cells
     int south_ = 0;
+};
+
+/// The sources near a place, in fours. Whose last place lay in the same square finds them there.
+class NearSources {
+  public:
+    explicit NearSources(const SourceGrid& grid) : grid_(grid) {}
+
+    void gather(const Eigen::Vector3f& position);
+
+    std::size_t size() const { return near_.size(); }
+
+    const FourSources& four(std::size_t first) const { return fours_[first / 4]; }
+
+    const LightSource& source(std::size_t i) const { return grid_.source(near_[i]); }
+
+  private:
+    static constexpr int nowhere = -2;  // neither a cell nor beside all of them
+
+    const SourceGrid& grid_;
+    int cell_ = nowhere;
+    std::span<const std::uint16_t> near_;
+    std::array<FourSources, SourceGrid::most / 4> fours_;
 };
 
 }  // namespace reprise::render

@@ -1,6 +1,7 @@
 #include "render/shade/source_grid.h"
 
 #include <algorithm>
+#include <array>
 
 #include <gtest/gtest.h>
 
@@ -49,8 +50,37 @@ TEST(SourceGrid, WhoFollowsACarLightsItWhereverItsSquaresEnd) {
     sources.push_back(beam(-53, 0.6F, 0));
     const SourceGrid grid(sources, {-6, 0, 2});
     for (float y = -0.9F; y <= 0.9F; y += 0.3F) {
-        const auto near = grid.near({-5.6F, y, 0.8F});
+        const auto near = grid.near(grid.cell({-5.6F, y, 0.8F}));
         EXPECT_NE(std::find(near.begin(), near.end(), follower), near.end()) << y;
+    }
+}
+
+/// Lanes of what stands in a four.
+std::array<float, 4> places(const FourSources& four) {
+    alignas(16) std::array<float, 4> found;
+    _mm_store_ps(found.data(), four.position.x);
+    return found;
+}
+
+TEST(NearSources, AreThoseOfTheSquareOfThePlaceThatWasAskedForLast) {
+    std::vector<LightSource> sources;
+    for (int i = 0; i < 40; ++i) {
+        sources.push_back(window(static_cast<float>(3 * i - 60)));
+        sources.push_back(beam(static_cast<float>(3 * i - 60), 3, 0.1F * static_cast<float>(i)));
+    }
+    const SourceGrid grid(sources, {0, 0, 2});
+    NearSources near(grid);
+    for (const float x : {-40.0F, -38.0F, 5.0F, 4000.0F, 30.0F, 31.0F, 5.0F, -40.0F}) {
+        const Vector3f place(x, 4, 0);
+        near.gather(place);
+        const auto all = grid.near(grid.cell(place));
+        ASSERT_EQ(near.size(), all.size());
+        EXPECT_EQ(all.empty(), x > 1000);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            EXPECT_EQ(near.source(i).position, sources[all[i]].position);
+            EXPECT_EQ(places(near.four(i - i % 4))[i % 4], sources[all[i]].position.x());
+            EXPECT_TRUE(near.four(i - i % 4).any(sources[all[i]].lobe));
+        }
     }
 }
 
