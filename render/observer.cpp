@@ -137,6 +137,19 @@ std::vector<world::SensorFrame> Observer::look(const world::TickView& tick,
     return frames;
 }
 
+Sky& Observer::sky_of(const world::Weather& weather) {
+    constexpr std::size_t most = 6;  // of 0.9 MB
+    const auto known = std::find_if(
+        skies_.begin(), skies_.end(), [&](const auto& sky) { return sky->weather() == weather; });
+    if (known != skies_.end()) {
+        std::rotate(skies_.begin(), known, known + 1);
+    } else {
+        skies_.resize(std::min(skies_.size(), most - 1));
+        skies_.insert(skies_.begin(), std::make_unique<Sky>(weather));
+    }
+    return *skies_.front();
+}
+
 /// Where the camera was at the last tick as well; not where it jumped, as views do that follow.
 Sight Observer::sight_of(const world::SensorSpec& spec,
                          std::size_t number,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -70,16 +70,13 @@ class Observer {
                                    const std::vector<Hit>& hits,
                                    const Neighbours& neighbours) const;
 
-    Sky& sky_of(const world::Weather& weather) {
-        if (!sky_ || !(sky_->weather() == weather))
-            sky_.emplace(weather);
-        return *sky_;
-    }
+    /// Kept for who asks for several weathers in turns.
+    Sky& sky_of(const world::Weather& weather);
 
     Scene scene_;
     Scene last_;  ///< where everybody was and will be, for who asks how things move
     Scene next_;
-    std::optional<Sky> sky_;
+    std::vector<std::unique_ptr<Sky>> skies_;  ///< the last one first
     Frame frame_;
     Frame work_;
     std::vector<Hit> hits_;  ///< kept for their memory, as frames are

@@ -1,6 +1,8 @@
 #include "render/look/sky.h"
 
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include <tbb/parallel_for.h>
@@ -142,6 +144,82 @@ Vector3f towards(double azimuth, double altitude) {
         .cast<float>();
 }
 
+/// What a way through the air adds to a line of sight, whatever its angle to the sun.
+struct Scattered {
+    Color by_air = Color::Zero();   ///< per unit of its phase function
+    Color by_haze = Color::Zero();  ///< of its own
+    Color twice = Color::Zero();    ///< scattered more than once: from everywhere
+
+    Color seen(const Vector3f& direction, const Vector3f& to_sun) const {
+        const float cosine = direction.dot(to_sun);
+        return by_air * rayleigh_phase(cosine) + by_haze * forward_phase(cosine, 0.76F) + twice;
+    }
+};
+
+/// `up`: sine of the way's altitude. `bend`: the sun's sine of altitude grows by it along the way.
+/// [1/m] `scattering`: of haze at the ground. [1/m]
+Scattered scattered(float up, float bend, float sun_sine, float scattering) {
+    Standing sun(sun_sine);
+    // To the top of the air, at most as far as the earth's curve lets one see into it.
+    const float top = 60e3F;
+    const float far = -earth * up + std::sqrt(earth * earth * up * up + 2 * earth * top);
+    Scattered sum;
+    Color depth = Color::Zero();
+    constexpr int steps = 20;
+    float last = 0;
+    for (int i = 0; i < steps; ++i) {
+        // Steps grow with the distance, since the air is densest here.
+        const float share = static_cast<float>(i + 1) / steps;
+        const float next = far * share * share;
+        const float middle = 0.5F * (last + next);
+        const float height = middle * up + middle * middle * (1 - up * up) / (2 * earth);
+        const Thinned thinned(height);
+        const Color air = rayleigh * thinned.air;
+        const float haze = scattering * thinned.haze;
+        const Color step_depth = (air + 1.1F * haze) * (next - last);
+        if (bend != 0)
+            sun = Standing(sun_sine + bend * middle);
+        const Color light = sunlight(sun, height, thinned, scattering);
+        const Color through = fast_exp(Color(-(depth + 0.5F * step_depth))) * (next - last);
+        // Light scattered more than once is about as strong again.
+        const Color twice = 0.16F * light.mean() * Color(1.0F, 1.02F, 1.06F) * (0.35F + up);
+        sum.by_air += through * light * air;
+        sum.by_haze += through * light * haze;
+        sum.twice += through * twice * (air + haze) * 0.6F;
+        depth += step_depth;
+        last = next;
+    }
+    return sum;
+}
+
+/// The same under a sun that stands equally high everywhere: a function of the altitude alone.
+class ScatteredByAltitude {
+  public:
+    ScatteredByAltitude(float sun_sine, float scattering) {
+        const FlushingFloatMode quick;
+        for (int i = 0; i < size; ++i) {
+            const float share = static_cast<float>(i) / (size - 1);
+            // Close together at the horizon, where the sky changes most.
+            nodes_[static_cast<std::size_t>(i)] = scattered(share * share, 0, sun_sine, scattering);
+        }
+    }
+
+    Scattered of(float up) const {
+        const float place = std::sqrt(std::min(up, 1.0F)) * (size - 1);
+        const int first = std::min(static_cast<int>(place), size - 2);
+        const float share = place - static_cast<float>(first);
+        const Scattered& low = nodes_[static_cast<std::size_t>(first)];
+        const Scattered& high = nodes_[static_cast<std::size_t>(first) + 1];
+        return {mix(low.by_air, high.by_air, share),
+                mix(low.by_haze, high.by_haze, share),
+                mix(low.twice, high.twice, share)};
+    }
+
+  private:
+    static constexpr int size = 512;
+    std::array<Scattered, size> nodes_;
+};
+
 }  // namespace
 
 Sky::Sky(const world::Weather& weather)
@@ -184,46 +262,6 @@ Sky::Sky(const world::Weather& weather)
     add_night();
     add_fog();
     project_ambient();
-}
-
-Color Sky::clear_radiance(const Vector3f& direction) const {
-    const float cosine = direction.dot(to_glow_);
-    const float up = std::max(direction.z(), 0.0F);
-    // Over far places a low sun stands higher or lower: only twilight shows it.
-    const float bend = smooth_step(0.05F, -0.03F, to_glow_.z()) *
-                       direction.head<2>().dot(to_glow_.head<2>()) / earth;
-    Standing sun(to_glow_.z());
-    // To the top of the air, at most as far as the earth's curve lets one see into it.
-    const float top = 60e3F;
-    const float far = -earth * up + std::sqrt(earth * earth * up * up + 2 * earth * top);
-    const float phase_air = rayleigh_phase(cosine);
-    const float phase_haze = forward_phase(cosine, 0.76F);
-    Color sum = Color::Zero();
-    Color depth = Color::Zero();
-    constexpr int steps = 20;
-    float last = 0;
-    for (int i = 0; i < steps; ++i) {
-        // Steps grow with the distance, since the air is densest here.
-        const float share = static_cast<float>(i + 1) / steps;
-        const float next = far * share * share;
-        const float middle = 0.5F * (last + next);
-        const float height = middle * up + middle * middle * (1 - up * up) / (2 * earth);
-        const Thinned thinned(height);
-        const Color air = rayleigh * thinned.air;
-        const float haze = haze_scattering_ * thinned.haze;
-        const Color step_depth = (air + 1.1F * haze) * (next - last);
-        if (bend != 0)
-            sun = Standing(to_glow_.z() + bend * middle);
-        const Color light = sunlight(sun, height, thinned, haze_scattering_);
-        const Color through = fast_exp(Color(-(depth + 0.5F * step_depth)));
-        // Light scattered more than once is about as strong again, from everywhere.
-        const Color twice = 0.16F * light.mean() * Color(1.0F, 1.02F, 1.06F) * (0.35F + up);
-        sum += through * (next - last) *
-               (light * (air * phase_air + haze * phase_haze) + twice * (air + haze) * 0.6F);
-        depth += step_depth;
-        last = next;
-    }
-    return sum;
 }
 
 Color Sky::cloud_radiance(const Vector3f& direction) const {
@@ -290,13 +328,23 @@ Color Sky::stored(const Vector3f& direction) const {
 void Sky::fill_table() {
     const std::size_t size = static_cast<std::size_t>(table_size) * table_size;
     clear_table_.resize(size);
+    // Over far places a low sun stands higher or lower: only twilight shows it.
+    const float low = smooth_step(0.05F, -0.03F, to_glow_.z());
+    std::unique_ptr<const ScatteredByAltitude> by_altitude;
+    if (low <= 0)
+        by_altitude = std::make_unique<ScatteredByAltitude>(to_glow_.z(), haze_scattering_);
     tbb::parallel_for(0, table_size, [&](int row) {
         // By night no light arrives at most of the air.
         const FlushingFloatMode quick;
         for (int column = 0; column < table_size; ++column) {
             const Vector3f direction = table_direction(row, column);
-            const auto index = static_cast<std::size_t>(row * table_size + column);
-            clear_table_[index] = clear_radiance(direction);
+            const float up = std::max(direction.z(), 0.0F);
+            const float bend = low * direction.head<2>().dot(to_glow_.head<2>()) / earth;
+            const Scattered light = by_altitude
+                                        ? by_altitude->of(up)
+                                        : scattered(up, bend, to_glow_.z(), haze_scattering_);
+            clear_table_[static_cast<std::size_t>(row * table_size + column)] =
+                light.seen(direction, to_glow_);
         }
     });
     if (to_sun_.z() < 0)

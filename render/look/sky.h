@@ -18,9 +18,9 @@ namespace reprise::render {
 /// for a sun anywhere between nadir and zenith.
 class Sky {
   public:
-    /// 20 ms, by night 25: single scattering by air and haze for every direction (Nishita et al.,
-    /// "Display of the Earth Taking into Account Atmospheric Scattering", 1993), clouds after
-    /// Kasten and Czeplak.
+    /// 2 ms, with a sun below 3 degrees and by night 26: single scattering by air and haze for
+    /// every direction (Nishita et al., "Display of the Earth Taking into Account Atmospheric
+    /// Scattering", 1993), clouds after Kasten and Czeplak.
     explicit Sky(const world::Weather& weather);
 
     /// Before a picture is made: from where, when, and how high the town's lowest ground is. All in
@@ -72,7 +72,6 @@ class Sky {
     const world::Weather& weather() const { return weather_; }
 
   private:
-    Color clear_radiance(const Eigen::Vector3f& direction) const;
     Color cloud_radiance(const Eigen::Vector3f& direction) const;
     Color cloud_body(const Eigen::Vector3f& direction, const Color& clear, float cover) const;
     Color stored(const Eigen::Vector3f& direction) const;

@@ -67,5 +67,26 @@ TEST(Sun, TurnsRedWhenItSinks) {
     }
 }
 
+/// Where a high sun's sky, of which the altitude says all, meets a low one's, which is worked out
+/// for each direction.
+TEST(Sky, IsTheSameJustAboveAndJustBelowWhereTheSunCountsAsLow) {
+    const auto sky = [](const char* altitude) {
+        return Sky(world::read_weather("clear_noon,clouds=0,sun_altitude=" + std::string(altitude))
+                       .weather);
+    };
+    const Sky above = sky("2.87");
+    const Sky below = sky("2.86");
+    for (const float z : {0.0F, 0.01F, 0.05F, 0.2F, 0.6F, 0.95F, 1.0F}) {
+        for (float azimuth = 0; azimuth < 6.2F; azimuth += 0.7F) {
+            const float wide = std::sqrt(1 - z * z);
+            const Eigen::Vector3f way(wide * std::cos(azimuth), wide * std::sin(azimuth), z);
+            const Color high = above.radiance(way, false) * above.exposure();
+            const Color low = below.radiance(way, false) * below.exposure();
+            for (int channel = 0; channel < 3; ++channel)
+                EXPECT_NEAR(low[channel] / high[channel], 1, 0.006) << z << ", " << azimuth;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace reprise::render
