@@ -25,6 +25,15 @@ double yaw_of(const world::VehicleState& vehicle) {
     return std::atan2(ahead.y(), ahead.x());
 }
 
+/// Does a body touch a lane that its front is `aside` metres left of, `turned` [rad] to the left of
+/// its direction?
+bool touches(std::uint16_t number, double turned, double aside, const world::LaneT& lane) {
+    const world::VehicleModel& model = world::vehicle_models()[number];
+    const double half = model.width / 2 * std::abs(std::cos(turned)) + lane.width / 2 - 0.1;
+    const double rear = aside - model.length * std::sin(turned);
+    return std::min(aside, rear) < half && std::max(aside, rear) > -half;
+}
+
 /// How well a turn fits the indicators; higher is better.
 int fit(world::Turn turn, std::uint16_t lamps) {
     const bool to_left = turn == world::Turn::left || turn == world::Turn::partially_left;
@@ -72,16 +81,20 @@ Mirrors::Target Mirrors::target_of(const world::VehicleState& vehicle) const {
     const double ahead = origin_to_front(vehicle.model());
     const Eigen::Vector3d front = origin + ahead * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0);
     Target target{front.x(), front.y(), sumo_angle_deg(yaw)};
-    if (const auto found = lanes_->best(front, yaw, reach)) {
-        const world::LaneT& lane = town_->lanes[found->lane];
-        target.lane = found->lane;
-        // At the lane's end rounding must not lead beyond it: SUMO aborts.
-        target.lane_position = std::min(found->at.s / lane.length, 1.0) * lane.sumo_length;
-        // Bound to its route it stays there; in a junction it does while it touches the lane.
-        const double width = lane.width + world::vehicle_models()[vehicle.model()].width;
-        target.on_lane =
-            lane.kind != world::LaneKind::internal || std::abs(found->at.t) < width / 2 - 0.1;
-    }
+    const auto found = lanes_->best(front, yaw, reach);
+    if (!found)
+        return target;
+    const world::LaneT& lane = town_->lanes[found->lane];
+    const bool inside = lane.kind == world::LaneKind::internal;
+    const double turned = yaw - world::point_at(lane, found->at.s).yaw;
+    // Beside the road nobody waits behind it.
+    if (!inside && !touches(vehicle.model(), turned, found->at.t, lane))
+        return target;
+    target.lane = found->lane;
+    // At the lane's end rounding must not lead beyond it: SUMO aborts.
+    target.lane_position = std::min(found->at.s / lane.length, 1.0) * lane.sumo_length;
+    // Bound to its route it stays there; in a junction it does while it touches the lane.
+    target.on_lane = !inside || touches(vehicle.model(), 0, found->at.t, lane);
     return target;
 }
 

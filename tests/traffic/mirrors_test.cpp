@@ -59,6 +59,34 @@ TEST(Mirrors, ACarBehindAStandingEgoStopsBeforeIt) {
     EXPECT_NE(stage.car(follower)->lamps() & world::lamp_brake, 0);
 }
 
+/// On the pavement, within a lane's width of the road: SUMO would have it on the lane, and
+/// everybody behind it for ever.
+TEST(Mirrors, WhoStandsBesideTheRoadHoldsNobodyUp) {
+    const auto& loaded = own_town("town1");
+    const std::uint32_t road = lane(loaded.town, "b2_b3_1");
+    const world::LaneT& there = loaded.town.lanes[road];
+    const world::VehicleModel& sedan = world::vehicle_models()[0];
+    for (const double gap : {0.4, 0.9}) {
+        world::VehicleState standing = vehicle_on(there, ego, 60);
+        const world::LanePoint at = world::point_at(there, 60);
+        const double aside = there.width / 2 + sedan.width / 2 + gap;
+        const world::Vec3 place = standing.position();
+        standing.mutable_position() = world::Vec3(
+            place.x() + aside * std::sin(at.yaw), place.y() - aside * std::cos(at.yaw), place.z());
+        Stage stage(loaded, 0);
+        stage.step({}, {standing});
+        stage.step({spawn(follower, road, 5, 14)}, {standing});
+        double farthest = 0;
+        for (int i = 0; i < 300 && stage.car(follower) != nullptr; ++i) {
+            stage.step({}, {standing});
+            const world::CarState* car = stage.car(follower);
+            if (car != nullptr && car->lane() == road)
+                farthest = std::max(farthest, static_cast<double>(car->lane_s()));
+        }
+        EXPECT_GT(farthest, 66) << gap;
+    }
+}
+
 TEST(Mirrors, ACarFollowsADrivingEgoAtItsSpeed) {
     const auto& loaded = own_town("town1");
     const std::uint32_t road = lane(loaded.town, "l1_b1_1");
