@@ -7,7 +7,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "render/shapes/noise.h"
+#include "render/look/scattering.h"
+#include "render/shapes/fast_math.h"
 #include "render/trace/default_float_mode.h"
 
 namespace reprise::render {
@@ -17,28 +18,7 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr int table_size = 160;
-constexpr float earth = 6360e3F;
-constexpr float rayleigh_height = 8000;
-constexpr float haze_height = 1200;
 constexpr float ground_albedo = 0.16F;
-
-// At 630, 540 and 450 nm, where a screen's red, green and blue have their weight: farther apart the
-// sky would be teal and a low sun pink. Scattering by air: Bruneton and Neyret, "Precomputed
-// Atmospheric Scattering", 2008, by the fourth power of the wavelength; 300 Dobson units of ozone
-// as in Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering", 2020.
-const Color rayleigh(7.88e-6F, 14.6e-6F, 30.3e-6F);
-const Color ozone_depth(0.030F, 0.024F, 0.0014F);  // vertical optical depth
-/// White is a white card in the sun of a clear noon, sky and all, as a camera set to daylight has
-/// it.
-const Color solar(1.726F, 1.777F, 1.894F);
-
-/// Air mass relative to the zenith for a sine of the altitude (Kasten and Young, 1989, with the
-/// angle in radians); flattens below the horizon.
-float air_mass(float sine) {
-    const float altitude_deg = std::max(-1.0F, 57.29578F * sine * (1 + 0.1667F * sine * sine));
-    const float base = altitude_deg + 6.07995F;
-    return 1 / (std::max(sine, 0.0F) + 0.50572F / (base * std::sqrt(base) * 1.18F));
-}
 
 /// Where a direction lies in a table, between four of its entries.
 struct TableSpot {
@@ -71,59 +51,6 @@ struct TableSpot {
 /// The lowest sun that gives single scattering its shape; below, only its strength falls. [rad]
 constexpr float lowest_glow = -0.11F;
 
-/// Shares of the ground's air and haze that are left at a height.
-struct Thinned {
-    explicit Thinned(float height) {
-        const Color shares = fast_exp(Color(-height / rayleigh_height, -height / haze_height, 0));
-        air = shares.x();
-        haze = shares.y();
-    }
-
-    float air;
-    float haze;
-};
-
-/// Vertical optical depth of what is above. `haze`: scattering at the ground. [1/m]
-Color column(const Thinned& thinned, float haze) {
-    return rayleigh * rayleigh_height * thinned.air + haze * 1.1F * haze_height * thinned.haze;
-}
-
-/// Where the sun stands over a place.
-struct Standing {
-    explicit Standing(float sine_of_altitude)
-        : sine(sine_of_altitude),
-          mass(air_mass(std::abs(sine_of_altitude))) {}
-
-    float sine;
-    float mass;  ///< of the air on the way to it, or to the lowest place of that
-};
-
-/// Optical depth of a ray that comes from below the horizon: past the lowest place of its way, and
-/// up again.
-Color grazing_depth(const Standing& sun, float height, const Thinned& thinned, float haze) {
-    const float lowest = (earth + height) * std::sqrt(1 - sun.sine * sun.sine) - earth;
-    static const float level = air_mass(0);
-    return (2 * level * column(Thinned(lowest), haze) - sun.mass * column(thinned, haze))
-               .max(0.0F) +
-           ozone_depth * level;
-}
-
-/// How much of the sunlight arrives at a height.
-Color sunlight(const Standing& sun, float height, const Thinned& thinned, float haze) {
-    if (sun.sine < 0)
-        return solar * fast_exp(Color(-grazing_depth(sun, height, thinned, haze)));
-    return solar * fast_exp(Color(-(column(thinned, haze) + ozone_depth) * sun.mass));
-}
-
-float rayleigh_phase(float cosine) {
-    return 3 / (16 * pi) * (1 + cosine * cosine);
-}
-
-float forward_phase(float cosine, float g) {
-    const float base = std::max(1e-4F, 1 + g * g - 2 * g * cosine);
-    return (1 - g * g) / (4 * pi * base * std::sqrt(base));
-}
-
 /// The upper half sphere on a square: an octahedron, unfolded.
 Vector3f direction_at(float x, float y) {
     const float u = 0.5F * (x + y);
@@ -144,82 +71,6 @@ Vector3f towards(double azimuth, double altitude) {
         .cast<float>();
 }
 
-/// What a way through the air adds to a line of sight, whatever its angle to the sun.
-struct Scattered {
-    Color by_air = Color::Zero();   ///< per unit of its phase function
-    Color by_haze = Color::Zero();  ///< of its own
-    Color twice = Color::Zero();    ///< scattered more than once: from everywhere
-
-    Color seen(const Vector3f& direction, const Vector3f& to_sun) const {
-        const float cosine = direction.dot(to_sun);
-        return by_air * rayleigh_phase(cosine) + by_haze * forward_phase(cosine, 0.76F) + twice;
-    }
-};
-
-/// `up`: sine of the way's altitude. `bend`: the sun's sine of altitude grows by it along the way.
-/// [1/m] `scattering`: of haze at the ground. [1/m]
-Scattered scattered(float up, float bend, float sun_sine, float scattering) {
-    Standing sun(sun_sine);
-    // To the top of the air, at most as far as the earth's curve lets one see into it.
-    const float top = 60e3F;
-    const float far = -earth * up + std::sqrt(earth * earth * up * up + 2 * earth * top);
-    Scattered sum;
-    Color depth = Color::Zero();
-    constexpr int steps = 20;
-    float last = 0;
-    for (int i = 0; i < steps; ++i) {
-        // Steps grow with the distance, since the air is densest here.
-        const float share = static_cast<float>(i + 1) / steps;
-        const float next = far * share * share;
-        const float middle = 0.5F * (last + next);
-        const float height = middle * up + middle * middle * (1 - up * up) / (2 * earth);
-        const Thinned thinned(height);
-        const Color air = rayleigh * thinned.air;
-        const float haze = scattering * thinned.haze;
-        const Color step_depth = (air + 1.1F * haze) * (next - last);
-        if (bend != 0)
-            sun = Standing(sun_sine + bend * middle);
-        const Color light = sunlight(sun, height, thinned, scattering);
-        const Color through = fast_exp(Color(-(depth + 0.5F * step_depth))) * (next - last);
-        // Light scattered more than once is about as strong again.
-        const Color twice = 0.16F * light.mean() * Color(1.0F, 1.02F, 1.06F) * (0.35F + up);
-        sum.by_air += through * light * air;
-        sum.by_haze += through * light * haze;
-        sum.twice += through * twice * (air + haze) * 0.6F;
-        depth += step_depth;
-        last = next;
-    }
-    return sum;
-}
-
-/// The same under a sun that stands equally high everywhere: a function of the altitude alone.
-class ScatteredByAltitude {
-  public:
-    ScatteredByAltitude(float sun_sine, float scattering) {
-        const FlushingFloatMode quick;
-        for (int i = 0; i < size; ++i) {
-            const float share = static_cast<float>(i) / (size - 1);
-            // Close together at the horizon, where the sky changes most.
-            nodes_[static_cast<std::size_t>(i)] = scattered(share * share, 0, sun_sine, scattering);
-        }
-    }
-
-    Scattered of(float up) const {
-        const float place = std::sqrt(std::min(up, 1.0F)) * (size - 1);
-        const int first = std::min(static_cast<int>(place), size - 2);
-        const float share = place - static_cast<float>(first);
-        const Scattered& low = nodes_[static_cast<std::size_t>(first)];
-        const Scattered& high = nodes_[static_cast<std::size_t>(first) + 1];
-        return {mix(low.by_air, high.by_air, share),
-                mix(low.by_haze, high.by_haze, share),
-                mix(low.twice, high.twice, share)};
-    }
-
-  private:
-    static constexpr int size = 512;
-    std::array<Scattered, size> nodes_;
-};
-
 }  // namespace
 
 Sky::Sky(const world::Weather& weather)
@@ -237,8 +88,7 @@ Sky::Sky(const world::Weather& weather)
     // Kasten and Czeplak, 1980: global radiation under N oktas of cloud.
     const float squared = cover * cover;
     overcast_ = 1 - 0.75F * squared * cover * std::sqrt(std::sqrt(std::sqrt(cover)));
-    const Color arriving =
-        sunlight(Standing(std::max(to_sun_.z(), 0.0F)), 0, Thinned(0), haze_scattering_);
+    const Color arriving = sunlight_at_sea_level(std::max(to_sun_.z(), 0.0F), haze_scattering_);
     sun_above_clouds_ = arriving * daylight_;
     // Clouds redden with the last sun; deep in twilight none reaches them.
     sun_tint_ = mix(Color(0.9F, 0.95F, 1.15F),
@@ -339,7 +189,7 @@ void Sky::fill_table() {
         for (int column = 0; column < table_size; ++column) {
             const Vector3f direction = table_direction(row, column);
             const float up = std::max(direction.z(), 0.0F);
-            const float bend = low * direction.head<2>().dot(to_glow_.head<2>()) / earth;
+            const float bend = low * direction.head<2>().dot(to_glow_.head<2>()) / earth_radius;
             const Scattered light = by_altitude
                                         ? by_altitude->of(up)
                                         : scattered(up, bend, to_glow_.z(), haze_scattering_);
