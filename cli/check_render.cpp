@@ -10,6 +10,7 @@
 #include "cli/pictures/manifest.h"
 #include "cli/process/guard.h"
 #include "cli/process/temporary_folder.h"
+#include "files/json_text.h"
 #include "world/check.h"
 
 namespace reprise::cli {
@@ -31,10 +32,9 @@ Json read_manifest(const fs::path& file) {
     const auto refuse = [&] {
         throw world::Error(file.string() + ": this is no manifest that reprise render wrote");
     };
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream.is_open() || fs::is_directory(file))
+    if (!std::ifstream(file).is_open() || fs::is_directory(file))
         throw world::Error(file.string() + ": cannot be read");
-    Json json = Json::parse(stream, nullptr, false);
+    Json json = Json::parse(files::json_text(file), nullptr, false);
     if (json.is_discarded() || !json.is_object() ||
         json.value("manifest", Json()) != manifest_version)
         refuse();

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "files/json_text.h"
 #include "world/check.h"
 #include "world/external/sensor.h"
 #include "world/units.h"
@@ -41,8 +41,7 @@ RenderedSensor sensor_in(const fs::path& folder,
 
 /// The sensors of a manifest; none where there is no manifest.
 json sensors_of(const fs::path& folder) {
-    std::ifstream file(folder / "manifest.json", std::ios::binary);
-    const json manifest = json::parse(file, nullptr, false);
+    const json manifest = json::parse(files::json_text(folder / "manifest.json"), nullptr, false);
     if (!manifest.is_object() || !manifest.contains("sensors") || !manifest["sensors"].is_array())
         return json::array();
     return manifest["sensors"];

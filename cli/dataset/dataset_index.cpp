@@ -7,6 +7,7 @@
 
 #include "cli/dataset/nuscenes_map.h"
 #include "cli/pictures/manifest.h"
+#include "files/json_text.h"
 #include "files/output_file.h"
 #include "world/check.h"
 #include "world/fingerprint.h"
@@ -103,10 +104,9 @@ void write_index(const fs::path& path, const Json& index) {
 }
 
 Json read_index(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file.is_open() || !fs::is_regular_file(path))
+    if (!std::ifstream(path).is_open() || !fs::is_regular_file(path))
         throw world::Error(path.string() + ": cannot be read");
-    Json json = Json::parse(file, nullptr, false);
+    Json json = Json::parse(files::json_text(path), nullptr, false);
     if (json.is_discarded() || !json.is_object() || json.value("dataset", Json()) != 1)
         throw world::Error(path.string() + ": this is no index that reprise dataset wrote");
     return json;

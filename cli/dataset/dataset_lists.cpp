@@ -1,11 +1,10 @@
 #include "cli/dataset/dataset_lists.h"
 
-#include <fstream>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/dataset/labels.h"
+#include "files/json_text.h"
 #include "files/output_file.h"
 #include "world/check.h"
 
@@ -48,8 +47,8 @@ void write_coco(const fs::path& folder,
                                           {"file_name", layout.file_name(i, id)},
                                           {"width", cameras[i].width},
                                           {"height", cameras[i].height}});
-                std::ifstream file(layout.label(i, id), std::ios::binary);
-                Json annotations = Json::parse(file, nullptr, false);
+                Json annotations =
+                    Json::parse(files::json_text(layout.label(i, id)), nullptr, false);
                 if (!annotations.is_array())
                     throw world::Error(layout.label(i, id).string() + ": was changed; remove it");
                 for (Json& one : annotations) {

@@ -1,7 +1,6 @@
 #include "cli/dataset/nuscenes_frames.h"
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "cli/dataset/labels.h"
 #include "cli/dataset/nuscenes_names.h"
 #include "cli/dataset/nuscenes_points.h"
+#include "files/json_text.h"
 #include "render/labels/boxes.h"
 #include "world/check.h"
 #include "world/models/actors.h"
@@ -57,8 +57,7 @@ struct Pixels {
 };
 
 void count_pixels(const std::filesystem::path& path, std::map<Who, Pixels>& counts) {
-    std::ifstream file(path, std::ios::binary);
-    const Json json = Json::parse(file, nullptr, false);
+    const Json json = Json::parse(files::json_text(path), nullptr, false);
     try {
         for (const Json& box : json.at("boxes")) {
             Pixels& pixels = counts[who(box)];

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "files/json_text.h"
 #include "render/ranging/mount.h"
 #include "world/check.h"
 #include "world/external/point_fields.h"
@@ -220,8 +221,7 @@ std::string beam_text(const world::SensorFrame& frame,
 }
 
 std::map<Who, std::size_t> read_beams(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    const auto json = nlohmann::ordered_json::parse(file, nullptr, false);
+    const auto json = nlohmann::ordered_json::parse(files::json_text(path), nullptr, false);
     std::map<Who, std::size_t> counts;
     try {
         for (const auto& one : json.at("beams"))

@@ -1,7 +1,6 @@
 #include "cli/pictures/earlier_rendering.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <set>
 #include <system_error>
@@ -10,6 +9,7 @@
 
 #include "cli/pictures/cameras.h"
 #include "cli/pictures/manifest.h"
+#include "files/json_text.h"
 
 namespace reprise::cli {
 
@@ -20,8 +20,7 @@ EarlierRendering::EarlierRendering(const fs::path& output) {
     std::error_code error;
     if (!film_ending(output).empty() || !fs::is_regular_file(manifest, error))
         return;
-    std::ifstream stream(manifest, std::ios::binary);
-    const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+    const auto json = nlohmann::json::parse(files::json_text(manifest), nullptr, false);
     if (!json.is_object() || json.value("manifest", nlohmann::json()) != manifest_version)
         return;
     for (const nlohmann::json& file : json.value("files", nlohmann::json::array()))

@@ -62,7 +62,7 @@ class Window {
 
     Eigen::Vector2i corner_;
     std::array<std::uint32_t, window_side * window_side> instances_;
-    std::array<std::uint32_t, window_side * window_side> triangles_;
+    std::array<std::uint32_t, window_side * window_side> triangles_{};
     std::array<const RawLight*, window_side * window_side> lights_;
 };
 

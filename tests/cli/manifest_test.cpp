@@ -167,6 +167,23 @@ TEST_F(Manifest, ChecksThatAllIsMadeAgainAndNamesTheFileThatIsNot) {
     EXPECT_EQ(bad.code, 2);
 }
 
+TEST_F(Manifest, AndIndexesEndWhereTheyEndWhateverLiesBehindANul) {
+    ASSERT_EQ(render("r", {"--ticks", "20"}).code, 0);
+    const std::string dataset = "exec reprise dataset t.mcap -o s --size 64x48 --every 2s";
+    ASSERT_EQ(typed(dataset, folder_).code, 0);
+    const auto spoil = [&](const std::string& file) {
+        write_file(folder_ / file, read_file(folder_ / file) + std::string("\0{", 2));
+    };
+    spoil("r/manifest.json");
+    EXPECT_EQ(reprise({"render", "--check", "r"}, folder_.path()).out,
+              "reprise: r/manifest.json: this is no manifest that reprise render wrote\n");
+    spoil("s/dataset.json");
+    const std::string refused =
+        "reprise: s/dataset.json: this is no index that reprise dataset wrote\n";
+    EXPECT_EQ(reprise({"dataset", "--check", "s"}, folder_.path()).out, refused);
+    EXPECT_EQ(typed(dataset, folder_).out, refused);
+}
+
 TEST_F(Manifest, IsMissingWhereAFullDiskEndedTheMakingAndNoHalfPictureLooksWhole) {
     const Result full = typed(
         "ulimit -f 10; reprise render t.mcap -o r --sensor semantic,depth --size 320x240 --npy",
