@@ -274,6 +274,15 @@ double DriverState::look_around(const world::TickView& last, const Ego& ego) {
         wedged_ticks = 0;
         return world::infinity;
     }
+    if (!pid && is_held_from_beside(ego)) {
+        // What is on the line that it comes back on counts, not who is beside that.
+        if (++wedged_ticks * step > patience && lateral_order.side(tick, step) == 0) {
+            wedged_ticks = 0;
+            passing.come_back(ego, tracked_beside(ego), style);
+            look(Hazards::Room::ample);
+        }
+        return world::infinity;
+    }
     look(Hazards::Room::bare);
     wedged_ticks = is_held() ? 0 : wedged_ticks + 1;
     if (wedged_ticks * step > patience)
@@ -354,6 +363,19 @@ bool DriverState::town_is_before(const Ego& ego, double reach) const {
         yaw += step_on * curvature;
     }
     return false;
+}
+
+/// Far beside its way, as on a pavement, it is not held by who is ahead but by who stands on the way
+/// beside it, and maybe waits for it.
+bool DriverState::is_held_from_beside(const Ego& ego) const {
+    constexpr double far = 1.5;  // [m]
+    constexpr double stands = 0.1;
+    const auto overlaps = hazards.overlaps();
+    return std::abs(ego.speed) < stands && std::abs(tracked_beside(ego)) > far &&
+           !overlaps.empty() &&
+           std::all_of(overlaps.begin(), overlaps.end(), [&](const Overlap& one) {
+               return one.s < ego.front_s();
+           });
 }
 
 /// Hands and feet while we turn around; when that is done, a new path on the lane behind it.

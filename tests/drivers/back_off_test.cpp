@@ -255,6 +255,31 @@ TEST(BackOff, FromAPoleThatItsWheelsLeadInto) {
     EXPECT_GT(drive.car.x, 60) << "gets on";
 }
 
+/// One had come to stand on the pavement, along its lane, in which a car waited for it with its
+/// front behind the other's: each in the other's way, for ever.
+TEST(BackOff, NobodyNeedsToWhoComesBackAheadOfWhoWaitsBesideIt) {
+    Drive drive(long_lane());
+    drive.place(0, 40, 0);
+    drive.car.y = -3.7;
+    world::CarState beside{};
+    beside.mutate_id(50);
+    beside.mutate_lane(0);
+    beside.mutate_lane_s(42);  // its front; ours is at 43.6
+    beside.mutable_position() = world::Vec3(42, 0, 0);
+    drive.cars = {beside};
+    const world::VehicleModel& model = world::vehicle_models()[0];
+    while (drive.seconds() < 30) {
+        drive.step();
+        const double rear_corner = drive.car.y + model.width / 2 * std::cos(drive.car.yaw) -
+                                   model.rear_overhang * std::sin(drive.car.yaw);
+        if (drive.car.x - model.rear_overhang < 42) {
+            ASSERT_LT(rear_corner, -model.width / 2) << "at " << drive.seconds() << " s";
+        }
+    }
+    EXPECT_GT(drive.car.x, 80) << "gets on";
+    EXPECT_NEAR(drive.car.y, 0, 0.3);
+}
+
 TEST(BackOff, NotWhoWasToldASpeed) {
     Drive drive(long_lane());
     drive.place(0, 20, 5);
