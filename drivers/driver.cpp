@@ -158,8 +158,14 @@ world::Control Autopilot::decide(const world::TickView& last) {
         control.mutate_brake(0.5);
         return control;
     }
-    if (found == Navigator::Found::another)
+    if (found == Navigator::Found::another) {
         state.gatekeeper.reset();
+        state.resume_turn(ego);
+        if (!state.turn_around.done()) {
+            state.turn(last, ego, control);
+            return control;
+        }
+    }
 
     state.rear_axle_s = ego.rear_axle_s;
     state.notice_circling(last, ego);
@@ -365,8 +371,8 @@ bool DriverState::town_is_before(const Ego& ego, double reach) const {
     return false;
 }
 
-/// Far beside its way, as on a pavement, it is not held by who is ahead but by who stands on the way
-/// beside it, and maybe waits for it.
+/// Far beside its way, as on a pavement, it is not held by who is ahead but by who stands on the
+/// way beside it, and maybe waits for it.
 bool DriverState::is_held_from_beside(const Ego& ego) const {
     constexpr double far = 1.5;  // [m]
     constexpr double stands = 0.1;

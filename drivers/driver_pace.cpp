@@ -5,6 +5,7 @@
 #include "drivers/driver_state.h"
 #include "drivers/lane_change.h"
 #include "drivers/turning_room.h"
+#include "world/frames.h"
 #include "world/units.h"
 
 namespace reprise::drivers {
@@ -126,6 +127,30 @@ double DriverState::approach_turn(const world::TickView& last, const Ego& ego) {
         turns_into = ahead->to;
     }
     return acceleration;
+}
+
+/// A way that begins inside a junction, as behind a step back, may begin in the middle of a turn
+/// around: what is left of that takes going back and forth as well.
+void DriverState::resume_turn(const Ego& ego) {
+    constexpr double rest = 0.6;  // [rad] of it; with less the path does it
+    constexpr double slow = 2;    // [m/s]
+    const world::LaneT& inside = town().lanes[way().lanes().front()];
+    if (inside.kind != world::LaneKind::internal || std::abs(ego.speed) > slow ||
+        inside.links.empty() || inside.links.front().turn() != world::Turn::around ||
+        speed_order.reacts_to_nothing())
+        return;
+    const std::uint32_t exit = inside.links.front().to();
+    for (std::uint32_t from = 0; from < town().lanes.size(); ++from)
+        for (const world::Link& link : town().lanes[from].links) {
+            if (town().lanes[from].kind == world::LaneKind::internal || link.to() != exit)
+                continue;
+            const auto street = TurnAround::street_of(town(), from, link, *ego.model);
+            if (!street || std::abs(world::wrap_angle(ego.yaw - street->yaw)) < rest)
+                continue;
+            turn_around.begin(*street, ego);
+            turns_into = exit;
+            return;
+        }
 }
 
 }  // namespace reprise::drivers

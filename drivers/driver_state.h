@@ -54,6 +54,7 @@ struct DriverState {
     double ended_acceleration(const Ego& ego) const;
     std::span<const SweptWidth> corridor(const Ego& ego);
     double approach_turn(const world::TickView& last, const Ego& ego);
+    void resume_turn(const Ego& ego);
     void turn(const world::TickView& last, Ego& ego, world::Control& control);
     std::uint16_t lamps(const world::TickView& last, const Ego& ego) const;
     void creep(double speed, double along, double climb, world::Control& control);

@@ -104,6 +104,21 @@ TEST_P(TurnAroundOnStreets, EndsInTheNewLane) {
     EXPECT_GT(drive.car.y, 0) << "[m] left of the middle of the street";
 }
 
+/// Who was held up in the midst of his turn, went back, and looks for his way anew finds it there.
+TEST_P(TurnAroundOnStreets, GoesOnWithATurnThatHasBegun) {
+    const auto [lane_width, name] = GetParam();
+    Drive drive(dead_end(lane_width), 7, *world::find_vehicle_model(name));
+    drive.place(static_cast<std::uint32_t>(drive.town.lanes.size() - 1), 0.3, 0);
+    drive.car.yaw = 0.6;
+    double farthest = 0;
+    while (drive.car.x > 90 && drive.seconds() < 90) {
+        drive.step();
+        farthest = std::max(farthest, reach_of(drive.car).side);
+    }
+    EXPECT_LE(drive.car.x, 90) << "it drives back";
+    EXPECT_LT(farthest, lane_width + 0.5) << "bumpers may reach over a kerb";
+}
+
 /// Who has stopped for somebody anywhere before the place where turning begins goes on from there.
 TEST(TurnAround, BeginsWhereverTheCarHasStoppedBeforeIt) {
     const std::uint16_t model = *world::find_vehicle_model("city_car");
