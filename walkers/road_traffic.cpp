@@ -13,13 +13,14 @@ namespace {
 constexpr double sight = 60;         // [m] up the road
 constexpr double longest_tail = 15;  // [m]
 constexpr std::size_t most_approaches = 64;
-constexpr double half_car = 1.25;  // [m] with what it needs beside it
-constexpr double standing = 0.5;   // [m/s]
-constexpr double painless = 2.0;   // [m/s^2] braking that nobody minds
-constexpr double before_us = 0.7;  // [s] that somebody wants to be off before a car comes
-constexpr double behind_it = 0.3;  // [s] and to step on behind it
-constexpr double stop_short = 2;   // [m] that a car stops before a walker
-constexpr double at_bumper = 0.5;  // [m] before one that stands there is room to walk
+constexpr double half_car = 1.25;      // [m] with what it needs beside it
+constexpr double standing = 0.5;       // [m/s]
+constexpr double painless = 2.0;       // [m/s^2] braking that nobody minds
+constexpr double before_us = 0.7;      // [s] that somebody wants to be off before a car comes
+constexpr double behind_it = 0.3;      // [s] and to step on behind it
+constexpr double stop_short = 2;       // [m] that a car stops before a walker
+constexpr double at_bumper = 0.5;      // [m] before one that stands there is room to walk
+constexpr double for_long_on_it = 12;  // [s] who waits for it may be whom it waits for
 
 bool seems_to_yield(double speed, double acceleration) {
     constexpr double slow = 2;        // [m/s]
@@ -196,7 +197,8 @@ bool RoadTraffic::is_free(const Conflict& conflict,
             const double left = approach.distance - comer.s;  // [m] of its front to the place
             if (left + comer.length < -1)
                 continue;  // is past it
-            if (comer.speed < standing && (left >= at_bumper || around_standing))
+            if (comer.speed < standing &&
+                (left >= at_bumper || around_standing || comer.stood > for_long_on_it))
                 continue;
             if (comer.speed < standing)
                 return false;  // stands on it

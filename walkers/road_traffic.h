@@ -48,7 +48,7 @@ class RoadTraffic {
 
     /// Can somebody be in the way of cars that long? `around_standing`: what stands there is no
     /// hindrance, he goes around it. A car that waits for him with its nose in his way and he for
-    /// the car would else wait for ever.
+    /// the car would else wait for ever. Likewise around what has stood there for long.
     bool is_free(const Conflict& conflict, Stay stay, Trust trust, bool around_standing) const;
 
     /// Who has stood for long close before this place, not at a light: perhaps because people keep

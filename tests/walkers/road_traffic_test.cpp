@@ -27,9 +27,8 @@ class Crossing {
         world::TickDraft tick;
         tick.traffic.cars = cars;
         const world::SealedTick last = world::seal(tick, {});
-        RoadUsers users;
-        users.look(last.view(), 0);
-        traffic_.look(users.all());
+        users_.look(last.view(), step_);
+        traffic_.look(users_.all());
         bool free = true;
         for (const Conflict& conflict : conflicts)
             free = free && traffic_.is_free(conflict,
@@ -38,6 +37,13 @@ class Crossing {
                                             trust,
                                             around_standing);
         return free;
+    }
+
+    /// It is seen there for so long.
+    void stand(const world::CarState& car, double seconds) {
+        step_ = 0.05;
+        for (double time = 0; time < seconds; time += step_)
+            is_free({car});
     }
 
     /// Eastwards on east_1, its front at `s`.
@@ -54,6 +60,8 @@ class Crossing {
     world::TownT town_;
     world::LaneMap lanes_;
     RoadTraffic traffic_;
+    RoadUsers users_;
+    double step_ = 0;  ///< [s]
 
   public:
     std::vector<Conflict> conflicts;
@@ -85,6 +93,17 @@ TEST(RoadTraffic, WhoIsOnTheRoadWaitsForNoCarThatStands) {
     EXPECT_TRUE(crossing.is_free({crossing.car(201, 0)}, Trust::none, true)) << "on his way";
     EXPECT_TRUE(crossing.is_free({crossing.car(199.3, 0)}, Trust::none, true)) << "its nose is";
     EXPECT_FALSE(crossing.is_free({crossing.car(199.3, 2)}, Trust::none, true)) << "rolls";
+}
+
+TEST(RoadTraffic, AroundWhatHasStoodOnTheWayForLongOneWalks) {
+    Crossing crossing;
+    const auto for_seconds = [&](double seconds, const world::CarState& car) {
+        crossing.stand(car, seconds);
+        return crossing.is_free({car});
+    };
+    EXPECT_FALSE(for_seconds(8, crossing.car(201, 0))) << "it may drive on";
+    EXPECT_TRUE(for_seconds(8, crossing.car(201, 0))) << "it waits, perhaps for us";
+    EXPECT_FALSE(for_seconds(1, crossing.car(204, 1))) << "it drives";
 }
 
 TEST(RoadTraffic, WhoTrustsInBrakesGoesWhereACarCanStop) {
