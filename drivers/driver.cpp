@@ -116,6 +116,7 @@ void Autopilot::put_elsewhere() {
     state_->passing.drop();
     state_->back_off.end();
     state_->waiting_ticks = state_->standoff_ticks = state_->standoffs = state_->held_ticks = 0;
+    state_->strays = 0;
     put_to_speed();
 }
 
@@ -152,12 +153,13 @@ world::Control Autopilot::decide(const world::TickView& last) {
         return control;
 
     state.at_end = false;
-    // Where am I? Off every road there is nothing to follow: stop.
+    // Where am I? Off every road there is nothing to follow: back to it.
     const Navigator::Found found = state.navigator.follow(ego, state.expected_offset());
     if (found == Navigator::Found::nothing) {
-        control.mutate_brake(0.5);
+        state.drive_back(last, ego, control);
         return control;
     }
+    state.strays = 0;
     if (found == Navigator::Found::another) {
         state.gatekeeper.reset();
         state.resume_turn(ego);
@@ -344,16 +346,19 @@ double DriverState::last_resort(const world::TickView& last, const Ego& ego) {
 /// Do the wheels lead into a pole or a wall? Of who creeps, with wheels turned far or askew of its
 /// way: others are on it.
 bool DriverState::town_is_before(const Ego& ego, double reach) const {
-    constexpr double creeping = 3;    // [m/s]
-    constexpr double far = 0.6;       // of the greatest angle
-    constexpr double step_on = 0.25;  // [m]
-    constexpr double margin = 0.05;   // [m]
-    constexpr double askew = 0.4;     // [rad]
+    constexpr double creeping = 3;  // [m/s]
+    constexpr double far = 0.6;     // of the greatest angle
+    constexpr double askew = 0.4;   // [rad]
     const bool is_askew =
         std::abs(world::wrap_angle(ego.yaw - way().path().at(ego.rear_axle_s).yaw)) > askew;
-    if (std::abs(ego.speed) > creeping ||
-        (!is_askew && std::abs(ego.steering_angle) < far * ego.model->max_steering_angle))
-        return false;
+    return std::abs(ego.speed) <= creeping &&
+           (is_askew || std::abs(ego.steering_angle) >= far * ego.model->max_steering_angle) &&
+           wheels_lead_into_town(ego, reach);
+}
+
+bool DriverState::wheels_lead_into_town(const Ego& ego, double reach) const {
+    constexpr double step_on = 0.25;  // [m]
+    constexpr double margin = 0.05;   // [m]
     const double front = ego.model->length - ego.model->rear_overhang;
     const double curvature = std::tan(ego.steering_angle) / ego.model->wheelbase;
     Eigen::Vector3d axle = ego.position;
@@ -480,6 +485,8 @@ std::uint64_t Autopilot::digest() const {
         hasher.add(state.standoff_ticks);
     if (state.standoffs > 0)
         hasher.add(state.standoffs);
+    if (state.strays > 0)
+        hasher.add(state.strays);
     if (state.held_ticks > 0)
         hasher.add(state.held_ticks);
     if (state.turner_ticks > 0)

@@ -50,6 +50,8 @@ struct DriverState {
     double last_resort(const world::TickView& last, const Ego& ego);
     bool is_held_from_beside(const Ego& ego) const;
     bool town_is_before(const Ego& ego, double reach) const;
+    bool wheels_lead_into_town(const Ego& ego, double reach) const;
+    void drive_back(const world::TickView& last, const Ego& ego, world::Control& control);
     double careful_acceleration(const world::TickView& last, Ego& ego);
     double ended_acceleration(const Ego& ego) const;
     std::span<const SweptWidth> corridor(const Ego& ego);
@@ -97,6 +99,7 @@ struct DriverState {
     std::uint32_t standoff_ticks = 0;      ///< before somebody who cannot go on before we do
     std::uint32_t standoffs = 0;           ///< in which it made room, since it drove on
     std::uint32_t held_ticks = 0;          ///< before what its wheels lead into
+    std::uint32_t strays = 0;              ///< off every road: how often something held it there
     std::uint32_t turner_ticks = 0;        ///< before somebody who turns where we want to
     std::uint32_t wedged_ticks = 0;        ///< beside somebody whom it could creep past
     bool at_end = false;                   ///< follows from the last tick and the way: not digested
