@@ -234,7 +234,7 @@ double DriverState::obedient_acceleration(const world::TickView& last, Ego& ego)
 }
 
 double DriverState::careful_acceleration(const world::TickView& last, Ego& ego) {
-    double acceleration = pid ? ended_acceleration(ego) : cruise(ego);
+    double acceleration = pid ? ended_acceleration(ego) : std::min(cruise(ego), off_line(ego));
     acceleration = std::min(acceleration, change_lanes(last, ego));
     acceleration = std::min(acceleration, approach_turn(last, ego));
     take_jump(ego);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/control/steering.h"
 #include "drivers/driver_state.h"
 #include "drivers/lane_change.h"
 #include "drivers/turning_room.h"
@@ -85,6 +86,24 @@ double DriverState::cruise(const Ego& ego) const {
         acceleration = cap < allowed ? as_told : std::min(acceleration, as_told);
     }
     return std::min(acceleration, ended_acceleration(ego));
+}
+
+/// Who is not on his line, as one that was pushed or put askew of his way, gets onto it slowly: at
+/// a greater speed wheels turn too late, and he would weave. [m/s^2]
+double DriverState::off_line(const Ego& ego) const {
+    constexpr double askew = 0.45;  // [rad]
+    constexpr double far = 1.2;     // [m]
+    constexpr double slow = 2.5;    // [m/s]
+    constexpr double gain = 1;      // [1/s]
+    constexpr double braking = 2;   // [m/s^2]
+    const double s = ego.rear_axle_s;
+    const double yaw = has_wide_turn ? wide_turn->at(s).yaw : way().path().at(s).yaw;
+    const double on_line =
+        passing.plan() ? passing.plan()->bypass.offset(s + tracked_ahead(*ego.model)) : 0;
+    if (std::abs(world::wrap_angle(ego.yaw - yaw)) < askew &&
+        std::abs(tracked_beside(ego) - on_line) < far)
+        return world::infinity;
+    return std::max(gain * (slow - ego.speed), -braking * style.share);
 }
 
 /// Before the end of the road. [m/s^2]

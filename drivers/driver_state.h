@@ -53,6 +53,7 @@ struct DriverState {
     bool wheels_lead_into_town(const Ego& ego, double reach) const;
     void drive_back(const world::TickView& last, const Ego& ego, world::Control& control);
     double careful_acceleration(const world::TickView& last, Ego& ego);
+    double off_line(const Ego& ego) const;
     double ended_acceleration(const Ego& ego) const;
     std::span<const SweptWidth> corridor(const Ego& ego);
     double approach_turn(const world::TickView& last, const Ego& ego);

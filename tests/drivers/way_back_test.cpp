@@ -42,6 +42,22 @@ TEST(WayBack, LeadsToTheNearestLaneSlowly) {
         }
 }
 
+/// Put across its way, one sped up while it turned, and weaved until it hit a lamp post at 8 m/s.
+TEST(WayBack, GetsOntoItsLineSlowly) {
+    for (const double y : {-6.0, -3.5, 3.5, 6.0}) {
+        Drive drive(lane_in_a_field());
+        put(drive, y, y < 0 ? 1.5 : -1.5);
+        double fastest = 0;
+        while (drive.seconds() < 60) {
+            drive.step();
+            if (std::abs(drive.car.yaw) > 0.5)
+                fastest = std::max(fastest, drive.car.speed);
+        }
+        EXPECT_LT(fastest, 3) << "[m/s] from " << y << " m beside it";
+        EXPECT_GT(drive.car.x, 300);
+    }
+}
+
 TEST(WayBack, AroundAWall) {
     world::Obstacle wall;
     wall.shape = world::Obstacle::Shape::box;
