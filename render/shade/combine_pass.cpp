@@ -74,11 +74,6 @@ bool on_same_surface(const RawLight& own, const RawLight& other) {
            std::abs((other.position - own.position).dot(own.flat)) <= own.tolerance;
 }
 
-/// Of which of a pixel's shares its rays knew: sun, sky, the strongest lamp, the rest.
-__m128 answers(unsigned x, unsigned y) {
-    return ((x + y) & 1) == 0 ? _mm_setr_ps(1, 1, 1, 0) : _mm_setr_ps(1, 1, 0, 1);
-}
-
 /// The mean over the square around a pixel. `among_lamps`: by day nobody asks for lamps, and no
 /// answers are told apart.
 template <bool among_lamps>
@@ -90,13 +85,12 @@ Light filtered(const Window& window, const Hit& hit, const Eigen::Vector2i& pixe
     __m128 shares = _mm_setzero_ps();
     __m128 counts = _mm_setzero_ps();
     float count = 0;
-    const auto add = [&](unsigned x, unsigned y, const RawLight& other) {
+    const auto add = [&](const RawLight& other) {
         const __m128 its = _mm_loadu_ps(&other.light.sun_visibility);
         if constexpr (among_lamps) {
-            const __m128 counted =
-                answers(static_cast<unsigned>(pixel.x()) + x, static_cast<unsigned>(pixel.y()) + y);
-            shares += counted * its;
-            counts += counted;
+            const __m128 asked = _mm_cmpge_ps(its, _mm_setzero_ps());
+            shares += _mm_and_ps(asked, its);
+            counts += _mm_and_ps(asked, _mm_set1_ps(1));
         } else {
             shares += its;
         }
@@ -111,7 +105,7 @@ Light filtered(const Window& window, const Hit& hit, const Eigen::Vector2i& pixe
         for (unsigned x = 0; x < square_side; ++x)
             if ((same >> x & 1) != 0 ||
                 ((near >> x & 1) != 0 && on_same_surface(own, window.light(row + x))))
-                add(x, y, window.light(row + x));
+                add(window.light(row + x));
     }
     Light mean{reflected / count};
     if constexpr (!among_lamps) {

@@ -34,9 +34,11 @@ float sum_of(__m128 four) {
     return _mm_cvtss_f32(_mm_add_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
 }
 
+constexpr float dull = 0.5F;  ///< roughness from which on nothing shines
+
 /// Panes and paint show lamps as a picture, see the mirror rays; dull ground does not shine.
 bool shines(const Look& look) {
-    return look.roughness <= 0.5F && look.roughness >= 0.1F;
+    return look.roughness <= dull && look.roughness >= 0.1F;
 }
 
 }  // namespace
@@ -66,6 +68,9 @@ LampSum::LampSum(const ShadingInput& input,
     part();
     const float white = 1 / input.sky.exposure();
     light_.arriving = held_back(light_.arriving, brightest * white);
+    // A lobe that ended all at once would leave an outline where ground gets dull.
+    if (shining)
+        light_.shine *= smooth_step(dull, 0.36F, look.roughness);
     light_.shine = held_back(light_.shine, brightest_shine * white);
 }
 
@@ -164,8 +169,6 @@ void LampSum::part() {
     if (sum_ <= 0)
         return;
     rest_ = sum_ - gives_[strongest_];
-    if (is_one())
-        return;
     light_.strongest = gives_[strongest_] / sum_;
     light_.strongest_shine = shine_ > 0 ? shines_[strongest_] / shine_ : light_.strongest;
 }

@@ -4,6 +4,9 @@
 
 namespace reprise::render {
 
+/// As a pixel's own visibility, before the mean: its ray was for another one.
+inline constexpr float not_asked = -1;
+
 /// What arrives at a place.
 struct Light {
     Color reflected = Color::Zero();  ///< radiance from where a mirror would show

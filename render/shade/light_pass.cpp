@@ -67,7 +67,11 @@ void request_light(const ShadingJob& job,
     if (job.lamps_matter) {
         const LampSum lamps(job.input, near, look, at.position, at.view);
         pixels.lamps[owner] = lamps.light();
-        if (lamps.any()) {
+        Light& light = pixels.lights[owner].light;
+        const bool asks = lamps.any();
+        light.lamp_visibility = asks && (asks_strongest(place) || lamps.is_one()) ? 0 : not_asked;
+        light.rest_visibility = asks && (!asks_strongest(place) || lamps.is_one()) ? 0 : not_asked;
+        if (asks) {
             const Vector3f way = lamp_direction(lamps, place);
             rays.lamp.add(origin, way, lamp_reach(way), job.mask & ~marking_bit, owner);
         }
@@ -132,7 +136,9 @@ void light_tile(ShadingJob& job, const Eigen::Vector2i& corner) {
     });
     trace_batch(job, rays, rays.lamp, false, [&](std::size_t owner, bool visible) {
         Light& light = lights[owner].light;
-        light.lamp_visibility = light.rest_visibility = visible ? 1.0F : 0.0F;
+        for (float* share : {&light.lamp_visibility, &light.rest_visibility})
+            if (*share != not_asked)
+                *share = visible ? 1.0F : 0.0F;
     });
     // Into a half sphere each: as packets that run alike they take four times as long.
     trace_batch(job, rays, rays.sky, false, [&](std::size_t owner, bool visible) {
