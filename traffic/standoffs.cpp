@@ -146,7 +146,7 @@ void Standoffs::ask_to_let_in(Car& car,
     if (way == world::none ||
         (!is_inside && (!has_room_behind(car, way, cars) || somebody_comes(car, last))))
         return;
-    car.pushes_past.clear();
+    std::vector<std::uint32_t> asked;
     for (Car& other : cars.all()) {
         const double left = other.id == car.id ? world::infinity : way_to_meeting(other, way);
         if (left <= 0 || left == world::infinity || other.on_call || other.origin != Origin::demand)
@@ -156,10 +156,25 @@ void Standoffs::ask_to_let_in(Car& car,
             continue;
         other.lets_in_until = tick + lets_in_for;
         other.lets_in_way = way;
-        car.pushes_past.push_back(other.id);
+        asked.push_back(other.id);
     }
-    if (!car.pushes_past.empty())
-        car.pushes_until = tick + lets_in_for;
+    push_past(car, asked, way, cars, tick);
+}
+
+void Standoffs::push_past(Car& car,
+                          const std::vector<std::uint32_t>& asked,
+                          std::uint32_t way,
+                          const Cars& cars,
+                          std::uint64_t tick) {
+    if (car.pushes_until <= tick)
+        car.pushes_past.clear();
+    std::erase_if(car.pushes_past, [&](std::uint32_t id) {
+        const Car* other = cars.find(id);
+        return other == nullptr || other->lets_in_way == way;
+    });
+    car.pushes_past.insert(car.pushes_past.end(), asked.begin(), asked.end());
+    if (!asked.empty())
+        car.pushes_until = std::max(car.pushes_until, tick + lets_in_for);
 }
 
 /// Past one who came into the junction all the same nobody pushes.
@@ -178,6 +193,7 @@ void Standoffs::hold(Cars& cars, std::uint64_t tick) const {
         const double left = way_to_meeting(car, car.lets_in_way);
         if (left <= 0 || left == world::infinity) {
             car.lets_in_until = 0;
+            car.lets_in_way = world::none;
             stop_pushing_past(car, cars);
             continue;
         }

@@ -42,6 +42,15 @@ class Standoffs {
     /// Before SUMO's step.
     void advance(const world::TickView& last, Cars& cars, std::uint64_t tick) const;
 
+    /// On its `way` through a junction past those who were asked in this tick, no longer past those
+    /// asked before; and past whom it is pushing already because he stands in its way (meetings.h):
+    /// half past him it would stop, its body in his.
+    static void push_past(Car& car,
+                          const std::vector<std::uint32_t>& asked,
+                          std::uint32_t way,
+                          const Cars& cars,
+                          std::uint64_t tick);
+
   private:
     bool waits(const Car& car) const;
     bool is_through(const Car& car) const;

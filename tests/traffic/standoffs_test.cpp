@@ -1,3 +1,5 @@
+#include "traffic/standoffs.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -90,6 +92,32 @@ TEST(Standoffs, WhoFindsNoGapIsLetIn) {
         EXPECT_GT(longest, 500) << "[ticks] gaps enough: nothing is shown";
         EXPECT_LT(longest, 1100) << "[ticks] alone it was 1619 and 1900";
     }
+}
+
+/// A bus forgot whom it was getting past, stopped in his body, and both stood so until one was
+/// taken out.
+TEST(Standoffs, WhoIsLetInStillPushesPastWhomItIsPushingPast) {
+    constexpr std::uint32_t way = 5;
+    Cars cars;
+    world::TickDraft draft;
+    for (const std::uint32_t id : {1U, 2U, 3U, 4U}) {
+        Car car;
+        car.id = id;
+        cars.add(std::move(car), "", 0, draft);
+    }
+    Car& bus = cars[0];
+    bus.pushes_past = {2, 3};  // 2 stands in its way; 3 was asked a second ago, 4 is now
+    bus.pushes_until = 300;
+    cars[2].lets_in_way = cars[3].lets_in_way = way;
+    Standoffs::push_past(bus, {4}, way, cars, 100);
+    EXPECT_EQ(bus.pushes_past, (std::vector<std::uint32_t>{2, 4}));
+    EXPECT_EQ(bus.pushes_until, 300U);
+    Standoffs::push_past(bus, {}, way, cars, 120);
+    EXPECT_EQ(bus.pushes_past, (std::vector<std::uint32_t>{2}));
+    EXPECT_EQ(bus.pushes_until, 300U);
+    Standoffs::push_past(bus, {4}, way, cars, 300);
+    EXPECT_EQ(bus.pushes_past, (std::vector<std::uint32_t>{4})) << "it is through, or gave up";
+    EXPECT_EQ(bus.pushes_until, 360U);
 }
 
 /// Three by three crossings at which nobody has the right of way: to SUMO nobody crosses anybody's
