@@ -85,6 +85,10 @@ RenderOptions options_again(const RenderOptions& options,
 int check_render(const RenderOptions& options,
                  const std::function<int(const RenderOptions&)>& render) {
     const fs::path path = named_manifest(options.check);
+    if (path != options.check && !fs::exists(path))
+        throw world::Error(fmt::format("{}: there is no {}, which is written last: it is not whole",
+                                       options.check,
+                                       path.string()));
     const Json manifest = read_manifest(path);
     const FileList then = read_file_list(manifest["files"], path.string());
     const fs::path root = path.parent_path();

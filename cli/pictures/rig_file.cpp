@@ -284,6 +284,8 @@ void read_sensor(const Json& json, const std::string& where, std::uint64_t step_
                                  fmt::join(world::sensor_kinds(), ", ")));
     sensor.kind = *kind;
     const std::string& carrier = file.carriers.emplace_back(table.text("actor").value_or(""));
+    if (carrier.empty() && table.find("actor") != nullptr)
+        table.refuse("'actor' is empty; without it the carrier is --actor, or the first vehicle");
     if (carrier == "world" && world::tells_what_happens(sensor.kind))
         table.refuse(
             fmt::format("a {} tells what its 'actor' does, who cannot be the world", type));

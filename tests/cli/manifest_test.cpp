@@ -167,6 +167,25 @@ TEST_F(Manifest, ChecksThatAllIsMadeAgainAndNamesTheFileThatIsNot) {
     EXPECT_EQ(bad.code, 2);
 }
 
+TEST_F(Manifest, OfWhatWasKilledInTheMidstIsMissingAndItsCheckSaysSo) {
+    for (const std::string out : {"r", "r.mp4"}) {
+        const std::string words = "reprise render t.mcap --sensor rgb --size 320x240 -o " + out;
+        typed(words +
+                  " > told & killed=$!; for i in $(seq 200); do ls | grep -q '^r' && break; "
+                  "sleep 0.05; done; kill -9 $killed; wait $killed",
+              folder_);
+        const Result result = reprise({"render", "--check", out}, folder_.path());
+        EXPECT_EQ(result.code, 2);
+        EXPECT_EQ(result.out,
+                  "reprise: " + out + ": there is no " + out + (out == "r" ? "/" : ".") +
+                      "manifest.json, which is written last: it is not whole\n");
+        std::filesystem::remove_all(folder_ / "r");
+        EXPECT_EQ(typed("exec " + words + " --ticks 20..23", folder_).code, 0);
+        EXPECT_EQ(reprise({"render", "--check", out}, folder_.path()).code, 0);
+        std::filesystem::remove_all(folder_ / "r");
+    }
+}
+
 TEST_F(Manifest, AndIndexesEndWhereTheyEndWhateverLiesBehindANul) {
     ASSERT_EQ(render("r", {"--ticks", "20"}).code, 0);
     const std::string dataset = "exec reprise dataset t.mcap -o s --size 64x48 --every 2s";

@@ -315,6 +315,7 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     EXPECT_THAT(of_sensor("\n\"yaw_deg\": 1e999\n"),
                 HasSubstr("rig.json:2: a number is too large"));
     EXPECT_THAT(of_sensor("\"postion\": [1, 2, 3]"), HasSubstr("(did you mean 'position'?)"));
+    EXPECT_THAT(of_sensor("\"actor\": \"\""), HasSubstr("sensor 1 'a': 'actor' is empty; without"));
     EXPECT_THAT(
         of_sensor("\n\"actor\": \"ega\""),
         testing::ContainsRegex("rig.json:1: sensor 1 'a': .*t.mcap: no actor 'ega' .did you"));
