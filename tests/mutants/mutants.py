@@ -3,6 +3,7 @@
 the tests that should notice each one, switched on.
 
     mutants.py copy TREE                 the copy; only what has changed is written
+    mutants.py fit                       is what they replace still there?
     mutants.py targets                   the test programs that are needed, and what they call
     mutants.py run BUILD [NAME ...]      kills them (default: all); exit 1: one survived
 """
@@ -57,6 +58,18 @@ def mutated(path, text, mutants):
         out += text[at:begin] + now
         at = end
     return out + text[at:]
+
+
+def fit():
+    """Throws where the sources have moved on from the list."""
+    by_file = {}
+    for mutant in read_mutants():
+        by_file.setdefault(mutant["file"], []).append(mutant)
+    for name, mutants in by_file.items():
+        if not (SOURCES / name).is_file():
+            raise Fault(f"{mutants[0]['name']}: no such file: {name}")
+        mutated(name, (SOURCES / name).read_text(), mutants)
+    print(f"each of {sum(map(len, by_file.values()))} mutants has its place")
 
 
 def copy(tree):
@@ -188,6 +201,7 @@ def main():
     commands = parser.add_subparsers(dest="command", required=True)
     commands.add_parser("copy").add_argument("tree", type=pathlib.Path)
     commands.add_parser("targets")
+    commands.add_parser("fit", help="does each of them still have its place in the sources?")
     runner = commands.add_parser("run")
     runner.add_argument("build", type=lambda text: pathlib.Path(text).resolve())
     runner.add_argument("names", nargs="*")
@@ -197,6 +211,8 @@ def main():
     try:
         if options.command == "copy":
             copy(options.tree)
+        elif options.command == "fit":
+            fit()
         elif options.command == "targets":
             print(" ".join(sorted({split(test)[0] for mutant in read_mutants() for test in mutant["tests"]})))
         else:
