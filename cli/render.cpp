@@ -97,7 +97,9 @@ void check_formats(const RenderOptions& options,
     for (const world::SensorRig& rig : {cameras.sensors(), measurements.sensors()})
         for (const world::SensorSpec& sensor : rig)
             made.emplace_back(world::EnumNameSensorKind(sensor.kind));
-    for (const auto& [option, kinds] : formats) {
+    for (const auto& format : formats) {
+        const std::string_view option = format.option;
+        const std::vector<std::string>& kinds = format.kinds;
         const bool asked = std::any_of(options.said.begin(),
                                        options.said.end(),
                                        [&](const auto& said) { return said.first == option; });

@@ -37,19 +37,18 @@ std::span<const SweptWidth> DriverState::corridor(const Ego& ego) {
         return swept;
     const Path& path = way().path();
     const double half = ego.model->width / 2;
-    moved_swept_.assign(path.points().size(), SweptWidth{half, half});
+    moved_swept.assign(path.points().size(), SweptWidth{half, half});
     if (!swept.empty())
-        std::copy_n(
-            swept.begin(), std::min(swept.size(), moved_swept_.size()), moved_swept_.begin());
-    for (std::size_t i = 0; i < moved_swept_.size(); ++i) {
+        std::copy_n(swept.begin(), std::min(swept.size(), moved_swept.size()), moved_swept.begin());
+    for (std::size_t i = 0; i < moved_swept.size(); ++i) {
         const double later =
             std::max(path.s_of(i) - ego.rear_axle_s, 0.0) / std::max(ego.speed, 2.0);
         const double offset = lateral_order.offset(tick, step, later) +
                               (passing.plan() ? passing.plan()->bypass.offset(path.s_of(i)) : 0);
-        moved_swept_[i].left += offset;
-        moved_swept_[i].right -= offset;
+        moved_swept[i].left += offset;
+        moved_swept[i].right -= offset;
     }
-    return moved_swept_;
+    return moved_swept;
 }
 
 /// Bends that no steering can follow; those where we turn around are not driven along the path.

@@ -92,18 +92,18 @@ struct DriverState {
     Passing passing;
     bool may_overtake = false;
     BackOff back_off;
-    std::optional<DriverNews> news;        ///< of this tick
-    std::uint64_t tick = 0;                ///< the last one: not digested, nor what follows
-    double rear_axle_s = 0;                ///< then
-    std::vector<SweptWidth> moved_swept_;  ///< beside the path
-    std::uint32_t waiting_ticks = 0;       ///< beside cars on the lane that we want
-    std::uint32_t standoff_ticks = 0;      ///< before somebody who cannot go on before we do
-    std::uint32_t standoffs = 0;           ///< in which it made room, since it drove on
-    std::uint32_t held_ticks = 0;          ///< before what its wheels lead into
-    std::uint32_t strays = 0;              ///< off every road: how often something held it there
-    std::uint32_t turner_ticks = 0;        ///< before somebody who turns where we want to
-    std::uint32_t wedged_ticks = 0;        ///< beside somebody whom it could creep past
-    bool at_end = false;                   ///< follows from the last tick and the way: not digested
+    std::optional<DriverNews> news;       ///< of this tick
+    std::uint64_t tick = 0;               ///< the last one: not digested, nor what follows
+    double rear_axle_s = 0;               ///< then
+    std::vector<SweptWidth> moved_swept;  ///< beside the path
+    std::uint32_t waiting_ticks = 0;      ///< beside cars on the lane that we want
+    std::uint32_t standoff_ticks = 0;     ///< before somebody who cannot go on before we do
+    std::uint32_t standoffs = 0;          ///< in which it made room, since it drove on
+    std::uint32_t held_ticks = 0;         ///< before what its wheels lead into
+    std::uint32_t strays = 0;             ///< off every road: how often something held it there
+    std::uint32_t turner_ticks = 0;       ///< before somebody who turns where we want to
+    std::uint32_t wedged_ticks = 0;       ///< beside somebody whom it could creep past
+    bool at_end = false;                  ///< follows from the last tick and the way: not digested
 };
 
 }  // namespace reprise::drivers

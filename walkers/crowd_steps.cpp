@@ -230,12 +230,12 @@ void Crowd::step_back(Walker& walker) const {
             p - user.rear_axle - (body.length / 2 - body.rear_overhang) * ahead;
         const double along = from.dot(ahead);
         const double left = world::cross(ahead, from);
-        const double beyond = along - std::clamp(along, -body.length / 2, body.length / 2);
+        const double past_end = along - std::clamp(along, -body.length / 2, body.length / 2);
         const double beside = left - std::clamp(left, -body.width / 2, body.width / 2);
-        const double gap = std::hypot(beyond, beside) - walker.person.radius;
+        const double gap = std::hypot(past_end, beside) - walker.person.radius;
         if (gap > room + stays)
             continue;
-        Eigen::Vector2d away = beyond * ahead + beside * world::turned_left(ahead);
+        Eigen::Vector2d away = past_end * ahead + beside * world::turned_left(ahead);
         if (away.isZero())  // whose tail lies over him
             away = std::copysign(1.0, left) * world::turned_left(ahead);
         walker.wanted =

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,10 +25,13 @@ using Json = nlohmann::ordered_json;
 /// Of numbers with several names the first.
 Json numbers_of(const world::Weather& weather) {
     Json json;
-    std::set<decltype(world::WeatherField::get)> seen;
-    for (const world::WeatherField& field : world::weather_fields())
-        if (std::find(seen.begin(), seen.end(), field.get) == seen.end())
-            json[field.key] = field.said(weather);
+    std::vector<decltype(world::WeatherField::get)> seen;
+    for (const world::WeatherField& field : world::weather_fields()) {
+        if (std::find(seen.begin(), seen.end(), field.get) != seen.end())
+            continue;
+        seen.push_back(field.get);
+        json[field.key] = field.said(weather);
+    }
     return json;
 }
 

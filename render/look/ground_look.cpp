@@ -31,8 +31,9 @@ float crack(float x, float y, float cracked) {
     for (std::size_t i = 0; i < 4; ++i) {
         const float dx = static_cast<float>(i % 2) + askew * (aside[i] - 0.5F) -
                          (u - static_cast<float>(column));
+        const std::size_t above = i / 2;
         const float dy =
-            static_cast<float>(i / 2) + askew * (ahead[i] - 0.5F) - (v - static_cast<float>(row));
+            static_cast<float>(above) + askew * (ahead[i] - 0.5F) - (v - static_cast<float>(row));
         const float distance = dx * dx + dy * dy;
         const float own = aside[i] + ahead[i];
         if (distance < nearest[0]) {

@@ -232,7 +232,8 @@ float Sky::dome_illuminance(const std::vector<Color>& table) {
     constexpr int rows = 12;
     constexpr int columns = 24;
     for (int i = 0; i < rows * columns; ++i) {
-        const float z = (static_cast<float>(i / columns) + 0.5F) / rows;
+        const int row = i / columns;
+        const float z = (static_cast<float>(row) + 0.5F) / rows;
         const double altitude = std::asin(static_cast<double>(z));
         const Vector3f way = towards(2 * std::numbers::pi * (i % columns) / columns, altitude);
         sum += luminance(TableSpot(way).of(table)) * (z * 2 * pi / (rows * columns));
@@ -260,7 +261,8 @@ void Sky::add_fog() {
     constexpr int rows = 12;
     constexpr int columns = 24;
     for (int i = 0; i < rows * columns; ++i) {
-        const float z = (static_cast<float>(i / columns) + 0.5F) / rows;
+        const int row = i / columns;
+        const float z = (static_cast<float>(row) + 0.5F) / rows;
         const double angle = 2 * std::numbers::pi * (i % columns) / columns;
         const float wide = std::sqrt(1 - z * z);
         above += stored({wide * static_cast<float>(std::cos(angle)),
@@ -300,7 +302,8 @@ void Sky::project_ambient() {
     constexpr int columns = 48;
     for (int half = 0; half < 2; ++half) {
         for (int i = 0; i < rows * columns; ++i) {
-            const float z = (static_cast<float>(i / columns) + 0.5F) / rows;
+            const int row = i / columns;
+            const float z = (static_cast<float>(row) + 0.5F) / rows;
             const double angle = 2 * std::numbers::pi * (i % columns) / columns;
             const float wide = std::sqrt(1 - z * z);
             const Vector3f d(wide * static_cast<float>(std::cos(angle)),
@@ -326,7 +329,8 @@ void Sky::project_ambient() {
         if (half == 0) {
             Color sum = Color::Zero();
             for (int i = 0; i < rows * columns; ++i) {
-                const float z = (static_cast<float>(i / columns) + 0.5F) / rows;
+                const int row = i / columns;
+                const float z = (static_cast<float>(row) + 0.5F) / rows;
                 const double angle = 2 * std::numbers::pi * (i % columns) / columns;
                 const float wide = std::sqrt(1 - z * z);
                 sum += stored({wide * static_cast<float>(std::cos(angle)),

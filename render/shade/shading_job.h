@@ -53,9 +53,9 @@ struct ShadingJob {
     /// to the next one would wait for memory.
     template <typename Fetch>
     void look_ahead(const Eigen::Vector2i& corner, int i, const Fetch& fetch) const {
-        const Eigen::Vector2i pixel = corner + tile_pixel(i);
-        if (i < tile * tile && contains(pixel))
-            fetch(frame.index(pixel.x(), pixel.y()));
+        const Eigen::Vector2i there = corner + tile_pixel(i);
+        if (i < tile * tile && contains(there))
+            fetch(frame.index(there.x(), there.y()));
     }
 
     int columns() const { return (camera.width() + tile - 1) / tile; }  ///< of tiles

@@ -17,9 +17,9 @@ int cell_of(float metres) {
 
 /// Of its intensity, at a height where nothing is lost, so far aside of straight ahead: see
 /// lobes.h.
-float low_beam_share(float side) {
+float low_beam_share(float aside) {
     const auto bell = [](float x) { return (1 + x * x) * (1 + x * x); };
-    return 0.77F / bell(side / 0.20F) + 0.23F / bell(side);
+    return 0.77F / bell(aside / 0.20F) + 0.23F / bell(aside);
 }
 
 /// About how bright a source makes the brightest place of a square; 0 where it does not reach.

@@ -27,7 +27,7 @@ class Rendering : public testing::Test {
 
     /// The folder that the pictures are in.
     std::string render(const std::string& camera, const std::string& weather) {
-        const std::string out = folder_ / (camera + "_" + weather);
+        std::string out = folder_ / (camera + "_" + weather);
         const Result result = reprise({"render",
                                        folder_ / "t.mcap",
                                        "-o",

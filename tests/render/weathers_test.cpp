@@ -71,7 +71,7 @@ TEST(AllWeathers, FramesStandAlone) {
     const world::SensorRig rig = rgb_rig(96, 72);
     for (const char* said : {"hard_rain_sunset", "cloudy_noon,wind=20,snow=4", "dust_storm"}) {
         render::Sensors walked(test::street());
-        for (std::uint64_t index : {7, 1000}) {
+        for (std::uint64_t index : {7U, 1000U}) {
             world::TickDraft draft;
             draft.tick.index = index;
             draft.tick.vehicles = {test::vehicle_at(1, 40, -1.75)};

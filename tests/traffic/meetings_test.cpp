@@ -208,7 +208,9 @@ TEST(Meetings, NobodyDrivesThroughTheTailOfWhoStandsBetweenTwoLanes) {
     const RoadGraph graph = graph_for(town);
     const std::vector<Entry> entries = entries_of(town);
     int shown = 0;
-    for (const auto& [right, via] : entries) {
+    for (const Entry& entry : entries) {
+        const std::uint32_t right = entry.first;
+        const std::uint32_t via = entry.second;
         const std::uint32_t left = town.lanes[right].left;
         const auto yaw_before = [&](double metres) {
             const world::LaneT& lane = town.lanes[right];

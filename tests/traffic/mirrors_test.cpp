@@ -12,6 +12,7 @@
 #include "process/program.h"
 #include "tests/support/worlds.h"
 #include "tests/traffic/stage.h"
+#include "world/frames.h"
 #include "world/models/catalogue.h"
 #include "world/random.h"
 

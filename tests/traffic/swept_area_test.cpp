@@ -377,7 +377,7 @@ std::optional<double> bus_is_wedged(std::uint64_t seed) {
 
 TEST(SweptArea, ABusThatCannotGoOnForWhoStandsAtItsFlankIsTakenOut) {
     int shown = 0;
-    for (const std::uint64_t seed : {1, 3, 6}) {
+    for (const std::uint64_t seed : {1U, 3U, 6U}) {
         const std::optional<double> stood = bus_is_wedged(seed);
         if (!stood)
             continue;

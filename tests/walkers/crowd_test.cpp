@@ -377,7 +377,7 @@ double distance_from_side(const world::WalkerState& walker, const world::CarStat
     const world::VehicleModel& model = world::vehicle_models()[vehicle.model()];
     const Eigen::Vector2d gap =
         world::in_plan(walker.position()) - world::in_plan(vehicle.position());
-    const Eigen::Vector2d ahead = world::ahead_of(double{vehicle.yaw()});
+    const Eigen::Vector2d ahead = world::ahead_of(static_cast<double>(vehicle.yaw()));
     const double along = gap.dot(ahead);
     if (along < -model.rear_overhang || along > model.length - model.rear_overhang - bow)
         return world::infinity;

@@ -48,10 +48,10 @@ TEST(Bends, SoonBehindAJunctionAreSeenFromBeforeIt) {
         const world::CarState* car = stage.car(1);
         if (car == nullptr)
             break;
-        const double turn = std::abs(world::wrap_angle(double{car->yaw()} - yaw));
+        const double turn = std::abs(world::wrap_angle(static_cast<double>(car->yaw()) - yaw));
         turned += turn;
-        sideways = std::max(sideways, double{car->speed()} * turn / 0.05);
-        yaw = double{car->yaw()};
+        sideways = std::max(sideways, static_cast<double>(car->speed()) * turn / 0.05);
+        yaw = static_cast<double>(car->yaw());
     }
     EXPECT_NEAR(turned, 1.571, 0.1) << "it is no proof before the bend";
     EXPECT_LT(sideways, 6) << "without it 21";
