@@ -216,6 +216,7 @@ void Lookout::hold_back(Car& car, double speed, std::uint64_t tick) const {
 void Lookout::look(const world::TickView& last, const Cars& cars) {
     obstructions_.look(last, cars.all());
     sweeping_.look();
+    giving_way_.look(last);
 }
 
 void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tick) {
@@ -247,7 +248,8 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
             allowed = std::min({allowed,
                                 meetings_.allowed_speed(i),
                                 car.way_speed,
-                                sweeping_.allowed_speed(car, tick)});
+                                sweeping_.allowed_speed(car, tick),
+                                giving_way_.allowed_speed(car)});
         if (car.pass || allowed < car.speed + starting * step_) {
             hold_back(car, allowed, tick);
         } else if (car.held_back) {

@@ -6,6 +6,7 @@
 #include "traffic/orders.h"
 #include "traffic/roads/right_of_way.h"
 #include "traffic/roads/road_graph.h"
+#include "traffic/sight/giving_way.h"
 #include "traffic/sight/meetings.h"
 #include "traffic/sight/obstructions.h"
 #include "traffic/sight/passing.h"
@@ -47,7 +48,8 @@ class Lookout {
           passing_(town, obstructions_, step_),
           pulling_out_(town, graph, obstructions_, step_),
           meetings_(town, graph, right_of_way, step_),
-          sweeping_(obstructions_, meetings_.lines(), graph, step_) {}
+          sweeping_(obstructions_, meetings_.lines(), graph, step_),
+          giving_way_(meetings_.lines(), graph, step_) {}
 
     Lookout(const Lookout&) = delete;
     Lookout& operator=(const Lookout&) = delete;
@@ -95,6 +97,7 @@ class Lookout {
     PullingOut pulling_out_;
     Meetings meetings_;
     Sweeping sweeping_;
+    GivingWay giving_way_;
 };
 
 }  // namespace reprise::traffic
