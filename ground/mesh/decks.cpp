@@ -14,9 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double hanging = 1.5;      ///< [m] over what is below; less is an embankment's edge
 constexpr double probe_spacing = 4;  ///< [m] along a lane, between questions whether it hangs
-constexpr double beside_step = 0.3;  ///< [m] roads beside each other differ by less
 
 bool is_town_flat(const world::TownT& town) {
     double low = 0;

@@ -33,6 +33,12 @@ class GroundBuilder {
     /// A polygon that is counter-clockwise seen from above, `depth` metres lower, facing down.
     void add_ceiling(std::vector<Eigen::Vector3d> corners, double depth, Surface surface);
 
+    /// A triangle as it comes, unless it is a sliver.
+    void add_triangle(const Eigen::Vector3d& p,
+                      const Eigen::Vector3d& q,
+                      const Eigen::Vector3d& r,
+                      Surface surface);
+
     const GroundMesh& mesh() const { return mesh_; }
 
     GroundMesh take() { return std::move(mesh_); }
@@ -43,10 +49,6 @@ class GroundBuilder {
     };
 
     std::uint32_t vertex(const Eigen::Vector3d& p);
-    void add_triangle(const Eigen::Vector3d& p,
-                      const Eigen::Vector3d& q,
-                      const Eigen::Vector3d& r,
-                      Surface surface);
 
     GroundMesh mesh_;
     /// Looked up, never walked through: the mesh's order is that of the calls.

@@ -28,7 +28,6 @@ namespace reprise::ground {
 namespace {
 
 constexpr double least_cut = 0.002;  ///< [m2] smaller cuts are rounding
-constexpr double kerb_depth = 0.3;   ///< [m] of the kerb faces below the road: no gap on slopes
 
 struct Slab {
     std::vector<world::Loop> loops;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "ground/mesh/banks.h"
 #include "ground/mesh/build_ground.h"
 #include "ground/paint/markings.h"
 #include "render/scene/land.h"
@@ -68,6 +69,9 @@ void TownScene::build_town(const world::TownT& town) {
     const ground::GroundMesh levels = ground::build_ground(town);
     Mesh ground = mesh_of(levels, origin_);
     add(std::move(ground), Kind::ground, solid_bit);
+    Mesh banks = mesh_of(ground::build_banks(levels), origin_);
+    if (!banks.triangles.empty())
+        add(std::move(banks), Kind::ground, solid_bit);
     Mesh markings = mesh_of(ground::build_markings(town), origin_);
     if (!markings.triangles.empty())
         add(std::move(markings), Kind::marking, marking_bit);
