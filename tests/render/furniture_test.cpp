@@ -6,6 +6,7 @@
 #include "render/look/look.h"
 #include "render/shapes/street/plot_mesh.h"
 #include "render/shapes/street/prop_mesh.h"
+#include "render/shapes/street/signal_parts.h"
 #include "tests/render/everything.h"
 #include "tests/render/street.h"
 
@@ -195,6 +196,38 @@ TEST(SignalHeads, TurnsWithASignalOfTheirOwnHaveALampOfTheirOwn) {
     EXPECT_EQ(differing_bytes(seen_with(world::SignalColor::red),
                               seen_with(world::SignalColor::green_minor)),
               0);
+}
+
+TEST(SignalHeads, LampsOfTurnsAreArrowsThatPointTheirWay) {
+    for (const world::Turn turn : {world::Turn::left, world::Turn::right}) {
+        world::TownT town = town_with_head();
+        town.signals.push_back(town.signals[0]);
+        town.lanes[town.signals[0].lane].links = {
+            world::Link(0, 0, 0, world::Turn::straight, false, 0),
+            world::Link(0, 0, 1, turn, false, 0)};
+        town.heads[0].signals = {0, 1};
+        Mesh mesh;
+        add_signal_head(mesh, town, town.heads[0], Eigen::Vector3d::Zero());
+        // Of what lights: how high it is at each distance from the pole, to the left.
+        const std::uint32_t tag = 4 + static_cast<std::uint32_t>(render::SignalLamp::turn);
+        std::map<float, float> heights;
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+            for (const std::uint32_t vertex : mesh.triangles[i])
+                if (mesh.materials[i] == render::Material::signal_lamp && mesh.tags[i] == tag) {
+                    const Eigen::Vector3f& p = mesh.vertices[vertex];
+                    heights[p.y() + 6] = std::max(heights[p.y() + 6], p.z());
+                }
+        ASSERT_GE(heights.size(), 3U);
+        const auto& [right_end, right_height] = *heights.begin();
+        const auto& [left_end, left_height] = *heights.rbegin();
+        if (turn == world::Turn::left) {
+            EXPECT_GT(right_end, 0.1F);
+            EXPECT_LT(left_height, right_height);
+        } else {
+            EXPECT_LT(left_end, -0.1F);
+            EXPECT_LT(right_height, left_height);
+        }
+    }
 }
 
 TEST(Plots, CoverTheirOutlineJustAboveTheTerrain) {

@@ -28,18 +28,41 @@ bool is_left(world::Turn turn) {
            turn == world::Turn::around;
 }
 
-/// A lamp for a turn, beside the case's lowest one.
-void add_turn_lamp(
-    Mesh& mesh, const Eigen::Isometry3f& frame, float y, float bottom, std::uint32_t signal) {
+/// An arrow that points to the left (`way` 1) or right (-1) of those who face it; `at` is its
+/// middle.
+void add_arrow(Builder& build, const Vector3f& at, float size, float way, Finish finish) {
+    const auto corner = [&](float along, float up) {
+        return Vector3f(at + size * Vector3f(0, way * along, up));
+    };
+    const auto triangle = [&](const Vector3f& p, const Vector3f& q, const Vector3f& r) {
+        if (way > 0)
+            build.triangle({p, q, r}, finish);
+        else
+            build.triangle({p, r, q}, finish);
+    };
+    triangle(corner(.85F, 0), corner(.05F, -.72F), corner(.05F, .72F));
+    triangle(corner(.05F, .26F), corner(.05F, -.26F), corner(-.8F, -.26F));
+    triangle(corner(.05F, .26F), corner(-.8F, -.26F), corner(-.8F, .26F));
+}
+
+/// A lamp for a turn, beside the case's lowest one: a lit arrow on black, so that nobody takes it
+/// for another green for all.
+void add_turn_lamp(Mesh& mesh,
+                   const Eigen::Isometry3f& frame,
+                   float arm,
+                   float way,
+                   float bottom,
+                   std::uint32_t signal) {
     constexpr float radius = 0.10F;
+    const float y = arm + way * .34F;
     Builder build(mesh, frame);
     build.box({.03F, y - .15F, bottom}, {.20F, y + .15F, bottom + .32F}, {Material::signal_case});
-    add_signal_lamp(
-        mesh,
-        frame,
-        {.02F, y, bottom + .16F},
-        radius,
-        {Material::signal_lamp, 4 * signal + static_cast<std::uint32_t>(SignalLamp::turn)});
+    add_signal_lamp(mesh, frame, {.02F, y, bottom + .16F}, radius, {Material::signal_case});
+    add_arrow(build,
+              {-.015F, y, bottom + .16F},
+              radius,
+              way,
+              {Material::signal_lamp, 4 * signal + static_cast<std::uint32_t>(SignalLamp::turn)});
 }
 
 void add_head(Mesh& mesh,
@@ -83,7 +106,7 @@ void add_head(Mesh& mesh,
         if (signal == shown || taken)
             continue;
         taken = true;
-        add_turn_lamp(mesh, frame, arm + (left ? .34F : -.34F), top - 2 * half, signal);
+        add_turn_lamp(mesh, frame, arm, left ? 1.0F : -1.0F, top - 2 * half, signal);
     }
 }
 

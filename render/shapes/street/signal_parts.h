@@ -33,8 +33,8 @@ void add_signal_case(Mesh& mesh,
 std::uint32_t main_signal(const world::TownT& town, const std::vector<std::uint32_t>& signals);
 
 /// Appends a lamp housing with its pole and arm, in world coordinates less `origin`.
-/// The lamps show the signal of the way straight on, or the first; a lamp of its own beside them
-/// shows when a turn is free, for each turn that has a signal of its own.
+/// The lamps show the signal of the way straight on, or the first; a green arrow of its own beside
+/// them shows when a turn is free, for each turn that has a signal of its own.
 void add_signal_head(Mesh& mesh,
                      const world::TownT& town,
                      const world::SignalHeadT& head,
