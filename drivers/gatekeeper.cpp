@@ -18,6 +18,7 @@ constexpr double yellow_braking = 3.5;  // [m/s^2] harder than this we rather dr
 constexpr double red_braking = 7;       // [m/s^2] at red only what is hardly possible
 constexpr double patience = 12;         // [s]
 constexpr double row_patience = 45;     // [s] before junctions that have no room between them
+constexpr double at_the_line = 5;       // [m] who stands so far before it waits there
 constexpr double room_behind = 2.5;     // [m] more than our length
 constexpr double creep_speed = 1.8;     // [m/s]
 constexpr double conflict_sight = 120;  // [m]
@@ -213,7 +214,7 @@ bool Gatekeeper::must_stop(const world::TickView& last,
             waiting_gate_ = gate.serial;
             waited_ticks_ = 0;
         }
-        if (give_way && ego.speed < 0.5 && to_line < 5)
+        if (give_way && ego.speed < 0.5 && to_line < at_the_line)
             ++waited_ticks_;
         if (waited_ticks_ * step > patience)
             creeping_gate_ = gate.serial;
@@ -251,18 +252,19 @@ bool Gatekeeper::has_room(const Ego& ego,
     const double length = ego.model->length;
     const double needed =
         std::min(length + room_behind, std::max(town_->lanes[gate.to].length - 1, 1.0));
-    if (!is_free(overlaps, gate.s, gate.exit_s + needed))
-        return false;
-    if (is_free(overlaps, gate.s, end_of_room(way, gate, length)))
+    const bool is_first_free = is_free(overlaps, gate.s, gate.exit_s + needed);
+    if (is_first_free && is_free(overlaps, gate.s, end_of_room(way, gate, length)))
         return true;
-    // Those in the next junction may wait for somebody who waits for us.
-    if (gate.serial != full_gate_) {
+    // Those in the next junction may wait for somebody who waits for us; and where others fill each
+    // gap of a queue that goes on, we have waited as well.
+    const bool is_next = ego.speed < 0.5 && gate.s - ego.front_s() < at_the_line;
+    if (is_next && gate.serial != full_gate_) {
         full_gate_ = gate.serial;
         full_ticks_ = 0;
     }
-    if (ego.speed < 0.5)
+    if (is_next)
         ++full_ticks_;
-    return full_ticks_ * step > row_patience;
+    return is_first_free && gate.serial == full_gate_ && full_ticks_ * step > row_patience;
 }
 
 bool Gatekeeper::has_gap(const world::TickView& last,

@@ -196,6 +196,21 @@ TEST(Gatekeeper, EntersARowOfJunctionsAfterThreeQuartersOfAMinuteThatOnlyItsEndI
     EXPECT_GT(allowed, 1) << "up to the second one";
 }
 
+/// Behind a crossing with many people a queue creeps, and others fill each gap before us.
+TEST(Gatekeeper, EntersARowOfJunctionsAlsoWhereTheFirstIsSeldomFree) {
+    Approach approach(two_junctions(2));
+    for (int tick = 0; tick * step < 44.9; ++tick) {
+        const bool is_first_free = tick % 100 == 0;
+        approach.overlaps = {{is_first_free ? 220.0 : 208.0, 0, 5}};
+        ASSERT_LT(approach.allowed(1.5, 0, tick_of({})), 1) << tick * step << " s";
+    }
+    approach.overlaps = {{208, 0, 5}};
+    for (int tick = 0; tick < 100; ++tick)
+        ASSERT_LT(approach.allowed(1.5, 0, tick_of({})), 1);
+    approach.overlaps = {{220, 0, 5}};
+    EXPECT_GT(approach.allowed(1.5, 0, tick_of({})), 1);
+}
+
 TEST(Gatekeeper, StopsAtAStopSignThoughNobodyIsThereAndGoesOnOnceItStood) {
     Approach approach(true, 0);
     const world::SealedTick sign = tick_of({}, {world::SignalColor::stop});
