@@ -182,7 +182,10 @@ int render(const RenderOptions& options) {
     if (!measurements.empty() && !film) {
         const std::size_t count = measurements.write(sensors, files);
         if (!options.quiet)
-            say("{}: {} frames and readings of {}\n", options.output, count, measurements.names());
+            say("{}: {} of {}\n",
+                options.output,
+                world::count_of(count, "frame or reading", "frames and readings"),
+                measurements.names());
     }
     if (!cameras.sensors().empty())
         render_pictures(options, trace, ticks, cameras, sensors(), files);

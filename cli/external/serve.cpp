@@ -22,6 +22,7 @@
 #include "process/offshoot.h"
 #include "remote/listener.h"
 #include "world/check.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 
@@ -141,7 +142,8 @@ class Server {
         if (options_.port && token_.empty() && !remote::is_of_our_user(client->descriptor()))
             why_not = "this server is another user's: it wants a --token-file";
         else if (sessions_.size() >= options_.episodes)
-            why_not = fmt::format("{} clients are served already (--episodes)", options_.episodes);
+            why_not = world::count_of(options_.episodes, "client is", "clients are") +
+                      " served already (--episodes)";
         if (sessions_.size() >= options_.episodes + most_turned_away)
             return;  // without a word
         try {

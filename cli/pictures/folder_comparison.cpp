@@ -14,6 +14,7 @@
 #include "cli/process/say.h"
 #include "render/picture_difference.h"
 #include "world/check.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 
@@ -67,8 +68,10 @@ struct FolderDifference {
 
     std::string text() const {
         if (different + alone == 0)
-            return fmt::format("{} files, identical", same);
-        std::string said = fmt::format("{} files, {} differ", same + different + alone, different);
+            return world::count_of(same, "file, identical", "files, identical");
+        std::string said = fmt::format("{}, {}",
+                                       world::count_of(same + different + alone, "file"),
+                                       world::count_of(different, "differs", "differ"));
         if (alone > 0)
             said += fmt::format(", {} in one of both only", alone);
         if (pictures > 0 && peak > 0)

@@ -7,6 +7,7 @@
 #include "files/output_file.h"
 #include "world/check.h"
 #include "world/fingerprint.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 
@@ -84,10 +85,11 @@ int tell_made_again(const std::string& what,
         say("{}: {} made again, byte for byte\n", what, all_of(then));
         return exit_good;
     }
-    say("{}: {} of {} files differ{}\n",
+    say("{}: {} of {} {}{}\n",
         what,
         different,
-        then.size(),
+        world::count_of(then.size(), "file"),
+        different == 1 ? "differs" : "differ",
         same_program ? "" : "; another program made them, see reprise --version");
     return exit_differs;
 }

@@ -20,6 +20,7 @@
 #include "replay/table/actor_search.h"
 #include "world/check.h"
 #include "world/external/sensor_attributes.h"
+#include "world/story/wording.h"
 #include "world/units.h"
 
 namespace reprise::cli {
@@ -239,8 +240,10 @@ void read_view(const Table& table, const std::string& type, world::SensorSpec& s
     if (!world::is_camera(sensor.kind)) {
         for (const char* key : {"fov_deg", "size"})
             if (table.find(key) != nullptr)
-                table.refuse(fmt::format(
-                    "'{}' is of cameras; what a {} measures, its 'attributes' say", key, type));
+                table.refuse(
+                    fmt::format("'{}' is of cameras; what {} measures, its 'attributes' say",
+                                key,
+                                world::with_article(type)));
         return;
     }
     sensor.fov = table.number("fov_deg", 90, world::narrowest_view_deg, world::widest_fisheye_deg) *
@@ -287,8 +290,8 @@ void read_sensor(const Json& json, const std::string& where, std::uint64_t step_
     if (carrier.empty() && table.find("actor") != nullptr)
         table.refuse("'actor' is empty; without it the carrier is --actor, or the first vehicle");
     if (carrier == "world" && world::tells_what_happens(sensor.kind))
-        table.refuse(
-            fmt::format("a {} tells what its 'actor' does, who cannot be the world", type));
+        table.refuse(fmt::format("{} tells what its 'actor' does, who cannot be the world",
+                                 world::with_article(type)));
     const double reach = carrier == "world" ? farthest_place : world::farthest_mount;
     if (const Json* place = table.list("position", 3))
         for (int axis = 0; axis < 3; ++axis)

@@ -5,6 +5,7 @@
 #include "world/check.h"
 #include "world/external/rig.h"
 #include "world/external/sensor_attributes.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 
@@ -15,13 +16,13 @@ void tell(world::SensorSpec& sensor, std::span<const world::AttributeValue> said
     if (!world::are_possible(sensor.kind, sensor.attributes))
         for (const world::AttributeValue& one : sensor.attributes) {
             const world::AttributeRow& row = *world::find_attribute(sensor.kind, one.name);
-            throw world::Error(fmt::format(
-                "--attribute: {} of a {} must be in [{:g}, {:g}] and said once, got {:g}",
-                one.name,
-                world::EnumNameSensorKind(sensor.kind),
-                row.low,
-                row.high,
-                one.value));
+            throw world::Error(
+                fmt::format("--attribute: {} of {} must be in [{:g}, {:g}] and said once, got {:g}",
+                            one.name,
+                            world::with_article(world::EnumNameSensorKind(sensor.kind)),
+                            row.low,
+                            row.high,
+                            one.value));
         }
     if (const std::string why = world::contradiction(sensor); !why.empty())
         throw world::Error(

@@ -10,6 +10,7 @@
 #include "exchange/page/replay_page.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
+#include "world/story/wording.h"
 
 namespace reprise::cli {
 
@@ -33,9 +34,9 @@ int show(const ShowOptions& options) {
     const std::size_t size = file.text.size();
     file.finish();
     say(stderr,
-        "{}: {} ticks{}, {:.1f} MB; any browser opens it\n",
+        "{}: {}{}, {:.1f} MB; any browser opens it\n",
         output,
-        range.last + 1 - range.first,
+        world::count_of(range.last + 1 - range.first, "tick"),
         page.every > 1 ? fmt::format(" (positions of one in {})", page.every) : "",
         static_cast<double>(size) / 1e6);
     return exit_good;

@@ -14,6 +14,7 @@ namespace reprise::render {
 class SourceGrid {
   public:
     static constexpr int most = 20;  ///< in a square
+    static_assert(most % 4 == 0);    // who shades takes them in fours
 
     SourceGrid() = default;
     SourceGrid(std::vector<LightSource> sources, const Eigen::Vector3f& eye);

@@ -13,6 +13,7 @@
 #include "world/check.h"
 #include "world/external/rig.h"
 #include "world/external/sensor_attributes.h"
+#include "world/story/wording.h"
 
 // What a vehicle carries, and what its driver is shown.
 namespace reprise::scripting {
@@ -109,9 +110,9 @@ void refuse_view(const Fields& fields, world::SensorKind kind) {
     for (const char* key : {"width", "height", "fov_deg"})
         if (fields.mentions(key))
             refuse(fields.who(),
-                   fmt::format("'{}' is of cameras; what a {} measures, its 'attributes' say",
+                   fmt::format("'{}' is of cameras; what {} measures, its 'attributes' say",
                                key,
-                               world::EnumNameSensorKind(kind)));
+                               world::with_article(world::EnumNameSensorKind(kind))));
 }
 
 /// The table on top of the stack as the sensor with this number.

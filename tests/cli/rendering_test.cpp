@@ -6,6 +6,7 @@
 
 #include "tests/cli/program.h"
 #include "world/external/sensor.h"
+#include "world/story/wording.h"
 
 namespace reprise::test {
 namespace {
@@ -267,6 +268,21 @@ TEST_F(Rendering, ARigFilesLidarSeesWhatOneOfTheOptionsSees) {
     EXPECT_TRUE(read_file(rigged / "lidar/000040.ply") == scan);
 }
 
+TEST_F(Rendering, OneScanIsSaidToBeOne) {
+    const Result result = reprise({"render",
+                                   folder_ / "t.mcap",
+                                   "-o",
+                                   folder_ / "one",
+                                   "--sensor",
+                                   "lidar",
+                                   "--attribute",
+                                   "channels=4",
+                                   "--ticks",
+                                   "20"});
+    EXPECT_EQ(result.code, 0);
+    EXPECT_THAT(result.out, testing::HasSubstr("one: 1 frame or reading of lidar\n"));
+}
+
 TEST_F(Rendering, AFilmOfARigWithoutACameraIsRefused) {
     write_file(folder_ / "rig.json", R"({ "sensors": [ { "name": "roof", "type": "lidar" } ] })");
     const Result film = reprise(
@@ -325,6 +341,8 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     EXPECT_THAT(of_sensor("\"rate_hz\": 3"), HasSubstr("20 over a whole number"));
     EXPECT_THAT(of_sensor("\"type\": \"lidar\", \"size\": [64, 64]"),
                 HasSubstr("'size' is of cameras; what a lidar measures, its 'attributes' say"));
+    EXPECT_THAT(of_sensor("\"type\": \"imu\", \"size\": [64, 64]"),
+                HasSubstr("; what an imu measures, its"));
     EXPECT_THAT(of_sensor("\"type\": \"collision\", \"actor\": \"world\""),
                 HasSubstr("a collision tells what its 'actor' does, who cannot be the world"));
     EXPECT_THAT(of_sensor("\"attributes\": { \"own_cat\": 1 }"),
@@ -407,7 +425,7 @@ TEST_F(Rendering, WhatAKindOfSensorDoesNotHaveIsRefusedInARigFileAndAmongOptions
             continue;
         }
         const std::string is_of_cameras =
-            " is of cameras; what a " + kind + " measures, its 'attributes' say";
+            " is of cameras; what " + world::with_article(kind) + " measures, its 'attributes' say";
         refused_in_file(kind, R"("size": [5, 5])", "'size'" + is_of_cameras);
         refused_in_file(kind, R"("fov_deg": 5)", "'fov_deg'" + is_of_cameras);
         refused_in_file(

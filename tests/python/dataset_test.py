@@ -249,7 +249,7 @@ class Points(unittest.TestCase):
         path.write_bytes(kept[:-16])
         changed = check()
         path.write_bytes(kept)
-        self.assertEqual((changed.returncode, changed.stdout), (1, f"points/{path.relative_to(WORK / 'points')}: was changed since it was made\npoints: 1 of {len(index['files'])} files differ\n"))
+        self.assertEqual((changed.returncode, changed.stdout), (1, f"points/{path.relative_to(WORK / 'points')}: was changed since it was made\npoints: 1 of {len(index['files'])} files differs\n"))
         text = (WORK / "points/dataset.json").read_text()
         (WORK / "points/dataset.json").write_text(text.replace('"complete": true', '"complete": false'))
         half = check()

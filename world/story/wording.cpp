@@ -12,8 +12,11 @@ std::string count_of(std::uint64_t count, std::string_view word, std::string_vie
 }
 
 std::string with_article(std::string_view noun) {
-    constexpr std::string_view vowels = "aeiouAEIOU";
-    const bool is_vowel = !noun.empty() && vowels.find(noun.front()) != std::string_view::npos;
+    constexpr std::string_view vowels = "aeiouyAEIOUY";
+    constexpr std::string_view begin_with_a_vowel = "aefhilmnorsxAEFHILMNORSX";  // when spelled
+    const bool spelled = noun.find_first_of(vowels) == std::string_view::npos;
+    const std::string_view an = spelled ? begin_with_a_vowel : "aeiouAEIOU";
+    const bool is_vowel = !noun.empty() && an.find(noun.front()) != std::string_view::npos;
     return fmt::format("{} {}", is_vowel ? "an" : "a", noun);
 }
 

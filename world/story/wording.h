@@ -9,7 +9,7 @@ namespace reprise::world {
 /// "1 check", "2 checks", "0 checks"; `plural` where it is not the word with an s.
 std::string count_of(std::uint64_t count, std::string_view word, std::string_view plural = {});
 
-/// "a van", "an adult"; by the letter, not by the sound.
+/// "a van", "an adult"; by the letter, not by the sound. Without a vowel it is spelled: "an rgb".
 std::string with_article(std::string_view noun);
 
 /// Whole, with commas: "12,300".

@@ -581,7 +581,7 @@ class Servers(Case):
     def test_no_more_clients_than_episodes(self):
         with Server("--socket", str(self.folder / "s"), "--episodes", "1") as server:
             with reprise.Simulation(server=server.place):
-                with self.assertRaisesRegex(reprise.Fault, "1 clients are served already"):
+                with self.assertRaisesRegex(reprise.Fault, "1 client is served already"):
                     reprise.Simulation(server=server.place)
 
     def test_names_that_lead_out_of_the_folder_are_refused(self):

@@ -5,6 +5,7 @@
 
 #include "tests/scripting/stage.h"
 #include "world/external/sensor_attributes.h"
+#include "world/story/wording.h"
 
 namespace reprise::test {
 namespace {
@@ -149,8 +150,8 @@ TEST(RigWords, EveryKindOfSensorHasItsOwnKeysAndNoOthers) {
         for (const std::string key : {"width", "height", "fov_deg"})
             EXPECT_EQ(of_sensor(of_kind + key + " = 5"),
                       camera ? ""
-                             : first + "'" + key + "' is of cameras; what a " + kind +
-                                   " measures, its 'attributes' say");
+                             : first + "'" + key + "' is of cameras; what " +
+                                   world::with_article(kind) + " measures, its 'attributes' say");
         for (const std::string key : {"x", "y", "z", "yaw_deg", "pitch_deg", "roll_deg", "every"})
             EXPECT_EQ(of_sensor(of_kind + key + " = 5"), "") << kind;
         for (const world::AttributeRow& row : world::attribute_rows()) {

@@ -15,6 +15,9 @@ TEST(Wording, CountsOneAndMany) {
 TEST(Wording, ArticlesGoByTheFirstLetter) {
     EXPECT_EQ(with_article("van"), "a van");
     EXPECT_EQ(with_article("adult"), "an adult");
+    EXPECT_EQ(with_article("imu"), "an imu");
+    EXPECT_EQ(with_article("rgb"), "an rgb");
+    EXPECT_EQ(with_article("gnss"), "a gnss");
 }
 
 TEST(Wording, ThousandsHaveCommas) {
