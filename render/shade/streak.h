@@ -17,7 +17,8 @@ struct Streak {
 
 inline constexpr double exposure_time = 1.0 / 60;  ///< [s]
 
-/// Adds a line with soft edges wherever nothing is nearer.
+/// Adds a line with soft edges wherever nothing is nearer: not below the ground that it falls onto.
+/// Both ends lie ahead of the camera.
 void draw_streak(const Streak& streak,
                  const Color& light,
                  const std::vector<Hit>& hits,

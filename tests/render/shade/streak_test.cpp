@@ -15,6 +15,25 @@ float under_streak(float behind, float light, float lit) {
     return frame.colors[frame.index(4, 4)].x();
 }
 
+TEST(Streak, GoesNoFartherThanTheGround) {
+    Frame frame;
+    frame.width = 9;
+    frame.height = 40;
+    frame.colors.assign(360, Color::Zero());
+    std::vector<Hit> hits(frame.colors.size());
+    for (Hit& hit : hits) {
+        hit.instance = 0;
+        hit.distance = 1;
+    }
+    // As one looks down on it: from 0.8 m ahead to 1.2 m, through what lies 1 m ahead.
+    draw_streak({{4.5, 5, 0.8}, {4.5, 35, 1.2}, 1, 0.8F, 0}, Color::Ones(), hits, frame);
+    const auto at = [&](int y) { return frame.colors[frame.index(4, y)].x(); };
+    EXPECT_GT(at(8), 0.1F);
+    EXPECT_GT(at(20), 0.1F);
+    EXPECT_EQ(at(26), 0.0F);
+    EXPECT_EQ(at(34), 0.0F);
+}
+
 TEST(Streak, ByDayIsDarkBeforeABrightSky) {
     EXPECT_LT(under_streak(0.5F, 0.1F, 0), 0.3F);
     EXPECT_GT(under_streak(0.1F, 0.5F, 0), 0.3F);
