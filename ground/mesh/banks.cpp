@@ -2,7 +2,7 @@
 // Assumes: what build_ground gives: faces are counter-clockwise from above, terrain never rises
 //   above a road.
 // Goes: an edge that belongs to one triangle only, and beside which plumb lines fall onto terrain
-//   more than a step lower, hangs. A strip goes from it outwards and down, steep as earth stands,
+//   more than a step lower, hangs. A strip goes from it outwards and down, as earth is heaped up,
 //   until it is below the terrain, or to where other ground begins. Strips of edges that share a
 //   corner share its foot; where a row of them ends, a triangle closes the side.
 // Keeps: the strips lie outside all roads in plan.
@@ -32,10 +32,10 @@ using Eigen::Vector3d;
 constexpr double least_step = terrain_depth + 0.03;  ///< [m] lower ones show no gap
 constexpr double probe_offset = 0.15;                ///< [m] from an edge, where one asks
 constexpr double longest_stretch = 2;                ///< [m] of an edge: half a cell of terrain
-constexpr double steepness = 1.5;                    ///< earth stands so beside a road
-constexpr double buried = 0.1;                       ///< [m] that a foot is below the terrain
-constexpr double widest = 3;                         ///< [m] of a bank
-constexpr double highest = 3;                        ///< [m] what hangs higher is no bank's
+constexpr double steepness = 0.75;  ///< of a bank; a sun at noon shines on both sides
+constexpr double buried = 0.1;      ///< [m] that a foot is below the terrain
+constexpr double widest = 3;        ///< [m] of a bank
+constexpr double highest = 3;       ///< [m] what hangs higher is no bank's
 
 /// In whole millimetres: corners of neighbours are equal but for rounding.
 using Place = std::array<std::int64_t, 3>;

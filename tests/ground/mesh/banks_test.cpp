@@ -58,6 +58,8 @@ TEST(Banks, ReachFromTheEdgeOfARoadDownToTheTerrain) {
             ASSERT_GT(hit->z, last - 0.1) << x << ' ' << y;
             last = hit->z;
         }
+        // So gentle that a high sun shines on all of them.
+        EXPECT_GT(plumb(seen, {x, edge - 0.3, 1.5})->z, 0.65) << x;
         hung = std::max(hung, 1 - plumb(ground, {x, edge - 0.02, 1.5})->z);
     }
     EXPECT_GT(hung, 0.3);
