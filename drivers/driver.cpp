@@ -250,55 +250,6 @@ double DriverState::careful_acceleration(const world::TickView& last, Ego& ego) 
                     gatekeeper.decide(last, ego, way(), hazards.overlaps(), style, step));
 }
 
-/// Who stands a hand's breadth too near beside the way, as two do who meet in a junction, may wait
-/// for us as we for him: after a while we creep past him, with less room than one would like. Not
-/// in a bend or on a line past something, where sides do not keep to a hand's breadth.
-/// [m/s^2] for that
-double DriverState::look_around(const world::TickView& last, const Ego& ego) {
-    constexpr double near = 7;         // [m] before the bumper
-    constexpr double straight = 0.02;  // [1/m] up to there
-    constexpr double slow = 2;         // [m/s]
-    constexpr double creeping = 1;     // [m/s]
-    constexpr double patience = 4;     // [s]
-    constexpr double gain = 2;         // [1/s]
-    const auto is_held = [&] {
-        const auto overlaps = hazards.overlaps();
-        return std::any_of(overlaps.begin(), overlaps.end(), [&](const Overlap& one) {
-            return one.s - ego.front_s() < near;
-        });
-    };
-    const auto look = [&](Hazards::Room room) {
-        hazards.look(last, ego, way().path(), style, corridor(ego), room);
-    };
-    const auto is_bent = [&] {
-        const Path& path = way().path();
-        for (double s = ego.rear_axle_s; s < ego.front_s() + near; s += Path::spacing)
-            if (std::abs(path.at(s).curvature) > straight)
-                return true;
-        return passing.plan().has_value() || has_wide_turn;
-    };
-    look(Hazards::Room::ample);
-    if (std::abs(ego.speed) > slow || !is_held() || is_bent()) {
-        wedged_ticks = 0;
-        return world::infinity;
-    }
-    if (!pid && is_held_from_beside(ego)) {
-        // What is on the line that it comes back on counts, not who is beside that.
-        if (++wedged_ticks * step > patience && lateral_order.side(tick, step) == 0) {
-            wedged_ticks = 0;
-            passing.come_back(ego, tracked_beside(ego), style);
-            look(Hazards::Room::ample);
-        }
-        return world::infinity;
-    }
-    look(Hazards::Room::bare);
-    wedged_ticks = is_held() ? 0 : wedged_ticks + 1;
-    if (wedged_ticks * step > patience)
-        return gain * (creeping - ego.speed);
-    look(Hazards::Room::ample);
-    return world::infinity;
-}
-
 /// Over a junction a line past something may bend more than the car follows: hazards see what is on
 /// the line, this what is where the car goes as its wheels stand. [m/s^2]
 double DriverState::past_junction_things(const world::TickView& last, const Ego& ego) {

@@ -47,6 +47,7 @@ struct DriverState {
     double obedient_acceleration(const world::TickView& last, Ego& ego);
     double past_junction_things(const world::TickView& last, const Ego& ego);
     double look_around(const world::TickView& last, const Ego& ego);
+    double turn_past(const world::TickView& last, const Ego& ego);
     double last_resort(const world::TickView& last, const Ego& ego);
     bool is_held_from_beside(const Ego& ego) const;
     bool town_is_before(const Ego& ego, double reach) const;

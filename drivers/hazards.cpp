@@ -14,6 +14,7 @@ namespace reprise::drivers {
 namespace {
 
 constexpr double ample_room = 0.3;      // [m] between our side and theirs
+constexpr double close_room = 0.2;      // [m]
 constexpr double bare_room = 0.1;       // [m]
 constexpr double stands = 0.1;          // [m/s]
 constexpr double horizon = 1.5;         // [s] of foresight
@@ -123,7 +124,7 @@ void Hazards::look(const world::TickView& last,
                    std::span<const SweptWidth> swept,
                    Room room) {
     swept_ = swept;
-    side_margin_ = room == Room::bare ? bare_room : ample_room;
+    side_margin_ = room == Room::ample ? ample_room : room == Room::close ? close_room : bare_room;
     overlaps_.clear();
     acceleration_ = world::infinity;
     if (path.points().size() < 2)

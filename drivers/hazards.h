@@ -38,7 +38,8 @@ class Hazards {
     /// [m] Left between our side and theirs.
     enum class Room : std::uint8_t {
         ample,  ///< 0.3
-        bare,   ///< 0.1 beside what has wheels and stands: of one who creeps
+        close,  ///< 0.2 beside what has wheels and stands: of one who creeps
+        bare,   ///< 0.1 likewise
     };
 
     /// About 5 us with 100 cars. The path must reach as far as the sight. `swept`: what a long

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -144,6 +145,39 @@ TEST(Autopilot, CreepsPastWhoStandsAHandsBreadthTooNear) {
     };
     EXPECT_GT(driven(false), 100);
     EXPECT_LT(driven(true), 40);
+}
+
+/// Tighter than it likes to turn: it comes out near the line. Who waits there, red for as long as
+/// we have green, is passed by two hands' breadths, where it likes three.
+TEST(Autopilot, CreepsPastWhoWaitsBesideATightTurn) {
+    const world::VehicleModel& sedan = world::vehicle_models()[0];
+    const double front = sedan.length - sedan.rear_overhang;  // [m] ahead of its origin
+    constexpr double exit_x = 54.2, line_y = -6.2;
+    // Of that lane's middle left of ours, until it is past or 40 s are over; its nearest corner.
+    const auto drive_past = [&](double aside) {
+        Drive drive(one_lane(Turtle(0, 0, 0).ahead(50).turn(-quarter, 4.2).ahead(60)));
+        drive.place(0, 5, 0);
+        drive.cars = {car_at(1'000'000, exit_x + aside, line_y - front, quarter, 0)};
+        double gap = world::infinity;
+        while (drive.seconds() < 40 && drive.car.y > -20) {
+            drive.step();
+            const double c = std::cos(drive.car.yaw), n = std::sin(drive.car.yaw);
+            for (const double along : {-sedan.rear_overhang, front})
+                for (const double left : {-sedan.width / 2, sedan.width / 2}) {
+                    const double x = drive.car.x + along * c - left * n;
+                    const double y = drive.car.y + along * n + left * c;
+                    if (y < line_y && y > line_y - sedan.length)
+                        gap = std::min(gap, exit_x + aside - sedan.width / 2 - x);
+                }
+        }
+        return std::pair(drive.car.y < -20, gap);
+    };
+    EXPECT_FALSE(drive_past(2.8).first);
+    for (const double aside : {2.92, 2.96, 3.1, 3.5}) {
+        const auto [is_past, gap] = drive_past(aside);
+        EXPECT_TRUE(is_past) << aside;
+        EXPECT_GT(gap, 0.18) << aside;
+    }
 }
 
 TEST(Autopilot, StopsWhereTheRoadEndsAndStays) {
