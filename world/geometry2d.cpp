@@ -1,6 +1,7 @@
 #include "world/geometry2d.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace reprise::world {
 
@@ -108,20 +109,34 @@ BoxGrid::BoxGrid(const std::vector<Entry>& entries, double smallest_cell) {
     columns_ = 1 + static_cast<std::size_t>(size.x() / cell_);
     rows_ = 1 + static_cast<std::size_t>(size.y() / cell_);
 
-    std::vector<std::pair<std::size_t, std::uint32_t>> placed;
-    for (const Entry& entry : entries)
-        for_each_cell(entry.box, [&](std::size_t cell) { placed.emplace_back(cell, entry.item); });
-    std::sort(placed.begin(), placed.end());
-    placed.erase(std::unique(placed.begin(), placed.end()), placed.end());
-
+    // How many lie in each cell, then where it begins, then what lies there.
     begin_.assign(columns_ * rows_ + 1, 0);
-    items_.reserve(placed.size());
-    for (const auto& [cell, item] : placed) {
-        ++begin_[cell + 1];
-        items_.push_back(item);
+    for (const Entry& entry : entries)
+        for_each_cell(entry.box, [&](std::size_t cell) { ++begin_[cell + 1]; });
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    items_.resize(begin_.back());
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    for (const Entry& entry : entries)
+        for_each_cell(entry.box, [&](std::size_t cell) { items_[next[cell]++] = entry.item; });
+    put_in_order();
+}
+
+/// Makes the items of each cell ascending and without repeats; mostly they are so as they came.
+void BoxGrid::put_in_order() {
+    auto kept = items_.begin();
+    auto first = items_.begin();
+    for (std::size_t cell = 0; cell + 1 < begin_.size(); ++cell) {
+        const auto last = items_.begin() + begin_[cell + 1];
+        if (!std::is_sorted(first, last))
+            std::sort(first, last);
+        const auto start = kept;
+        for (; first != last; ++first)
+            if (kept == start || *(kept - 1) != *first)
+                *kept++ = *first;
+        begin_[cell] = static_cast<std::uint32_t>(start - items_.begin());
     }
-    for (std::size_t cell = 1; cell < begin_.size(); ++cell)
-        begin_[cell] += begin_[cell - 1];
+    begin_.back() = static_cast<std::uint32_t>(kept - items_.begin());
+    items_.erase(kept, items_.end());
 }
 
 template <typename Visit>

@@ -95,6 +95,7 @@ class BoxGrid {
   private:
     template <typename Visit>
     void for_each_cell(const Box& box, Visit&& visit) const;
+    void put_in_order();
 
     Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
     double cell_ = 1;

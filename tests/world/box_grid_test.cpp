@@ -35,4 +35,16 @@ TEST(BoxGrid, AtAPlaceIsEverythingThatLiesThere) {
     EXPECT_TRUE(BoxGrid().at({3, 4}).empty());
 }
 
+TEST(BoxGrid, AnswersAreAscendingAndWithoutRepeatsHoweverEntriesCome) {
+    Box here;
+    here.take(Eigen::Vector2d(1, 1), 0.5);
+    Box far;
+    far.take(Eigen::Vector2d(50, 50), 0.5);
+    const BoxGrid grid({{here, 5}, {far, 9}, {here, 2}, {far, 9}, {here, 5}, {here, 4}}, 4);
+    EXPECT_THAT(grid.at({1, 1}), testing::ElementsAre(2, 4, 5));
+    EXPECT_THAT(grid.at({50, 50}), testing::ElementsAre(9));
+    EXPECT_THAT(grid.near(here), testing::ElementsAre(2, 4, 5));
+    EXPECT_TRUE(grid.at({20, 20}).empty());
+}
+
 }  // namespace reprise::world
