@@ -123,6 +123,7 @@ class Crowd {
     void step_back(Walker& walker) const;
     static Neighbours::From keeps_from(const Walker& walker);
     void avoid(Walker& walker);
+    double flight_pace(const Walker& walker, const Eigen::Vector2d& way);
     void flee();
     bool walks_into_threat(const Walker& walker) const;
     Eigen::Vector2d reached(const Walker& walker, const Eigen::Vector2d& there);

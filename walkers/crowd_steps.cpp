@@ -277,9 +277,18 @@ Eigen::Vector2d Crowd::reached(const Walker& walker, const Eigen::Vector2d& ther
     return (is_allowed(walker, to) ? to : walker.place).position.head<2>();
 }
 
+/// [m/s] Who gets out of one's way stops before he is in that of another.
+double Crowd::flight_pace(const Walker& walker, const Eigen::Vector2d& way) {
+    constexpr double hurry = 2.5;   // [m/s]
+    constexpr double stopping = 3;  // [m/s^2] of what he could
+    const auto reach = [&](const Eigen::Vector2d& there) { return reached(walker, there); };
+    const double left =
+        threats_.to_between(walker.place.position.head<2>(), way, walker.person.radius, reach);
+    return std::min(hurry, std::sqrt(2 * stopping * left));
+}
+
 /// Nobody stands still, or goes on, where a car is about to be; and those behind him let him.
 void Crowd::flee() {
-    constexpr double hurry = 2.5;      // [m/s]
     constexpr double gets_away = 0.2;  // [m] of a stride
     constexpr int ranks = 3;           // who stands behind those who stand behind
     bool any = false;
@@ -290,7 +299,7 @@ void Crowd::flee() {
         const auto reach = [&](const Eigen::Vector2d& there) { return reached(walker, there); };
         const Eigen::Vector2d p = walker.place.position.head<2>();
         if (const auto way = threats_.way_out(p, walker.person.radius, reach)) {
-            walker.wanted = hurry * *way;
+            walker.wanted = flight_pace(walker, *way) * *way;
             walker.flees = any = true;
             walker.cornered = (reached(walker, p + stride * *way) - p).norm() < gets_away;
         } else if (!walker.on_road && walks_into_threat(walker)) {

@@ -27,6 +27,28 @@ bool comes(double speed, std::uint16_t model) {
     return std::abs(speed) >= (world::vehicle_models()[model].length > long_one ? crawls : rolls);
 }
 
+/// Where the bumper goes: told by how the body turns between it and the rear axle. A rear axle that
+/// comes from aside comes onto that line, and not farther.
+struct BumperWay {
+    Eigen::Vector2d place;
+    Eigen::Vector2d direction;
+
+    BumperWay(const RoadUser& car, double curvature) {
+        const world::VehicleModel& model = world::vehicle_models()[car.model];
+        const double to_bumper = model.length - model.rear_overhang;
+        const double aside = curvature * to_bumper + std::sin(car.course - car.yaw);
+        place = car.rear_axle + to_bumper * world::ahead_of(car.yaw);
+        direction = world::ahead_of(car.yaw + std::asin(std::clamp(aside, -1.0, 1.0)));
+    }
+
+    Eigen::Vector2d not_beyond(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+        const double before = world::cross(direction, from - place);
+        const double behind = world::cross(direction, to - place);
+        return before * behind < 0 ? Eigen::Vector2d(to - behind * world::turned_left(direction))
+                                   : to;
+    }
+};
+
 }  // namespace
 
 void Threats::add(const RoadUser& car) {
@@ -51,11 +73,13 @@ void Threats::add(const RoadUser& car) {
     }
     // Who turns does not go where he points to, and the tail swings out: a bus's by more than a
     // metre, over the kerb.
+    const BumperWay bumper(car, curvature);
     for (const double t : {0.0, time / 4, time / 2, 3 * time / 4, time}) {
         const double turned = curvature * way_in_bend(t);
         RoadUser then = car;
         then.yaw += turned;
         then.rear_axle += way_in_bend(t) * world::ahead_of(car.course + turned / 2);
+        then.rear_axle = bumper.not_beyond(car.rear_axle, then.rear_axle);
         add_box(then, 0, 0);
     }
 }
@@ -177,6 +201,27 @@ std::optional<Eigen::Vector2d> Threats::way_out(const Eigen::Vector2d& p,
             best = way;
         }
     return best;
+}
+
+double Threats::to_between(const Eigen::Vector2d& p,
+                           const Eigen::Vector2d& way,
+                           double radius,
+                           const Reach& reach) const {
+    constexpr int steps = 8;
+    constexpr double step = 0.1;    // [m]
+    constexpr double nearer = 0.1;  // [m] than at best, before it counts
+    constexpr double spare = 0.05;  // [m]
+    double best = clearance(p);
+    double best_at = 0;
+    double last = best;
+    for (int i = 1; i <= steps; ++i) {
+        last = clearance(reach(p + i * step * way));
+        if (last <= best)
+            continue;
+        best = last;
+        best_at = i * step;
+    }
+    return last < best - nearer && best > radius + spare ? best_at : world::infinity;
 }
 
 }  // namespace reprise::walkers

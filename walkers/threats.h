@@ -33,6 +33,14 @@ class Threats {
                                            const Reach& reach) const;
     std::optional<Eigen::Vector2d> way_out(const Eigen::Vector2d& p, double radius) const;
 
+    /// [m] that he goes that way until another one, on that side, is nearer than the one that he
+    /// gets away from: between the two he stands. Infinity: nothing comes there, or he would be hit
+    /// wherever he stood.
+    double to_between(const Eigen::Vector2d& p,
+                      const Eigen::Vector2d& way,
+                      double radius,
+                      const Reach& reach) const;
+
     /// Does anything come that close to `p`? Then way_out(p) is one.
     bool come_near(const Eigen::Vector2d& p, double radius) const;
 

@@ -1,8 +1,11 @@
 #include "walkers/threats.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "world/models/catalogue.h"
+#include "world/units.h"
 
 namespace reprise::walkers {
 namespace {
@@ -121,6 +124,57 @@ TEST(Threats, ComeFromTheTailOfABusThatStartsInABend) {
     EXPECT_LT(way->y(), 0);
     EXPECT_EQ(threats_of(before, rolls).way_out(beside_its_tail, shoulders), std::nullopt)
         << "half a metre on, as it goes on like this";
+}
+
+/// Its bumper goes straight on by now, and its rear axle still comes from the street that it turned
+/// out of: onto the bumper's line, not over it.
+TEST(Threats, FromATailEndWhereTheBusIsStraightAgain) {
+    constexpr std::uint16_t bus = 5;
+    constexpr double speed = 2.9;
+    constexpr double aside = 0.45;  // [rad] that the rear axle goes to the left of where it points
+    const world::VehicleModel& model = world::vehicle_models()[bus];
+    const double to_bumper = model.length - model.rear_overhang;
+    const double bumper_goes = -0.09;  // [rad]
+    const double turns = speed / to_bumper * (std::sin(bumper_goes) - std::sin(aside));
+    world::TickDraft before;
+    world::TickDraft now;
+    put(before, -0.05 * turns, speed, 0, bus);
+    before.traffic.cars.back().mutable_position() =
+        world::Vec3(-0.05 * speed * std::cos(aside), -0.05 * speed * std::sin(aside), 0);
+    put(now, 0, speed, 0, bus);
+    const Threats threats = threats_of(before, now);
+    double reach = 0;  // [m] left of it
+    while (threats.way_out({1, reach + 0.01}, shoulders))
+        reach += 0.01;
+    const double line = to_bumper * -std::sin(bumper_goes);
+    EXPECT_GT(reach, model.width / 2 + 0.5 * line) << "the tail does swing out";
+    EXPECT_LT(reach, model.width / 2 + line + shoulders + 0.3 + 0.25);
+}
+
+/// A bus comes by on one side, a car on the other.
+TEST(Threats, OnBothSidesLeaveAPlaceBetween) {
+    const auto straight_on = [](const Eigen::Vector2d& there) { return there; };
+    const double half = world::vehicle_models()[0].width / 2;
+    const Eigen::Vector2d p(front() + 1, half + 0.4);
+    world::TickDraft one;
+    put(one, 0, 5);
+    const Eigen::Vector2d to_left(0, 1);
+    EXPECT_EQ(threats_of({}, one).way_out(p, shoulders), to_left);
+    EXPECT_EQ(threats_of({}, one).to_between(p, to_left, shoulders, straight_on), world::infinity)
+        << "nobody comes on that side";
+    for (const double gap : {1.2, 0.5}) {
+        world::TickDraft both;
+        put(both, 0, 5);
+        put(both, 0, 5);
+        both.traffic.cars.back().mutable_position() = world::Vec3(0, 2 * half + gap, 0);
+        both.traffic.cars.back().mutate_id(8);
+        const Threats threats = threats_of({}, both);
+        const double left = threats.to_between(p, to_left, shoulders, straight_on);
+        if (gap > 1)
+            EXPECT_NEAR(left, gap / 2 - 0.4, 0.051);
+        else
+            EXPECT_EQ(left, world::infinity) << "no room between them";
+    }
 }
 
 TEST(Threats, ComeFromWhoReversesAsWell) {
