@@ -16,6 +16,7 @@ import time
 from pathlib import Path
 
 import figures
+import picture_memory
 
 ROOT = Path(__file__).resolve().parents[2]
 # Program and which of its benchmarks the tables need.
@@ -27,13 +28,8 @@ BENCHMARKS = {
     "recording_bench": "Recording",
     "render_bench": ".",
 }
-# As reprise-render is started, see cli/process/picture_memory.h; the bare rays beside it have it as well.
-ENVIRONMENT = {
-    "render_bench": {
-        "GLIBC_TUNABLES": "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=1073741824:"
-                          "glibc.malloc.trim_threshold=1073741824:glibc.malloc.top_pad=67108864"
-    },
-}
+# As reprise-render is started; the bare rays beside it have it as well.
+ENVIRONMENT = {"render_bench": picture_memory.environment()}
 UNIT_MS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
 DECORATION = re.compile(r"/(iterations:\d+|repeats:\d+|manual_time|process_time|real_time)")
 

@@ -3,11 +3,13 @@
 
 CPU time of one 800x600 picture on one core, of the same geometry seen by the same camera under the same sun: ours as it
 ships, with its textures, sky, reflections and smooth edges; Cycles with grey surfaces, one sample a pixel and one bounce,
-its trees built before the clock starts. Both are measured in turns of the same run. Writes the picture that Cycles made
-beside the scene, so that anyone can see that it is the same street.
+its trees built before the clock starts. Both are measured in turns of the same run, with the memory that
+reprise-render has. Writes the picture that Cycles made beside the scene, so that anyone can see that it is the same
+street.
 """
 import argparse
 import json
+import os
 import pathlib
 import shutil
 import statistics
@@ -16,6 +18,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/bench"))
+import picture_memory  # noqa: E402
+
 GOAL = 2.0
 
 IN_BLENDER = r'''
@@ -105,22 +110,23 @@ print("CYCLES " + json.dumps(times))
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
-    parser.add_argument("--turns", type=int, default=3, help="of both, one after the other (default 3)")
+    parser.add_argument("--turns", type=int, default=5, help="of both, one after the other (default 5)")
     parser.add_argument("-o", "--output", type=pathlib.Path, help="keep the scene and Cycles' picture as OUTPUT.json, .bin, -cycles.png")
     said = parser.parse_args()
     blender = shutil.which("blender")
     if blender is None:
         sys.exit("beside_cycles.py: no blender: apt-get install --no-install-recommends blender")
+    environment = os.environ | picture_memory.environment()
     with tempfile.TemporaryDirectory() as scratch:
         at = said.output or pathlib.Path(scratch) / "scene"
         script = pathlib.Path(scratch) / "in_blender.py"
         script.write_text(IN_BLENDER)
         ours, theirs = [], []
         for _ in range(said.turns):
-            subprocess.run([said.build / "bench/scene_export", at], check=True)
+            subprocess.run([said.build / "bench/scene_export", at], check=True, env=environment)
             ours.append(json.loads(at.with_suffix(".json").read_text())["picture_ms"])
             run = subprocess.run([blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python", script, "--", at, "3"],
-                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)  # fmt: skip
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)  # fmt: skip
             line = next((line for line in run.stdout.splitlines() if line.startswith("CYCLES ")), None)
             if line is None:
                 sys.exit(f"beside_cycles.py: blender ended with {run.returncode}:\n{run.stdout[-2000:]}")
