@@ -38,7 +38,8 @@ DriverState::DriverState(std::uint32_t actor_id,
       hazards(road_map.town),
       gatekeeper(road_map.town),
       passing(road_map, step),
-      back_off(road_map, step) {
+      back_off(road_map, step),
+      to_and_fro(step) {
     if (pilot == world::Pilot::pid)
         pid.emplace();
 }
@@ -115,6 +116,8 @@ void Autopilot::put_elsewhere() {
     state_->turn_around = {};
     state_->passing.drop();
     state_->back_off.end();
+    state_->to_and_fro.end();
+    state_->cramped_ticks = 0;
     state_->waiting_ticks = state_->standoff_ticks = state_->standoffs = state_->held_ticks = 0;
     state_->strays = 0;
     put_to_speed();
@@ -146,6 +149,10 @@ world::Control Autopilot::decide(const world::TickView& last) {
     if (state.back_off.is_going_back())
         state.go_back(last, ego, control);
     if (state.back_off.is_going_back())
+        return control;
+    if (state.to_and_fro.is_on())
+        state.go_to_and_fro(last, ego, control);
+    if (state.to_and_fro.is_on())
         return control;
     if (!state.turn_around.done())
         state.turn(last, ego, control);
@@ -429,6 +436,9 @@ std::uint64_t Autopilot::digest() const {
         hasher.add(state.may_overtake);
     state.passing.add_to(hasher);
     state.back_off.add_to(hasher);
+    state.to_and_fro.add_to(hasher);
+    if (state.cramped_ticks > 0)
+        hasher.add(state.cramped_ticks);
     if (state.pid)
         state.pid->add_to(hasher);
     hasher.add(state.waiting_ticks);

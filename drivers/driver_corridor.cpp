@@ -150,6 +150,45 @@ void DriverState::pass(const world::TickView& last, const Ego& ego) {
     } else if (!passing.plan()) {
         notice_standoff(last, ego);
     }
+    constexpr double patience = 3;  // [s] with somebody close behind
+    const bool is_cramped = passing.cramped() && !back_off.is_going_back();
+    cramped_ticks = is_cramped ? cramped_ticks + 1 : 0;
+    if (cramped_ticks * step > patience)
+        begin_to_and_fro(ego);
+}
+
+/// Out of the gap between who stands ahead and who stands behind.
+void DriverState::begin_to_and_fro(const Ego& ego) {
+    const PathPoint here = way().path().at(ego.rear_axle_s);
+    cramped_ticks = 0;
+    to_and_fro.begin(here.position.head<2>(), here.direction, passing.cramped()->bypass.aside);
+    news = {world::EventKind::overtakes,
+            passing.cramped()->row.front(),
+            fmt::format("{}, out of its gap to and fro", through(passing.cramped()->uses))};
+}
+
+/// Hands and feet until it is out beside the path; from there it is a line past something as any.
+void DriverState::go_to_and_fro(const world::TickView& last,
+                                const Ego& ego,
+                                world::Control& control) {
+    const ToAndFro::Move move = to_and_fro.next(last, ego);
+    if (speed_order.reacts_to_nothing())
+        to_and_fro.end();
+    if (!to_and_fro.is_on()) {
+        pedals = {};
+        if (to_and_fro.has_come_out())
+            passing.begin_beside(rear_axle_s);
+        else
+            navigator.lose_way();
+        return;
+    }
+    const bool back = move.speed < 0;
+    const double climb = way().path().climb(rear_axle_s, 1);
+    creep(move.speed, back ? -ego.speed : ego.speed, back ? -climb : climb, control);
+    control.mutate_steer(move.steer);
+    control.mutate_lamps(passing.cramped() && passing.cramped()->bypass.aside < 0
+                             ? world::lamp_right
+                             : world::lamp_left);
 }
 
 /// Does it stand across our way, or face us, and wait for somebody, maybe for us?

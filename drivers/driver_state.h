@@ -19,6 +19,7 @@
 #include "drivers/passing.h"
 #include "drivers/road_map.h"
 #include "drivers/speed_order.h"
+#include "drivers/to_and_fro.h"
 #include "drivers/turn_around.h"
 #include "world/episode_generated.h"
 #include "world/models/car_model.h"
@@ -65,6 +66,8 @@ struct DriverState {
     void notice_pushing(const world::TickView& last, const Ego& ego);
     void notice_circling(const world::TickView& last, const Ego& ego);
     void go_back(const world::TickView& last, Ego& ego, world::Control& control);
+    void begin_to_and_fro(const Ego& ego);
+    void go_to_and_fro(const world::TickView& last, const Ego& ego, world::Control& control);
     void pass(const world::TickView& last, const Ego& ego);
     void notice_standoff(const world::TickView& last, const Ego& ego);
     bool is_held_by(std::uint32_t other, const world::TickView& last, const PathPoint& there) const;
@@ -93,6 +96,7 @@ struct DriverState {
     Passing passing;
     bool may_overtake = false;
     BackOff back_off;
+    ToAndFro to_and_fro;
     std::optional<DriverNews> news;       ///< of this tick
     std::uint64_t tick = 0;               ///< the last one: not digested, nor what follows
     double rear_axle_s = 0;               ///< then
@@ -100,6 +104,7 @@ struct DriverState {
     std::uint32_t waiting_ticks = 0;      ///< beside cars on the lane that we want
     std::uint32_t standoff_ticks = 0;     ///< before somebody who cannot go on before we do
     std::uint32_t standoffs = 0;          ///< in which it made room, since it drove on
+    std::uint32_t cramped_ticks = 0;      ///< without room to turn out, nor to go back for it
     std::uint32_t held_ticks = 0;         ///< before what its wheels lead into
     std::uint32_t strays = 0;             ///< off every road: how often something held it there
     std::uint32_t turner_ticks = 0;       ///< before somebody who turns where we want to

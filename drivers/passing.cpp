@@ -33,6 +33,7 @@ void Passing::follow(const world::TickView& last,
                      const DrivingStyle& style) {
     stop_s_ = world::infinity;
     missing_room_ = 0;
+    cramped_.reset();
     if (!plan_)
         return;
     Bypass& line = plan_->bypass;
@@ -136,7 +137,21 @@ bool Passing::consider(const world::TickView& last,
         stop_s_ = nearest->s - plan->room;
     if (may && plan->is_free && ego.speed < 0.1)
         missing_room_ = plan->missing;
+    if (missing_room_ > 0 && first->body.abandoned &&
+        plan->uses != PassingPlan::Uses::oncoming_lane && watched > dark_time)
+        cramped_ = std::move(plan);
     return false;
+}
+
+void Passing::begin_beside(double s) {
+    plan_ = std::move(cramped_);
+    cramped_.reset();
+    if (!plan_)
+        return;
+    Bypass& line = plan_->bypass;
+    line.out_start = s - 2;
+    line.out_end = s - 1;
+    line.from = line.aside;
 }
 
 void Passing::come_back(const Ego& ego, double beside, const DrivingStyle& style) {

@@ -55,6 +55,12 @@ class Passing {
     /// [m] to go back, to have the room to turn out; 0: none needed.
     double missing_room() const { return missing_room_; }
 
+    /// A line past who stands ahead, through a lane that is free, but for want of room to turn out.
+    const std::optional<PassingPlan>& cramped() const { return cramped_; }
+
+    /// It got out of its gap some other way, and is on that line from here on.
+    void begin_beside(double s);
+
     /// 1: to the left now, -1 to the right, 0: straight on. For the indicators.
     int side(const Ego& ego) const;
 
@@ -86,12 +92,13 @@ class Passing {
     const RoadMap* map_;
     double step_;
     std::optional<PassingPlan> plan_;
-    std::uint32_t watched_ = 0;          ///< the first one ahead, that stands or crawls
-    std::uint32_t watched_ticks_ = 0;    ///< for so long, looking the same
-    bool watched_abandoned_ = false;     ///< it stands, and nobody seems to be at the wheel
-    double stop_s_ = world::infinity;    ///< where to stop, to have room; follows from the tick
-    double missing_room_ = 0;            ///< likewise
-    std::vector<Neighbour> neighbours_;  ///< of this tick
+    std::uint32_t watched_ = 0;           ///< the first one ahead, that stands or crawls
+    std::uint32_t watched_ticks_ = 0;     ///< for so long, looking the same
+    bool watched_abandoned_ = false;      ///< it stands, and nobody seems to be at the wheel
+    double stop_s_ = world::infinity;     ///< where to stop, to have room; follows from the tick
+    double missing_room_ = 0;             ///< likewise
+    std::optional<PassingPlan> cramped_;  ///< likewise; kept while it gets out
+    std::vector<Neighbour> neighbours_;   ///< of this tick
 };
 
 }  // namespace reprise::drivers

@@ -248,11 +248,18 @@ bool meets_the_town(const PassingScene& scene, const PassingPlan& plan) {
     return false;
 }
 
+/// Who looks for his way anew in the midst of a junction has no gate of it on that.
+bool is_in_junction(const PassingScene& scene) {
+    const PathPiece* piece = piece_at(scene.way, scene.tracked_s());
+    return piece != nullptr && scene.map.town.lanes[piece->lane].kind == world::LaneKind::internal;
+}
+
 bool reaches_junction(const PassingScene& scene, const PassingPlan& plan) {
     const auto& gates = scene.way.gates();
-    return std::any_of(gates.begin(), gates.end(), [&](const Gate& gate) {
-        return gate.s - before_junction < plan.bypass.back_end && gate.exit_s > scene.tracked_s();
-    });
+    return is_in_junction(scene) || std::any_of(gates.begin(), gates.end(), [&](const Gate& gate) {
+               return gate.s - before_junction < plan.bypass.back_end &&
+                      gate.exit_s > scene.tracked_s();
+           });
 }
 
 /// Is there road under all of the car, all along the line? Junctions have no lanes beside each

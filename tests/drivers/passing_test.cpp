@@ -399,6 +399,17 @@ TEST(Passing, AWreckInAJunctionOrJustBeforeIt) {
         }
 }
 
+/// As behind a step back: its way begins there, without the junction's gate.
+TEST(Passing, AWreckAheadOfWhoStartsInTheJunction) {
+    Drive drive(two_way_junction());
+    drive.autopilot->may_overtake(true);
+    drive.place(1, 1, 0);
+    drive.cars = {car_on(214, 0, 0.3, 0, "sedan")};
+    const Outcome outcome = drive_past(drive, 90);
+    EXPECT_GT(outcome.clearance, 0.2);
+    EXPECT_GT(outcome.x, 300);
+}
+
 TEST(Passing, NotOverAJunctionBesideTheRoad) {
     Drive drive(junction_road(false));  // one lane, and one that crosses it
     drive.autopilot->may_overtake(true);
@@ -460,6 +471,25 @@ TEST(Passing, WhoStandsNoseToNoseWithUs) {
     const Outcome outcome = drive_past(drive, 120);
     EXPECT_GT(outcome.clearance, 0.3);
     EXPECT_GT(outcome.x, 300);
+}
+
+TEST(Passing, OutOfAGapBetweenTwoItGoesToAndFro) {
+    constexpr double gap = 1;  // [m] before and behind it
+    Drive drive(town_of({.lanes = 2}));
+    drive.autopilot->may_overtake(true);
+    drive.place(ours, 100, 0);
+    const world::VehicleModel& own = world::vehicle_models()[drive.car.model];
+    const world::VehicleModel& other = world::vehicle_models()[car_on(0, 0, 0, 0, "sedan").model()];
+    const double ahead = 100 + drive.car.front() + gap + other.rear_overhang;
+    const double behind = 100 - own.rear_overhang - gap - other.length + other.rear_overhang;
+    drive.cars = {car_on(ahead, 0, 0, 0, "sedan"), car_on(behind, 0, 0, 0, "sedan")};
+    drive.cars[0].mutate_lamps(world::lamp_left | world::lamp_right);
+    drive.cars[1].mutate_id(51);
+    drive.cars[1].mutate_lamps(world::lamp_brake);
+    const Outcome outcome = drive_past(drive, 120);
+    EXPECT_GT(outcome.clearance, 0.15);
+    EXPECT_GT(outcome.x, 200);
+    EXPECT_NEAR(outcome.at_end, 0, 0.1);
 }
 
 }  // namespace
