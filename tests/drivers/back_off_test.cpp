@@ -15,13 +15,6 @@
 namespace reprise::test {
 namespace {
 
-world::TownT long_lane() {
-    world::TownT town;
-    town.name = "lane";
-    town.lanes.push_back(make_lane("lane", Turtle(0, 0, 0).ahead(600)));
-    return town;
-}
-
 /// A wall across the road that the driver does not see until it is torn down.
 class Wall {
   public:
@@ -51,7 +44,7 @@ class Wall {
 };
 
 TEST(BackOff, AfterTwoSecondsOfPushing) {
-    Drive drive(long_lane());
+    Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
     drive.place(0, 20, 5);
     Wall wall(50);
     std::vector<std::string> news;
@@ -77,7 +70,7 @@ TEST(BackOff, AfterTwoSecondsOfPushing) {
 }
 
 TEST(BackOff, NotIntoWhoStandsBehind) {
-    Drive drive(long_lane());
+    Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
     drive.place(0, 20, 5);
     world::CarState behind{};
     behind.mutate_id(50);
@@ -103,7 +96,7 @@ TEST(BackOff, NotIntoWhoStandsBehind) {
 TEST(BackOff, NotOffItsLanes) {
     constexpr double tail_at = 2;  // [m] before the lane's start
     const world::VehicleModel& model = world::vehicle_models()[0];
-    Drive drive(long_lane());
+    Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
     drive.place(0, tail_at + model.rear_overhang, 0);
     Wall wall(drive.car.x + drive.car.front() + 0.1);
     std::vector<std::string> news;
@@ -121,7 +114,7 @@ TEST(BackOff, ItsNoseDoesNotSwingIntoWhoStandsBesideIt) {
     // It stands 0.8 m left of its path, and would turn its tail to the path, its nose away from it.
     constexpr double aside = 0.8;
     const world::VehicleModel& model = world::vehicle_models()[0];
-    Drive drive(long_lane());
+    Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
     drive.place(0, 45, 0);
     drive.car.y = aside;
     Wall wall(45 + drive.car.front() + 0.1);
@@ -143,7 +136,7 @@ TEST(BackOff, ItsNoseDoesNotSwingIntoWhoStandsBesideIt) {
 
 /// Nose to flank, as two stand in a junction.
 TEST(BackOff, ToLetGoWhoStandsAcrossItsWay) {
-    Drive drive(long_lane());
+    Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
     drive.place(0, 20, 5);
     drive.autopilot->may_overtake(true);
     world::CarState across{};
@@ -183,7 +176,7 @@ TEST(BackOff, ToLetGoWhoStandsAcrossItsWay) {
 /// back to it leads past a car.
 TEST(BackOff, FromWhatItsWheelsLeadInto) {
     for (const double aside : {1.5, 2.0, 2.5, 3.0}) {
-        Drive drive(long_lane());
+        Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
         drive.place(0, 40, 4);
         drive.car.y = aside;
         drive.car.yaw = 0.35;
@@ -219,7 +212,7 @@ TEST(BackOff, FromAPoleThatItsWheelsLeadInto) {
         drive.car.yaw = 1;
     };
     const auto road = [] {
-        world::TownT town = long_lane();
+        world::TownT town = one_lane(Turtle(0, 0, 0).ahead(600));
         town.lanes.push_back(make_lane("beside", Turtle(0, -3.5, 0).ahead(600)));
         return town;
     };
@@ -258,7 +251,7 @@ TEST(BackOff, FromAPoleThatItsWheelsLeadInto) {
 /// One had come to stand on the pavement, along its lane, in which a car waited for it with its
 /// front behind the other's: each in the other's way, for ever.
 TEST(BackOff, NobodyNeedsToWhoComesBackAheadOfWhoWaitsBesideIt) {
-    Drive drive(long_lane());
+    Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
     drive.place(0, 40, 0);
     drive.car.y = -3.7;
     world::CarState beside{};
@@ -281,7 +274,7 @@ TEST(BackOff, NobodyNeedsToWhoComesBackAheadOfWhoWaitsBesideIt) {
 }
 
 TEST(BackOff, NotWhoWasToldASpeed) {
-    Drive drive(long_lane());
+    Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
     drive.place(0, 20, 5);
     drive.autopilot->hold_speed(5, 0, world::Shape::linear);
     Wall wall(50);
@@ -292,7 +285,7 @@ TEST(BackOff, NotWhoWasToldASpeed) {
 }
 
 TEST(BackOff, AfterSixSecondsAtFullLockWithoutGettingOn) {
-    const Drive drive(long_lane());
+    const Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
     const drivers::Ego ego = drivers::ego_of(vehicle_at(1, 0, 0, 0, 0.5));
     const auto seconds_until = [&](double steer, double speed_along) {
         drivers::BackOff back_off(drive.map, 0.05);

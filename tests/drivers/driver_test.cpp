@@ -15,14 +15,6 @@ using world::LaneKind;
 using world::SignalColor;
 using world::Turn;
 
-/// A way that is one lane.
-world::TownT one_lane(const Turtle& turtle, double limit = 13.89) {
-    world::TownT town;
-    town.name = "one_lane";
-    town.lanes.push_back(make_lane("way", turtle, limit));
-    return town;
-}
-
 /// Two straight lanes with a signal and a junction of 10 m between them.
 world::TownT signalled_junction() {
     world::TownT town;

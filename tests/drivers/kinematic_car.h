@@ -206,4 +206,12 @@ inline world::Link make_link(std::uint32_t to,
     return {to, via, signal, turn, yields, 0};
 }
 
+/// A way that is one lane. `limit` [m/s]
+inline world::TownT one_lane(const Turtle& turtle, double limit = 13.89) {
+    world::TownT town;
+    town.name = "one_lane";
+    town.lanes.push_back(make_lane("way", turtle, limit));
+    return town;
+}
+
 }  // namespace reprise::test

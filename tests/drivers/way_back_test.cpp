@@ -12,13 +12,6 @@
 namespace reprise::test {
 namespace {
 
-world::TownT lane_in_a_field() {
-    world::TownT town;
-    town.name = "lane";
-    town.lanes.push_back(make_lane("lane", Turtle(0, 0, 0).ahead(600)));
-    return town;
-}
-
 void put(Drive& drive, double y, double yaw) {
     drive.place(0, 100, 0);
     drive.car.y = y;
@@ -28,7 +21,7 @@ void put(Drive& drive, double y, double yaw) {
 TEST(WayBack, LeadsToTheNearestLaneSlowly) {
     for (const double y : {-40.0, -15.0, -5.0, 15.0, 40.0})
         for (const double yaw : {-2.5, -1.5, 0.0, 1.5, 3.1}) {
-            Drive drive(lane_in_a_field());
+            Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
             put(drive, y, yaw);
             double fastest = 0;
             while (drive.seconds() < 120) {
@@ -45,7 +38,7 @@ TEST(WayBack, LeadsToTheNearestLaneSlowly) {
 /// Put across its way, one sped up while it turned, and weaved until it hit a lamp post at 8 m/s.
 TEST(WayBack, GetsOntoItsLineSlowly) {
     for (const double y : {-6.0, -3.5, 3.5, 6.0}) {
-        Drive drive(lane_in_a_field());
+        Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
         put(drive, y, y < 0 ? 1.5 : -1.5);
         double fastest = 0;
         while (drive.seconds() < 60) {
@@ -64,7 +57,7 @@ TEST(WayBack, AroundAWall) {
     wall.position << 104, -20, 0;
     wall.half = {4, 0.2, 2};
     const std::vector<world::Obstacle> obstacles{wall};
-    Drive drive(lane_in_a_field(), 7, 0, obstacles);
+    Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)), 7, 0, obstacles);
     put(drive, -30, 1.2);
     int touched = 0;
     while (drive.seconds() < 180) {
@@ -81,7 +74,7 @@ TEST(WayBack, AroundAWall) {
 }
 
 TEST(WayBack, AroundWhoStandsThere) {
-    Drive drive(lane_in_a_field());
+    Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
     put(drive, -30, 1.5);
     world::WalkerState walker{};
     walker.mutate_id(100000001);
