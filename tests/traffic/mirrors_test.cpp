@@ -269,6 +269,50 @@ TEST(Mirrors, ATailOverATinyEdgeIsSeenAllTheWay) {
     EXPECT_GT(x, 200) << "behind both junctions";
 }
 
+/// Two roads that cross in (150, 150); the one along x goes first.
+test::Loaded crossing_with_priority() {
+    return converted("priority",
+                     R"(<nodes> <node id="w" x="0" y="150"/> <node id="e" x="300" y="150"/>
+        <node id="s" x="150" y="0"/> <node id="n" x="150" y="300"/>
+        <node id="c" x="150" y="150" type="priority"/> </nodes>)",
+                     R"(<edges> <edge id="wc" from="w" to="c" priority="9"/>
+        <edge id="ce" from="c" to="e" priority="9"/> <edge id="sc" from="s" to="c" priority="1"/>
+        <edge id="cn" from="c" to="n" priority="1"/> </edges>)");
+}
+
+TEST(Mirrors, WhoHasToGiveWayWaitsAtTheLineForTheEgo) {
+    const test::Loaded loaded = crossing_with_priority();
+    const world::LaneT& first = loaded.town.lanes[lane(loaded.town, "wc_0")];
+    const std::uint32_t road = lane(loaded.town, "sc_0");
+    const double middle = loaded.town.lanes[road].centre.back().x();
+    const double y = first.centre.back().y();
+    const double speed = 12;
+    // Ticks until the car is in the junction, with the ego there after `arrives` of them; 0: none.
+    const auto enters = [&](int arrives) {
+        Stage stage(loaded, 0);
+        const auto vehicles = [&](int tick) {
+            std::vector<world::VehicleState> all;
+            if (arrives != 0)
+                all.push_back(
+                    test::vehicle_at(ego, middle + (tick - arrives) * speed * 0.05, y, 0, speed));
+            return all;
+        };
+        stage.step({}, vehicles(0));
+        stage.step({spawn(follower, road, 70, 8)}, vehicles(1));
+        int tick = 2;
+        for (; tick < 600; ++tick) {
+            stage.step({}, vehicles(tick));
+            if (stage.car(follower) == nullptr || stage.car(follower)->lane() != road)
+                break;
+        }
+        return tick;
+    };
+    const int alone = enters(0);
+    ASSERT_LT(alone, 300);
+    for (const int later : {0, 10, 20, 30})
+        EXPECT_GT(enters(alone + later), alone + later) << later;
+}
+
 /// Drives as somebody who cannot make up his mind, in a box around (x, y) [m]. The seed decides.
 void go_to_and_fro(const test::Loaded& loaded,
                    const Eigen::Vector2d& middle,
