@@ -85,7 +85,7 @@ TEST(FurnitureCheck, FindsWhatStandsOnALane) {
     // Its southern face comes down to y = 1: 0.75 m from the lane at 1.75 m.
     town.buildings = {house(20, 6.5)};
     const Criterion wall = towns::check_furniture(town)[ways];
-    EXPECT_FALSE(wall.passed());
+    ASSERT_FALSE(wall.passed());
     EXPECT_EQ(wall.worst[0].name, "building 0 on west_out_0");
     town.spawn_points = {spawn(town, "west_out_1", 20)};
     EXPECT_EQ(towns::check_furniture(town)[spawn_points].figure, 1);
