@@ -28,6 +28,7 @@ pkg_check_modules(cli11 REQUIRED IMPORTED_TARGET CLI11)
 pkg_check_modules(jemalloc REQUIRED IMPORTED_TARGET jemalloc)
 add_library(memory INTERFACE)
 if(NOT REPRISE_SANITIZE)
+  target_sources(memory INTERFACE ${PROJECT_SOURCE_DIR}/cli/process/run_memory.cpp)
   target_link_libraries(memory INTERFACE -Wl,--push-state,--no-as-needed PkgConfig::jemalloc -Wl,--pop-state)
 endif()
 # The one that may be missing: then who drives by hand looks at a terminal.
