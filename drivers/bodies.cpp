@@ -75,10 +75,8 @@ Body body_of(const world::WalkerState& walker) {
 }
 
 Body body_of(const world::PropState& prop, const world::PropModel& model) {
-    const Eigen::Vector3d ahead = world::to_eigen(prop.orientation()) * Eigen::Vector3d::UnitX();
     Body body;
-    body.direction =
-        ahead.head<2>().norm() > 0.1 ? ahead.head<2>().normalized() : Eigen::Vector2d::UnitX();
+    body.direction = world::level_direction(prop.orientation());
     body.centre = {prop.position().x(), prop.position().y()};
     body.half_length = model.length / 2;
     body.half_width = model.width / 2;

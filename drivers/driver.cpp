@@ -337,8 +337,8 @@ bool DriverState::wheels_lead_into_town(const Ego& ego, double reach) const {
 /// Far beside its way, as on a pavement, it is not held by who is ahead but by who stands on the
 /// way beside it, and maybe waits for it.
 bool DriverState::is_held_from_beside(const Ego& ego) const {
-    constexpr double far = 1.5;  // [m]
-    constexpr double stands = 0.1;
+    constexpr double far = 1.5;     // [m]
+    constexpr double stands = 0.1;  // [m/s]
     const auto overlaps = hazards.overlaps();
     return std::abs(ego.speed) < stands && std::abs(tracked_beside(ego)) > far &&
            !overlaps.empty() &&

@@ -26,7 +26,8 @@
 
 namespace reprise::drivers {
 
-/// The parts of the built-in driver, and how they work together. Private to driver*.cpp.
+/// The parts of the built-in driver, and how they work together. Private to driver*.cpp and
+/// way_back.cpp.
 struct DriverState {
     DriverState(std::uint32_t actor_id,
                 std::uint16_t model,

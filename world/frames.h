@@ -34,6 +34,13 @@ inline Eigen::Isometry3d pose(const Vec3& position, const Quat& orientation) {
 /// As above, from yaw (counter-clockwise from east) and pitch (nose up positive). [rad]
 Eigen::Isometry3d pose(const Vec3& position, double yaw, double pitch);
 
+/// Where a body looks, seen from above: a unit vector. East for one that stands on end.
+inline Eigen::Vector2d level_direction(const Quat& orientation) {
+    const Eigen::Vector3d ahead = to_eigen(orientation) * Eigen::Vector3d::UnitX();
+    const double level = ahead.head<2>().norm();
+    return level > 0.1 ? Eigen::Vector2d(ahead.head<2>() / level) : Eigen::Vector2d::UnitX();
+}
+
 /// The angle in (-pi, pi].
 double wrap_angle(double angle);
 

@@ -53,12 +53,6 @@ void add_car(std::uint32_t id,
     add_pieces(body, footprints);
 }
 
-Eigen::Vector2d level_direction(const world::Quat& orientation) {
-    const Eigen::Vector3d ahead = world::to_eigen(orientation) * Eigen::Vector3d::UnitX();
-    const double level = ahead.head<2>().norm();
-    return level > 0.1 ? Eigen::Vector2d(ahead.head<2>() / level) : Eigen::Vector2d::UnitX();
-}
-
 /// A circle is a box as wide as it is long; who lies is as long as tall.
 void add_walkers(std::span<const world::WalkerState> walkers, std::vector<Footprint>& footprints) {
     for (const world::WalkerState& walker : walkers) {
@@ -83,7 +77,7 @@ void add_props(std::span<const world::PropState> props, std::vector<Footprint>& 
         if (model.height < least_prop_height)
             continue;
         Footprint body;
-        body.direction = level_direction(prop.orientation());
+        body.direction = world::level_direction(prop.orientation());
         body.centre = {prop.position().x(), prop.position().y()};
         body.z = prop.position().z();
         body.half_length = model.length / 2;
@@ -132,7 +126,7 @@ void gather_footprints(const world::TickView& last,
         add_car(vehicle.id(),
                 vehicle.model(),
                 world::to_eigen(vehicle.position()),
-                level_direction(vehicle.orientation()),
+                world::level_direction(vehicle.orientation()),
                 {vehicle.velocity().x(), vehicle.velocity().y()},
                 vehicle.id() < world::first_background_id,  // else a wreck
                 footprints);

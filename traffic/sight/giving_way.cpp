@@ -50,38 +50,40 @@ bool are_apart(const world::Box& one, const world::Box& other) {
 void GivingWay::look(const world::TickView& last) {
     comers_.clear();
     for (const world::VehicleState& vehicle : last.vehicles()) {
-        const Eigen::Vector2d velocity(vehicle.velocity().x(), vehicle.velocity().y());
-        const Eigen::Vector3d forward =
-            world::to_eigen(vehicle.orientation()) * Eigen::Vector3d::UnitX();
-        const Eigen::Vector2d ahead = forward.head<2>().normalized();
+        const double speed = world::to_eigen(vehicle.velocity()).head<2>().norm();
         const bool is_wreck = vehicle.id() >= world::first_background_id;
-        if (is_wreck || velocity.squaredNorm() < least_speed * least_speed)
-            continue;
-        const world::VehicleModel& model = world::vehicle_models()[vehicle.model()];
-        Comer comer;
-        comer.z = vehicle.position().z();
-        comer.speed = velocity.norm();
-        comer.braking = -world::to_eigen(vehicle.acceleration()).head<2>().dot(ahead);
-        BodyBox body;
-        body.half_length = model.length / 2 + room;
-        body.half_width = model.width / 2 + room;
-        body.ahead = ahead;
-        body.middle =
-            world::in_plan(vehicle.position()) + (model.length / 2 - model.rear_overhang) * ahead;
-        const Eigen::Vector2d turn = world::ahead_of(vehicle.angular_velocity().z() * moment);
-        Eigen::Vector2d step = moment * velocity;
-        const auto turned = [&turn](const Eigen::Vector2d& v) {
-            return Eigen::Vector2d(turn.x() * v + turn.y() * world::turned_left(v));
-        };
-        for (BodyBox& there : comer.bodies) {
-            there = body;
-            comer.area.take(body.middle, body.half_length + body.half_width);
-            body.middle += step;
-            step = turned(step);
-            body.ahead = turned(body.ahead);
-        }
-        comers_.push_back(comer);
+        if (!is_wreck && speed >= least_speed)
+            comers_.push_back(comer_of(vehicle));
     }
+}
+
+/// It turns as it turns now, and keeps its speed.
+GivingWay::Comer GivingWay::comer_of(const world::VehicleState& vehicle) {
+    const world::VehicleModel& model = world::vehicle_models()[vehicle.model()];
+    const Eigen::Vector2d velocity = world::to_eigen(vehicle.velocity()).head<2>();
+    BodyBox body;
+    body.half_length = model.length / 2 + room;
+    body.half_width = model.width / 2 + room;
+    body.ahead = world::level_direction(vehicle.orientation());
+    body.middle =
+        world::in_plan(vehicle.position()) + (model.length / 2 - model.rear_overhang) * body.ahead;
+    Comer comer;
+    comer.z = vehicle.position().z();
+    comer.speed = velocity.norm();
+    comer.braking = -world::to_eigen(vehicle.acceleration()).head<2>().dot(body.ahead);
+    const Eigen::Vector2d turn = world::ahead_of(vehicle.angular_velocity().z() * moment);
+    Eigen::Vector2d step = moment * velocity;
+    const auto turned = [&turn](const Eigen::Vector2d& v) {
+        return Eigen::Vector2d(turn.x() * v + turn.y() * world::turned_left(v));
+    };
+    for (BodyBox& there : comer.bodies) {
+        there = body;
+        comer.area.take(body.middle, body.half_length + body.half_width);
+        body.middle += step;
+        step = turned(step);
+        body.ahead = turned(body.ahead);
+    }
+    return comer;
 }
 
 /// Outside of junctions there are other rules.

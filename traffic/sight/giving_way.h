@@ -58,6 +58,7 @@ class GivingWay {
         bool is_any = false;
     };
 
+    static Comer comer_of(const world::VehicleState& vehicle);
     static Conflict conflict_of(const WayAhead& way, const Comer& comer);
     bool has_to_wait(const Car& car, const Comer& comer, const Conflict& conflict) const;
     bool is_in_junction(const Car& car, const WayAhead& way) const;
