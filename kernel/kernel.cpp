@@ -61,7 +61,7 @@ void add(walkers::OnFoot on_foot, world::TickDraft& next) {
 }  // namespace
 
 struct Kernel::Parts {
-    Parts(const world::Recording& its_recording, const ground::GroundMesh* made)
+    Parts(const world::Recording& its_recording, const SolidGround* made)
         : recording(its_recording),
           episode(recording.episode),
           town(recording.town),
@@ -71,7 +71,7 @@ struct Kernel::Parts {
           obstacles(ground::obstacles_of(town)),
           roster(episode, town, lanes, obstacles),
           background(episode, town, lanes, recording.network),
-          pedestrians(episode, town, lanes, *ground),
+          pedestrians(episode, town, lanes, ground->mesh()),
           physics(episode, *ground, obstacles),
           continued(replay::chain_seed(recording)),
           last(genesis(episode, continued)),
@@ -82,8 +82,8 @@ struct Kernel::Parts {
     const world::Recording& recording;
     world::EpisodeT episode;  ///< of it script, parameters and limit change where a run branches
     const world::TownT& town;
-    std::optional<ground::GroundMesh> own_ground;  ///< where nobody made it before
-    const ground::GroundMesh* ground;
+    std::optional<SolidGround> own_ground;  ///< where nobody made it before
+    const SolidGround* ground;
     world::LaneMap lanes;  ///< the run's only one
     scripting::Scenario scenario;
     std::vector<world::Obstacle> obstacles;
@@ -106,7 +106,7 @@ struct Kernel::Parts {
     std::string reason;
 };
 
-Kernel::Kernel(const world::Recording& recording, const ground::GroundMesh* ground)
+Kernel::Kernel(const world::Recording& recording, const SolidGround* ground)
     : parts_(std::make_unique<Parts>(recording, ground)) {}
 
 Kernel::~Kernel() = default;

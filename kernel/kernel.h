@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "ground/mesh/ground.h"
 #include "kernel/drill/nudge.h"
+#include "kernel/physics/solid_ground.h"
 #include "kernel/stage.h"
 #include "world/check_result.h"
 #include "world/recording.h"
@@ -20,8 +20,8 @@ namespace reprise::kernel {
 class Kernel {
   public:
     /// Starts everything; the world is empty until the first step. `recording` must outlive this.
-    /// `ground`: the town's, where it has been made already (40 ms in Town 1); looked at here only.
-    explicit Kernel(const world::Recording& recording, const ground::GroundMesh* ground = nullptr);
+    /// `ground`: the town's, where it has been made already; must outlive this, too.
+    explicit Kernel(const world::Recording& recording, const SolidGround* ground = nullptr);
     ~Kernel();
     Kernel(const Kernel&) = delete;
     Kernel& operator=(const Kernel&) = delete;

@@ -71,7 +71,8 @@ std::unique_ptr<ReadyTown> make_ready(const std::string& town, const std::string
     ready->recording.episode.town = network.name;
     ready->recording.episode.town_digest = world::digest128(network.xml);
     ready->recording.network = std::move(network.xml);
-    ready->ground = ground::build_ground(ready->recording.town);
+    ready->ground =
+        std::make_unique<const kernel::SolidGround>(ground::build_ground(ready->recording.town));
     return ready;
 }
 
@@ -192,7 +193,7 @@ Stage& Session::Parts::stage_for(world::EpisodeT episode) {
         ours = std::move(episode);
         const auto memory = static_cast<std::uint64_t>(options.memory_gb * 1e9);
         stage.emplace(Stage::Set{
-            town->recording, town->ground, client, signals, options.folder, {.memory = memory}});
+            town->recording, *town->ground, client, signals, options.folder, {.memory = memory}});
     }
     return *stage;
 }

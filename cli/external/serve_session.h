@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/options/serve_options.h"
-#include "ground/mesh/ground.h"
+#include "kernel/physics/solid_ground.h"
 #include "process/held_signals.h"
 #include "remote/frame_channel.h"
 #include "world/recording.h"
@@ -16,7 +16,7 @@ namespace reprise::cli {
 struct ReadyTown {
     std::string name;            ///< as it was asked for
     world::Recording recording;  ///< but for the episode
-    ground::GroundMesh ground;
+    std::unique_ptr<const kernel::SolidGround> ground;
 };
 
 /// Reads a town by its name. Throws world::Error.

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "ground/mesh/ground.h"
+#include "kernel/physics/solid_ground.h"
 #include "process/held_signals.h"
 #include "process/limits.h"
 #include "process/offshoot.h"
@@ -21,7 +21,7 @@ class Stage {
     /// What it starts from; all must outlive the stage.
     struct Set {
         const world::Recording& recording;
-        const ground::GroundMesh& ground;
+        const kernel::SolidGround& ground;
         const remote::FrameChannel& client;
         const process::HeldSignals& signals;
         std::filesystem::path folder;  ///< where traces go

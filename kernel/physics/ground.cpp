@@ -30,27 +30,18 @@ class FirstTriangle : public btTriangleRaycastCallback {
 
 }  // namespace
 
-Ground::Ground(const ground::GroundMesh& mesh, btDynamicsWorld& world)
-    : surfaces_(mesh.surfaces),
-      world_(&world) {
+Ground::Ground(const ground::GroundMesh& mesh) : surfaces_(&mesh.surfaces) {
     REPRISE_CHECK(!mesh.triangles.empty(), "the town has no ground");
     REPRISE_CHECK(mesh.surfaces.size() == mesh.triangles.size(),
                   std::to_string(mesh.surfaces.size()) + " surfaces");
-    vertices_.reserve(mesh.vertices.size());
-    for (const Eigen::Vector3d& v : mesh.vertices)
-        vertices_.push_back({v.x(), v.y(), v.z()});
-    triangles_.reserve(mesh.triangles.size());
-    for (const auto& t : mesh.triangles)
-        triangles_.push_back(
-            {static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2])});
-
+    static_assert(sizeof(mesh.vertices[0]) == 3 * sizeof(double));
     btIndexedMesh indexed;
-    indexed.m_numTriangles = static_cast<int>(triangles_.size());
-    indexed.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(triangles_.data());
-    indexed.m_triangleIndexStride = sizeof(triangles_[0]);
-    indexed.m_numVertices = static_cast<int>(vertices_.size());
-    indexed.m_vertexBase = reinterpret_cast<const unsigned char*>(vertices_.data());
-    indexed.m_vertexStride = sizeof(vertices_[0]);
+    indexed.m_numTriangles = static_cast<int>(mesh.triangles.size());
+    indexed.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(mesh.triangles.data());
+    indexed.m_triangleIndexStride = sizeof(mesh.triangles[0]);
+    indexed.m_numVertices = static_cast<int>(mesh.vertices.size());
+    indexed.m_vertexBase = reinterpret_cast<const unsigned char*>(mesh.vertices.data());
+    indexed.m_vertexStride = sizeof(mesh.vertices[0]);
     indexed.m_vertexType = PHY_DOUBLE;
     arrays_.addIndexedMesh(indexed, PHY_INTEGER);
     shape_ = std::make_unique<GroundShape>(&arrays_, true);
@@ -69,17 +60,6 @@ Ground::Ground(const ground::GroundMesh& mesh, btDynamicsWorld& world)
     rays_ = std::make_unique<RayGrid>(*shape_->getOptimizedBvh(), std::move(corners));
     outskirts_ = std::make_unique<Outskirts>(low, high, *rays_);
     shape_->go_on_beyond(*outskirts_);
-
-    btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape_.get());
-    info.m_friction = 0.6;
-    info.m_restitution = 0;
-    body_ = std::make_unique<btRigidBody>(info);
-    tag(*body_, ground_body, 0);
-    world.addRigidBody(body_.get());
-}
-
-Ground::~Ground() {
-    world_->removeRigidBody(body_.get());
 }
 
 bool Ground::cast(const btVector3& from, const btVector3& to, Hit& hit) const {
@@ -89,7 +69,7 @@ bool Ground::cast(const btVector3& from, const btVector3& to, Hit& hit) const {
         return cast_at_outskirts(from, to, hit);
     hit.fraction = first.best;
     hit.normal = first.best_normal;
-    hit.surface = surfaces_[static_cast<std::size_t>(first.index)];
+    hit.surface = (*surfaces_)[static_cast<std::size_t>(first.index)];
     return true;
 }
 
@@ -101,6 +81,19 @@ bool Ground::cast_at_outskirts(const btVector3& from, const btVector3& to, Hit& 
         return false;
     hit = {(from.z() - z) / (from.z() - to.z()), btVector3(0, 0, 1), ground::Surface::terrain};
     return true;
+}
+
+GroundBody::GroundBody(const Ground& ground, btDynamicsWorld& world)
+    : body_(0, nullptr, &ground.shape()),
+      world_(&world) {
+    body_.setFriction(0.6);
+    body_.setRestitution(0);
+    tag(body_, ground_body, 0);
+    world.addRigidBody(&body_);
+}
+
+GroundBody::~GroundBody() {
+    world_->removeRigidBody(&body_);
 }
 
 void* WheelRays::castRay(const btVector3& from,

@@ -14,11 +14,11 @@
 namespace reprise::kernel {
 
 /// The static ground in Bullet: one triangle mesh with a bounding volume hierarchy, and outskirts.
+/// Of no world: many may stand on it, one after the other.
 class Ground {
   public:
-    /// Copies the mesh and adds one body to `world`, which must outlive this.
-    Ground(const ground::GroundMesh& mesh, btDynamicsWorld& world);
-    ~Ground();
+    /// Looks at the mesh's triangles where they are: it must outlive this.
+    explicit Ground(const ground::GroundMesh& mesh);
     Ground(const Ground&) = delete;
     Ground& operator=(const Ground&) = delete;
 
@@ -33,17 +33,29 @@ class Ground {
     /// when the ray meets nothing.
     bool cast(const btVector3& from, const btVector3& to, Hit& hit) const;
 
+    /// For one body at a time.
+    GroundShape& shape() const { return *shape_; }
+
   private:
     bool cast_at_outskirts(const btVector3& from, const btVector3& to, Hit& hit) const;
 
-    std::vector<std::array<double, 3>> vertices_;
-    std::vector<std::array<int, 3>> triangles_;
-    std::vector<ground::Surface> surfaces_;
+    const std::vector<ground::Surface>* surfaces_;
     btTriangleIndexVertexArray arrays_;
     std::unique_ptr<GroundShape> shape_;
     std::unique_ptr<RayGrid> rays_;
     std::unique_ptr<Outskirts> outskirts_;
-    std::unique_ptr<btRigidBody> body_;
+};
+
+/// The ground's body in a world. Both must outlive it.
+class GroundBody {
+  public:
+    GroundBody(const Ground& ground, btDynamicsWorld& world);
+    ~GroundBody();
+    GroundBody(const GroundBody&) = delete;
+    GroundBody& operator=(const GroundBody&) = delete;
+
+  private:
+    btRigidBody body_;
     btDynamicsWorld* world_;
 };
 

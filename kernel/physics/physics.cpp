@@ -109,13 +109,14 @@ void add_manifolds(world::Hasher& hasher, btCollisionDispatcher& dispatcher) {
 
 struct Physics::World {
     World(const world::EpisodeT& episode,
-          const ground::GroundMesh& mesh,
+          const Ground& its_ground,
           std::span<const world::Obstacle> standing)
         : seed(episode.seed),
           substeps(static_cast<int>(episode.substeps)),
           step(static_cast<double>(episode.step_ns) * 1e-9),
           substep(step / substeps),
-          ground(mesh, bullet.world),
+          ground(its_ground),
+          ground_body(ground, bullet.world),
           obstacles(standing, bullet.world),
           cars(bullet.world),
           props(bullet.world),
@@ -150,7 +151,8 @@ struct Physics::World {
     double step;     ///< [s] a tick
     double substep;  ///< [s]
     Bullet bullet;
-    Ground ground;
+    const Ground& ground;
+    GroundBody ground_body;
     NearObstacles obstacles;
     NearCars cars;
     WalkerHits walkers;
@@ -165,9 +167,9 @@ struct Physics::World {
 };
 
 Physics::Physics(const world::EpisodeT& episode,
-                 const ground::GroundMesh& ground,
+                 const SolidGround& ground,
                  std::span<const world::Obstacle> obstacles)
-    : world_(std::make_unique<World>(episode, ground, obstacles)) {}
+    : world_(std::make_unique<World>(episode, ground.in_bullet(), obstacles)) {}
 
 Physics::~Physics() = default;
 

@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include "ground/mesh/ground.h"
 #include "kernel/physics/impact.h"
+#include "kernel/physics/solid_ground.h"
 #include "world/episode_generated.h"
 #include "world/obstacle.h"
 #include "world/tick.h"
@@ -28,9 +28,9 @@ namespace reprise::kernel {
 /// a tick of 10 substeps and one vehicle: 20 us; 28 us beside 10 near cars, 50 us beside 50.
 class Physics {
   public:
-    /// `obstacles` are sorted by x. Copies what it needs; nothing must outlive this.
+    /// `ground` must outlive this; `obstacles` are sorted by x, and copied.
     Physics(const world::EpisodeT& episode,
-            const ground::GroundMesh& ground,
+            const SolidGround& ground,
             std::span<const world::Obstacle> obstacles);
     ~Physics();
     Physics(const Physics&) = delete;

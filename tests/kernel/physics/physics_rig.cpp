@@ -70,7 +70,8 @@ world::Control drive(double throttle, double brake, double steer) {
 
 ProvingGround::ProvingGround(const ground::GroundMesh& ground, const world::TownT& town)
     : episode_(episode()),
-      physics_(episode_, ground, ground::obstacles_of(town)) {}
+      ground_(ground),
+      physics_(episode_, ground_, ground::obstacles_of(town)) {}
 
 void ProvingGround::add_vehicle(const char* model, double speed, double x, double y, double yaw) {
     physics_.add_vehicle(

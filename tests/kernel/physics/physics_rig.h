@@ -51,6 +51,7 @@ class ProvingGround {
 
   private:
     world::EpisodeT episode_;
+    kernel::SolidGround ground_;
     kernel::Physics physics_;
     world::TickDraft next_;
     std::optional<world::SealedTick> last_;
