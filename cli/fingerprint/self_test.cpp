@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "kernel/physics/bullet_check.h"
+#include "kernel/physics/bullet/bullet_check.h"
 #include "traffic/sumo_check.h"
 #include "walkers/steering.h"
 #include "world/arithmetic.h"

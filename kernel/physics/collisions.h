@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/bullet.h"
 #include "kernel/physics/impact.h"
 #include "world/digest.h"
 #include "world/tick_generated.h"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/bullet.h"
 #include "kernel/physics/vehicle.h"
 #include "world/tick.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ground/mesh/ground.h"
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/bullet.h"
 #include "kernel/physics/ground_shape.h"
 #include "kernel/physics/outskirts.h"
 #include "kernel/physics/ray_grid.h"

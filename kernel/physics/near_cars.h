@@ -10,8 +10,8 @@
 
 #include <Eigen/Geometry>
 
-#include "kernel/physics/box_gap.h"
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/box_gap.h"
+#include "kernel/physics/bullet/bullet.h"
 #include "world/digest.h"
 #include "world/tick.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/bullet.h"
 #include "world/digest.h"
 #include "world/obstacle.h"
 

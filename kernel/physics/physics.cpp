@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/bullet.h"
+#include "kernel/physics/bullet/convex_pair.h"
 #include "kernel/physics/collisions.h"
-#include "kernel/physics/convex_pair.h"
 #include "kernel/physics/door_boxes.h"
 #include "kernel/physics/ground.h"
 #include "kernel/physics/ground_shape.h"

@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include "kernel/physics/box_gap.h"
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/box_gap.h"
+#include "kernel/physics/bullet/bullet.h"
 #include "world/models/prop_models.h"
 #include "world/tick.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/bullet.h"
 
 class btOptimizedBvh;
 class btTriangleCallback;

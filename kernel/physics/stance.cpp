@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/bullet.h"
 #include "kernel/physics/ground.h"
 
 namespace reprise::kernel {

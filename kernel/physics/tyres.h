@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/bullet.h"
 #include "kernel/physics/ground.h"
 
 namespace reprise::kernel {

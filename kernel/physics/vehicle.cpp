@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "kernel/drill/nudge.h"
-#include "kernel/physics/box_gap.h"
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/box_gap.h"
+#include "kernel/physics/bullet/bullet.h"
 #include "kernel/physics/ground.h"
 #include "kernel/physics/tyres.h"
 #include "world/frames.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/bullet.h"
 #include "kernel/physics/collisions.h"
 #include "kernel/physics/near_cars.h"
 #include "kernel/physics/vehicle.h"

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/physics/box_gap.h"
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/box_gap.h"
+#include "kernel/physics/bullet/bullet.h"
 #include "kernel/physics/collisions.h"
 #include "kernel/physics/impact.h"
 #include "kernel/physics/near_cars.h"

@@ -39,7 +39,7 @@ INNER = {
     "towns": "check network maps furnish buildings . bridges import make",
     "traffic": "roads cars sight .",
     "drivers": "way control .",
-    "kernel": "drill physics .",
+    "kernel": "drill physics/bullet physics .",
     "render": "codecs shapes shapes/cars shapes/people shapes/buildings shapes/street trace scene look labels shade optics ranging readings map views overlay film .",
     "scripting": "lua run words .",
     "replay": "mcap . table compare golden score",

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/bullet.h"
 
 namespace reprise::kernel {
 

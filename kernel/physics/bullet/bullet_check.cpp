@@ -1,9 +1,9 @@
-#include "kernel/physics/bullet_check.h"
+#include "kernel/physics/bullet/bullet_check.h"
 
 #include <cmath>
 #include <cstring>
 
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/bullet.h"
 
 namespace reprise::kernel {
 

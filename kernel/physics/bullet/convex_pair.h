@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/physics/bullet.h"
+#include "kernel/physics/bullet/bullet.h"
 
 namespace reprise::kernel {
 

@@ -1,4 +1,4 @@
-#include "kernel/physics/convex_pair.h"
+#include "kernel/physics/bullet/convex_pair.h"
 
 #include <new>
 
