@@ -269,8 +269,9 @@ Frame FrameChannel::receive(const Patience& patience) {
     Header header;
     Descriptor came_along;
     if (reads_whole_messages_ && ahead_begin_ == ahead_end_) {
-        // Observations grow by a car or an event from tick to tick.
-        const std::size_t most = sizeof(header) + last_size_ + last_size_ / 8;
+        // Observations grow by a car or an event from tick to tick, controls by a few bytes.
+        constexpr std::size_t growth = 64;
+        const std::size_t most = sizeof(header) + last_size_ + last_size_ / 8 + growth;
         room_.resize(std::max(room_.size(), most));
         const std::size_t came = read_some(room_.data(), most, wait, came_along);
         ahead_begin_ = 0;
