@@ -307,13 +307,21 @@ class Simulation(Client):
             raise RuntimeError("no episode runs: reset() begins one")
         if control is not None and values:
             raise TypeError(f"step: a control whole, or by its fields ({', '.join(values)}), not both")
-        return self._answer(self._seen, control if control is not None else Control(**values))
+        self.say(control if control is not None else Control(**values))
+        return self.hear()
 
-    def _answer(self, seen: Observation, control: Control) -> Observation | None:
+    def say(self, control: Control) -> None:
+        """The first half of step(): hands the control over. Who says to several simulations what they shall do, and only
+        then hears what came of it, lets them work at once."""
+        if self._seen is None:
+            raise RuntimeError("no episode runs: reset() begins one")
         try:
-            self._open_wire().control(seen.index, *values_of(control))
+            self._open_wire().control(self._seen.index, *values_of(control))
         except WireError as error:
             raise self._explained(error) from None
+
+    def hear(self) -> Observation | None:
+        """The other half: waits for what the next tick shows, as step() returns it. Once for each say()."""
         return self._look()
 
     def show(self, radius: float | None = 60.0) -> View:
@@ -326,6 +334,7 @@ class Simulation(Client):
         """Lets a driver drive, from a reset where no episode runs, until the end or for so many ticks."""
         seen: Observation | None = self._seen or self.reset()
         while seen is not None and (ticks is None or ticks > 0):
-            seen = self._answer(seen, driver(seen))
+            self.say(driver(seen))
+            seen = self.hear()
             ticks = None if ticks is None else ticks - 1
         return self.outcome

@@ -6,6 +6,7 @@ With Stable-Baselines3 installed also against its checker, and 2,000 steps of PP
 """
 import contextlib
 import io
+import json
 import pathlib
 import subprocess
 import tempfile
@@ -89,6 +90,31 @@ def two_at_once():
         seen, *_ = envs.step(np.tile(np.array([0, 0.5], np.float32), (2, 1)))
     envs.close()
     assert seen.shape == (2, 22) and not np.array_equal(seen[0], seen[1])
+
+
+def a_vector_is_what_gymnasiums_own_is():
+    """Equal seeds and actions, with a goal 12 m ahead: one arrives, is reset and goes on; the other brakes."""
+    begin = reprise.gym.Navigation(task="straight")
+    tasks = {"straight": [dict(task, goal=dict(lane=task["start"]["lane"], s=task["start"]["s"] + 12))
+                          for task in begin.episodes[:2]]}  # fmt: skip
+    begin.close()
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "tasks.json"
+        file.write_text(json.dumps({"tasks": tasks}))
+        all_seen = []
+        for mode in (None, "sync"):
+            envs = gymnasium.make_vec(NAME, num_envs=2, vectorization_mode=mode, task="straight", tasks=file, cars=10)
+            seen, infos = envs.reset(seed=5)
+            story = [(seen, infos["way_to_goal"])]
+            for _ in range(200):
+                seen, rewards, terminated, truncated, infos = envs.step(np.array([[0, 0.6], [0, -1]], np.float32))
+                story.append((seen, rewards, terminated, truncated, infos["way_to_goal"]))
+            envs.close()
+            all_seen.append(story)
+    for ours, theirs in zip(*all_seen, strict=True):
+        assert all(np.array_equal(one, other) for one, other in zip(ours, theirs, strict=True)), (ours, theirs)
+    ended = np.array([step[2] for step in all_seen[0][1:]])
+    assert ended[:, 0].sum() >= 1 and not ended[:, 1].any(), ended.sum(axis=0)
 
 
 def pictures_are_equal_for_equal_actions():
@@ -213,6 +239,7 @@ if __name__ == "__main__":
         the_reward_is_the_way_that_was_gained,
         standing_still_is_truncated_when_the_time_is_over,
         two_at_once,
+        a_vector_is_what_gymnasiums_own_is,
         pictures_are_equal_for_equal_actions,
         what_it_sees_is_rendered,
         pettingzoos_checkers,
