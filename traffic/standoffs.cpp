@@ -133,8 +133,20 @@ bool Standoffs::somebody_comes(const Car& car, const world::TickView& last) {
     });
 }
 
+/// Who was asked once stays asked: he has slowed down. Who lets another one in holds for that one,
+/// and would come to this meeting without.
+bool Standoffs::ask(Car& other, double left, std::uint32_t way, std::uint64_t tick) {
+    const bool is_asked = other.lets_in_until > tick;
+    if (is_asked ? other.lets_in_way != way
+                 : other.speed * (reaction + other.speed / (2 * easily)) > left - at_the_line)
+        return false;
+    other.lets_in_until = tick + lets_in_for;
+    other.lets_in_way = way;
+    return true;
+}
+
 /// Those who come to the junction, go before it there and can stop easily do so at their line; the
-/// others it lets go still. Who was asked once stays asked: he has slowed down.
+/// others it lets go still.
 void Standoffs::ask_to_let_in(Car& car,
                               const world::TickView& last,
                               Cars& cars,
@@ -151,12 +163,8 @@ void Standoffs::ask_to_let_in(Car& car,
         const double left = other.id == car.id ? world::infinity : way_to_meeting(other, way);
         if (left <= 0 || left == world::infinity || other.on_call || other.origin != Origin::demand)
             continue;
-        if (other.lets_in_until <= tick &&
-            other.speed * (reaction + other.speed / (2 * easily)) > left - at_the_line)
-            continue;
-        other.lets_in_until = tick + lets_in_for;
-        other.lets_in_way = way;
-        asked.push_back(other.id);
+        if (ask(other, left, way, tick))
+            asked.push_back(other.id);
     }
     push_past(car, asked, way, cars, tick);
 }

@@ -42,6 +42,10 @@ class Standoffs {
     /// Before SUMO's step.
     void advance(const world::TickView& last, Cars& cars, std::uint64_t tick) const;
 
+    /// One who comes, `left` [m] before he would meet who goes that `way` through a junction. True:
+    /// he stops before it from now on.
+    static bool ask(Car& other, double left, std::uint32_t way, std::uint64_t tick);
+
     /// On its `way` through a junction past those who were asked in this tick, no longer past those
     /// asked before; and past whom it is pushing already because he stands in its way (meetings.h):
     /// half past him it would stop, its body in his.

@@ -120,6 +120,23 @@ TEST(Standoffs, WhoIsLetInStillPushesPastWhomItIsPushingPast) {
     EXPECT_EQ(bus.pushes_until, 360U);
 }
 
+/// Two asked one, from two junctions in a row: he held for the second one, and came before the
+/// first one, who pushed past him by then.
+TEST(Standoffs, WhoLetsOneInIsAskedByNobodyElse) {
+    constexpr std::uint32_t near_way = 5;
+    constexpr std::uint32_t far_way = 6;
+    Car comer;
+    comer.speed = 5;
+    EXPECT_FALSE(Standoffs::ask(comer, 8, near_way, 100)) << "it cannot stop easily any more";
+    EXPECT_TRUE(Standoffs::ask(comer, 80, far_way, 100));
+    EXPECT_FALSE(Standoffs::ask(comer, 30, near_way, 110));
+    EXPECT_EQ(comer.lets_in_way, far_way);
+    EXPECT_TRUE(Standoffs::ask(comer, 8, far_way, 120)) << "who was asked stays asked";
+    EXPECT_FALSE(Standoffs::ask(comer, 8, near_way, 121));
+    EXPECT_TRUE(Standoffs::ask(comer, 30, near_way, comer.lets_in_until)) << "that is over";
+    EXPECT_EQ(comer.lets_in_way, near_way);
+}
+
 /// Three by three crossings at which nobody has the right of way: to SUMO nobody crosses anybody's
 /// way there.
 test::Loaded unregulated_roads() {
