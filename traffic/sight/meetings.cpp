@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "traffic/cars/fleet.h"
+#include "traffic/roads/crossing_lanes.h"
 #include "traffic/sight/braking.h"
 #include "traffic/sight/footprints.h"
 #include "world/geometry2d.h"
@@ -43,7 +44,8 @@ Meetings::Meetings(const world::TownT& town,
       graph_(&graph),
       right_of_way_(&right_of_way),
       step_(step),
-      yields_(town.lanes.size(), false) {
+      yields_(town.lanes.size(), false),
+      crosses_(lanes_that_cross(town)) {
     for (const world::LaneT& lane : town.lanes)
         for (const world::Link& link : lane.links)
             if (world::is_for_cars(lane) && link.yields())
@@ -148,7 +150,7 @@ Meetings::Place Meetings::place_of(const Car& car, const Driver& driver) const {
     place.lane = car.lane;
     place.is_turning = lane.kind == world::LaneKind::internal || left < driver.reach ||
                        length > longest_short_car || car.lane_position < length ||
-                       is_between_lanes(car);
+                       crosses_[car.lane] || is_between_lanes(car);
     return place;
 }
 

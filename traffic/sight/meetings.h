@@ -159,8 +159,9 @@ class Meetings {
     const LaneLines lines_;
     const RoadGraph* graph_;
     const RightOfWay* right_of_way_;
-    double step_;               ///< [s]
-    std::vector<bool> yields_;  ///< by lane of a junction: has to let others go first
+    double step_;                ///< [s]
+    std::vector<bool> yields_;   ///< by lane of a junction: has to let others go first
+    std::vector<bool> crosses_;  ///< by lane outside of one: another road's runs over it
     std::vector<double> allowed_;
     std::vector<Driver> drivers_;  ///< [i] of cars[i]; without a car who takes no part
     std::vector<Place> places_;
