@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 
+#include "render/shapes/cars/two_wheeler.h"
 #include "render/shapes/people/figure.h"
 #include "render/shapes/people/figure_bounds.h"
 #include "world/check.h"
@@ -75,12 +76,30 @@ ActorBox figure_box(const world::TickView& tick, const world::WalkerState& walke
             bounds.sizes()};
 }
 
+/// As it is seen: leaning, with who rides it. Nothing of all that is no two-wheeler.
+std::optional<ActorBox> ridden_box(const world::TickView& tick, std::uint32_t actor) {
+    const auto models = world::vehicle_models();
+    const auto around = [&](const Eigen::Isometry3d& pose, std::uint16_t model) {
+        const Eigen::AlignedBox3d& bounds = ridden_bounds(model);
+        return ActorBox{pose * Eigen::Translation3d(bounds.center()), bounds.sizes()};
+    };
+    if (const world::VehicleState* vehicle = world::find(tick.vehicles(), actor);
+        vehicle != nullptr && world::is_two_wheeler(models[vehicle->model()].body))
+        return around(leaning_pose(*vehicle), vehicle->model());
+    if (const world::CarState* car = world::find(tick.cars(), actor);
+        car != nullptr && world::is_two_wheeler(models[car->model()].body))
+        return around(world::find_pose(tick, actor).value(), car->model());
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<ActorBox> actor_box(const world::TickView& tick, std::uint32_t actor) {
     if (const world::WalkerState* walker = world::find(tick.walkers(), actor))
         return figure_box(tick, *walker);
     const auto extent = world::find_extent(tick, actor);
+    if (const auto ridden = ridden_box(tick, actor))
+        return ridden;
     const auto pose = world::find_pose(tick, actor);
     if (!extent || !pose)
         return std::nullopt;

@@ -14,7 +14,8 @@
 
 namespace reprise::render {
 
-/// The box around an actor; of somebody on foot as he is at this tick, with limbs and luggage.
+/// The box around an actor; of somebody on foot as he is at this tick, with limbs and luggage; of a
+/// two-wheeler with its rider, leaning as it is seen.
 struct ActorBox {
     Eigen::Isometry3d pose_world;  ///< of its middle; x ahead
     Eigen::Vector3d size;          ///< [m] along it, across, upwards

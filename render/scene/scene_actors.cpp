@@ -46,24 +46,17 @@ void Scene::place_vehicles(const world::TickView& tick) {
             ++own;
         const Instance body =
             body_of(vehicle.id(), vehicle.model(), vehicle.lamps(), tick.vehicle_looks());
-        const Eigen::Isometry3d pose = world::pose(vehicle.position(), vehicle.orientation());
         if (!world::is_two_wheeler(world::vehicle_models()[vehicle.model()].body)) {
-            town_.add_car(moving_, pose, body, vehicle.steering_angle(), wheels.first(own), 0);
-            continue;
-        }
-        // Its four-wheeled body stands upright: it is drawn leaning as much as the bend asks for.
-        const Vector3d ahead = pose.linear().col(0);
-        const double yaw = std::atan2(ahead.y(), ahead.x());
-        const double pitch = std::atan2(ahead.z(), ahead.head<2>().norm());
-        const double lean = lean_angle(world::to_eigen(vehicle.velocity()).dot(ahead),
-                                       vehicle.angular_velocity().z());
-        const bool fell = pose.linear()(2, 2) < 0.7;
-        place_two_wheeler(fell ? pose
-                               : world::pose(vehicle.position(), yaw, pitch) *
-                                     Eigen::AngleAxisd(-lean, Vector3d::UnitX()),
+            town_.add_car(moving_,
+                          world::pose(vehicle.position(), vehicle.orientation()),
                           body,
                           vehicle.steering_angle(),
-                          vehicle.odometer());
+                          wheels.first(own),
+                          0);
+            continue;
+        }
+        place_two_wheeler(
+            leaning_pose(vehicle), body, vehicle.steering_angle(), vehicle.odometer());
     }
 }
 

@@ -21,8 +21,8 @@ THOROUGH = bool(os.environ.get("REPRISE_THOROUGH"))
 SECONDS = 25 if THOROUGH else 6
 FRAMES = 500 if THOROUGH else 40
 LABELS = ("depth", "semantic", "instance")
-# What reaches out of an actor's box, such as mirrors; people's boxes are around all of them. And the rounding of pixels. [m], [px]
-BEYOND, OF_PEOPLE, ROUNDING, PEDESTRIAN = 0.25, 0.001, 0.5, 12
+# What reaches out of a car's box, such as mirrors; the boxes of people, riding or on foot, are around all of them. And the rounding of pixels. [m], [px]
+BEYOND, OF_PEOPLE, ROUNDING, PEOPLE = 0.25, 0.01, 0.5, (12, 13, 18, 19)
 
 
 def reprise(*words):
@@ -118,7 +118,7 @@ def boxes(folder, trace):
             seen = (x.min() - columns.min() - 0.5, columns.max() + 0.5 - x.max(),
                     y.min() - rows.min() - 0.5, rows.max() + 0.5 - y.max())  # fmt: skip
             excess = max(seen)
-            beyond = OF_PEOPLE if box["class"] == PEDESTRIAN else BEYOND
+            beyond = OF_PEOPLE if box["class"] in PEOPLE else BEYOND
             allowed = ROUNDING + beyond * focal / corner[:, 2].min()
             if excess > allowed:
                 outside.append(f"tick {file.stem}: {excess:.2f} px ({excess * corner[:, 2].min() / focal:.2f} m) of actor "

@@ -89,6 +89,40 @@ TEST(Labels, ABoxInSpaceEndsWhereSomebodyOnFootEnds) {
     }
 }
 
+/// Its body with mass stands upright, or rolls outwards: what is seen leans into the bend.
+TEST(Labels, ABoxInSpaceEndsWhereATwoWheelerEndsThatLeansIntoABend) {
+    for (const char* name : {"bicycle", "motorcycle"}) {
+        const std::uint16_t model = world::find_vehicle_model(name).value();
+        for (const double yaw_rate : {-0.6, 0.0, 0.6}) {
+            world::VehicleState rider = test::vehicle_at(1, 200, -1.75, 0, 7);
+            rider.mutate_model(model);
+            rider.mutable_angular_velocity().mutate_z(yaw_rate);
+            const world::SealedTick tick = test::tick_with({rider});
+            render::Sensors sensors(test::straight_road(400));
+            world::SensorSpec spec = camera(SensorKind::instance, {100, -1.75, 0.9});
+            spec.fov = 2.8 / 100;  // [m] of the picture there
+            spec.width = spec.height = 280;
+            world::SensorSpec classes = spec;
+            classes.kind = SensorKind::semantic;
+            const auto frames = sensors.observe(tick.view(), {spec, classes}, test::noon());
+            const auto boxes = render::boxes_of(tick.view(),
+                                                {},
+                                                render::Camera(spec, Eigen::Isometry3d::Identity()),
+                                                frames[0],
+                                                frames[1]);
+            ASSERT_EQ(boxes.size(), 1U) << name;
+            constexpr double rounding = 3;  // [px] of a centimetre each
+            EXPECT_LT(boxes[0].whole.left, boxes[0].seen.left + rounding) << name << yaw_rate;
+            EXPECT_GT(boxes[0].whole.right, boxes[0].seen.right - rounding) << name << yaw_rate;
+            EXPECT_LT(boxes[0].whole.top, boxes[0].seen.top + rounding) << name << yaw_rate;
+            EXPECT_GT(boxes[0].whole.bottom, boxes[0].seen.bottom - rounding) << name << yaw_rate;
+            const world::VehicleModel& catalogue = world::vehicle_models()[model];
+            EXPECT_LT(boxes[0].size.y(), catalogue.width + 0.25) << name;
+            EXPECT_LT(boxes[0].size.z(), catalogue.height + 0.12) << name;
+        }
+    }
+}
+
 TEST(Labels, ACarThatStandsInTheTownHasABox) {
     world::TownT town = test::street();
     const auto prop = [](double x, world::PropKind kind, std::uint16_t value) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "render/shapes/cars/car_parts.h"
+#include "world/frames.h"
 
 namespace reprise::render {
 
@@ -203,6 +204,20 @@ Mesh crank_mesh(const CarShape& shape) {
 double lean_angle(double speed, double yaw_rate) {
     constexpr double gravity = 9.81;
     return std::clamp(std::atan2(speed * yaw_rate, gravity), -0.8, 0.8);
+}
+
+Eigen::Isometry3d leaning_pose(const world::VehicleState& vehicle) {
+    const Eigen::Isometry3d pose = world::pose(vehicle.position(), vehicle.orientation());
+    const bool fell = pose.linear()(2, 2) < 0.7;
+    if (fell)
+        return pose;
+    const Eigen::Vector3d ahead = pose.linear().col(0);
+    const double yaw = std::atan2(ahead.y(), ahead.x());
+    const double pitch = std::atan2(ahead.z(), ahead.head<2>().norm());
+    const double lean =
+        lean_angle(world::to_eigen(vehicle.velocity()).dot(ahead), vehicle.angular_velocity().z());
+    return world::pose(vehicle.position(), yaw, pitch) *
+           Eigen::AngleAxisd(-lean, Eigen::Vector3d::UnitX());
 }
 
 }  // namespace reprise::render

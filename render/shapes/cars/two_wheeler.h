@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "render/shapes/cars/car_shape.h"
+#include "world/tick.h"
 
 namespace reprise::render {
 
@@ -33,5 +34,9 @@ Mesh crank_mesh(const CarShape& shape);
 /// How far a two-wheeler leans into a bend, towards its left positive, for speed [m/s] and yaw rate
 /// [rad/s]: so that weight and centrifugal force meet in the tyres' line. [rad]
 double lean_angle(double speed, double yaw_rate);
+
+/// Where a two-wheeler with mass is seen. Its four-wheeled body stays upright in a bend and rolls
+/// outwards on its springs; it is seen leaning as much as the bend asks for, or as it lies.
+Eigen::Isometry3d leaning_pose(const world::VehicleState& vehicle);
 
 }  // namespace reprise::render

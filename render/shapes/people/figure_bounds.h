@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include <Eigen/Geometry>
 
 #include "world/models/catalogue.h"
@@ -12,5 +14,10 @@ namespace reprise::render {
 Eigen::AlignedBox3d figure_bounds(const world::WalkerModel& model,
                                   const world::WalkerState& walker,
                                   bool rains);
+
+/// Around a two-wheeler of the catalogue and who rides it, wherever the pedals are and whatever he
+/// wears, in its own frame. [m] Arms and helmets reach out of the box that others bump into. The
+/// first call for any model makes all of them.
+const Eigen::AlignedBox3d& ridden_bounds(std::uint16_t model);
 
 }  // namespace reprise::render
