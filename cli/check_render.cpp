@@ -111,7 +111,8 @@ int check_render(const RenderOptions& options,
                            root,
                            then,
                            read_file_list(again["files"], options.check),
-                           same_program(manifest));
+                           same_program(manifest),
+                           untrue_part(manifest, again, path, {"ticks", "weather", "sensors"}));
 }
 
 }  // namespace reprise::cli

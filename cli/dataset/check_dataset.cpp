@@ -86,6 +86,10 @@ DatasetOptions options_again(const DatasetOptions& options,
     return line.dataset;
 }
 
+/// Of an index, beside its files, its options and where its traces lie.
+constexpr std::initializer_list<const char*> told_parts{
+    "format", "portable", "weathers", "cameras", "rays", "split", "frames_of", "frames"};
+
 }  // namespace
 
 int check_dataset(const DatasetOptions& options,
@@ -102,7 +106,8 @@ int check_dataset(const DatasetOptions& options,
                            root,
                            then,
                            read_file_list(again["files"], options.check),
-                           same_program(index));
+                           same_program(index),
+                           untrue_part(index, again, path, told_parts));
 }
 
 }  // namespace reprise::cli

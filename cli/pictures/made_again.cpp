@@ -67,11 +67,24 @@ bool same_program(const Json& manifest) {
     return manifest["program"] == now;
 }
 
+std::string untrue_part(const Json& then,
+                        const Json& now,
+                        const fs::path& path,
+                        std::initializer_list<const char*> parts) {
+    if (!same_program(then))
+        return "";
+    for (const char* part : parts)
+        if (then.value(part, Json()) != now.value(part, Json()))
+            return fmt::format("{}: its '{}' is not what its options make", path.string(), part);
+    return "";
+}
+
 int tell_made_again(const std::string& what,
                     const fs::path& root,
                     const FileList& then,
                     const FileList& now,
-                    bool same_program) {
+                    bool same_program,
+                    const std::string& untrue) {
     std::size_t different = 0;
     const auto tell = [&](const std::string& name, const std::string& trouble) {
         if (!trouble.empty() && ++different == 1)
@@ -81,9 +94,11 @@ int tell_made_again(const std::string& what,
         tell(name, trouble_with(root, name, digests, now));
     for (const auto& [name, digests] : now)
         tell(name, then.contains(name) ? "" : "is made now, and was not then");
+    if (!untrue.empty())
+        say("{}\n", untrue);
     if (different == 0) {
         say("{}: {} made again, byte for byte\n", what, all_of(then));
-        return exit_good;
+        return untrue.empty() ? exit_good : exit_differs;
     }
     say("{}: {} of {} {}{}\n",
         what,

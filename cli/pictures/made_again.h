@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -30,12 +31,21 @@ void parse_again(const Recipe& recipe, const TemporaryFolder& folder, CommandLin
 /// Whether this program is the one that a manifest names.
 bool same_program(const nlohmann::ordered_json& manifest);
 
+/// Which of these parts of a manifest or an index, at `path`, is not what it would say now: a
+/// sentence, or nothing. Another program may word them in another way: of its manifests nothing.
+std::string untrue_part(const nlohmann::ordered_json& then,
+                        const nlohmann::ordered_json& now,
+                        const std::filesystem::path& path,
+                        std::initializer_list<const char*> parts);
+
 /// Says whether files were made again as they were, and as they still are in `root`; else the first
-/// that differs. `what` is that what was checked, for people. Returns the exit code.
+/// that differs; and `untrue`, if it is anything. `what` is that what was checked, for people.
+/// Returns the exit code.
 int tell_made_again(const std::string& what,
                     const std::filesystem::path& root,
                     const FileList& then,
                     const FileList& now,
-                    bool same_program);
+                    bool same_program,
+                    const std::string& untrue);
 
 }  // namespace reprise::cli

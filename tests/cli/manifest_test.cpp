@@ -146,6 +146,20 @@ TEST_F(Manifest, ChecksThatAllIsMadeAgainAndNamesTheFileThatIsNot) {
     std::filesystem::remove(folder_ / "r/d/000024.exr");
     EXPECT_THAT(check().out, HasSubstr("r/d/000024.exr: is no longer there"));
     write_file(folder_ / "r/d/000024.exr", kept);
+    // What it tells people is held as well.
+    const std::string true_text = read_file(folder_ / "r/manifest.json");
+    for (const auto& [key, lie] : {std::pair{"sensors", R"("fov_deg": 90.0)"},
+                                   std::pair{"weather", R"("rain_mm_h": 9.0)"},
+                                   std::pair{"ticks", R"("to": 24)"}}) {
+        std::string lying = true_text;
+        ASSERT_NE(lying.find(lie), std::string::npos) << lie << '\n' << true_text;
+        lying.insert(lying.find(lie) + std::string(lie).size() - 1, "1");
+        write_file(folder_ / "r/manifest.json", lying);
+        const Result told = check();
+        EXPECT_EQ(told.code, 1) << key;
+        EXPECT_THAT(told.out, HasSubstr(std::string("r/manifest.json: its '") + key + "' is not"));
+    }
+    write_file(folder_ / "r/manifest.json", true_text);
     // As if another program, or another machine, had made it.
     std::string text = read_file(folder_ / "r/manifest.json");
     const std::string weather = "\"--weather\": \"rain=9\"";
@@ -183,6 +197,24 @@ TEST_F(Manifest, OfWhatWasKilledInTheMidstIsMissingAndItsCheckSaysSo) {
         EXPECT_EQ(typed("exec " + words + " --ticks 20..23", folder_).code, 0);
         EXPECT_EQ(reprise({"render", "--check", out}, folder_.path()).code, 0);
         std::filesystem::remove_all(folder_ / "r");
+    }
+}
+
+TEST_F(Manifest, OfADataSetTellsWhatItHolds) {
+    ASSERT_EQ(typed("exec reprise dataset t.mcap -o s --size 64x48 --every 2s", folder_).code, 0);
+    const std::string true_text = read_file(folder_ / "s/dataset.json");
+    for (const auto& [key, told, lie] :
+         {std::tuple{"cameras", R"("fov_deg": 82.0)", R"("fov_deg": 28.0)"},
+          std::tuple{"weathers", R"("folder": "recorded")", R"("folder": "clear_noon")"},
+          std::tuple{"frames", R"("tick": 41)", R"("tick": 42)"}}) {
+        std::string lying = true_text;
+        ASSERT_NE(lying.find(told), std::string::npos) << told << '\n' << true_text;
+        lying.replace(lying.find(told), std::string(told).size(), lie);
+        write_file(folder_ / "s/dataset.json", lying);
+        const Result checked = reprise({"dataset", "--check", "s"}, folder_.path());
+        EXPECT_EQ(checked.code, 1) << key;
+        EXPECT_THAT(checked.out,
+                    HasSubstr(std::string("s/dataset.json: its '") + key + "' is not"));
     }
 }
 
