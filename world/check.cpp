@@ -68,6 +68,16 @@ std::size_t shared_words(const std::vector<std::string>& words, const std::strin
         }));
 }
 
+bool are_the_same_but_for_capitals(const std::string& word, const std::string& name) {
+    const auto small = [](char letter) {
+        return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    };
+    return std::equal(
+        word.begin(), word.end(), name.begin(), name.end(), [&](char letter, char other) {
+            return small(letter) == small(other);
+        });
+}
+
 /// The name that shares most words; of several the one that is most alike.
 const std::string* of_same_words(const std::string& word,
                                  const std::vector<std::string>& candidates) {
@@ -94,7 +104,8 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
     std::size_t best = 1 + word.size() / 3;
     const std::string* nearest = nullptr;
     for (const std::string& candidate : candidates) {
-        const std::size_t distance = edit_distance(word, candidate);
+        const std::size_t distance =
+            are_the_same_but_for_capitals(word, candidate) ? 0 : edit_distance(word, candidate);
         if (distance <= best && (nearest == nullptr || distance < best)) {
             best = distance;
             nearest = &candidate;

@@ -16,7 +16,8 @@ ODD = ["NaN", "-1", "1e999", "null", "true", '""', '"\\u0000"', "[]", "{}", "[1]
 WORDS = [["--mount", "nan,0,1"], ["--mount", "1,0"], ["--fov", "nan"], ["--fov", "0"], ["--pitch", "nan"], ["--yaw", "inf"],
          ["--size", "0x0"], ["--size", "100000x100000"], ["--size", "-3x4"], ["--weather", "rain=nan"], ["--weather", "rainy_night"],
          ["--weather", "fog=-1"], ["--sensor", "lidr"], ["--sensor", "lidar", "--attribute", "range=nan"],
-         ["--sensor", "lidar", "--attribute", "channels=1e9"], ["--sensor", "lidar", "--mount", "nan,0,0"],
+         ["--sensor", "lidar", "--attribute", "channels=1e9"], ["--sensor", "semantic_lidar", "--attribute", "upper_fov=-40"],
+         ["--sensor", "lidar", "--mount", "nan,0,0"],
          ["--sensor", "radar", "--weather", "rain=nan"], ["--sensor", "lidar", "--weather", "no_such"]]  # fmt: skip
 
 

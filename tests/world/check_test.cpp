@@ -64,6 +64,12 @@ TEST(DidYouMean, SuggestsANameThatSaysItsUnitAsWell) {
     EXPECT_EQ(did_you_mean("far", keys), "");
 }
 
+TEST(DidYouMean, SuggestsTheSameNameInOtherLetters) {
+    EXPECT_EQ(did_you_mean("RGB", {"rgb", "depth", "dvs"}), " (did you mean 'rgb'?)");
+    EXPECT_EQ(did_you_mean("NUSCENES", {"kitti", "coco", "nuscenes"}),
+              " (did you mean 'nuscenes'?)");
+}
+
 TEST(DidYouMean, KeepsQuietWhenNothingIsNear) {
     EXPECT_EQ(did_you_mean("submarine", models), "");
     const std::vector<std::string> weathers{"clear_noon", "clear_night", "soft_rain_night"};

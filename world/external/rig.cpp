@@ -90,6 +90,9 @@ Rig rig_of(const Command& spawn, std::uint64_t tick, double step) {
 }
 
 std::string contradiction(const SensorSpec& sensor) {
+    if (find_attribute(sensor.kind, "upper_fov") != nullptr &&
+        attribute(sensor, "upper_fov") < attribute(sensor, "lower_fov"))
+        return "upper_fov is below lower_fov, and ring 0 is the uppermost";
     if (!is_camera(sensor.kind))
         return "";
     const bool fisheye = attribute(sensor, "lens") > 0;
