@@ -8,6 +8,7 @@
 #include "tests/support/worlds.h"
 #include "traffic/cars/fleet.h"
 #include "traffic/sight/obstructions.h"
+#include "traffic/sight/pulling_out.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
@@ -115,6 +116,20 @@ TEST(Passing, NobodyPassesAQueueThatGoesOnRoundABend) {
     const world::TownT town = road_with_a_bend(bend_start);
     EXPECT_TRUE(passes(town, 5.5)) << "nothing is shown";
     EXPECT_FALSE(passes(town, 5.5, {bend_start + 14}));
+}
+
+/// SUMO counts the rest of a change in whole milliseconds, and asserts before a turn that one is
+/// left: who stood a few centimetres from the end of a change stopped the run.
+TEST(PullingOut, WhatIsLeftOfAChangeTakesAStepAndNoLess) {
+    for (const double off : {0.004, 0.02, 0.05, 0.3, 1.6})
+        for (const double side : {-1, 1}) {
+            const double pace = PullingOut::pace_to_end_change(side * off, false, step);
+            EXPECT_GE(off / pace, 0.001) << off;
+            EXPECT_LE(off / pace, step) << off;
+        }
+    constexpr double lane = 3.5;  // [m] almost all of it is left of a change that has begun
+    EXPECT_LE(lane / PullingOut::pace_to_end_change(0.02, true, step), step);
+    EXPECT_GT(PullingOut::pace_to_end_change(0, false, step), 0) << "SUMO divides by it";
 }
 
 }  // namespace

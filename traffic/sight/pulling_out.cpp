@@ -32,14 +32,23 @@ double needed_behind(double speed) {
     return gap_behind + (reaction + speed / (2 * brakes_easily)) * speed;
 }
 
-/// In SUMO, within its step.
-void end_change(Car& car) {
-    constexpr double at_once = 100;  // [m/s] sideways
-    car.aside_limit = at_once;
-    libsumo::Vehicle::setMaxSpeedLat(car.sumo, at_once);
+}  // namespace
+
+double PullingOut::pace_to_end_change(double off, bool is_on_its_way_out, double step) {
+    constexpr double at_once = 100;    // [m/s] all of a lane in a step
+    constexpr double nothing = 0.001;  // SUMO divides by it
+    constexpr double spare = 1.2;
+    return is_on_its_way_out ? at_once : std::clamp(spare * std::abs(off) / step, nothing, at_once);
 }
 
-}  // namespace
+/// In SUMO, within its step.
+void PullingOut::end_change(Car& car) const {
+    using libsumo::Vehicle;
+    const double off = Vehicle::getLateralLanePosition(car.sumo);
+    const bool is_on_its_way_out = off * Vehicle::getLateralSpeed(car.sumo) > 0;
+    car.aside_limit = pace_to_end_change(off, is_on_its_way_out, step_);
+    Vehicle::setMaxSpeedLat(car.sumo, car.aside_limit);
+}
 
 /// Its body first behind something that stays there, nobody of SUMO's between.
 bool PullingOut::stands_behind_a_thing(const Car& car, const Cars& cars) const {

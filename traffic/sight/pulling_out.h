@@ -37,7 +37,13 @@ class PullingOut {
     /// Ends it, once the car is in its new lane.
     static void follow(Car& car);
 
+    /// [m/s] sideways for one who is `off` [m] its lane's middle to end a change within a `step`
+    /// [s] of SUMO, and not sooner than in a millisecond: of who would need less of the step SUMO
+    /// asserts that nobody does.
+    static double pace_to_end_change(double off, bool is_on_its_way_out, double step);
+
   private:
+    void end_change(Car& car) const;
     bool stands_behind_a_thing(const Car& car, const Cars& cars) const;
     bool swing_into(std::uint32_t lane,
                     const world::LaneProjection& there,
