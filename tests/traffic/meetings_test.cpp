@@ -671,5 +671,43 @@ TEST(Meetings, NobodyDrivesIntoWhoIsAheadOnHisLane) {
     EXPECT_TRUE(std::isinf(meetings.allowed_speed(1)));
 }
 
+/// SUMO stops at his line who goes the other way of a fork, with his nose in who stands behind it.
+TEST(Meetings, NobodyDrivesIntoWhoStandsBehindAFork) {
+    const TownT& whole = own_town("town1").town;
+    const RoadGraph graph = graph_for(whole);
+    int looked_at = 0;
+    for (const auto& [lane, via] : entries_of(whole)) {
+        if (whole.lanes[via].length < 6 || whole.lanes[lane].links.front().via() != via)
+            continue;
+        ++looked_at;
+        for (const bool forks : {false, true}) {
+            TownT town = whole;
+            auto& links = town.lanes[lane].links;
+            links.resize(1);
+            if (forks)
+                links.push_back(links.front());
+            Cars cars;
+            world::TickDraft draft;
+            Car leader = car_before(town, graph, 7, "sedan", lane, via, 0, 0);
+            const double length = world::vehicle_models()[leader.model].length;
+            leader.lane = via;
+            leader.lane_position = length + 0.1;
+            const world::LanePoint at = world::point_at(town.lanes[via], leader.lane_position);
+            leader.turn_to(at.yaw);
+            leader.trail.advance(at.position);
+            leader.rear = leader.trail.rear();
+            cars.add(std::move(leader), "", 0, draft);
+            cars.add(car_before(town, graph, 8, "sedan", lane, via, 1, 2), "", 0, draft);
+            const RightOfWay right_of_way(town, {});
+            Meetings meetings(town, graph, right_of_way, meeting_step);
+            meetings.look(cars, 2);
+            EXPECT_EQ(meetings.allowed_speed(1) < 2, forks) << town.lanes[via].name;
+        }
+        if (looked_at == 5)
+            break;
+    }
+    EXPECT_EQ(looked_at, 5);
+}
+
 }  // namespace
 }  // namespace reprise::traffic

@@ -34,6 +34,22 @@ bool touch(const world::Box& one, const world::Box& other) {
            one.low.x() <= other.high.x() && other.low.x() <= one.high.x();
 }
 
+/// [lane] Does it lead to one edge by several ways? A car's route does not tell by which it goes.
+std::vector<bool> lanes_that_fork(const world::TownT& town, const RoadGraph& graph) {
+    std::vector<bool> fork(town.lanes.size(), false);
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
+        if (!world::is_for_cars(town.lanes[i]))
+            continue;
+        std::vector<std::uint32_t> edges;
+        for (const world::Link& link : town.lanes[i].links)
+            if (link.to() != none)
+                edges.push_back(graph.edge_of(link.to()));
+        std::sort(edges.begin(), edges.end());
+        fork[i] = std::adjacent_find(edges.begin(), edges.end()) != edges.end();
+    }
+    return fork;
+}
+
 }  // namespace
 
 Meetings::Meetings(const world::TownT& town,
@@ -45,7 +61,8 @@ Meetings::Meetings(const world::TownT& town,
       right_of_way_(&right_of_way),
       step_(step),
       yields_(town.lanes.size(), false),
-      crosses_(lanes_that_cross(town)) {
+      crosses_(lanes_that_cross(town)),
+      forks_(lanes_that_fork(town, graph)) {
     for (const world::LaneT& lane : town.lanes)
         for (const world::Link& link : lane.links)
             if (world::is_for_cars(lane) && link.yields())
@@ -382,6 +399,13 @@ bool Meetings::follows(const Driver& driver, const Driver& leader) {
     return std::find(lanes.begin(), lanes.end(), leader.car->lane) != lanes.end();
 }
 
+/// SUMO does. But where it has the driver go the other way of a fork, it stops him at his line,
+/// with his nose in the tail of who has just gone this way.
+void Meetings::keep_behind(const Driver& driver, const Driver& leader) {
+    if (forks_[driver.car->lane])
+        hold(driver, stop_before_body(driver, leader));
+}
+
 /// Else its tail may still lie where others cross.
 bool Meetings::is_all_on_its_lane(const Driver& driver) {
     return driver.car->lane_position > 2 * driver.half_length;
@@ -410,9 +434,12 @@ void Meetings::meet(Driver& one, Driver& other) {
         return;
     const bool one_follows = follows(one, other);
     const bool other_follows = follows(other, one);
-    if ((one_follows && other_follows) || (one_follows && is_all_on_its_lane(other)) ||
-        (other_follows && is_all_on_its_lane(one)))
+    if (one_follows && other_follows)
         return;
+    if (one_follows && is_all_on_its_lane(other))
+        return keep_behind(one, other);
+    if (other_follows && is_all_on_its_lane(one))
+        return keep_behind(other, one);
     if (pushes_past(one, other))
         return let_past(other, one);
     if (pushes_past(other, one))

@@ -133,6 +133,7 @@ class Meetings {
     bool could_meet(const Driver& one, const Driver& other) const;
     void meet(Driver& one, Driver& other);
     void follow(const Driver& one, const Driver& other);
+    void keep_behind(const Driver& driver, const Driver& leader);
     void wait(Driver& driver, Driver& other, const Stop& stop);
     void prepare(Driver& driver);
     void push_past(Driver& one, Driver& other) const;
@@ -162,6 +163,7 @@ class Meetings {
     double step_;                ///< [s]
     std::vector<bool> yields_;   ///< by lane of a junction: has to let others go first
     std::vector<bool> crosses_;  ///< by lane outside of one: another road's runs over it
+    std::vector<bool> forks_;    ///< by lane: leads to one edge by several ways
     std::vector<double> allowed_;
     std::vector<Driver> drivers_;  ///< [i] of cars[i]; without a car who takes no part
     std::vector<Place> places_;
