@@ -120,7 +120,9 @@ class NavigationVector(gymnasium.vector.VectorEnv):
     give. Whoever has ended is reset by the next step, and its action is passed over.
     """
 
-    metadata: dict[str, Any] = {**Navigation.metadata, "autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
+    metadata: dict[str, Any] = {**Navigation.metadata}
+    if hasattr(gymnasium.vector, "AutoresetMode"):  # from 1.1 on; 1.0 has no other mode
+        metadata["autoreset_mode"] = gymnasium.vector.AutoresetMode.NEXT_STEP
 
     def __init__(self, num_envs: int = 1, polling: float = 0.0, **arguments: Any) -> None:
         if num_envs < 1:
