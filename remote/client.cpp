@@ -54,6 +54,14 @@ void unpack(const flatbuffers::Vector<std::uint8_t>* bytes, Object& object, cons
     flatbuffers::GetRoot<Table>(bytes->data())->UnPackTo(&object);
 }
 
+template <class Table>
+bool holds(const flatbuffers::Vector<std::uint8_t>* bytes) {
+    if (bytes == nullptr)
+        return false;
+    flatbuffers::Verifier verifier(bytes->data(), bytes->size());
+    return verifier.VerifyBuffer<Table>(nullptr);
+}
+
 }  // namespace
 
 struct Client::Parts {
@@ -207,17 +215,12 @@ std::optional<world::TickView> Client::next() {
     if (parts.last.kind != Kind::observation)
         return std::nullopt;
     const Observation& seen = parts.last.as<Observation>();
-    const auto holds = [](const auto* bytes, const auto& verify) {
-        if (bytes == nullptr)
-            return false;
-        flatbuffers::Verifier verifier(bytes->data(), bytes->size());
-        return verify(verifier);
-    };
-    if (!holds(seen.tick(),
-               [](auto& v) { return v.template VerifyBuffer<world::Tick>(nullptr); }) ||
-        (seen.traffic() != nullptr && !holds(seen.traffic(), [](auto& v) {
-             return v.template VerifyBuffer<world::Traffic>(nullptr);
-         })))
+    bool is_whole = holds<world::Tick>(seen.tick()) &&
+                    (seen.traffic() == nullptr || holds<world::Traffic>(seen.traffic()));
+    if (seen.passed() != nullptr)
+        for (const PassedTick* one : *seen.passed())
+            is_whole = is_whole && holds<world::Tick>(one->tick());
+    if (!is_whole)
         throw world::Error("the run showed what is no tick");
     const world::TickView view{
         world::GetTick(seen.tick()->data()),
@@ -225,6 +228,15 @@ std::optional<world::TickView> Client::next() {
                                                     : parts.no_traffic.GetBufferPointer())};
     parts.tick = view.index();
     return view;
+}
+
+std::vector<const world::Tick*> Client::passed() const {
+    std::vector<const world::Tick*> ticks;
+    if (parts_->last.kind == Kind::observation)
+        if (const auto* passed = parts_->last.as<Observation>().passed())
+            for (const PassedTick* one : *passed)
+                ticks.push_back(world::GetTick(one->tick()->data()));
+    return ticks;
 }
 
 const world::SensorRig& Client::sensors() const {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "remote/polling.h"
 #include "remote/wire_generated.h"
@@ -62,6 +63,10 @@ class Client {
     /// The next tick; nothing when the run is over. It lives until the next call. Throws
     /// world::Error when the run is gone without a word, or says what went wrong.
     std::optional<world::TickView> next();
+
+    /// Ticks since the one before, of a driver that is shown each few only: what was said and what
+    /// happened in them. In their order; they live as long as the last tick.
+    std::vector<const world::Tick*> passed() const;
 
     /// How the run ended, once next() gave nothing.
     const world::Outcome& outcome() const;

@@ -75,7 +75,8 @@ Packed pack_observation(std::span<const std::uint8_t> tick,
                         std::span<const std::uint8_t> traffic,
                         std::span<const PlacedPicture> pictures,
                         const std::uint8_t* memory,
-                        const Guidance& guidance) {
+                        const Guidance& guidance,
+                        std::span<const std::vector<std::uint8_t>> passed) {
     using Bytes = flatbuffers::Offset<flatbuffers::Vector<std::uint8_t>>;
     Packed message(tick.size() + traffic.size() + 256);
     std::vector<flatbuffers::Offset<Picture>> placed;
@@ -91,10 +92,21 @@ Packed pack_observation(std::span<const std::uint8_t> tick,
     const auto of_pictures =
         placed.empty() ? flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<Picture>>>()
                        : message.CreateVector(placed);
+    std::vector<flatbuffers::Offset<PassedTick>> gone;
+    for (const std::vector<std::uint8_t>& one : passed)
+        gone.push_back(CreatePassedTick(message, add(message, one)));
+    const auto of_passed =
+        gone.empty() ? flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<PassedTick>>>()
+                     : message.CreateVector(gone);
     const Bytes of_traffic = traffic.empty() ? Bytes() : add(message, traffic);
     const Bytes of_tick = tick.empty() ? Bytes() : add(message, tick);
-    message.Finish(CreateObservation(
-        message, of_tick, of_traffic, of_pictures, guidance.turning, guidance.way_to_goal));
+    message.Finish(CreateObservation(message,
+                                     of_tick,
+                                     of_traffic,
+                                     of_pictures,
+                                     guidance.turning,
+                                     guidance.way_to_goal,
+                                     of_passed));
     return message;
 }
 

@@ -31,12 +31,13 @@ std::span<const std::uint8_t> bytes_of(const Packed& message);
 Packed pack_hello(const Greeting& greeting, const world::Recording& recording);
 
 /// `memory`: null where the other end looks into it itself; else the pictures go along. Readings
-/// always do.
+/// always do. `passed`: ticks since the last observation.
 Packed pack_observation(std::span<const std::uint8_t> tick,
                         std::span<const std::uint8_t> traffic,
                         std::span<const PlacedPicture> pictures,
                         const std::uint8_t* memory,
-                        const Guidance& guidance = {});
+                        const Guidance& guidance = {},
+                        std::span<const std::vector<std::uint8_t>> passed = {});
 
 /// What a vehicle knows of itself, as a world.Tick: index, its control, state, wheels and
 /// measurement (its gap_ahead, which is seen and not felt, is nan). All else is empty or zero.

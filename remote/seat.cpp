@@ -50,6 +50,7 @@ struct Seat::Parts {
     std::optional<Guide> guide;       ///< once taken
     std::optional<LiveRig> rig;
     bool sees_sensors = false;
+    Rhythm rhythm;  ///< once taken
 
     /// A tick whose frames are being rendered, or that stands behind such a one.
     struct Unshown {
@@ -61,6 +62,51 @@ struct Seat::Parts {
     };
 
     std::deque<Unshown> unshown;
+
+    /// Since the tick that was shown last.
+    struct Passed {
+        std::vector<std::vector<std::uint8_t>> ticks;
+        std::vector<PlacedPicture> readings;  ///< of what tells what happens, at most one a sensor
+    };
+
+    Passed passed;
+
+    /// A tick that the driver is not shown, and what was measured in it.
+    void pass(std::span<const std::uint8_t> tick, std::vector<PlacedPicture> frames) {
+        passed.ticks.emplace_back(tick.begin(), tick.end());
+        for (PlacedPicture& frame : frames) {
+            put_behind_earlier(frame);
+            std::erase_if(passed.readings,
+                          [&](const auto& earlier) { return earlier.sensor == frame.sensor; });
+            passed.readings.push_back(std::move(frame));
+        }
+    }
+
+    /// A reading has the rows of the ticks that passed as well.
+    void put_behind_earlier(PlacedPicture& frame) const {
+        for (const PlacedPicture& earlier : passed.readings)
+            if (earlier.sensor == frame.sensor && !earlier.reading.empty()) {
+                frame.reading.insert(
+                    frame.reading.begin(), earlier.reading.begin(), earlier.reading.end());
+                frame.size = frame.reading.size();
+            }
+    }
+
+    /// A tick that the driver is shown.
+    std::optional<Lost> hand_over(std::uint64_t tick,
+                                  std::span<const std::uint8_t> of_tick,
+                                  std::span<const std::uint8_t> of_traffic,
+                                  std::vector<PlacedPicture> frames,
+                                  const Guidance& guidance) {
+        for (PlacedPicture& frame : frames)
+            put_behind_earlier(frame);
+        const auto* memory =
+            !rig || channel->carries_descriptors() ? nullptr : rig->memory().bytes().data();
+        const Packed observation =
+            pack_observation(of_tick, of_traffic, frames, memory, guidance, passed.ticks);
+        passed = {};
+        return send(tick, observation);
+    }
 
     /// Now and then while it is waited for: whether that is in vain, because its program has ended
     /// and only the socket is still open, in what it has left running.
@@ -141,7 +187,7 @@ struct Seat::Parts {
     }
 
     /// Whoever has hung up may have said why: answer() reads what is left, and finds that out.
-    std::optional<Lost> hand_over(std::uint64_t tick, const Packed& observation) {
+    std::optional<Lost> send(std::uint64_t tick, const Packed& observation) {
         shown.push_back(tick);
         try {
             channel->send(Kind::observation, bytes_of(observation), patience);
@@ -158,12 +204,11 @@ struct Seat::Parts {
             const Unshown& next = unshown.front();
             if (next.has_frames && !rig->has(next.index))
                 break;
-            const auto frames = next.has_frames ? rig->take() : std::vector<PlacedPicture>();
-            const auto* memory =
-                channel->carries_descriptors() ? nullptr : rig->memory().bytes().data();
-            if (auto gone = hand_over(
-                    next.index,
-                    pack_observation(next.tick, next.traffic, frames, memory, next.guidance)))
+            auto frames = next.has_frames ? rig->take() : std::vector<PlacedPicture>();
+            if (!rhythm.shows(next.index))
+                pass(next.tick, std::move(frames));
+            else if (auto gone = hand_over(
+                         next.index, next.tick, next.traffic, std::move(frames), next.guidance))
                 return gone;
         }
         return std::nullopt;
@@ -236,6 +281,7 @@ std::optional<Lost> Seat::take(std::uint32_t id,
     parts.id = id;
     parts.guide = spawned.guide != nullptr ? *spawned.guide : Guide(recording.town, id);
     if (spawned.command != nullptr) {
+        parts.rhythm = Rhythm::of(*spawned.command, spawned.tick, spawned.now);
         parts.sees_sensors = spawned.command->sees_sensors;
         const world::Rig rig = world::rig_of(
             *spawned.command, spawned.tick, world::seconds(1, recording.episode.step_ns));
@@ -267,6 +313,10 @@ std::optional<Lost> Seat::take(std::uint32_t id,
     }
 }
 
+const Rhythm& Seat::rhythm() const {
+    return parts_->rhythm;
+}
+
 std::optional<Lost> Seat::show(const world::SealedTick& tick) {
     Parts& parts = *parts_;
     if (parts.door)
@@ -283,9 +333,12 @@ std::optional<Lost> Seat::show(const world::SealedTick& tick) {
     }
     try {
         const bool has_frames = parts.rig && parts.rig->ask(tick);
-        if (!has_frames && parts.unshown.empty())
-            return parts.hand_over(index,
-                                   pack_observation(of_tick, of_traffic, {}, nullptr, guidance));
+        if (!has_frames && parts.unshown.empty()) {
+            if (parts.rhythm.shows(index))
+                return parts.hand_over(index, of_tick, of_traffic, {}, guidance);
+            parts.pass(of_tick, {});
+            return std::nullopt;
+        }
         parts.unshown.push_back({index,
                                  {of_tick.begin(), of_tick.end()},
                                  {of_traffic.begin(), of_traffic.end()},
@@ -299,11 +352,13 @@ std::optional<Lost> Seat::show(const world::SealedTick& tick) {
 
 std::optional<Lost> Seat::show_due() {
     Parts& parts = *parts_;
-    if (!parts.shown.empty() || parts.unshown.empty())
-        return std::nullopt;
     try {
-        parts.rig->wait_for(parts.unshown.front().index, parts.patience.given_up);
-        return parts.show_finished();
+        while (parts.shown.empty() && !parts.unshown.empty()) {
+            parts.rig->wait_for(parts.unshown.front().index, parts.patience.given_up);
+            if (auto lost = parts.show_finished())
+                return lost;
+        }
+        return std::nullopt;
     } catch (const RenderFault& fault) {
         return parts.lost_renderer(fault);
     } catch (const ChannelFault& fault) {

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "remote/frame_channel.h"
+#include "remote/rhythm.h"
 #include "remote/seat_plan.h"
 #include "world/recording.h"
 #include "world/tick.h"
@@ -29,6 +30,7 @@ struct Lost {
 struct Spawned {
     const world::CommandT* command = nullptr;
     std::uint64_t tick = 0;        ///< in which it appeared
+    std::uint64_t now = 0;         ///< in which its driver sits down; of who takes over: later
     std::string render_program;    ///< for the shell, see LiveRig
     const Guide* guide = nullptr;  ///< of who takes over: what the vehicle was told until now
     std::span<const std::uint8_t> tick_before{};     ///< of who takes over, as recorded
@@ -36,8 +38,8 @@ struct Spawned {
 };
 
 /// The place at the wheel that a driver in another program takes. The run goes tick by tick with
-/// it: show() what was recorded, then wait for its answer(). Where the vehicle carries a rig, a
-/// tick is shown as soon as its frames are there.
+/// it: show() what was recorded, then wait for its answer(), where it is asked for one (Rhythm).
+/// Where the vehicle carries a rig, a tick is shown as soon as its frames are there.
 class Seat {
   public:
     /// Starts the program, or makes the socket, open for this user only. `patience`: for each
@@ -65,8 +67,11 @@ class Seat {
     /// Its id, once taken.
     std::optional<std::uint32_t> id() const;
 
-    /// Hands over a tick, or begins to render what belongs to it. Does not wait for what the driver
-    /// makes of it.
+    /// Which ticks its driver is shown, once taken.
+    const Rhythm& rhythm() const;
+
+    /// Hands over a tick, or begins to render what belongs to it; one that the driver is not shown
+    /// goes along with the next. Does not wait for what the driver makes of it.
     std::optional<Lost> show(const world::SealedTick& tick);
 
     /// Before answer(), where there are several: waits for the frames of the tick that it is to

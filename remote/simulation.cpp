@@ -93,7 +93,8 @@ flatbuffers::Offset<Task> pack_task(Builder& builder, const EpisodePlan& plan) {
                       builder.CreateVector(rig),
                       plan.walkers,
                       plan.walker_seed.has_value(),
-                      plan.walker_seed.value_or(0));
+                      plan.walker_seed.value_or(0),
+                      plan.every);
 }
 
 Builder pack(const EpisodePlan& plan) {

@@ -32,7 +32,7 @@ using TaskPlace = std::variant<Drawn, OnLane, AtSpawnPoint>;
 /// A sensor of a task's vehicle.
 struct TaskCamera {
     world::SensorSpec sensor;
-    std::uint32_t every = 1;  ///< [ticks]
+    std::uint32_t every = 0;  ///< [ticks] between frames; 0: in each tick that is shown
 };
 
 /// What an episode starts from: a task, unless a scenario is named. Equal plans give equal ticks.
@@ -47,6 +47,7 @@ struct EpisodePlan {
     TaskPlace start = Drawn{};
     std::optional<TaskPlace> goal{};  ///< none: it drives until the time is over
     std::vector<TaskCamera> rig{};
+    std::uint32_t every = 1;  ///< [ticks] from one that is shown, and answered, to the next
 
     std::string file{};    ///< a scenario in the server's folder, in place of the task; or
     std::string source{};  ///< a scenario's text; it spawns 'ego' with driver = 'external'
@@ -90,8 +91,8 @@ class Simulation {
     /// be, such as "my.lua:3: ..." for a mistake in the scenario; another reset may follow.
     std::optional<world::TickView> reset(const EpisodePlan& plan);
 
-    /// One tick with this at the wheel: what the next one shows; nothing when the episode is over.
-    /// Throws world::Error.
+    /// `every` ticks with this at the wheel: what the next one shows; nothing when the episode is
+    /// over. Throws world::Error.
     std::optional<world::TickView> step(const Client::Wheel& wheel);
 
     /// How the last episode ended, once there was no next tick.

@@ -58,7 +58,10 @@ void Seats::lose(const remote::Seat& seat, remote::Lost lost) {
 }
 
 /// Gives an actor the driver that was named for it, if one was.
-bool Seats::seat(const world::Spawn& spawn, const remote::Guide* guide, const TickBytes& before) {
+bool Seats::seat(const world::Spawn& spawn,
+                 std::uint64_t now,
+                 const remote::Guide* guide,
+                 const TickBytes& before) {
     const auto seat = std::find_if(free_.begin(), free_.end(), [&](const auto& one) {
         return one->actor() == spawn.command.text;
     });
@@ -66,6 +69,7 @@ bool Seats::seat(const world::Spawn& spawn, const remote::Guide* guide, const Ti
         return false;
     const remote::Spawned spawned{&spawn.command,
                                   spawn.tick,
+                                  now,
                                   spawn.command.rig.empty() ? std::string() : render_program(),
                                   guide,
                                   before.tick,
@@ -73,7 +77,7 @@ bool Seats::seat(const world::Spawn& spawn, const remote::Guide* guide, const Ti
     const std::uint32_t actor = spawn.command.actor;
     if (auto lost = (*seat)->take(actor, *recording_, spawned))
         lose(**seat, std::move(*lost));
-    taken_[actor] = {std::move(*seat), spawn.command.latency};
+    taken_[actor] = {std::move(*seat), spawn.command.latency, now};
     free_.erase(seat);
     return true;
 }
@@ -97,7 +101,7 @@ void Seats::welcome(const world::Tick& tick) {
         world::Spawn spawn{{}, tick.index()};
         command->UnPackTo(&spawn.command);
         const std::string& name = spawn.command.text;
-        if (!seat(spawn))
+        if (!seat(spawn, tick.index()))
             throw world::Error(fmt::format(
                 "{}:{}: spawn: '{}' is driven by another program: say which by --driver "
                 "{}='COMMAND'",
@@ -119,7 +123,7 @@ void Seats::take_over(const world::ExternalDrivers& there,
                       const world::SealedTick& tick) {
     for (const auto& [actor, spawn] : there.spawns()) {
         const auto told = guides.find(actor);
-        seat(spawn, told == guides.end() ? nullptr : &told->second, before);
+        seat(spawn, tick.view().index(), told == guides.end() ? nullptr : &told->second, before);
     }
     ask(tick, [] {});
 }
@@ -132,22 +136,28 @@ void Seats::ask(const world::SealedTick& tick, const std::function<void()>& mean
             lose(*taken.seat, std::move(*lost));
     if (!taken_.empty() && !loss_)
         meanwhile();
+    const std::uint64_t now = tick.view().index();
     for (const auto& [id, taken] : taken_)
-        if (auto lost = loss_ || taken.silent_ticks > 0 ? std::nullopt : taken.seat->show_due())
+        if (auto lost = loss_ || !taken.is_due(now) ? std::nullopt : taken.seat->show_due())
             lose(*taken.seat, std::move(*lost));
     for (auto& [id, taken] : taken_) {
         if (loss_)
             return;
-        if (taken.silent_ticks > 0) {
-            --taken.silent_ticks;
-            continue;
-        }
-        auto answer = taken.seat->answer();
-        if (auto* lost = std::get_if<remote::Lost>(&answer))
-            lose(*taken.seat, std::move(*lost));
-        else
-            controls_.push_back(std::get<world::Control>(answer));
+        if (taken.is_due(now))
+            hear(taken);
+        if (taken.said && !loss_)
+            controls_.push_back(*taken.said);
     }
+}
+
+void Seats::hear(Taken& taken) {
+    auto answer = taken.seat->answer();
+    if (auto* lost = std::get_if<remote::Lost>(&answer)) {
+        lose(*taken.seat, std::move(*lost));
+        return;
+    }
+    taken.said = std::get<world::Control>(answer);
+    taken.asked = taken.seat->rhythm().next(taken.asked);
 }
 
 void Seats::see_last(const world::SealedTick& tick) {

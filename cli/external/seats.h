@@ -40,10 +40,10 @@ class Seats {
     /// One more, of a driver that is here already.
     void add(std::unique_ptr<remote::Seat> seat) { free_.push_back(std::move(seat)); }
 
-    /// Behind a tick that is not the last: shows it, does `meanwhile` while drivers think, and
-    /// waits for the answers that are due: to this tick, or to an earlier one by the latency that
-    /// the scenario gave an actor. Throws world::Error, "my.lua:3: ...", for an actor that nobody
-    /// was named for.
+    /// Behind a tick that is not the last: shows it to those who are to see it, does `meanwhile`
+    /// while drivers think, and waits for the answers that are due: to this tick, or to an earlier
+    /// one by the latency that the scenario gave an actor. Until the next is due the last one
+    /// holds. Throws world::Error, "my.lua:3: ...", for an actor that nobody was named for.
     void go_on(const world::SealedTick& tick, const std::function<void()>& meanwhile);
 
     /// Likewise in the middle of a run: who is named here drives whoever is there from this tick
@@ -95,20 +95,26 @@ class Seats {
     bool drives(std::uint32_t actor) const { return taken_.count(actor) > 0; }
 
   private:
+    struct Taken {
+        std::unique_ptr<remote::Seat> seat;
+        unsigned latency = 0;                  ///< [ticks]
+        std::uint64_t asked = 0;               ///< tick whose answer is to be the next
+        std::optional<world::Control> said{};  ///< in the last one
+
+        bool is_due(std::uint64_t tick) const { return tick >= asked + latency; }
+    };
+
     void welcome(const world::Tick& tick);
     bool seat(const world::Spawn& spawn,
+              std::uint64_t now,
               const remote::Guide* guide = nullptr,
               const TickBytes& before = {});
     void ask(const world::SealedTick& tick, const std::function<void()>& meanwhile);
+    void hear(Taken& taken);
     void lose(const remote::Seat& seat, remote::Lost lost);
 
     const world::Recording* recording_;
     std::vector<std::unique_ptr<remote::Seat>> free_;
-
-    struct Taken {
-        std::unique_ptr<remote::Seat> seat;
-        unsigned silent_ticks = 0;  ///< that go by before the first answer is waited for
-    };
 
     std::map<std::uint32_t, Taken> taken_;  ///< by actor
     std::vector<world::Control> controls_;

@@ -42,7 +42,7 @@ return scenario 'task' {{
     params = {{ model = 'sedan', start = '', s = 10.0, with_goal = false, goal = '', goal_s = 30.0 }},
 
     run = function(p)
-        local place = {{ name = 'ego', model = p.model, driver = 'external'{rig} }}
+        local place = {{ name = 'ego', model = p.model, driver = 'external'{every}{rig} }}
         if p.start ~= '' then place.lane, place.s = p.start, p.s end
         local ego = spawn(place)
         if not p.with_goal then wait(7200) end
@@ -133,6 +133,11 @@ std::string view_text(const remote::TaskSensor& sensor) {
     return text;
 }
 
+/// `, every = ...` of spawn or of a sensor.
+std::string every_text(std::uint32_t every) {
+    return every == 0 ? "" : fmt::format(", every = {}", every);
+}
+
 /// `, rig = { ... }` of spawn, in the scenario's words, which say what may be in it.
 std::string rig_text(const remote::Task& task) {
     if (task.rig() == nullptr || task.rig()->size() == 0)
@@ -141,10 +146,9 @@ std::string rig_text(const remote::Task& task) {
         throw world::Error(fmt::format("the task's rig: at most {} sensors", most_sensors));
     std::string text;
     for (const remote::TaskSensor* sensor : *task.rig()) {
-        text += fmt::format("{{ name = '{}', kind = '{}', every = {}",
-                            word(sensor->name()),
-                            word(sensor->kind()),
-                            sensor->every());
+        text +=
+            fmt::format("{{ name = '{}', kind = '{}'", word(sensor->name()), word(sensor->kind()));
+        text += every_text(sensor->every());
         text += view_text(*sensor);
         for (const auto& [key, value] : {std::pair("x", sensor->x()),
                                          std::pair("y", sensor->y()),
@@ -187,12 +191,14 @@ TaskScenario scenario_of(const remote::Task& task, const world::TownT& town) {
         throw world::Error(fmt::format("the task's walker_seed: at most {}", most_seed));
     TaskScenario scenario;
     // Only names that were looked up go into the text; what a client wrote goes in as parameters.
-    scenario.source = fmt::format(task_text,
-                                  fmt::arg("town", town.name),
-                                  fmt::arg("cars", task.cars()),
-                                  fmt::arg("walkers", walkers_text(task)),
-                                  fmt::arg("weather", weather),
-                                  fmt::arg("rig", rig_text(task)));
+    scenario.source =
+        fmt::format(task_text,
+                    fmt::arg("town", town.name),
+                    fmt::arg("cars", task.cars()),
+                    fmt::arg("walkers", walkers_text(task)),
+                    fmt::arg("weather", weather),
+                    fmt::arg("every", task.every() > 1 ? every_text(task.every()) : ""),
+                    fmt::arg("rig", rig_text(task)));
     auto& parameters = scenario.overrides.parameters;
     if (task.model() != nullptr && task.model()->size() != 0)
         parameters.emplace_back("model", task.model()->str());

@@ -69,7 +69,8 @@ class Run:
     Attributes: `actor` id of the driven vehicle, `name` the scenario's word for it, `step` [s] between ticks, `town`
     and `episode` nouns (world/town.fbs, world/episode.fbs); `town.lanes[i].centre` is a centre line; `sensors.rig` what
     the vehicle carries (Sensor of world/tick.fbs), `route` the set_route in force, with the stops that are left, for who
-    takes over in the middle of a run (Command of world/tick.fbs; else None: routes are in the ticks).
+    takes over in the middle of a run (Command of world/tick.fbs; else None: routes are in the ticks), `every` [ticks] from
+    one that the driver is shown to the next.
     """
 
     def __init__(self, hello: Noun, memory: int | None = None) -> None:
@@ -79,6 +80,7 @@ class Run:
         self.town = Noun(hello.town.data, "world.Town")
         self.episode = Noun(hello.episode.data, "world.Episode")
         self.route: Noun | None = Noun(hello.route.data, "world.Command") if len(hello.route) else None
+        self.every: int = (Noun(hello.spawn.data, "world.Command").every if len(hello.spawn) else 0) or 1
         self.sensors = Sensors.of(hello, memory)
 
 
@@ -164,6 +166,12 @@ class Observation:
         """world.Traffic: what moves without mass."""
         return self._message.nested("traffic", "world.Traffic") or Noun(_NO_TRAFFIC, "world.Traffic")
 
+    @functools.cached_property
+    def passed(self) -> tuple[Noun, ...]:
+        """The ticks since the one before, of a driver that is shown each few only (`every`): what was said and what
+        happened in them is there, and nowhere else."""
+        return tuple(one.nested("tick", "world.Tick") for one in self._message.passed)
+
     @property
     def index(self) -> int:
         """Of the tick; 1 is the first of the run."""
@@ -220,9 +228,9 @@ Driver = Callable[[Observation], Control]
 
 
 def drive(driver: Driver, address: str | None = None, *, polling: float = POLLING) -> int:
-    """Drives until the run is over. Returns how many ticks were driven.
+    """Drives until the run is over. Returns how often it was asked.
 
-    `driver` is asked once a tick. What it raises ends the run with the verdict driver_lost, and is raised here; the run
+    `driver` is asked once for each tick that it is shown. What it raises ends the run with the verdict driver_lost, and is raised here; the run
     is told what it was, and in which tick.
     `address` is a socket's path or '127.0.0.1:PORT'; without it the program must have been started by `reprise run
     --driver`. Raises WireError where the place is taken.

@@ -42,7 +42,7 @@ class Navigation(gymnasium.Env):
     'way_to_goal' [m], 'reward_terms'.
 
     `weather` is a preset's name, or a list to draw from. `cars` take the place of the task's own number. `server` and
-    `token` as of reprise.Simulation, `polling` too, and `folder`, where options={'trace': 'a.mcap'} records an episode; `tasks` is the
+    `token` as of reprise.Simulation, `polling` too, `every` (an action holds for so many ticks of 0.05 s), and `folder`, where options={'trace': 'a.mcap'} records an episode; `tasks` is the
     path of another tasks.json.
     """
 
@@ -51,15 +51,16 @@ class Navigation(gymnasium.Env):
     def __init__(self, town: str = "town1", task: str = "navigation", weather: str | list[str] = "clear_noon",
                  obs: str = "state", cars: int | None = None, server: str | None = None, token: str | None = None,
                  tasks: str | os.PathLike | None = None, folder: str | os.PathLike = ".",
-                 render_mode: str | None = None, polling: float = POLLING) -> None:  # fmt: skip
+                 render_mode: str | None = None, polling: float = POLLING, every: int = 1) -> None:  # fmt: skip
         self.render_mode = render_mode
+        self.metadata = {**self.metadata, "render_fps": 20 / every}
         self.episodes = read_episodes(town, task, tasks)
         self.weathers = [weather] if isinstance(weather, str) else list(weather)
         self.action_space = action_space()
         self.observation_space = observation_space(obs)
         self._obs = obs
         self._sim = Simulation(town, cars=cars_of(town, task, cars), server=server, token=token, rig=rig_of(obs),
-                               folder=folder, polling=polling)  # fmt: skip
+                               folder=folder, polling=polling, every=every)  # fmt: skip
         self._journey: Journey | None = None
 
     def reset(self, *, seed: int | None = None,

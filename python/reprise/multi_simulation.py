@@ -23,7 +23,8 @@ class MultiSimulation(Client):
 
     `scenario` as of reprise.Simulation; it spawns each of `drivers` with driver = 'external', when and where it likes.
     Who has not appeared yet, or was taken away (`ego:despawn()`), is not in what reset() and step() return; without
-    anybody on the road the run goes on until somebody appears, or to its end. Rigs are the scenario's.
+    anybody on the road the run goes on until somebody appears, or to its end. Rigs are the scenario's; so is who is shown
+    each few ticks only (`every`): only who is in what was returned is told what to do.
 
     `settings`, `seed`, `seconds`, `trace`, `folder` and `server` as of reprise.Simulation; a server must be reached by
     the path of its socket, as connections cannot be handed over through a port.
@@ -35,6 +36,7 @@ class MultiSimulation(Client):
         self.runs: dict[str, Run] = {}  #: of those on the road, by name; also `seen[name].run`
         self._wires: dict[str, Wire] = {}  # of those that drive, or may come
         self._seen: dict[str, Observation] = {}
+        self._due: dict[str, int] = {}  # the next tick that each on the road is shown, by name
         self._is_on = False  # an episode whose last word was not heard yet
         super().__init__(dict(drivers=drivers, scenario=scenario, settings=settings, seed=seed, seconds=seconds,
                               trace=trace), server, token, folder)  # fmt: skip
@@ -52,7 +54,7 @@ class MultiSimulation(Client):
     def _let_go(self) -> None:
         for wire in self._wires.values():
             wire.close()
-        self._wires, self._seen, self.runs = {}, {}, {}
+        self._wires, self._seen, self._due, self.runs = {}, {}, {}, {}
 
     def _last_word(self) -> None:
         """The run's, on our own connection. Raises Fault."""
@@ -83,8 +85,8 @@ class MultiSimulation(Client):
         return seen
 
     def _look(self) -> dict[str, Observation]:
-        """What the next tick shows to each that is on the road. Empty: the run is over."""
-        self._seen, waiting = {}, set(self.runs)
+        """What the next tick in which somebody is shown anything shows. Empty: the run is over."""
+        self._seen, waiting = {}, {name for name in self.runs if self._due[name] == min(self._due.values())}
         while waiting or not self._seen:
             wires = {name: wire for name, wire in self._wires.items() if name in waiting or name not in self.runs}
             ready, _, _ = select.select([*wires.values(), self._open_wire()], [], [])
@@ -107,11 +109,15 @@ class MultiSimulation(Client):
             self.runs[name] = Run(message, wire.descriptor())
             waiting.add(name)
         elif kind == "observation":
-            self._seen[name] = Observation(self.runs[name], message)
+            seen = self._seen[name] = Observation(self.runs[name], message)
             waiting.discard(name)
+            self._due[name] = seen.index + self.runs[name].every
+            # Who has just appeared is shown that tick; those who are shown later ones are not waited for.
+            waiting -= {other for other in waiting if self._due.get(other, 0) > seen.index}
         elif kind == "goodbye" and not message.verdict:  # taken away, and the run goes on
             wire.close()
             del self._wires[name], self.runs[name]
+            self._due.pop(name, None)
             waiting.discard(name)
         else:
             return True

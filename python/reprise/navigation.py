@@ -15,7 +15,7 @@ from typing import Any, Sequence
 import numpy as np
 from gymnasium import spaces
 
-from .driver import Control, Observation
+from .driver import Control, Ego, Observation
 from .simulation import find_program
 from .state import COMMANDS, SIZE, Measured, StateVector
 
@@ -92,16 +92,20 @@ class Infractions:
         self._impulses = (0.0, 0.0, 0.0)
 
     def look(self, seen: Observation) -> None:
-        """Counts what happens in the next tick."""
-        ego = seen.ego
+        """Counts what happens in the next ticks, up to the one that is seen."""
+        for tick in seen.passed:
+            self._count(Ego(tick, seen.run.actor), tick.index * seen.run.step)
+        self._count(seen.ego, seen.time)
+
+    def _count(self, ego: Ego, time: float) -> None:
         impulses = (ego.impulse_static, ego.impulse_vehicles, ego.impulse_walkers)
         now = [ego.on_opposite_lane > SHARE, ego.on_sidewalk > SHARE]
         now += [new > old for new, old in zip(impulses, self._impulses)]
         self._impulses = impulses
         for kind, happens in zip(self.KINDS, now):
-            if happens and seen.time >= self._until[kind]:
+            if happens and time >= self._until[kind]:
                 self.counts[kind] += 1
-                self._until[kind] = seen.time + LONGEST
+                self._until[kind] = time + LONGEST
 
 
 class Journey:

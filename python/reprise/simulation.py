@@ -93,7 +93,7 @@ class _Server:
 
 #: of a sensor, where nothing else is said
 _SENSOR = dict(kind="rgb", width=800, height=600, fov_deg=90.0, x=1.0, y=0.0, z=1.4, yaw_deg=0.0, pitch_deg=0.0,
-               roll_deg=0.0, every=1)  # fmt: skip
+               roll_deg=0.0, every=0)  # fmt: skip
 
 
 def _sensor(said: Mapping[str, Any]) -> dict[str, Any]:
@@ -191,6 +191,10 @@ class Client:
     def _check_plan(self) -> None:
         if self._plan["scenario"] is not None and self._plan["walkers"] != 0:
             raise ValueError("walkers: a scenario says itself how many people walk: walkers = 100 in its header")
+        if self._plan["scenario"] is not None and self._plan["every"] != 1:
+            raise ValueError("every: a scenario says itself how often its driver is asked: spawn{ every = 2 }")
+        if not (isinstance(self._plan["every"], int) and 1 <= self._plan["every"] <= 100):
+            raise ValueError(f"every={self._plan['every']!r}: expected 1 to 100 ticks")
 
     def _message(self) -> dict[str, Any]:
         plan = self._plan
@@ -201,7 +205,8 @@ class Client:
                                    walker_seeded=plan["walker_seed"] is not None,
                                    walker_seed=plan["walker_seed"] or 0, weather=plan["weather"], model=plan["model"],
                                    start=_place(plan["start"]), goal=_place(plan["goal"]),
-                                   rig=[_sensor(sensor) for sensor in plan["rig"]] or None)  # fmt: skip
+                                   rig=[_sensor(sensor) for sensor in plan["rig"]] or None,
+                                   every=plan["every"])  # fmt: skip
             return message
         scenario = os.fspath(plan["scenario"])
         if "\n" in scenario:
@@ -240,6 +245,9 @@ class Simulation(Client):
     width=84, height=84), dict(name='roof', kind='lidar', z=1.8, attributes=dict(channels=16))]; `seen.image('front')`
     is what a camera sees, `seen.sensors['roof']` what another one does. A process that renders is started in each reset.
 
+    `every` [ticks] of a task: each so many are shown, and what is said holds until the next; its sensors look as often
+    unless they say otherwise. `seen.passed` are the ticks between.
+
     `trace` is a name in the folder, such as 'a.mcap'; each reset writes it anew. Equal arguments give equal ticks,
     whatever was driven before, here or elsewhere.
 
@@ -253,13 +261,14 @@ class Simulation(Client):
     def __init__(self, town: str = "town1", *, cars: int = 0, seed: int | None = None, weather: str = "clear_noon",
                  start: Place = None, goal: Place = None, model: str = "sedan", scenario: str | os.PathLike | None = None,
                  settings: Mapping[str, Any] | None = None, seconds: float = 0.0, trace: str | None = None,
-                 rig: Sequence[Mapping[str, Any]] = (), walkers: int = 0, walker_seed: int | None = None, server: str | None = None,
+                 rig: Sequence[Mapping[str, Any]] = (), walkers: int = 0, walker_seed: int | None = None, every: int = 1,
+                 server: str | None = None,
                  token: str | None = None, folder: str | os.PathLike = ".", polling: float = POLLING) -> None:  # fmt: skip
         self.run_info: Run | None = None  #: what stays the same in this episode; also `seen.run`
         self._seen: Observation | None = None
         super().__init__(
             dict(town=town, cars=cars, walkers=walkers, walker_seed=walker_seed, seed=seed, weather=weather, start=start, goal=goal, model=model,
-                 scenario=scenario, settings=settings, seconds=seconds, trace=trace, rig=rig),
+                 scenario=scenario, settings=settings, seconds=seconds, trace=trace, rig=rig, every=every),
             server, token, folder, polling)  # fmt: skip
 
     def _hear(self, first: bool = False) -> tuple[str, Noun]:
@@ -301,7 +310,7 @@ class Simulation(Client):
         return self._seen
 
     def step(self, control: Control | None = None, **values: Any) -> Observation | None:
-        """One tick (`seen.run.step` seconds) with this control, given whole or by its fields: step(throttle=0.4).
+        """One tick (`seen.run.step` seconds), or `every`, with this control, given whole or by its fields: step(throttle=0.4).
         Returns what the next tick shows; None when the episode is over, and `outcome` says how it ended."""
         if self._seen is None:
             raise RuntimeError("no episode runs: reset() begins one")

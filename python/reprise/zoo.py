@@ -11,6 +11,7 @@ Needs pettingzoo. What one agent sees, does and is rewarded for is that of repri
 """
 from __future__ import annotations
 
+import itertools
 import os
 from typing import Any, Mapping
 
@@ -33,7 +34,7 @@ return scenario 'journeys' {{
     run = function()
         local on_the_road = 0
         local function travel(name, from, to)
-            local ego = spawn{{ name = name, model = 'sedan', driver = 'external', lane = from.lane, s = from.s{rig} }}
+            local ego = spawn{{ name = name, model = 'sedan', driver = 'external', lane = from.lane, s = from.s, every = {every}{rig} }}
             on_the_road = on_the_road + 1
             start(function()
                 local length = ego:route_to{{ lane = to.lane, s = to.s }}
@@ -44,7 +45,7 @@ return scenario 'journeys' {{
                 end
                 check.eventually(name .. ' arrives in time', arrived, {{ within = limit }})
                 print(name .. (wait_until(arrived, {{ timeout = limit }}) and '{arrived}' or '{late}'))
-                wait_ticks(1)  -- its driver is shown that before it is taken away
+                wait_ticks({every})  -- its driver is shown that before it is taken away
                 ego:despawn()
                 on_the_road = on_the_road - 1
             end)
@@ -68,7 +69,7 @@ class ParallelNavigation(ParallelEnv):
     Actions, observations, rewards and infos as of reprise.gym.Navigation. An agent terminates on arrival and is
     truncated when the time of its way at 10 km/h is over; `info['success']` says which. It leaves `agents` then and its
     car leaves the road. The seed chooses the episodes, of different start lanes, and the traffic;
-    options={'episodes': [3, 8], 'trace': 'a.mcap'} names them. `cars` are those that nobody learns to drive.
+    options={'episodes': [3, 8], 'trace': 'a.mcap'} names them. An action holds for `every` ticks. `cars` are those that nobody learns to drive.
     """
 
     metadata: dict[str, Any] = {"name": "reprise/navigation_v0", "render_modes": [], "is_parallelizable": True}
@@ -76,7 +77,7 @@ class ParallelNavigation(ParallelEnv):
     def __init__(self, agents: int = 2, town: str = "town1", task: str = "navigation", weather: str = "clear_noon",
                  obs: str = "state", cars: int | None = None, server: str | None = None, token: str | None = None,
                  tasks: str | os.PathLike | None = None, folder: str | os.PathLike = ".",
-                 render_mode: str | None = None) -> None:  # fmt: skip
+                 render_mode: str | None = None, every: int = 1) -> None:  # fmt: skip
         self.render_mode = render_mode
         self.episodes = nav.read_episodes(town, task, tasks)
         most = len({episode["start"]["lane"] for episode in self.episodes})
@@ -88,7 +89,7 @@ class ParallelNavigation(ParallelEnv):
         self._observation_spaces = {agent: nav.observation_space(obs) for agent in self.possible_agents}
         self._obs, self._rig = obs, nav.rig_of(obs)
         self._told = dict(town=town, cars=nav.cars_of(town, task, cars), weather=weather,
-                          arrived=_ARRIVED, late=_LATE)  # fmt: skip
+                          every=every, arrived=_ARRIVED, late=_LATE)  # fmt: skip
         self._journeys: dict[str, nav.Journey] = {}
         self._seen: dict[str, Observation] = {}
         self._random, _ = seeding.np_random()
@@ -139,7 +140,8 @@ class ParallelNavigation(ParallelEnv):
 
     def _ended(self, agent: str) -> bool | None:
         """Whether it has arrived, once that is decided."""
-        for event in self._seen[agent].tick.events:
+        seen = self._seen[agent]
+        for event in itertools.chain.from_iterable(tick.events for tick in (*seen.passed, seen.tick)):
             if event.kind == _PRINTED and event.text in (agent + _ARRIVED, agent + _LATE):
                 return event.text == agent + _ARRIVED
         return None

@@ -60,7 +60,7 @@ constexpr Key sensor_key_rows[] = {
     {"yaw_deg", "number", "[deg] to the left, default 0: ahead"},
     {"pitch_deg", "number", "[deg] up, default 0"},
     {"roll_deg", "number", "[deg] right side down, default 0"},
-    {"every", "integer", "[ticks] between frames, default 1"},
+    {"every", "integer", "[ticks] between frames, default the vehicle's, which is 1"},
     {"attributes", "table", "of its kind, such as { lens = 'fisheye' }; see docs/rendering.md"},
 };
 
@@ -116,7 +116,7 @@ void refuse_view(const Fields& fields, world::SensorKind kind) {
 }
 
 /// The table on top of the stack as the sensor with this number.
-std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number) {
+std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number, int shown_every) {
     const Fields fields(
         L, -1, fmt::format("spawn: sensor {} of 'rig'", number), names_of(sensor_key_rows));
     auto sensor = std::make_unique<world::SensorT>();
@@ -161,7 +161,14 @@ std::unique_ptr<world::SensorT> read_sensor(lua_State* L, std::size_t number) {
     if (fields.mentions("roll_deg"))
         sensor->roll = within(fields, "roll_deg", 0, -360, 360) * degree;
     sensor->every = static_cast<std::uint32_t>(
-        whole_within(fields, "every", 1, 1, world::longest_sensor_period));
+        whole_within(fields, "every", shown_every, 1, world::longest_sensor_period));
+    if (sensor->every % static_cast<std::uint32_t>(shown_every) != 0 &&
+        !world::tells_what_happens(sensor->kind))
+        refuse(fields.who(),
+               fmt::format("'every' must be a multiple of the vehicle's, {}, or its driver would "
+                           "not be shown every frame, got {}",
+                           shown_every,
+                           sensor->every));
     if (fields.mentions("attributes")) {
         fields.push("attributes");
         sensor->attributes = read_attributes(L, fields.who(), *sensor);
@@ -208,7 +215,7 @@ std::size_t bytes_of(const world::SensorT& sensor, double step) {
 constinit const KeyList sensor_keys{"SensorOptions", "rig of spawn", sensor_key_rows};
 
 std::vector<std::unique_ptr<world::SensorT>> read_rig(
-    lua_State* L, const Fields& spawn, const Actor& actor, std::uint8_t latency, double step) {
+    lua_State* L, const Fields& spawn, const Actor& actor, const Rhythm& rhythm, double step) {
     std::vector<std::unique_ptr<world::SensorT>> rig;
     if (!spawn.mentions("rig"))
         return rig;
@@ -223,7 +230,7 @@ std::vector<std::unique_ptr<world::SensorT>> read_rig(
     std::size_t bytes = 0;
     for (std::size_t i = 1; i <= length; ++i) {
         lua_rawgeti(L, -1, static_cast<lua_Integer>(i));
-        rig.push_back(read_sensor(L, i));
+        rig.push_back(read_sensor(L, i, rhythm.every));
         lua_pop(L, 1);
         bytes += bytes_of(*rig.back(), step);
         for (std::size_t other = 0; other + 1 < i; ++other)
@@ -236,7 +243,7 @@ std::vector<std::unique_ptr<world::SensorT>> read_rig(
     }
     lua_pop(L, 1);
     // As many are kept as a driver may still look at: remote/picture_ring.h.
-    const std::size_t kept = bytes * (std::size_t{2} + latency);
+    const std::size_t kept = bytes * (std::size_t{2} + rhythm.latency);
     if (kept > most_picture_bytes)
         refuse("spawn",
                fmt::format("the frames of 'rig' need {:.1f} GB of memory, where {:.1f} are the "

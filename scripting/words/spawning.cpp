@@ -26,6 +26,7 @@ namespace {
 
 constexpr double fastest = 150;                // [m/s]
 constexpr std::int64_t longest_latency = 100;  // [ticks]
+constexpr std::int64_t longest_pause = 100;    // [ticks]
 
 std::string all_models() {
     std::string known;
@@ -124,19 +125,28 @@ bool read_keeps_lane(const Fields& fields, const Actor& actor) {
     return !free;
 }
 
-/// [ticks]
-std::uint8_t read_latency(const Fields& fields, const Actor& actor) {
-    if (!fields.mentions("latency"))
-        return 0;
+/// [ticks] of an external driver.
+std::uint8_t read_ticks(const Fields& fields,
+                        const Actor& actor,
+                        const char* key,
+                        std::int64_t usual,
+                        std::int64_t most) {
+    if (!fields.mentions(key))
+        return static_cast<std::uint8_t>(usual);
     if (actor.driver != world::Driver::external)
         refuse("spawn",
-               fmt::format("'latency' is for driver = 'external', '{}' is driven by Reprise",
-                           actor.name));
-    const auto ticks = fields.integer("latency").value_or(0);
-    if (ticks < 0 || ticks > longest_latency)
+               fmt::format(
+                   "'{}' is for driver = 'external', '{}' is driven by Reprise", key, actor.name));
+    const auto ticks = fields.integer(key).value_or(usual);
+    if (ticks < usual || ticks > most)
         refuse("spawn",
-               fmt::format("'latency' must be in [0, {}] ticks, got {}", longest_latency, ticks));
+               fmt::format("'{}' must be in [{}, {}] ticks, got {}", key, usual, most, ticks));
     return static_cast<std::uint8_t>(ticks);
+}
+
+Rhythm read_rhythm(const Fields& fields, const Actor& actor) {
+    return {read_ticks(fields, actor, "latency", 0, longest_latency),
+            read_ticks(fields, actor, "every", 1, longest_pause)};
 }
 
 /// Which of the built-in drivers.
@@ -169,6 +179,9 @@ constexpr Key spawn_key_rows[] = {
      "'idm'|'pid'",
      "which 'autopilot': ours (default), or the PID driver of CARLA's paper"},
     {"latency", "integer", "[ticks] 0 to 100, of an 'external' driver's controls"},
+    {"every",
+     "integer",
+     "[ticks] 1 to 100, from one that an 'external' driver is shown to the next; default 1"},
     {"lane",
      "LaneName|'left'|'right'|'same'",
      "its lane; who drives and has none is given a free place by the seed"},
@@ -225,8 +238,8 @@ int spawn(Run& run, lua_State* L) {
     if (speed > 0 && !drives(actor))
         refuse("spawn", fmt::format("'{}' starts at rest", actor.name));
 
-    const std::uint8_t latency = read_latency(fields, actor);
-    auto rig = read_rig(L, fields, actor, latency, world::seconds(1, run.episode.step_ns));
+    const Rhythm rhythm = read_rhythm(fields, actor);
+    auto rig = read_rig(L, fields, actor, rhythm, world::seconds(1, run.episode.step_ns));
     const bool sees_sensors = read_sees_sensors(fields, actor);
     actor.keeps_lane = read_keeps_lane(fields, actor);
     actor.pilot = read_pilot(fields, actor);
@@ -247,7 +260,8 @@ int spawn(Run& run, lua_State* L) {
     said.heading = command.heading;
     said.speed = speed;
     said.text = actor.name;
-    said.latency = latency;
+    said.latency = rhythm.latency;
+    said.every = rhythm.every > 1 ? rhythm.every : 0;
     said.rig = std::move(rig);
     said.sees_sensors = sees_sensors;
     said.pilot = actor.pilot;

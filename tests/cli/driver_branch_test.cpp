@@ -122,6 +122,23 @@ TEST_F(DriverBranch, KeepsTheLatencyOfTheScenario) {
     expect_equal("b.mcap", 100);
 }
 
+/// It is shown the tick in which it takes over, and then those that its predecessor would have
+/// been.
+TEST_F(DriverBranch, WhoTakesOverIsShownEachFewTicksAsTheScenarioSays) {
+    write_scenario("few", spawn("ego", 20, ", every = 4"));
+    drive("few", steady, "few.mcap");
+    branch({"--driver", "ego=" + counting}, "b.mcap", 0, "few.mcap");
+    EXPECT_EQ(steer("b.mcap", 50), 0.125);
+    // Spawned in tick 1: ticks 49, 53, 57 and so on are shown.
+    for (const auto& [tick, shown] : {std::pair<std::uint64_t, int>(51, 50),
+                                      std::pair<std::uint64_t, int>(53, 50),
+                                      std::pair<std::uint64_t, int>(54, 53),
+                                      std::pair<std::uint64_t, int>(57, 53),
+                                      std::pair<std::uint64_t, int>(58, 57)})
+        EXPECT_EQ(steer("b.mcap", tick) * 1024, shown) << tick;
+    expect_equal("b.mcap", 100);
+}
+
 TEST_F(DriverBranch, EachScriptHasADriverOfItsOwn) {
     branch({"--script", "brake.lua", "rain.lua", "--driver", "ego=" + counting}, "together");
     for (const std::string script : {"brake", "rain"}) {

@@ -167,6 +167,31 @@ TEST_F(Drivers, AnswersActAsManyTicksLaterAsTheScenarioSays) {
     EXPECT_NE(places("none.mcap"), places("late1.mcap"));
 }
 
+TEST_F(Drivers, WhoIsShownEachFewTicksHoldsWhatItSaidUntilItsNextAnswerActs) {
+    constexpr std::uint64_t first = 1;  // the tick in which it appears, and that it is shown
+    for (const auto& [latency, every] : {std::pair<std::uint64_t, std::uint64_t>(0, 2),
+                                         std::pair<std::uint64_t, std::uint64_t>(0, 7),
+                                         std::pair<std::uint64_t, std::uint64_t>(1, 2),
+                                         std::pair<std::uint64_t, std::uint64_t>(5, 3)}) {
+        write_scenario("few",
+                       spawn("ego", 20, fmt::format(", latency = {}, every = {}", latency, every)));
+        drive("few", odd_driver + " counting", "few.mcap");
+        expect_equal("few.mcap", 100);
+        replay::TraceReader trace(folder_ / "few.mcap");
+        for (std::uint64_t index = first; index <= trace.ticks(); ++index) {
+            const world::Control& control = trace.tick(index).view.controls()[0];
+            if (index < first + 1 + latency) {
+                EXPECT_EQ(control.brake(), 1) << "nobody has answered at tick " << index;
+                continue;
+            }
+            const std::uint64_t last_heard = index - 1 - latency;
+            const std::uint64_t shown = last_heard - (last_heard - first) % every;
+            EXPECT_EQ(control.steer() * 1024, static_cast<double>(shown))
+                << "tick " << index << ", latency " << latency << ", every " << every;
+        }
+    }
+}
+
 TEST_F(Drivers, KilledAtAnyTickLeaveAWholeTraceThatSaysSo) {
     const int times = std::getenv("REPRISE_THOROUGH") != nullptr ? 100 : 10;
     for (int i = 0; i < times; ++i) {

@@ -83,6 +83,31 @@ def standing_still_is_truncated_when_the_time_is_over():
     assert abs(steps - limit) < 5, (steps, limit)
 
 
+def an_action_holds_for_as_many_ticks_as_was_said():
+    """`every=4` is what one tick after the other is, with each action said four times."""
+    one, four = (gymnasium.make(NAME, task="navigation_dynamic", every=every) for every in (1, 4))
+    assert four.unwrapped.metadata["render_fps"] == 5
+    one.reset(seed=2)
+    seen_four, _ = four.reset(seed=2)
+    nothing = np.zeros(2, np.float32)
+    for _ in range(3):  # the goal is known from the second tick that is shown, here the fifth
+        seen, *_ = one.step(nothing)
+    assert np.array_equal(seen, seen_four)
+    actions = np.random.default_rng(3)
+    for _ in range(40):
+        action = np.array([actions.uniform(-0.2, 0.2), 0.7], np.float32)
+        rewards = []
+        for _ in range(4):
+            seen, reward, _, _, info = one.step(action)
+            rewards.append(reward)
+        seen_four, reward, _, _, info_four = four.step(action)
+        assert np.array_equal(seen, seen_four) and np.isclose(sum(rewards), reward)
+        assert info["infractions"] == info_four["infractions"]
+    one.close()
+    four.close()
+    assert sum(info["infractions"].values()) > 0, "it did nothing wrong: this shows nothing of infractions"
+
+
 def two_at_once():
     envs = gymnasium.make_vec(NAME, num_envs=2, vectorization_mode="async", task="one_turn")
     seen, _ = envs.reset(seed=5)
@@ -144,8 +169,8 @@ def keep_the_lane(seen):
 
 
 def pettingzoos_checkers():
-    for obs in ("state", "rgb84"):
-        env = reprise.zoo.navigation(agents=2, task="straight", cars=10, obs=obs)
+    for obs, every in (("state", 1), ("rgb84", 3)):
+        env = reprise.zoo.navigation(agents=2, task="straight", cars=10, obs=obs, every=every)
         with contextlib.redirect_stdout(io.StringIO()):
             parallel_api_test(env, num_cycles=200 if obs == "state" else 20)
         env.close()
@@ -238,6 +263,7 @@ if __name__ == "__main__":
         same_seed_and_actions_give_equal_observations,
         the_reward_is_the_way_that_was_gained,
         standing_still_is_truncated_when_the_time_is_over,
+        an_action_holds_for_as_many_ticks_as_was_said,
         two_at_once,
         a_vector_is_what_gymnasiums_own_is,
         pictures_are_equal_for_equal_actions,

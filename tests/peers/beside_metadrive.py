@@ -2,7 +2,7 @@
 """Beside MetaDrive (PyPI: metadrive-simulator), by hand: tests/peers/beside_metadrive.py [--cars 100] [--program build/release/bin/reprise]
 
 Simulated seconds a second of processor time, all processes together, with a client in Python that looks at the state
-and stands still among moving cars; and whether an episode is the same again after reset() and in a fresh process.
+and stands still among moving cars, both ten times a second (--every 1: ours twenty times); and whether an episode is the same again after reset() and in a fresh process.
 Turns are taken, so that others on the machine slow both down. 0.3.0.1 is the last version whose assets are in the wheel.
 It is installed into a Python of its own, build/peers/metadrive, from PyPI.
 """
@@ -66,13 +66,16 @@ class MetaDrive:
 
 
 class Reprise:
-    STEP = 0.05  # [s]
+    TICK = 0.05  # [s]
+    every = 2  # [ticks] that an action holds, so that it decides as often as MetaDrive's drivers do
 
     def __init__(self, cars, seed):
         import reprise
 
+        self.STEP = self.TICK * self.every
+
         # Asleep between ticks: who looks whether there is one takes processor time.
-        self.sim = reprise.Simulation("town1", cars=cars, seed=seed, polling=0)
+        self.sim = reprise.Simulation("town1", cars=cars, seed=seed, polling=0, every=self.every)
         self.seen = self.sim.reset()
         self.cars = len(self.seen.cars)
 
@@ -157,9 +160,11 @@ def main():
     parser.add_argument("--cars", type=int, default=100)
     parser.add_argument("--seconds", type=float, default=20.0, help="simulated, of a turn")
     parser.add_argument("--turns", type=int, default=3)
+    parser.add_argument("--every", type=int, default=Reprise.every, help="[ticks of 0.05 s] that an action of ours holds (default 2)")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/reprise")
     parser.add_argument("--work", choices=KINDS, help=argparse.SUPPRESS)
     options = parser.parse_args()
+    Reprise.every = options.every
     if options.work:
         said, sys.stdout = sys.stdout, sys.stderr
         json.dump(work(options.work, options.cars, options.seconds, 7), said)
@@ -167,7 +172,7 @@ def main():
     python = prepare()
 
     def ask(kind, seconds):
-        words = [python, "-B", __file__, "--work", kind, "--cars", str(options.cars), "--seconds", str(seconds)]
+        words = [python, "-B", __file__, "--work", kind, "--cars", str(options.cars), "--seconds", str(seconds), "--every", str(options.every)]
         environment = dict(os.environ, PYTHONPATH=str(ROOT / "python"), REPRISE=str(options.program.resolve()))
         done = subprocess.run(words, env=environment, capture_output=True, text=True)
         if done.returncode != 0:

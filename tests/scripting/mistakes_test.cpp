@@ -310,7 +310,7 @@ TEST(Mistakes, CanBeCaughtByTheScript) {
         test::printed("print(pcall(wait, -1)) print(pcall(function() spawn{ colour = 1 } end))")
             .at(1),
         "false test.lua:1: spawn: unknown key 'colour' (known: name, model, driver, pilot, "
-        "latency, "
+        "latency, every, "
         "lane, s, offset, x, y, z, heading_deg, ahead_of, behind, beside, gap, speed, speed_kmh, "
         "rig, "
         "sees, lane_changes, may_overtake)");

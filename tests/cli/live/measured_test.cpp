@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -143,6 +145,43 @@ TEST_F(LiveMeasures, PointsAreTheSameThroughAPortInCppAndForALateDriver) {
                     read_file(folder_ / fmt::format("late/roof_{}.raw", tick)))
             << tick;
     }
+}
+
+/// Of ticks that its driver is not shown, too.
+TEST_F(LiveMeasures, WhatHappensIsToldWhoIsShownEachFewTicks) {
+    crash("few",
+          "rig = { { name = 'bumper', kind = 'collision' }, { name = 'roof', kind = 'lidar', z = "
+          "1.8, attributes = { channels = 4, range = 20 } } }, driver = 'external', every = 7 ");
+    run("few", measuring + make_folder("few"));
+    const Result rendered = reprise({"render", "few.mcap", "-o", "again"}, folder_.path());
+    ASSERT_EQ(rendered.code, 0) << rendered.out;
+    std::vector<std::vector<double>> shown;
+    std::uint64_t last = 0;
+    for (std::uint64_t tick = 3; tick < 60; tick += 7) {
+        const std::string roof = fmt::format("again/roof/{:06}.ply", tick);
+        EXPECT_TRUE(std::filesystem::exists(folder_ / roof)) << "as often as its driver";
+        std::istringstream lines(read_file(folder_ / fmt::format("few/bumper_{}.txt", tick)));
+        std::string line;
+        std::getline(lines, line);
+        while (std::getline(lines, line))
+            shown.push_back(numbers(line, ' '));
+        last = tick;
+    }
+    std::vector<std::vector<double>> written;
+    std::set<std::uint64_t> ticks;
+    std::istringstream lines(read_file(folder_ / "again/bumper.csv"));
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+        std::vector<double> row = numbers(line, ',');
+        if (row.empty() || row[0] > static_cast<double>(last))
+            continue;
+        ticks.insert(static_cast<std::uint64_t>(row[0]));
+        written.emplace_back(row.begin() + 2, row.end());
+    }
+    EXPECT_EQ(shown, written);
+    EXPECT_TRUE(std::any_of(ticks.begin(), ticks.end(), [](auto tick) { return tick % 7 != 3; }))
+        << "it hit something in a tick that was shown: the test shows nothing";
 }
 
 /// Some look at the tick before: who takes over in the middle has seen it.

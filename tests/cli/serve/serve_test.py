@@ -291,6 +291,23 @@ class Episodes(Case):
         np.testing.assert_array_equal(*episodes)
         self.assertGreater(episodes[0][0].std(), 5, "a street is not all of one colour")
 
+    def test_who_is_shown_each_few_ticks_is_told_what_passed_between(self):
+        rig = [dict(name="front", width=16, height=16), dict(name="far", kind="depth", width=16, height=16, every=6)]
+        with reprise.Simulation("town1", cars=20, seed=3, every=3, rig=rig, folder=self.folder) as sim:
+            seen, shown, told = sim.reset(trace="few.mcap"), [], []
+            while seen.index < 40:
+                shown.append(seen.index)
+                told += [tick.digests["chain"].tobytes() for tick in (*seen.passed, seen.tick)]
+                self.assertIsNotNone(seen.image("front"))
+                self.assertEqual(seen.image("far") is not None, seen.index % 6 == 1)
+                seen = sim.step(drive(seen))
+            self.assertRaises(ValueError, sim.reset, every=0)
+            self.assertRaises(ValueError, sim.reset, every=2, scenario="some.lua")
+        self.assertEqual(shown, list(range(1, 40, 3)))
+        recorded = [one.tick.digests["chain"].tobytes() for one in reprise.Trace(self.folder / "few.mcap")]
+        self.assertEqual(told, recorded[: len(told)])
+        self.assertEqual(reprise_program("verify", str(self.folder / "few.mcap"))[0], 0)
+
     def test_a_task_carries_sensors_that_are_no_cameras(self):
         rig = [dict(name="roof", kind="lidar", z=1.8, roll_deg=10, attributes=dict(channels=4, range=30, rotation_frequency=20, rolling=0)),
                dict(name="imu", kind="imu"), dict(name="bumper", kind="collision", every=9)]  # fmt: skip
@@ -442,11 +459,8 @@ class Several(Case):
             seen = sim.step({name: drive(one) for name, one in seen.items()})
         return found
 
-    def test_drive_what_as_many_programs_drive(self):
-        with reprise.MultiSimulation(("a", "b"), "several.lua", folder=self.folder) as sim:
-            ways = self.ways(sim, trace="one.mcap")
-            self.assertEqual((sim.outcome.verdict, sim.outcome.ticks), ("completed", 100))
-        self.assertEqual([names for names, _ in ways], 20 * [["a"]] + 40 * [["a", "b"]] + 39 * [["b"]])
+    def assert_same_as_programs(self, ways):
+        """The trace of these ways, one.mcap, is that of as many programs."""
         self.assertEqual({len(chains) for _, chains in ways}, {1}, "all are shown the same tick")
         script = f"import sys; sys.path[:0] = {[str(HERE)]!r}; import reprise, serve_test; reprise.drive(serve_test.drive)"
         drivers = [word for name in "ab" for word in ("--driver", f'{name}={sys.executable} -B -c "{script}"')]
@@ -455,6 +469,25 @@ class Several(Case):
         self.assertEqual((self.folder / "one.mcap").read_bytes(), (self.folder / "two.mcap").read_bytes())
         code, said = reprise_program("verify", str(self.folder / "one.mcap"))
         self.assertEqual(code, 0, said)
+
+    def test_drive_what_as_many_programs_drive(self):
+        with reprise.MultiSimulation(("a", "b"), "several.lua", folder=self.folder) as sim:
+            ways = self.ways(sim, trace="one.mcap")
+            self.assertEqual((sim.outcome.verdict, sim.outcome.ticks), ("completed", 100))
+        self.assertEqual([names for names, _ in ways], 20 * [["a"]] + 40 * [["a", "b"]] + 39 * [["b"]])
+        self.assert_same_as_programs(ways)
+
+    def test_each_is_shown_the_ticks_that_its_scenario_says(self):
+        several = SEVERAL.replace("name = 'a',", "name = 'a', every = 3,").replace("name = 'b',", "name = 'b', every = 4,")
+        (self.folder / "several.lua").write_text(several)
+        with reprise.MultiSimulation(("a", "b"), "several.lua", folder=self.folder) as sim:
+            ways = self.ways(sim, trace="one.mcap")
+            self.assertEqual((sim.outcome.verdict, sim.outcome.ticks), ("completed", 100))
+        # 'a' is spawned in tick 1 and taken away in tick 61, 'b' is spawned in tick 21.
+        shown = {"a": range(1, 61, 3), "b": range(21, 100, 4)}
+        there = [[name for name in "ab" if tick in shown[name]] for tick in range(1, 100)]
+        self.assertEqual([names for names, _ in ways], [names for names in there if names])
+        self.assert_same_as_programs(ways)
 
     def test_an_episode_that_is_left_leaves_a_whole_trace_and_nothing_for_the_next(self):
         with reprise.MultiSimulation(("a", "b"), "several.lua", folder=self.folder) as sim:

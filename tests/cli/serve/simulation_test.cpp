@@ -89,6 +89,22 @@ TEST_F(SimulationClient, ATasksCamerasAreSeen) {
     EXPECT_FALSE(sim.run().picture("front")) << "it looks at every second tick";
 }
 
+TEST_F(SimulationClient, ATaskIsShownAsManyTicksAsWasSaidAndToldOfTheOthers) {
+    Simulation sim(own());
+    remote::EpisodePlan plan{.town = "town1", .every = 4, .seconds = 1};
+    plan.rig.push_back({.sensor = {.name = "front", .width = 16, .height = 16}});
+    std::vector<std::uint64_t> shown, passed;
+    for (auto tick = sim.reset(plan); tick; tick = sim.step({.throttle = 0.5})) {
+        shown.push_back(tick->index());
+        for (const world::Tick* one : sim.run().passed())
+            passed.push_back(one->index());
+        EXPECT_TRUE(sim.run().picture("front"));
+    }
+    EXPECT_EQ(shown, (std::vector<std::uint64_t>{1, 5, 9, 13, 17}));
+    EXPECT_EQ(passed, (std::vector<std::uint64_t>{2, 3, 4, 6, 7, 8, 10, 11, 12, 14, 15, 16}));
+    EXPECT_EQ(sim.outcome().ticks, 20U);
+}
+
 TEST_F(SimulationClient, WhereNoServerIsItSaysSo) {
     EXPECT_THAT(mistake([&] { const Simulation sim({.address = folder_ / "s"}); }),
                 HasSubstr("s: nobody is there: No such file"));

@@ -130,11 +130,31 @@ TEST(RigWords, MistakesAreOneLineThatNamesTheSensor) {
                       "{ { name = 'a', width = 4096, height = 4096 } } }"),
               "test.lua:1: spawn: the frames of 'rig' need 5.1 GB of memory, where 2.1 are the "
               "most: smaller or fewer ones, or a smaller 'latency'");
+    EXPECT_EQ(mistake(std::string(external) + "every = 2, rig = { { name = 'a', every = 3 } } }"),
+              "test.lua:1: spawn: sensor 1 of 'rig': 'every' must be a multiple of the vehicle's, "
+              "2, or its driver would not be shown every frame, got 3");
+    EXPECT_EQ(mistake(std::string(external) + "every = 101 }"),
+              "test.lua:1: spawn: 'every' must be in [1, 100] ticks, got 101");
+    EXPECT_EQ(mistake("spawn{ name = 'v', model = 'van', every = 2 }"),
+              "test.lua:1: spawn: 'every' is for driver = 'external', 'v' is driven by Reprise");
     EXPECT_EQ(mistake("spawn{ name = 'v', model = 'van', sees = 'sensors' }"),
               "test.lua:1: spawn: 'sees' is for driver = 'external', 'v' is driven by Reprise");
     EXPECT_EQ(mistake(std::string(external) + "sees = 'sensor' }"),
               "test.lua:1: spawn: 'sees' must be 'everything' or 'sensors', got 'sensor' (did you "
               "mean 'sensors'?)");
+}
+
+TEST(RigWords, SensorsLookAsOftenAsTheirDriverDoesUnlessTheySayOtherwise) {
+    Stage stage(running(std::string(external) + R"(every = 2, rig = {
+        { name = 'a' }, { name = 'b', every = 6 }, { name = 'c', kind = 'collision', every = 1 } } })"));
+    const world::CommandT& command = spawned(stage);
+    EXPECT_EQ(command.every, 2);
+    ASSERT_EQ(command.rig.size(), 3U);
+    EXPECT_EQ(command.rig[0]->every, 2U);
+    EXPECT_EQ(command.rig[1]->every, 6U);
+    EXPECT_EQ(command.rig[2]->every, 1U) << "it tells what happens, whenever that is";
+    Stage each(running(std::string(external) + "every = 1 }"));
+    EXPECT_EQ(spawned(each).every, 0) << "as if it had said nothing";
 }
 
 std::string said(const world::AttributeRow& row) {
