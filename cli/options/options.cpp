@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -54,6 +55,32 @@ std::string option_meant(const CLI::App& app, int argc, char** argv) {
             return world::did_you_mean(name, names);
     }
     return "";
+}
+
+/// A name that is missing in a list, as in rgb,,depth: CLI11 drops it, and nobody is told.
+void check_lists(const CLI::App& app, int argc, char** argv) {
+    const CLI::App* command = &app;
+    while (!command->get_subcommands().empty())
+        command = command->get_subcommands().front();
+    const CLI::Option* list = nullptr;  // whose names the words are
+    for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+        std::string text = argv[i];
+        if (text.starts_with('-')) {
+            const std::size_t split = text.find('=');
+            list = command->get_option_no_throw(text.substr(0, split));
+            if (list != nullptr && list->get_delimiter() == '\0')
+                list = nullptr;
+            text = split == std::string::npos ? "" : text.substr(split + 1);
+        }
+        if (list == nullptr || text.empty())
+            continue;
+        const char comma = list->get_delimiter();
+        if (text.front() == comma || text.back() == comma ||
+            text.find(std::string(2, comma)) != std::string::npos)
+            throw CLI::ValidationError(
+                list->get_name(),
+                "between commas, or beside one, nothing stands in '" + text + "'");
+    }
 }
 
 }  // namespace
@@ -120,6 +147,7 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
     try {
         check_command(app, argc > 1 ? argv[1] : "");
         app.parse(argc, argv);
+        check_lists(app, argc, argv);
         for (const std::string& assignment : app_->assignments)
             run.parameters.push_back(split_assignment(assignment));
         for (const std::string& assignment : app_->branch_assignments)

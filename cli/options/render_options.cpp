@@ -108,7 +108,9 @@ double attribute_value(const world::AttributeRow& row, const std::string& text) 
     return value;
 }
 
-void read_attributes(const std::vector<std::string>& words, RenderOptions& render) {
+void read_attributes(const CLI::App& command,
+                     const std::vector<std::string>& words,
+                     RenderOptions& render) {
     const std::vector<const world::AttributeRow*> rows = known_attributes(render);
     for (const std::string& word : words) {
         const std::size_t split = word.find('=');
@@ -118,6 +120,10 @@ void read_attributes(const std::vector<std::string>& words, RenderOptions& rende
         if (split == std::string::npos)
             throw CLI::ValidationError(
                 "--attribute", "expected NAME=NUMBER such as channels=64, got '" + word + "'");
+        if (row == rows.end() && command.get_option_no_throw("--" + name) != nullptr)
+            throw CLI::ValidationError("--attribute",
+                                       "none of these sensors has an attribute '" + name +
+                                           "' (did you mean '--" + name + "'?)");
         if (row == rows.end()) {
             std::vector<std::string> known;
             for (const world::AttributeRow* one : rows)
@@ -479,7 +485,7 @@ void finish_render(const CLI::App& app, const RenderWords& words, RenderOptions&
     check_view(command, render);
     if (render.cameras.empty() && render.measured.empty())
         render.cameras = {"rgb"};
-    read_attributes(words.attributes, render);
+    read_attributes(command, words.attributes, render);
 }
 
 }  // namespace reprise::cli

@@ -216,8 +216,42 @@ std::uint32_t period_of(const Table& table, std::uint64_t step_ns) {
     return static_cast<std::uint32_t>(std::lround(ticks));
 }
 
+const std::vector<std::string>& sensor_keys() {
+    static const std::vector<std::string> keys{"name",
+                                               "type",
+                                               "actor",
+                                               "position",
+                                               "roll_deg",
+                                               "pitch_deg",
+                                               "yaw_deg",
+                                               "fov_deg",
+                                               "size",
+                                               "every",
+                                               "rate_hz",
+                                               "attributes"};
+    return keys;
+}
+
+/// A sensor's own key among its attributes, whose names may look like it.
+void refuse_sensor_keys(const Json& json,
+                        const std::string& where,
+                        const std::vector<std::string>& names) {
+    if (!json.is_object())
+        return;
+    for (const auto& [key, value] : json.items())
+        for (const std::string& own : sensor_keys())
+            if ((key == own || key + "_deg" == own) &&
+                std::find(names.begin(), names.end(), key) == names.end())
+                throw world::Error(fmt::format(
+                    "{}: 'attributes': unknown key '{}' (did you mean '{}', beside 'attributes'?)",
+                    where,
+                    key,
+                    own));
+}
+
 void read_attributes(const Json& json, const std::string& where, world::SensorSpec& sensor) {
     const std::vector<std::string> names = world::attribute_names(sensor.kind);
+    refuse_sensor_keys(json, where, names);
     const Table table(json, where + ": 'attributes'", names);
     for (const std::string& name : names) {
         if (table.find(name) == nullptr)
@@ -257,20 +291,7 @@ void read_view(const Table& table, const std::string& type, world::SensorSpec& s
 }
 
 void read_sensor(const Json& json, const std::string& where, std::uint64_t step_ns, RigFile& file) {
-    const Table table(json,
-                      where,
-                      {"name",
-                       "type",
-                       "actor",
-                       "position",
-                       "roll_deg",
-                       "pitch_deg",
-                       "yaw_deg",
-                       "fov_deg",
-                       "size",
-                       "every",
-                       "rate_hz",
-                       "attributes"});
+    const Table table(json, where, sensor_keys());
     world::SensorSpec sensor;
     sensor.name = table.text("name").value_or("");
     if (!world::is_sensor_name(sensor.name))

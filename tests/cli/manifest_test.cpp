@@ -292,6 +292,10 @@ TEST_F(Manifest, MistakesAreOneLineAndLeaveNothing) {
                R"({ "sensors": [ { "name": "front" }, { "name": "motion", "type": "imu" } ] })");
     const std::vector<std::string> before = folder_.files();
     const std::vector<std::pair<std::string, std::string>> mistakes{
+        {"render t.mcap -o x --sensor rgb,,depth",
+         "--sensor: between commas, or beside one, nothing stands in 'rgb,,depth'"},
+        {"render t.mcap -o x --sensor=depth,", "nothing stands in 'depth,'"},
+        {"render t.mcap -o x --attribute fov=60", "(did you mean '--fov'?)"},
         {"render t.mcap -o x --weather 5s:clear_noon,3s:rain=3", "3s: the stop before is at 5s"},
         {"render t.mcap -o x --weather 5m:clear_noon", "expected a time from 0s to 86400s"},
         {"render t.mcap -o x --weather 0s:clear_nono", "did you mean 'clear_noon'?"},

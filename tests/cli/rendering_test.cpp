@@ -331,6 +331,8 @@ TEST_F(Rendering, AMistakeInARigIsOneLineThatNamesItsPlace) {
     EXPECT_THAT(of_sensor("\n\"yaw_deg\": 1e999\n"),
                 HasSubstr("rig.json:2: a number is too large"));
     EXPECT_THAT(of_sensor("\"postion\": [1, 2, 3]"), HasSubstr("(did you mean 'position'?)"));
+    EXPECT_THAT(of_sensor("\"attributes\": { \"fov\": 60 }"),
+                HasSubstr("'fov' (did you mean 'fov_deg', beside 'attributes'?)"));
     EXPECT_THAT(of_sensor("\"actor\": \"\""), HasSubstr("sensor 1 'a': 'actor' is empty; without"));
     EXPECT_THAT(
         of_sensor("\n\"actor\": \"ega\""),
