@@ -99,6 +99,23 @@ Json index_of(const DatasetOptions& options,
     return json;
 }
 
+namespace {
+
+/// Folders in it do not count: they are what was made before the first file, when we were killed;
+/// nor does an index that was begun.
+void check_empty(const fs::path& folder) {
+    std::error_code error;
+    for (const fs::directory_entry& one : fs::recursive_directory_iterator(
+             folder, fs::directory_options::skip_permission_denied, error))
+        if (!one.is_directory() && one.path() != folder / "dataset.json.partial")
+            throw world::Error(
+                fmt::format("{}: holds {}, and is no data set; name a new or empty folder for -o",
+                            folder.string(),
+                            one.path().lexically_relative(folder).string()));
+}
+
+}  // namespace
+
 void write_index(const fs::path& path, const Json& index) {
     files::write_file(path, "the index", index.dump(1) + "\n");
 }
@@ -114,7 +131,7 @@ Json read_index(const fs::path& path) {
 
 void check_index(const fs::path& path, const Json& index) {
     if (!fs::exists(path))
-        return;
+        return check_empty(path.parent_path());
     const Json old = kept_part(read_index(path));
     const Json wanted = kept_part(index);
     for (const auto& [key, value] : wanted.items())

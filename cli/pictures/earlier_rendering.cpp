@@ -10,6 +10,7 @@
 #include "cli/pictures/cameras.h"
 #include "cli/pictures/manifest.h"
 #include "files/json_text.h"
+#include "world/check.h"
 
 namespace reprise::cli {
 
@@ -21,7 +22,12 @@ EarlierRendering::EarlierRendering(const fs::path& output) {
     if (!film_ending(output).empty() || !fs::is_regular_file(manifest, error))
         return;
     const auto json = nlohmann::json::parse(files::json_text(manifest), nullptr, false);
-    if (!json.is_object() || json.value("manifest", nlohmann::json()) != manifest_version)
+    // It would be replaced, and is not ours.
+    if (!json.is_object() || !json.contains("manifest"))
+        throw world::Error(manifest.string() +
+                           ": is there and no manifest that reprise render wrote; name another "
+                           "folder for -o");
+    if (json["manifest"] != manifest_version)
         return;
     for (const nlohmann::json& file : json.value("files", nlohmann::json::array()))
         if (file.is_object() && file.value("path", nlohmann::json()).is_string())

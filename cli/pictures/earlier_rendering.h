@@ -11,7 +11,8 @@ namespace reprise::cli {
 class EarlierRendering {
   public:
     /// Takes a folder's manifest away: from now on, until another one is written, it is not whole.
-    /// A film is replaced with its manifest, and stays until then.
+    /// A film is replaced with its manifest, and stays until then. Throws world::Error where a file
+    /// of that name is somebody else's.
     explicit EarlierRendering(const std::filesystem::path& output);
 
     /// Files of it that were not made anew: the new manifest is not about them.

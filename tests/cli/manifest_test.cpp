@@ -290,12 +290,18 @@ TEST_F(Manifest, FoldersAreComparedSensorBySensor) {
 TEST_F(Manifest, MistakesAreOneLineAndLeaveNothing) {
     write_file(folder_ / "imu.json",
                R"({ "sensors": [ { "name": "front" }, { "name": "motion", "type": "imu" } ] })");
+    std::filesystem::create_directories(folder_ / "holiday");
+    write_file(folder_ / "holiday/beach.jpg", "sea");
+    std::filesystem::create_directories(folder_ / "web");
+    write_file(folder_ / "web/manifest.json", R"({ "name": "an app" })");
     const std::vector<std::string> before = folder_.files();
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {"render t.mcap -o x --sensor rgb,,depth",
          "--sensor: between commas, or beside one, nothing stands in 'rgb,,depth'"},
         {"render t.mcap -o x --sensor=depth,", "nothing stands in 'depth,'"},
         {"render t.mcap -o x --attribute fov=60", "(did you mean '--fov'?)"},
+        {"render t.mcap -o web", "web/manifest.json: is there and no manifest"},
+        {"dataset t.mcap -o holiday", "holiday: holds beach.jpg, and is no data set"},
         {"render t.mcap -o x --weather 5s:clear_noon,3s:rain=3", "3s: the stop before is at 5s"},
         {"render t.mcap -o x --weather 5m:clear_noon", "expected a time from 0s to 86400s"},
         {"render t.mcap -o x --weather 0s:clear_nono", "did you mean 'clear_noon'?"},
