@@ -71,7 +71,10 @@ class Run {
         seat_ = std::make_unique<remote::Seat>(remote::SeatPlan{"ego", plan_.command},
                                                remote::Patience());
         const auto& spawn = drivers_.spawns().at(actor);
-        const remote::Spawned spawned{&spawn.command, spawn.tick, "exec '" RENDER_PROGRAM "' live"};
+        const remote::Spawned spawned{.command = &spawn.command,
+                                      .tick = spawn.tick,
+                                      .now = tick_->view().index(),
+                                      .render_program = "exec '" RENDER_PROGRAM "' live"};
         if (const auto lost = seat_->take(actor, recording_, spawned))
             throw std::runtime_error(lost->reason);
     }
