@@ -339,6 +339,18 @@ int run(const RunOptions& options) {
             throw index == 0 ? error : world::Error(error.what() + rest);
         }
     };
+    // That nobody drives who was just spawned is known behind their first tick only.
+    const auto show_drivers = [&](const world::SealedTick& tick) {
+        try {
+            seats.go_on(tick, [&] { kernel.begin_step(); });
+        } catch (const world::Error& error) {
+            if (index > 1 || stop.signal() != 0)
+                throw world::Error(error.what() + rest);
+            trace.reset();
+            fs::remove(target.string() + ".partial");  // nothing happened yet
+            throw;
+        }
+    };
     try {
         while (!kernel.finished() && stop.signal() == 0 && !seats.loss() &&
                !(ended_before && index >= ended_before->ticks)) {
@@ -351,7 +363,7 @@ int run(const RunOptions& options) {
                 if (kernel.finished())
                     seats.see_last(tick);
                 else
-                    seats.go_on(tick, [&] { kernel.begin_step(); });
+                    show_drivers(tick);
             }
         }
     } catch (const world::Error&) {

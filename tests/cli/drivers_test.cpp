@@ -349,6 +349,14 @@ TEST_F(Drivers, SomebodyMustDrive) {
                 HasSubstr("one.lua:3: spawn: 'ego' is driven by another program: say which by "
                           "--driver ego='COMMAND'"));
     EXPECT_FALSE(fs::exists(folder_ / "a.mcap"));
+    EXPECT_FALSE(fs::exists(folder_ / "a.mcap.partial"));
+    write_file(folder_ / "late.lua",
+               "return scenario 'late' { run = function() wait(1)\n"
+               "spawn{ name = 'ego', model = 'sedan', driver = 'external' } wait(1) end }");
+    EXPECT_THAT(run({"run", "late.lua", "-o", "a.mcap"}, 2),
+                HasSubstr("'COMMAND'; what was recorded until then is in a.mcap.partial: reprise "
+                          "recover a.mcap.partial -o a.mcap"));
+    EXPECT_TRUE(fs::exists(folder_ / "a.mcap.partial"));
     EXPECT_THAT(drive("one", python_driver + "; exit 7", "b.mcap"), Not(HasSubstr("exit code")))
         << "how it ends behind the end is its own affair";
 }
