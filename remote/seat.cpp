@@ -1,8 +1,9 @@
 // The simulator's end of the wire.
 //   must      never wait for a driver that is gone; say of each fault what it was
-//   assumes   one driver a seat; it is asked once a tick
+//   assumes   one driver a seat; it is asked once for each tick that it is shown
 //   goes      start or await it, hello, ready; then tick by tick observation, control; goodbye
-//   keeps     which ticks were shown and not answered, and those whose frames are not there yet
+//   keeps     which ticks were shown and not answered, those whose frames are not there yet, and
+//             those that passed since
 #include "remote/seat.h"
 
 #include <algorithm>

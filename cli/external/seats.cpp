@@ -82,6 +82,14 @@ bool Seats::seat(const world::Spawn& spawn,
     return true;
 }
 
+/// Drivers that wait for somebody else: a name that was typed wrong is among them.
+std::string Seats::unused() const {
+    std::string names;
+    for (const auto& seat : free_)
+        names += (names.empty() ? "; there is a driver for " : ", ") + seat->actor();
+    return names;
+}
+
 /// Who was spawned gets its driver, who was despawned loses it.
 void Seats::welcome(const world::Tick& tick) {
     const world::EpisodeT& episode = recording_->episode;
@@ -104,11 +112,12 @@ void Seats::welcome(const world::Tick& tick) {
         if (!seat(spawn, tick.index()))
             throw world::Error(fmt::format(
                 "{}:{}: spawn: '{}' is driven by another program: say which by --driver "
-                "{}='COMMAND'",
+                "{}='COMMAND'{}",
                 world::printable(path),
                 command->line(),
                 name,
-                name));
+                name,
+                unused()));
     }
 }
 

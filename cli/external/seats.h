@@ -105,6 +105,7 @@ class Seats {
     };
 
     void welcome(const world::Tick& tick);
+    std::string unused() const;
     bool seat(const world::Spawn& spawn,
               std::uint64_t now,
               const remote::Guide* guide = nullptr,

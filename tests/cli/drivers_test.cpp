@@ -350,6 +350,9 @@ TEST_F(Drivers, SomebodyMustDrive) {
                           "--driver ego='COMMAND'"));
     EXPECT_FALSE(fs::exists(folder_ / "a.mcap"));
     EXPECT_FALSE(fs::exists(folder_ / "a.mcap.partial"));
+    EXPECT_THAT(
+        run({"run", "one.lua", "--driver", "egg=" + odd_driver + " steady", "-o", "a.mcap"}, 2),
+        HasSubstr("say which by --driver ego='COMMAND'; there is a driver for egg\n"));
     write_file(folder_ / "late.lua",
                "return scenario 'late' { run = function() wait(1)\n"
                "spawn{ name = 'ego', model = 'sedan', driver = 'external' } wait(1) end }");
