@@ -29,10 +29,6 @@ namespace {
 
 constexpr double least_cut = 0.002;  ///< [m2] smaller cuts are rounding
 
-/// [m] Sidewalks reach so far into the walking areas at their ends: networks are written in
-/// centimetres, so that borders which merely meet leave cracks through which the terrain shows.
-constexpr double slab_overlap = 0.02;
-
 struct Slab {
     std::vector<world::Loop> loops;
     std::vector<world::Loop> parts;  ///< the loops, or what they are put together from
@@ -75,8 +71,7 @@ Slab make_slab(const world::LaneT& lane) {
         slab.height = SurfaceHeight({lane.outline});
         return slab;
     }
-    slab.ribbon =
-        make_ribbon(clean_line(lane.centre, slab_overlap), -lane.width / 2, lane.width / 2);
+    slab.ribbon = make_ribbon(clean_line(lane.centre), -lane.width / 2, lane.width / 2);
     slab.loops = slab.ribbon.loops();
     for (const auto& piece : slab.ribbon.pieces)
         slab.parts.push_back(world::in_plan(piece));

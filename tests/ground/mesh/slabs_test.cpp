@@ -67,21 +67,6 @@ TEST(Ground, CutsASidewalkThatLiesOnADrivingLane) {
     EXPECT_EQ(surface_at(ground::build_ground(town), 50, -3.7), Surface::sidewalk);
 }
 
-TEST(Ground, ASidewalkReachesTheWalkingAreaThatIsACentimetreAway) {
-    // As networks are, which are written in centimetres.
-    TownT town;
-    town.name = "corner";
-    town.lanes = {test::lane("way_0", LaneKind::sidewalk, {{0, 0, 0}, {50, 0, 0}}),
-                  test::lane("area_0", LaneKind::walking_area, {{50.01, 0, 0}, {60, 0, 0}})};
-    town.lanes[1].outline = {{50.01, -2, 0}, {60, -2, 0}, {60, 2, 0}, {50.01, 2, 0}};
-    town.low = {0, -2, 0};
-    town.high = {60, 2, 0};
-    const GroundMesh mesh = ground::build_ground(town);
-    expect_well_formed(mesh);
-    for (const double x : {49.999, 50.0001, 50.005, 50.0099, 50.011})
-        EXPECT_EQ(surface_at(mesh, x, 0.3), Surface::sidewalk) << x;
-}
-
 TEST(Ground, CutsOnlyWhatLiesOnTheSameLevel) {
     TownT town = test::bridge();
     LaneT sidewalk = test::lane("walk_0", LaneKind::sidewalk, {{-80, 3, 0}, {80, 3, 0}});
