@@ -39,7 +39,6 @@ void add_rarer_words(world::Hasher& hasher, const world::CommandT& command) {
     add_said('m', command.lamps_mask, command.lamps_mask != 0);
     add_said('r', command.doors, command.doors != 0);
     add_said('a', command.pilot, command.pilot != world::Pilot::idm);
-    add_said('e', command.every, command.every != 0);
 }
 
 }  // namespace

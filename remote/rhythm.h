@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "world/tick_generated.h"
@@ -15,8 +16,16 @@ struct Rhythm {
     std::uint64_t since = 0;  ///< tick in which the vehicle appeared
     std::uint64_t every = 1;  ///< [ticks]
 
-    static Rhythm of(const world::CommandT& spawn, std::uint64_t since, std::uint64_t first) {
-        return {first, since, std::max<std::uint64_t>(spawn.every, 1)};
+    /// `step` [s] of a tick. What no scenario can have said is as near to it as can be.
+    static Rhythm of(const world::CommandT& spawn,
+                     std::uint64_t since,
+                     std::uint64_t first,
+                     double step) {
+        constexpr double most = 100;  // [ticks]
+        const double ticks = spawn.duration / step;
+        return {first,
+                since,
+                ticks > 1 ? static_cast<std::uint64_t>(std::lround(std::min(ticks, most))) : 1};
     }
 
     bool shows(std::uint64_t tick) const { return tick == first || (tick - since) % every == 0; }

@@ -282,10 +282,10 @@ std::optional<Lost> Seat::take(std::uint32_t id,
     parts.id = id;
     parts.guide = spawned.guide != nullptr ? *spawned.guide : Guide(recording.town, id);
     if (spawned.command != nullptr) {
-        parts.rhythm = Rhythm::of(*spawned.command, spawned.tick, spawned.now);
+        const double step = world::seconds(1, recording.episode.step_ns);
+        parts.rhythm = Rhythm::of(*spawned.command, spawned.tick, spawned.now, step);
         parts.sees_sensors = spawned.command->sees_sensors;
-        const world::Rig rig = world::rig_of(
-            *spawned.command, spawned.tick, world::seconds(1, recording.episode.step_ns));
+        const world::Rig rig = world::rig_of(*spawned.command, spawned.tick, step);
         if (!rig.sensors.empty())  // it reads the town while the driver does
             parts.rig.emplace(spawned.render_program, *spawned.command, rig, recording);
         if (parts.rig && !spawned.tick_before.empty())

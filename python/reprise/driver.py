@@ -80,7 +80,8 @@ class Run:
         self.town = Noun(hello.town.data, "world.Town")
         self.episode = Noun(hello.episode.data, "world.Episode")
         self.route: Noun | None = Noun(hello.route.data, "world.Command") if len(hello.route) else None
-        self.every: int = (Noun(hello.spawn.data, "world.Command").every if len(hello.spawn) else 0) or 1
+        pause = Noun(hello.spawn.data, "world.Command").duration if len(hello.spawn) else 0.0
+        self.every: int = round(pause / self.step) or 1
         self.sensors = Sensors.of(hello, memory)
 
 

@@ -1,6 +1,6 @@
 """Made by make_schema.py from world/*.fbs, remote/wire.fbs and world/models/vehicle_models.cpp: change those."""
 
-DIGEST = "7b1ca245e4f886e8"
+DIGEST = "0459779f632567a0"
 
 # name: (type, values)
 ENUMS = {'remote.Kind': ('uint',
@@ -384,8 +384,7 @@ TABLES = {'remote.Hello': {'version': (0, 'uint'),
                    'lamps': (27, 'ushort'),
                    'lamps_mask': (28, 'ushort'),
                    'doors': (29, 'ubyte'),
-                   'pilot': (30, 'Pilot'),
-                   'every': (31, 'ubyte')},
+                   'pilot': (30, 'Pilot')},
  'world.Event': {'kind': (0, 'EventKind'),
                  'actor': (1, 'uint'),
                  'other': (2, 'uint'),

@@ -238,8 +238,9 @@ int spawn(Run& run, lua_State* L) {
     if (speed > 0 && !drives(actor))
         refuse("spawn", fmt::format("'{}' starts at rest", actor.name));
 
+    const double step = world::seconds(1, run.episode.step_ns);
     const Rhythm rhythm = read_rhythm(fields, actor);
-    auto rig = read_rig(L, fields, actor, rhythm, world::seconds(1, run.episode.step_ns));
+    auto rig = read_rig(L, fields, actor, rhythm, step);
     const bool sees_sensors = read_sees_sensors(fields, actor);
     actor.keeps_lane = read_keeps_lane(fields, actor);
     actor.pilot = read_pilot(fields, actor);
@@ -261,7 +262,7 @@ int spawn(Run& run, lua_State* L) {
     said.speed = speed;
     said.text = actor.name;
     said.latency = rhythm.latency;
-    said.every = rhythm.every > 1 ? rhythm.every : 0;
+    said.duration = rhythm.every > 1 ? rhythm.every * step : 0;
     said.rig = std::move(rig);
     said.sees_sensors = sees_sensors;
     said.pilot = actor.pilot;

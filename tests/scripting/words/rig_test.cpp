@@ -148,13 +148,13 @@ TEST(RigWords, SensorsLookAsOftenAsTheirDriverDoesUnlessTheySayOtherwise) {
     Stage stage(running(std::string(external) + R"(every = 2, rig = {
         { name = 'a' }, { name = 'b', every = 6 }, { name = 'c', kind = 'collision', every = 1 } } })"));
     const world::CommandT& command = spawned(stage);
-    EXPECT_EQ(command.every, 2);
+    EXPECT_DOUBLE_EQ(command.duration, 0.1) << "[s] from one tick that it is shown to the next";
     ASSERT_EQ(command.rig.size(), 3U);
     EXPECT_EQ(command.rig[0]->every, 2U);
     EXPECT_EQ(command.rig[1]->every, 6U);
     EXPECT_EQ(command.rig[2]->every, 1U) << "it tells what happens, whenever that is";
     Stage each(running(std::string(external) + "every = 1 }"));
-    EXPECT_EQ(spawned(each).every, 0) << "as if it had said nothing";
+    EXPECT_EQ(spawned(each).duration, 0) << "as if it had said nothing";
 }
 
 std::string said(const world::AttributeRow& row) {
