@@ -81,7 +81,7 @@ class Run:
         self.episode = Noun(hello.episode.data, "world.Episode")
         self.route: Noun | None = Noun(hello.route.data, "world.Command") if len(hello.route) else None
         pause = Noun(hello.spawn.data, "world.Command").duration if len(hello.spawn) else 0.0
-        self.every: int = round(pause / self.step) or 1
+        self.every: int = round(pause / self.step) if pause else 1
         self.sensors = Sensors.of(hello, memory)
 
 
