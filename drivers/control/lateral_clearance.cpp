@@ -13,6 +13,7 @@ constexpr double step = 0.2;           // [m] of the search for kerbs
 constexpr double aside = 0.35;         // [m] things count this far beside the line
 constexpr double lowest_thing = -0.3;  // [m] below the road
 constexpr double edge = 0.3;           // [m] beside a lane that are still road
+constexpr double queue = 15;           // [m] before the end of a lane that somebody waits on
 
 /// A box or a prism as its outline, a cylinder as a point.
 world::Loop outline_of(const world::Obstacle& obstacle) {
@@ -70,6 +71,29 @@ bool LateralClearances::is_sidewalk(const Eigen::Vector3d& p_world) const {
     return slab && lanes_->at(p_world).empty();
 }
 
+/// Of a road that leads into a junction, towards us.
+bool LateralClearances::is_before_line(const Eigen::Vector3d& p_world,
+                                       const Eigen::Vector2d& against) const {
+    constexpr double towards_us = -0.7;  // cosine
+    const auto found = lanes_->at(p_world);
+    return std::any_of(found.begin(), found.end(), [&](const auto& on) {
+        const world::LaneT& lane = town_->lanes[on.lane];
+        return lane.kind != world::LaneKind::internal && !lane.links.empty() &&
+               lane.length - on.at.s < queue &&
+               world::ahead_of(world::point_at(lane, on.at.s).yaw).dot(against) < towards_us;
+    });
+}
+
+double LateralClearances::look_for_line(const Eigen::Vector3d& p_world,
+                                        const Eigen::Vector2d& side,
+                                        const Eigen::Vector2d& ahead) const {
+    const Eigen::Vector3d across(side.x(), side.y(), 0);
+    for (double far = step; far < sight; far += step)
+        if (is_before_line(p_world + far * across, ahead))
+            return far - step / 2;
+    return sight;
+}
+
 bool LateralClearances::is_on_level(const Thing& thing, double z) {
     const double above = thing.z - z;
     return above >= lowest_thing - world::level_clearance && above <= world::level_clearance;
@@ -105,7 +129,7 @@ bool LateralClearances::is_road(const Eigen::Vector3d& p_world) const {
 LateralClearance LateralClearances::look(const Eigen::Vector3d& p_world,
                                          const Eigen::Vector2d& side) const {
     const Eigen::Vector3d across(side.x(), side.y(), 0);
-    LateralClearance clearance{sight, sight, sight};
+    LateralClearance clearance{sight, sight, sight, sight};
     bool on_road = is_road(p_world);  // who is led over a meadow has no verge
     for (double far = step; far < sight; far += step) {
         const Eigen::Vector3d place = p_world + far * across;

@@ -18,6 +18,7 @@ struct LateralClearance {
     double to_kerb = 0;      ///< to the first sidewalk
     double to_verge = 0;     ///< to where no more road is: grass
     double to_obstacle = 0;  ///< to the first thing that stands: pole, trunk, wall, building
+    double to_waiting = 0;   ///< to a lane of the other direction, where one waits at its end
 };
 
 /// Looks across the road for kerbs, and for what stands behind them.
@@ -34,6 +35,11 @@ class LateralClearances {
     /// Things count from half a metre beside the line on: lines half a metre apart miss none.
     LateralClearance look(const Eigen::Vector3d& p_world, const Eigen::Vector2d& side) const;
 
+    /// The `to_waiting` of it, where one who drives that way (`ahead`, unit, in plan) passes there.
+    double look_for_line(const Eigen::Vector3d& p_world,
+                         const Eigen::Vector2d& side,
+                         const Eigen::Vector2d& ahead) const;
+
     /// Does nothing stand within `reach` [m] of the straight line between them?
     bool is_clear(const Eigen::Vector3d& from_world,
                   const Eigen::Vector3d& to_world,
@@ -48,6 +54,7 @@ class LateralClearances {
     };
 
     bool is_sidewalk(const Eigen::Vector3d& p_world) const;
+    bool is_before_line(const Eigen::Vector3d& p_world, const Eigen::Vector2d& against) const;
     static bool is_on_level(const Thing& thing, double z);
     bool is_road(const Eigen::Vector3d& p_world) const;
 

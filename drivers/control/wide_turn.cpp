@@ -28,6 +28,7 @@ constexpr double driven_error = 0.01;      // [m]
 constexpr double kerb_error = 0.05;        // [m]
 constexpr double verge_error = 0.2;        // [m]
 constexpr double obstacle_error = 0.02;    // [m]
+constexpr double line_error = 0.1;         // [m] over the lane of those who wait at the end of it
 constexpr double middle_error = 1.0;       // [m]
 constexpr double steering_error = 0.03;    // [1/m^2] change of curvature along the track
 constexpr double curvature_error = 0.005;  // [1/m] beyond the sharpest
@@ -138,6 +139,11 @@ void WideTurnPlan::look_around(const Path& path, double rear_axle_s) {
         } else {
             station.clearance_left = clearances_->look(station.path, station.left);
             station.clearance_right = clearances_->look(station.path, -station.left);
+            const Eigen::Vector2d ahead = -to_left(station.left);
+            station.clearance_left.to_waiting =
+                clearances_->look_for_line(station.path, station.left, ahead);
+            station.clearance_right.to_waiting =
+                clearances_->look_for_line(station.path, -station.left, ahead);
         }
         stations_.push_back(station);
     }
@@ -249,6 +255,9 @@ void WideTurnPlan::add_corner(BandEquations& equations, const Corner& corner) co
         const double over_verge = offset - std::max(clearance.to_verge, least_clearance);
         if (over_verge > 0)
             equations.add(corner.station - 1, corner.change, sign * over_verge, verge_error);
+        const double over_line = offset - std::max(clearance.to_waiting, least_clearance);
+        if (over_line > 0)
+            equations.add(corner.station - 1, corner.change, sign * over_line, line_error);
         const double over_obstacle =
             offset - std::max(clearance.to_obstacle - from_obstacle, least_clearance);
         if (over_obstacle > 0)

@@ -30,8 +30,9 @@ struct WideTurnPoint {
 /// drivers swing wide, across the centre line if they must.
 ///
 /// MUST    keep the whole footprint off kerbs and off what stands behind them; ask no more of the
-///         steering than it can give; stay on the road where that leaves a choice; else keep the
-///         middle between the axles on the path, as the driver of a car does.
+///         steering than it can give; stay on the road, and off lanes that others wait on before
+///         the junction, where that leaves a choice; else keep the middle between the axles on the
+///         path, as the driver of a car does.
 /// ASSUMES no slip: the body lies along the tangent of the rear axle's track. At a bus driver's
 ///         speeds the tyres make less than 2 degrees of it.
 /// GOES    one number a sample, how far the rear axle runs left of the path, so that a sum of

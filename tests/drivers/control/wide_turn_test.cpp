@@ -172,6 +172,57 @@ TEST(WideTurnPlan, WaitsForTheCarThatItWouldSwingInto) {
     EXPECT_LT(drive.car.y, -40) << "does not go on";
 }
 
+/// To the right where two roads of two lanes of 3.2 m cross, as netconvert makes it: the turn is
+/// tighter than a car's, and on the other half of the road that it leads to somebody waits.
+world::TownT crossroads() {
+    const double lane = 3.2;
+    const double radius = 3.6;
+    world::TownT town;
+    town.name = "crossroads";
+    town.lanes = {
+        make_lane("in", Turtle(0, 0, 0).ahead(60)),
+        make_lane(
+            ":turn", Turtle(60, 0, 0).turn(-quarter_turn, radius), 5, world::LaneKind::internal),
+        make_lane("out", Turtle(60 + radius, -radius, -quarter_turn).ahead(60)),
+        make_lane("beside", Turtle(60, lane, std::numbers::pi).ahead(60)),
+        make_lane("waiting", Turtle(60 + radius + lane, -radius - 60, quarter_turn).ahead(60))};
+    for (world::LaneT& one : town.lanes)
+        one.width = static_cast<float>(lane);
+    town.lanes[0].links = {make_link(2, 1, world::Turn::right)};
+    town.lanes[1].links = {make_link(2, world::none, world::Turn::right)};
+    town.lanes[4].links = {make_link(3, world::none, world::Turn::left)};
+    town.junctions.resize(1);
+    const double right = 60 + radius + 1.5 * lane;
+    for (const auto& [x, y] :
+         {std::pair(60.0, -radius), {right, -radius}, {right, 1.5 * lane}, {60.0, 1.5 * lane}})
+        town.junctions[0].outline.emplace_back(x, y, 0);
+    return town;
+}
+
+/// 188 s an ego stood at green before one who waited at red, and whoever came behind him.
+TEST(WideTurnPlan, LeavesRoomForWhoWaitsAtTheLineBesideItsWayOut) {
+    constexpr double room = 0.25;  // [m]
+    const world::TownT town = crossroads();
+    const world::LaneMap lanes(town);
+    const drivers::LateralClearances clearances(town, lanes, ground::obstacles_of(town));
+    const Path path = path_along(Turtle(0, 0, 0).ahead(60).turn(-quarter_turn, 3.6).ahead(60));
+    const Eigen::Vector2d line(66.8, -3.6);
+    for (const char* name : {"sedan", "pickup", "van"}) {
+        const world::VehicleModel& model = model_of(name);
+        WideTurnPlan wide_turn(model, clearances);
+        wide_turn.plan(path, ego_at(model, 30, 0));
+        for (double s = 40; s < 90; s += 0.1) {
+            const drivers::WideTurnPoint point = wide_turn.at(s);
+            for (const Eigen::Vector2d& place : outline_of(model, point.position, point.yaw)) {
+                const Eigen::Vector2d from = place - line;
+                ASSERT_FALSE(std::abs(from.x()) < 0.95 + room && from.y() < -1 + room &&
+                             from.y() > -7)
+                    << name << " at " << place.transpose();
+            }
+        }
+    }
+}
+
 TEST(WideTurnPlan, LeavesRoomForAPoleBesideTheLane) {
     const world::VehicleModel& bus = model_of("bus");
     world::TownT town;
