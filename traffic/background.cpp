@@ -28,6 +28,7 @@
 #include "traffic/orders.h"
 #include "traffic/placements.h"
 #include "traffic/rescue_lane.h"
+#include "traffic/roads/closed_lanes.h"
 #include "traffic/roads/right_of_way.h"
 #include "traffic/roads/road_graph.h"
 #include "traffic/route_planner.h"
@@ -88,7 +89,9 @@ struct Background::Parts {
           reader(town, graph, world::seconds(1, episode.step_ns), episode.seed),
           signal_orders(town),
           signals(town),
-          step_ns(episode.step_ns) {}
+          step_ns(episode.step_ns) {
+        close_other_lanes(town);
+    }
 
     void carry_out(const world::TickView& last, world::TickDraft& next);
     void give(const world::CommandT& command, Car& car, std::uint64_t tick);

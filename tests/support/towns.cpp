@@ -1,8 +1,10 @@
 #include "tests/support/towns.h"
 
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <map>
+#include <unistd.h>
 
 namespace reprise::test {
 
@@ -21,6 +23,26 @@ const Loaded& own_town(const std::string& name) {
     const std::filesystem::path folder =
         std::filesystem::path(REPRISE_SOURCE_DIR) / "scenarios/towns";
     return towns.emplace(name, load(folder / name / (name + ".net.xml"))).first->second;
+}
+
+Loaded load_changed(const std::string& name, const std::function<void(std::string&)>& change) {
+    namespace fs = std::filesystem;
+    const fs::path folder =
+        fs::temp_directory_path() / ("reprise_changed_" + name + '_' + std::to_string(getpid()));
+    fs::create_directory(folder);
+    const std::string file = name + ".net.xml";
+    {
+        std::ifstream from(fs::path(REPRISE_SOURCE_DIR) / "scenarios/towns" / name / file);
+        std::ofstream to(folder / file);
+        for (std::string line; std::getline(from, line);) {
+            change(line);
+            if (!line.empty())
+                to << line << '\n';
+        }
+    }
+    Loaded loaded = load(folder / file);
+    fs::remove_all(folder);
+    return loaded;
 }
 
 std::filesystem::path own_map(const std::string& name) {

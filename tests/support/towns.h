@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,10 @@ struct Loaded {
 const Loaded& own_town(const std::string& name);
 
 Loaded load(const std::filesystem::path& network);
+
+/// One of our own towns with another network: `change` sees each line of it and may change it; a
+/// line that is empty then is left out.
+Loaded load_changed(const std::string& name, const std::function<void(std::string&)>& change);
 
 /// tests/maps/NAME: small maps of our own (make_maps.py there), so that what maps promise is always
 /// tested.

@@ -261,40 +261,14 @@ TEST(Lookout, AWreckWhoseCornerIsOverTheLineIsPassed) {
     EXPECT_GE(scene.passed.size(), one_lane.pass);
 }
 
-/// Town 1 as netconvert makes towns of other maps: SUMO knows no opposite lanes there, and does not
-/// sort a lane's vehicles again.
-class TownWithoutNeighbours {
-  public:
-    TownWithoutNeighbours()
-        : folder_(std::filesystem::temp_directory_path() /
-                  ("reprise_no_neighbours_" + std::to_string(getpid()))) {
-        std::filesystem::create_directory(folder_);
-        const auto network = folder_ / "town1.net.xml";
-        std::ifstream from(std::string(REPRISE_SOURCE_DIR) +
-                           "/scenarios/towns/town1/town1.net.xml");
-        std::ofstream to(network);
-        for (std::string line; std::getline(from, line);)
-            if (line.find("<neigh ") == std::string::npos)
-                to << line << '\n';
-        to.close();
-        loaded = test::load(network);
-    }
-
-    TownWithoutNeighbours(const TownWithoutNeighbours&) = delete;
-    TownWithoutNeighbours& operator=(const TownWithoutNeighbours&) = delete;
-
-    ~TownWithoutNeighbours() { std::filesystem::remove_all(folder_); }
-
-  private:
-    std::filesystem::path folder_;
-
-  public:
-    test::Loaded loaded;
-};
-
+/// As netconvert makes towns of other maps: SUMO knows no opposite lanes there, and does not sort a
+/// lane's vehicles again.
 TEST(Lookout, WhoHasPassedAParkedVanDrivesOnWhereSumoKnowsNoOppositeLanes) {
-    const TownWithoutNeighbours town;
-    Scene scene(town.loaded, one_lane.lane);
+    const test::Loaded town = test::load_changed(one_lane.town, [](std::string& line) {
+        if (line.find("<neigh ") != std::string::npos)
+            line.clear();
+    });
+    Scene scene(town, one_lane.lane);
     scene.park("van", scene.free_place(one_lane.s, one_lane.before), 0);
     scene.watch(two_minutes);
     EXPECT_TRUE(scene.touched.empty());
