@@ -27,7 +27,8 @@ namespace reprise::cli {
 namespace {
 
 using remote::Kind;
-constexpr double taking = 10;  // [s] for a client to take our word
+constexpr double taking = 10;               // [s] for a client to take our word
+constexpr double longest_episode = 86'400;  // [s] of simulated time: a day, as of a run
 
 std::string text_of(const flatbuffers::String* text) {
     return text == nullptr ? "" : text->str();
@@ -52,8 +53,12 @@ scripting::Overrides overrides_of(const remote::Reset& reset) {
     scripting::Overrides overrides;
     if (reset.seeded())
         overrides.seed = reset.seed();
-    if (reset.seconds() != 0)
-        overrides.duration = reset.seconds();
+    if (const double limit = reset.seconds(); limit != 0) {
+        if (!(limit > 0 && limit <= longest_episode))
+            throw world::Error(
+                fmt::format("seconds = {}: must be in (0, {}]", limit, longest_episode));
+        overrides.duration = limit;
+    }
     if (reset.settings() != nullptr)
         for (const remote::Setting* one : *reset.settings())
             overrides.parameters.emplace_back(text_of(one->key()), text_of(one->value()));

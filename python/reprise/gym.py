@@ -18,6 +18,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 
+from .driver import Control
 from .navigation import TASKS, Journey, action_space, cars_of, control_of, observation_space, read_episodes, rig_of
 from .simulation import Simulation
 from .wire import POLLING
@@ -53,14 +54,16 @@ class Navigation(gymnasium.Env):
                  tasks: str | os.PathLike | None = None, folder: str | os.PathLike = ".",
                  render_mode: str | None = None, polling: float = POLLING, every: int = 1) -> None:  # fmt: skip
         self.render_mode = render_mode
-        self.metadata = {**self.metadata, "render_fps": 20 / every}
         self.episodes = read_episodes(town, task, tasks)
         self.weathers = [weather] if isinstance(weather, str) else list(weather)
+        if not self.weathers:
+            raise ValueError("weather=[]: expected the name of a preset, or several to draw from")
         self.action_space = action_space()
         self.observation_space = observation_space(obs)
         self._obs = obs
         self._sim = Simulation(town, cars=cars_of(town, task, cars), server=server, token=token, rig=rig_of(obs),
                                folder=folder, polling=polling, every=every)  # fmt: skip
+        self.metadata = {**self.metadata, "render_fps": 20 / every}
         self._journey: Journey | None = None
 
     def reset(self, *, seed: int | None = None,
@@ -71,6 +74,8 @@ class Navigation(gymnasium.Env):
         weather = self.weathers[int(self.np_random.integers(len(self.weathers)))]
         options = options or {}
         chosen = int(options.get("episode", chosen))
+        if not 0 <= chosen < len(self.episodes):
+            raise ValueError(f"options: 'episode' is {chosen}, of {len(self.episodes)}: expected 0 to {len(self.episodes) - 1}")
         task = self.episodes[chosen]
         start, goal = ((task[end]["lane"], task[end]["s"]) for end in ("start", "goal"))
         self._sim.reset(seed=traffic, weather=weather, start=start, goal=goal, trace=options.get("trace"))
@@ -86,9 +91,12 @@ class Navigation(gymnasium.Env):
 
     def begin_step(self, action: np.ndarray) -> None:
         """The first half of step(): from here on the tick is simulated, whatever is done meanwhile."""
+        self._say(control_of(action))
+
+    def _say(self, control: Control) -> None:
         if self._journey is None:
             raise gymnasium.error.ResetNeeded("step() before reset()")
-        self._sim.say(control_of(action))
+        self._sim.say(control)
 
     def end_step(self) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
         """The other half: waits for the tick, and returns what step() returns."""
@@ -157,9 +165,11 @@ class NavigationVector(gymnasium.vector.VectorEnv):
         return np.stack(seen), infos
 
     def step(self, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
-        for env, action, ended in zip(self.envs, actions, self._ended, strict=True):
-            if not ended:
-                env.begin_step(action)
+        # All of them before one is said: where one cannot be, no environment is a step ahead of the others.
+        controls = [None if ended else control_of(action) for ended, action in zip(self._ended, actions, strict=True)]
+        for env, control in zip(self.envs, controls):
+            if control is not None:
+                env._say(control)
         results, infos = [], {}
         for i, env in enumerate(self.envs):
             if self._ended[i]:

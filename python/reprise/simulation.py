@@ -96,6 +96,12 @@ _SENSOR = dict(kind="rgb", width=800, height=600, fov_deg=90.0, x=1.0, y=0.0, z=
                roll_deg=0.0, every=0)  # fmt: skip
 
 
+_OF_TASKS = ("town", "cars", "weather", "model", "start", "goal", "rig")
+#: of the plan of an episode, where nothing else is said
+_UNASKED: dict[str, Any] = dict(town="town1", cars=0, weather="clear_noon", model="sedan")
+_MOST = 2 << 20  # [bytes] of a message, as servers take them
+
+
 def _sensor(said: Mapping[str, Any]) -> dict[str, Any]:
     sensor = {**_SENSOR, **said}
     attributes = sensor.pop("attributes", None) or {}
@@ -109,8 +115,10 @@ class Client:
     def __init__(self, plan: dict[str, Any], server: str | None, token: str | None, folder: str | os.PathLike,
                  polling: float = POLLING) -> None:  # fmt: skip
         self.outcome: Outcome | None = None  #: of the last episode, once it has ended
+        self._process = os.getpid()
         self._plan = plan
         self._check_plan()
+        self._check_asked(plan)
         self._wire: Wire | None = None
         self._server = None if server else _Server(os.fspath(folder))
         try:
@@ -133,9 +141,14 @@ class Client:
         """Lets go of what belongs to the episode that runs."""
 
     def close(self) -> None:
-        """Leaves; the episode that runs ends. May be called again."""
+        """Leaves; the episode that runs ends. May be called again. In a process that was forked from the one that
+        made this nothing ends: the connection is the other one's."""
         wire, self._wire = self._wire, None
-        if wire:
+        if self._process != os.getpid():
+            if wire:
+                wire.close()
+            self._server = None
+        elif wire:
             self._leave_episode()
             with contextlib.suppress(WireError):  # it went first
                 wire.say("goodbye", reason="closed")
@@ -156,7 +169,7 @@ class Client:
 
     def _say(self, kind: str, **values: Any) -> None:
         try:
-            self._open_wire().say(kind, **values)
+            self._open_wire().say(kind, _MOST, **values)
         except WireError as error:
             raise self._explained(error) from None
 
@@ -176,6 +189,7 @@ class Client:
                 raise TypeError(f"reset: no '{name}'; there are {', '.join(self._plan)}")
         self._plan = {**self._plan, **changes}
         self._check_plan()
+        self._check_asked(changes)
 
     @contextlib.contextmanager
     def _asked(self, changes: dict[str, Any]) -> Iterator[None]:
@@ -195,6 +209,16 @@ class Client:
             raise ValueError("every: a scenario says itself how often its driver is asked: spawn{ every = 2 }")
         if not (isinstance(self._plan["every"], int) and 1 <= self._plan["every"] <= 100):
             raise ValueError(f"every={self._plan['every']!r}: expected 1 to 100 ticks")
+
+    def _check_asked(self, asked: Mapping[str, Any]) -> None:
+        """What was asked for now must not be passed over."""
+        for name, value in asked.items():
+            if value in (None, (), [], {}, _UNASKED.get(name)):
+                continue
+            if self._plan["scenario"] is not None and name in _OF_TASKS:
+                raise ValueError(f"{name}={value!r}: is for tasks, a scenario says that itself")
+            if self._plan["scenario"] is None and name == "settings":
+                raise ValueError(f"settings={value!r}: is for scenarios, a task has none")
 
     def _message(self) -> dict[str, Any]:
         plan = self._plan
@@ -266,6 +290,7 @@ class Simulation(Client):
                  token: str | None = None, folder: str | os.PathLike = ".", polling: float = POLLING) -> None:  # fmt: skip
         self.run_info: Run | None = None  #: what stays the same in this episode; also `seen.run`
         self._seen: Observation | None = None
+        self._is_unheard = False  # a control was said, and what came of it was not read
         super().__init__(
             dict(town=town, cars=cars, walkers=walkers, walker_seed=walker_seed, seed=seed, weather=weather, start=start, goal=goal, model=model,
                  scenario=scenario, settings=settings, seconds=seconds, trace=trace, rig=rig, every=every),
@@ -285,7 +310,7 @@ class Simulation(Client):
             return self._begin()
 
     def _begin(self) -> Observation:
-        self._seen, self.outcome = None, None
+        self._seen, self.outcome, self._is_unheard = None, None, False
         self._say("reset", **self._message())
         kind, message = self._hear(first=True)
         while kind == "observation":  # of the episode before, where Ctrl-C came while we waited for it
@@ -324,14 +349,21 @@ class Simulation(Client):
         then hears what came of it, lets them work at once."""
         if self._seen is None:
             raise RuntimeError("no episode runs: reset() begins one")
+        if self._is_unheard:  # Ctrl-C came while we waited for it
+            raise RuntimeError("what came of the last control was not heard yet: hear() waits for it, reset() begins anew")
         try:
             self._open_wire().control(self._seen.index, *values_of(control))
         except WireError as error:
             raise self._explained(error) from None
+        self._is_unheard = True
 
     def hear(self) -> Observation | None:
         """The other half: waits for what the next tick shows, as step() returns it. Once for each say()."""
-        return self._look()
+        if not self._is_unheard:
+            raise RuntimeError("nothing is on its way: say() comes before hear()")
+        seen = self._look()
+        self._is_unheard = False
+        return seen
 
     def show(self, radius: float | None = 60.0) -> View:
         """What `seen.show()` of the last tick shows."""

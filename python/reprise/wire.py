@@ -224,9 +224,12 @@ class Wire:
         except ConnectionError:
             raise WireError("the run has hung up") from None
 
-    def say(self, kind: str, **values: Any) -> None:
-        """A message of any kind, by the fields of its table."""
-        self._put(kind, pack(f"remote.{kind.capitalize()}", values))
+    def say(self, kind: str, most: int | None = None, **values: Any) -> None:
+        """A message of any kind, by the fields of its table. Raises ValueError where that is more than so many bytes."""
+        body = pack(f"remote.{kind.capitalize()}", values)
+        if most is not None and len(body) > most:
+            raise ValueError(f"{kind}: expected {most} bytes at most, got {len(body)}")
+        self._put(kind, body)
 
     def ready(self) -> None:
         """Answers hello."""

@@ -129,6 +129,9 @@ class ParallelNavigation(ParallelEnv):
         chosen = list(options.get("episodes", chosen))
         if len(chosen) != len(self.possible_agents):
             raise ValueError(f"options: 'episodes' names {len(chosen)} for {len(self.possible_agents)} agents")
+        for number in chosen:
+            if not 0 <= number < len(self.episodes):
+                raise ValueError(f"options: 'episodes' names {number}, of {len(self.episodes)}: expected 0 to {len(self.episodes) - 1}")
         seen = self._sim.reset(scenario=self._scenario(chosen), seed=traffic, trace=options.get("trace"))
         # The goals are known from the tick after the vehicles appeared.
         self._seen = self._sim.step({agent: Control() for agent in seen})

@@ -142,6 +142,42 @@ def a_vector_is_what_gymnasiums_own_is():
     assert ended[:, 0].sum() >= 1 and not ended[:, 1].any(), ended.sum(axis=0)
 
 
+def what_cannot_be_is_told():
+    def refuses(what, *words):
+        try:
+            what()
+        except ValueError as error:
+            assert all(word in str(error) for word in words), error
+        else:
+            raise AssertionError(words)
+
+    refuses(lambda: reprise.gym.Navigation(every=0), "every=0")
+    refuses(lambda: reprise.gym.Navigation(weather=[]), "weather=[]")
+    env = reprise.gym.Navigation(task="straight")
+    for number in (-1, 25):
+        refuses(lambda: env.reset(options={"episode": number}), f"'episode' is {number}", "0 to 24")
+    env.close()
+    several = reprise.zoo.navigation(agents=1, task="straight")
+    refuses(lambda: several.reset(options={"episodes": [25]}), "names 25", "0 to 24")
+    several.close()
+
+
+def an_action_that_cannot_be_moves_nobody_of_a_vector():
+    envs = gymnasium.make_vec(NAME, num_envs=2, task="straight")
+    envs.reset(seed=5)
+    gas = np.array([[0, 0.6], [0, 0.6]], np.float32)
+    for wrong in (np.array([[0, 1], [0, np.nan]], np.float32), gas[:1]):
+        try:
+            envs.step(wrong)
+        except ValueError:
+            continue
+        raise AssertionError(wrong)
+    seen, *_ = envs.step(gas)  # the first one is not asked for a step that it has made already
+    envs.step(gas)
+    envs.close()
+    assert seen.shape == (2, 22)
+
+
 def pictures_are_equal_for_equal_actions():
     seen = []
     for _ in range(2):
@@ -266,6 +302,8 @@ if __name__ == "__main__":
         an_action_holds_for_as_many_ticks_as_was_said,
         two_at_once,
         a_vector_is_what_gymnasiums_own_is,
+        what_cannot_be_is_told,
+        an_action_that_cannot_be_moves_nobody_of_a_vector,
         pictures_are_equal_for_equal_actions,
         what_it_sees_is_rendered,
         pettingzoos_checkers,

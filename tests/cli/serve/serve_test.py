@@ -405,6 +405,55 @@ class Episodes(Case):
             wait_until(lambda: select.select([sim._wire], [], [], 0)[0], "the server answers")
             self.assertEqual(chains(sim, 5), wanted)
 
+    def test_each_control_is_said_once_and_heard_of_once(self):
+        with reprise.Simulation("straight") as sim:
+            sim.reset()
+            with self.assertRaisesRegex(RuntimeError, "say\\(\\) comes before hear\\(\\)"):
+                sim.hear()
+            sim.say(reprise.Control(throttle=0.4))  # and Ctrl-C in step(): nobody reads the answer
+            for again in (sim.step, lambda: sim.say(reprise.Control())):
+                with self.assertRaisesRegex(RuntimeError, "the last control was not heard yet"):
+                    again()
+            self.assertEqual([sim.hear().index, sim.step().index], [2, 3])
+            sim.say(reprise.Control())
+            self.assertEqual([sim.reset().index, sim.step().index], [1, 2])
+
+    def test_a_fork_that_closes_ends_nothing(self):
+        with reprise.Simulation("straight") as sim:
+            sim.reset()
+            child = os.fork()
+            if child == 0:
+                try:
+                    sim.close()
+                finally:
+                    os._exit(0)
+            os.waitpid(child, 0)
+            self.assertEqual([sim.step().index for _ in range(3)], [2, 3, 4])
+
+    def test_what_would_be_passed_over_is_refused(self):
+        for wrong in (dict(cars=5), dict(town="town2"), dict(goal="drawn"), dict(rig=[dict(name="front")]), dict(model="van")):
+            with self.subTest(wrong), self.assertRaisesRegex(ValueError, f"^{next(iter(wrong))}=.*is for tasks"):
+                reprise.Simulation(scenario="driven.lua", **wrong)
+        with reprise.Simulation("straight", cars=3, folder=self.folder) as sim:
+            with self.assertRaisesRegex(ValueError, "^settings=.*is for scenarios"):
+                sim.reset(settings={"gap": 3})
+            self.assertRaises(ValueError, sim.reset, scenario="driven.lua", weather="hard_rain_noon")
+            self.assertEqual(len(sim.reset().cars), 3)
+            self.assertEqual(len(sim.reset(scenario="driven.lua").cars), 20)  # what was asked of tasks waits for the next one
+
+    def test_seconds_that_cannot_be_are_told_in_the_words_of_who_asked(self):
+        with reprise.Simulation("straight") as sim:
+            for seconds in (-1, float("nan"), float("inf"), 86401):
+                with self.subTest(seconds), self.assertRaisesRegex(reprise.Fault, "^seconds = .*: must be in \\(0, 86400\\]$"):
+                    sim.reset(seconds=seconds)
+            self.assertEqual(sim.reset(seconds=86400).index, 1)
+
+    def test_more_than_a_server_takes_is_refused_here_and_the_session_lives_on(self):
+        with reprise.Simulation("straight") as sim:
+            with self.assertRaisesRegex(ValueError, "^reset: expected 2097152 bytes at most, got 30"):
+                sim.reset(scenario="\n" + " " * 3_000_000)
+            self.assertEqual(sim.reset().index, 1)
+
     def test_a_server_that_was_started_for_us_and_ended_is_said_to_have(self):
         with reprise.Simulation() as sim:
             sim.reset()
