@@ -45,7 +45,11 @@ def read_episodes(town: str, task: str, path: str | os.PathLike | None = None) -
     than the town's own. Raises ValueError for what is no task."""
     if task not in TASKS:
         raise ValueError(f"no task '{task}'; there are {', '.join(TASKS)}")
-    file = os.fspath(path) if path else str(_scenarios() / "towns" / town / "tasks.json")
+    towns = _scenarios() / "towns"
+    file = os.fspath(path) if path else str(towns / town / "tasks.json")
+    if not path and not os.path.isfile(file):
+        there = ", ".join(sorted(one.parent.name for one in towns.glob("*/tasks.json")))
+        raise ValueError(f"no tasks are there of the town '{town}', but of {there}; a file of your own is named by tasks=")
     return _read_tasks(file)["navigation" if task == "navigation_dynamic" else task]
 
 

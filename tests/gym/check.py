@@ -153,6 +153,7 @@ def what_cannot_be_is_told():
 
     refuses(lambda: reprise.gym.Navigation(every=0), "every=0")
     refuses(lambda: reprise.gym.Navigation(weather=[]), "weather=[]")
+    refuses(lambda: reprise.gym.Navigation(town="nowhere"), "of the town 'nowhere', but of town1, town2; ", "tasks=")
     env = reprise.gym.Navigation(task="straight")
     for number in (-1, 25):
         refuses(lambda: env.reset(options={"episode": number}), f"'episode' is {number}", "0 to 24")

@@ -73,6 +73,21 @@ TEST(FrameChannel, RefusesALengthBeforeItReadsIt) {
                 HasSubstr("4294967280 bytes, where 1048576 is the most"));
 }
 
+TEST(FrameChannel, TakesWhatIsAsLargeAsItIsToldAndNotAByteMore) {
+    const auto message = goodbye("why");
+    for (const std::size_t largest : {message.GetSize(), message.GetSize() - 1}) {
+        std::array<int, 2> ends{};
+        ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+        FrameChannel near(ends[0], 1 << 20);
+        FrameChannel far(ends[1], largest);
+        near.send(Kind::goodbye, {message.GetBufferPointer(), message.GetSize()});
+        if (largest == message.GetSize())
+            EXPECT_EQ(far.receive({10.0}).kind, Kind::goodbye);
+        else
+            EXPECT_THAT(fault_of_receiving(far), HasSubstr("is the most"));
+    }
+}
+
 TEST(FrameChannel, RefusesABodyThatIsNoTableOfItsKind) {
     Pair pair;
     const std::array<std::uint32_t, 4> frame{8, 4, 0xffff'ffffU, 7};

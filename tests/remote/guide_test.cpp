@@ -143,5 +143,37 @@ TEST(Guide, TheWayLeadsThroughTheStopsAndTheyArePassedOnce) {
     EXPECT_NEAR(look(guide, first, 30).way_to_goal, direct, 0.01);
 }
 
+TEST(Guide, WhoDrivesPastItsGoalIsToldTheWayBackToIt) {
+    const std::uint32_t first = test::lane(town1(), "b1_b2_1");
+    const std::uint32_t goal = test::lane(town1(), "b2_b3_2");
+    const double way = world::Planner(town1()).plan({first, 30}, {goal, 30})->length;
+    Guide guide(town1(), ego);
+    look(guide, first, 30, {goal}, 30);
+    EXPECT_NEAR(look(guide, goal, 5).way_to_goal, 25, 0.01);
+    EXPECT_NEAR(look(guide, first, 30).way_to_goal, way, 0.01);
+}
+
+TEST(Guide, ANewWordOfTheScenarioIsTheWholeWay) {
+    const std::uint32_t first = test::lane(town1(), "b1_b2_1");
+    const std::uint32_t stop = test::lane(town1(), "c2_c3_1");
+    const std::uint32_t goal = test::lane(town1(), "b2_b3_2");
+    Guide fresh(town1(), ego), told_before(town1(), ego);
+    look(told_before, first, 30, {stop, goal}, 30);
+    look(told_before, stop, 5);  // one stop was passed
+    const Guidance wanted = look(fresh, first, 30, {stop, goal}, 60);
+    const Guidance said = look(told_before, first, 30, {stop, goal}, 60);
+    EXPECT_NEAR(said.way_to_goal, wanted.way_to_goal, 0.01);
+    EXPECT_EQ(told_before.route_left()->lanes, (std::vector<std::uint32_t>{stop, goal}));
+    const Guidance nearer = look(told_before, first, 30, {goal}, 30);
+    EXPECT_NEAR(
+        look(told_before, first, 30, {goal}, 60).way_to_goal, nearer.way_to_goal + 30, 0.01);
+}
+
+TEST(Guide, WhereAnotherOneIsToGoIsNoGoalOfOurs) {
+    Guide guide(town1(), ego + 1);
+    look(guide, test::lane(town1(), "b1_b2_1"), 30, {test::lane(town1(), "b2_b3_2")}, 30);
+    EXPECT_FALSE(guide.route_left());
+}
+
 }  // namespace
 }  // namespace reprise::remote

@@ -56,6 +56,15 @@ void misbehave(const std::string& habit, Client& run) {
         run.say({.throttle = nan});
     if (habit == "too_much")
         run.say({.steer = -1.5});
+    if (habit == "twice")
+        run.say({.throttle = 0.1});
+    if (habit == "ahead") {
+        flatbuffers::FlatBufferBuilder builder;
+        builder.Finish(reprise::remote::CreateControl(builder, 9));
+        const std::uint32_t header[] = {builder.GetSize(), 4};
+        say_raw(header, sizeof(header));
+        say_raw(builder.GetBufferPointer(), builder.GetSize());
+    }
     if (habit == "silent")
         std::this_thread::sleep_for(std::chrono::hours(1));
     if (habit == "garbage") {

@@ -61,6 +61,19 @@ TEST(PictureRing, WritesNowhereWhereADriverMayStillLook) {
     }
 }
 
+/// What measures no pixels and no points says it in messages, but memory of no bytes is none.
+TEST(PictureRing, OfReadingsOnlyHasMemoryToHandOver) {
+    world::Rig rig;
+    world::SensorSpec sensor;
+    sensor.name = "motion";
+    sensor.kind = world::SensorKind::imu;
+    rig.sensors = {sensor};
+    rig.every = {1};
+    const PictureRing ring(rig, 0);
+    ASSERT_GT(ring.bytes(), 0U);
+    EXPECT_EQ(SharedMemory(ring.bytes()).bytes().size(), ring.bytes());
+}
+
 TEST(SharedMemory, IsSeenByWhoItIsHandedOverTo) {
     std::array<int, 2> ends{};
     ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), 0);
@@ -130,9 +143,8 @@ std::array<int, 2> tcp_pair() {
     return {accept4(listener.number(), nullptr, nullptr, SOCK_CLOEXEC), far};
 }
 
-/// The run's part for a driver over TCP that carries one camera of 2 x 1 px: one tick with a frame,
-/// one without. Returns what it says to the first, of which the throttle is what it saw.
-double throttle_for_picture(FrameChannel& channel) {
+/// A spawn with one camera of 2 x 1 px, that looks in each second tick.
+world::CommandT with_camera() {
     world::CommandT spawn;
     spawn.kind = world::CommandKind::spawn;
     auto& sensor = *spawn.rig.emplace_back(std::make_unique<world::SensorT>());
@@ -141,6 +153,13 @@ double throttle_for_picture(FrameChannel& channel) {
     sensor.height = 1;
     sensor.fov = 1;
     sensor.every = 2;
+    return spawn;
+}
+
+/// The run's part for a driver over TCP that carries one camera of 2 x 1 px: one tick with a frame,
+/// one without. Returns what it says to the first, of which the throttle is what it saw.
+double throttle_for_picture(FrameChannel& channel) {
+    const world::CommandT spawn = with_camera();
     world::Recording recording;
     recording.town = test::straight_road(100, 1);
     channel.send(Kind::hello, bytes_of(pack_hello({1, "ego", &spawn, 0}, recording)));
@@ -177,6 +196,37 @@ TEST(Pictures, ComeInMessagesToADriverInCppThatSharesNoMemory) {
     });
     EXPECT_EQ(throttle_for_picture(channel), 0.5);
     driver.join();
+}
+
+/// A run that says where they are is believed no farther than the memory goes.
+TEST(Pictures, ThatWouldLieBeyondTheSharedMemoryAreRefused) {
+    constexpr std::size_t bytes = 64;
+    std::array<int, 2> ends{};
+    ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), 0);
+    FrameChannel run(ends[0], 64 << 10);
+    const SharedMemory memory(bytes);
+    const world::CommandT spawn = with_camera();
+    world::Recording recording;
+    recording.town = test::straight_road(100, 1);
+    run.send(Kind::hello,
+             bytes_of(pack_hello({1, "ego", &spawn, nullptr, bytes}, recording)),
+             {},
+             memory.for_looking().number());
+    Client driver(FrameChannel(ends[1], 1 << 20), 0);
+    world::TickDraft draft;
+    draft.tick.index = 5;
+    const world::SealedTick tick = world::seal(draft, {});
+    const std::size_t last = bytes - 6;  // of a picture of 2 x 1 px
+    for (const std::size_t offset : {std::size_t{0}, last, last + 1, bytes + 1, ~std::size_t{2}}) {
+        const std::array<PlacedPicture, 1> pictures{PlacedPicture{0, 5, offset, 6}};
+        run.send(Kind::observation,
+                 bytes_of(pack_observation(tick.tick_bytes(), {}, pictures, nullptr)));
+        ASSERT_TRUE(driver.next());
+        if (offset <= last)
+            EXPECT_EQ(driver.picture("front")->pixels.size(), 6U);
+        else
+            EXPECT_THROW(driver.picture("front"), world::Error) << offset;
+    }
 }
 
 TEST(Pictures, ComeInMessagesToADriverInPythonThatSharesNoMemory) {

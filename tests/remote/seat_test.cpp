@@ -100,6 +100,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"leaves_a_child", "ended with exit code 3", 2},
                     Fault{"nan", "said throttle = nan where [0, 1] is possible", 2},
                     Fault{"too_much", "said steer = -1.5 where [-1, 1] is possible", 2},
+                    Fault{"twice", "answered tick 3 when tick 4 was to be answered", 3},
+                    Fault{"ahead", "answered tick 9 when tick 3 was to be answered", 2},
                     Fault{"garbage", "bytes, where 65536 is the most", 2},
                     Fault{"huge", "4294967295 bytes, where 65536 is the most", 2},
                     Fault{"cut", "ended with exit code 0", 2},
@@ -184,6 +186,83 @@ TEST(Seat, AGoodbyeIsHeardThatWasSaidBeforeTheNextTickWasShown) {
     ASSERT_NE(gone, nullptr);
     EXPECT_TRUE(gone->left);
     EXPECT_EQ(gone->reason, "the driver of 'ego' left: enough");
+}
+
+/// A seat and the driver's end of its connection; the driver is ready.
+struct Manned {
+    explicit Manned(const Spawned& spawned = {}) {
+        flatbuffers::FlatBufferBuilder ready;
+        ready.Finish(CreateReady(ready, wire_version));
+        driver.send(Kind::ready, said(std::move(ready)));
+        EXPECT_FALSE(seat.take(7, recording(), spawned));
+        EXPECT_EQ(driver.receive({10.0}).kind, Kind::hello);
+    }
+
+    static std::array<int, 2> connected() {
+        std::array<int, 2> both{};
+        EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, both.data()), 0);
+        return both;
+    }
+
+    std::array<int, 2> ends = connected();
+    FrameChannel driver{ends[1], 1 << 20};
+    Seat seat{"ego", FrameChannel(ends[0], 1 << 16), {10.0}};
+};
+
+TEST(Seat, OnlyWhoSaysEndedHasNotFailed) {
+    for (const std::string verdict : {"", "passed", "endeded", "driver_lost"}) {
+        Manned manned;
+        ASSERT_FALSE(manned.seat.show(tick(1)));
+        flatbuffers::FlatBufferBuilder goodbye;
+        goodbye.Finish(
+            CreateGoodbye(goodbye, goodbye.CreateString("enough"), goodbye.CreateString(verdict)));
+        manned.driver.send(Kind::goodbye, said(std::move(goodbye)));
+        const auto last = manned.seat.answer();
+        const auto* gone = std::get_if<Lost>(&last);
+        ASSERT_NE(gone, nullptr);
+        EXPECT_FALSE(gone->left) << verdict;
+    }
+}
+
+TEST(Seat, ATickThatPassedIsToldOnceWithTheNextThatIsShown) {
+    world::CommandT spawn;
+    spawn.duration = 0.1;  // [s] two ticks
+    Manned manned({&spawn, 1, 1, ""});
+    std::vector<std::vector<std::uint64_t>> told;
+    for (std::uint64_t index = 1; index <= 5; ++index) {
+        ASSERT_FALSE(manned.seat.show(tick(index)));
+        if (!manned.seat.rhythm().shows(index))
+            continue;
+        const Frame frame = manned.driver.receive({10.0});
+        ASSERT_EQ(frame.kind, Kind::observation);
+        told.emplace_back();
+        if (const auto* passed = frame.as<Observation>().passed())
+            for (const PassedTick* one : *passed)
+                told.back().push_back(world::GetTick(one->tick()->data())->index());
+        flatbuffers::FlatBufferBuilder control;
+        control.Finish(CreateControl(control, index, 0.5));
+        manned.driver.send(Kind::control, said(std::move(control)));
+        EXPECT_TRUE(std::holds_alternative<world::Control>(manned.seat.answer()));
+    }
+    EXPECT_THAT(told,
+                testing::ElementsAre(
+                    testing::IsEmpty(), testing::ElementsAre(2U), testing::ElementsAre(4U)));
+}
+
+TEST(Client, ARunOfAnotherVersionIsTold) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+    FrameChannel run(ends[0], 1 << 16);
+    flatbuffers::FlatBufferBuilder hello;
+    hello.Finish(CreateHello(hello, wire_version + 1));
+    run.send(Kind::hello, said(std::move(hello)));
+    try {
+        const Client driver(FrameChannel(ends[1], 1 << 16), 0);
+        FAIL() << "it drives";
+    } catch (const world::Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("the run speaks version 2 of the wire, this driver 1"));
+    }
+    EXPECT_EQ(run.receive({10.0}).kind, Kind::ready) << "which says the driver's version";
 }
 
 /// A socket or a port: where a driver comes to.
