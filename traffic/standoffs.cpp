@@ -25,11 +25,16 @@ constexpr double has_stopped = 2;  // [s]
 constexpr double halt = 0.3;       // [m/s]
 constexpr double starved = 40;     // [s] without a gap, until who comes lets him in,
 constexpr double asks_again = 60;  // [s] and from there on anew,
-constexpr double sight = 120;      // [m] from wherever he comes,
-constexpr double easily = 2;       // [m/s^2] for whom that is to brake no harder
+constexpr double sight = 120;      // [m] from wherever he comes, or as he needs to stop
+constexpr double easily = 2;       // [m/s^2] and brakes no harder,
 constexpr double reaction = 1;     // [s]
 constexpr std::uint64_t lets_in_for = 60;  // [ticks]
 constexpr const char* ignored = "junctionModel.ignoreIDs";
+
+/// [m] that one needs to stop easily at his line.
+double way_to_stop(const Car& car) {
+    return car.speed * (reaction + car.speed / (2 * easily)) + at_the_line;
+}
 
 }  // namespace
 
@@ -94,9 +99,11 @@ std::string Standoffs::standing_near(const Car& car,
 double Standoffs::way_to_meeting(const Car& other, std::uint32_t way) const {
     if (other.lane == world::none || other.sumo.empty())
         return world::infinity;
+    constexpr double spare = 30;  // [m] he is asked once a second
+    const double reach = std::max(sight, way_to_stop(other) + spare);
     double left = -other.lane_position;
     std::uint32_t lane = other.lane;
-    while (lane != world::none && left < sight) {
+    while (lane != world::none && left < reach) {
         const world::LaneT& on = town_->lanes[lane];
         if (on.kind == world::LaneKind::internal && right_of_way_->lets_go(way, lane))
             return left;
@@ -137,8 +144,7 @@ bool Standoffs::somebody_comes(const Car& car, const world::TickView& last) {
 /// and would come to this meeting without.
 bool Standoffs::ask(Car& other, double left, std::uint32_t way, std::uint64_t tick) {
     const bool is_asked = other.lets_in_until > tick;
-    if (is_asked ? other.lets_in_way != way
-                 : other.speed * (reaction + other.speed / (2 * easily)) > left - at_the_line)
+    if (is_asked ? other.lets_in_way != way : way_to_stop(other) > left)
         return false;
     other.lets_in_until = tick + lets_in_for;
     other.lets_in_way = way;

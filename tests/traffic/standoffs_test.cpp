@@ -20,17 +20,20 @@ namespace {
 using test::lane;
 using test::Stage;
 
-/// Two roads that cross, the one along x with the right of way, of so many lanes.
-test::Loaded crossing_roads(int lanes = 1) {
+/// Two roads that cross, the one along x with the right of way, of so many lanes and as long to
+/// both sides.
+test::Loaded crossing_roads(int lanes = 1, const char* speed = "13.89", int length = 200) {
     const std::filesystem::path folder =
-        std::filesystem::path(testing::TempDir()) / ("standoff" + std::to_string(lanes));
+        std::filesystem::path(testing::TempDir()) / ("standoff" + std::to_string(lanes) + speed);
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "nodes.xml")
-        << R"(<nodes> <node id="j" x="0" y="0" type="priority"/> <node id="w" x="-200" y="0"/>
-        <node id="e" x="200" y="0"/> <node id="s" x="0" y="-200"/> <node id="n" x="0" y="200"/> </nodes>)";
-    std::ofstream(folder / "edges.xml")
-        << R"(<edges> <edge id="wj" from="w" to="j" priority="9" numLanes=")" << lanes
-        << R"("/> <edge id="je" from="j" to="e" priority="9" numLanes=")" << lanes << R"("/>
+        << R"(<nodes> <node id="j" x="0" y="0" type="priority"/> <node id="w" x="-)" << length
+        << R"(" y="0"/> <node id="e" x=")" << length
+        << R"(" y="0"/> <node id="s" x="0" y="-200"/> <node id="n" x="0" y="200"/> </nodes>)";
+    const std::string main_road =
+        " priority=\"9\" numLanes=\"" + std::to_string(lanes) + "\" speed=\"" + speed + "\"/>";
+    std::ofstream(folder / "edges.xml") << R"(<edges> <edge id="wj" from="w" to="j")" << main_road
+                                        << R"(<edge id="je" from="j" to="e")" << main_road << R"(
         <edge id="sj" from="s" to="j" priority="1"/> <edge id="jn" from="j" to="n" priority="1"/> </edges>)";
     const process::ProgramResult made = process::run_program(
         {.name = "netconvert",
@@ -92,6 +95,28 @@ TEST(Standoffs, WhoFindsNoGapIsLetIn) {
         EXPECT_GT(longest, 500) << "[ticks] gaps enough: nothing is shown";
         EXPECT_LT(longest, 1100) << "[ticks] alone it was 1619 and 1900";
     }
+}
+
+/// At 90 km/h nobody can stop easily who is as near as one is asked in a town: on a motorway's ramp
+/// the first of a queue stood for 466 s.
+TEST(Standoffs, WhoFindsNoGapOnAFastRoadIsLetIn) {
+    const test::Loaded loaded = crossing_roads(4, "25", 1500);
+    const std::uint32_t minor = lane(loaded.town, "sj_0");
+    const auto line = static_cast<float>(loaded.town.lanes[minor].length - 3);
+    Stage stage(loaded, 130, 2);
+    std::map<std::uint32_t, int> stood;  // ticks, at the end of the minor road
+    int longest = 0;
+    for (int i = 0; i < 4800; ++i) {
+        stage.step();
+        for (const world::CarState& car : stage.draft().traffic.cars) {
+            const bool waits = car.lane() == minor && car.lane_s() > line && car.speed() < 0.1F;
+            int& ticks = stood[car.id()];
+            ticks = waits ? ticks + 1 : 0;
+            longest = std::max(longest, ticks);
+        }
+    }
+    EXPECT_GT(longest, 500) << "[ticks] gaps enough: nothing is shown";
+    EXPECT_LT(longest, 1300) << "[ticks] alone it was taken out after 2001";
 }
 
 /// A bus forgot whom it was getting past, stopped in his body, and both stood so until one was
