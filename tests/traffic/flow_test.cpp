@@ -8,6 +8,8 @@
 #include "traffic/demand.h"
 #include "world/geometry2d.h"
 #include "world/lanes/density.h"
+#include "world/models/actors.h"
+#include "world/models/catalogue.h"
 
 namespace reprise::traffic {
 namespace {
@@ -154,6 +156,47 @@ TEST(Flow, WhoStandsForAnotherCarForMinutesIsTakenOutWhoeverSeesIt) {
     EXPECT_TRUE(Demand::waits_for_ever(car, step));
     car.stuck_ticks = 3 * minute;
     EXPECT_FALSE(Demand::waits_for_ever(car, step));
+}
+
+/// On the ramp of a motorway the first of a queue stood so for 520 s, and an ego behind him.
+TEST(Demand, WhoFindsNoGapAtTheEndOfHisLaneIsTakenOut) {
+    world::TownT town = test::straight_road(200);
+    Car car;
+    car.lane = 1;
+    town.lanes[1].links.clear();
+    town.lanes[1].sumo_length = 200;
+    car.lane_position = 198;
+    car.stuck_ticks = minute;
+    EXPECT_TRUE(Demand::is_at_an_end(car, 0.05, town));
+    car.lane_position = 150;
+    EXPECT_FALSE(Demand::is_at_an_end(car, 0.05, town)) << "behind others";
+    car.lane_position = 198;
+    car.stuck_ticks = minute / 2;
+    EXPECT_FALSE(Demand::is_at_an_end(car, 0.05, town));
+    car.stuck_ticks = minute;
+    town.lanes[1].links.emplace_back();
+    EXPECT_FALSE(Demand::is_at_an_end(car, 0.05, town)) << "it leads on";
+}
+
+/// In a bend an ego and a lorry stood so for 500 s, each with half a queue behind it.
+TEST(Demand, WhoStandsNoseToNoseWithAVehicleWithMassIsTakenOut) {
+    constexpr double step = 0.05;
+    Car car;  // a sedan at the origin, eastbound
+    const double gap = 2;
+    const double between = 2 * world::extent_of(world::vehicle_models()[car.model]).front + gap;
+    const auto before = [&](double yaw, double distance, double speed) {
+        return test::tick_with({test::vehicle_at(1, distance, 0, yaw, speed)});
+    };
+    car.stuck_ticks = 2200;
+    EXPECT_TRUE(Demand::faces_one_who_stands(car, step, before(M_PI - 0.2, between, 0).view()));
+    EXPECT_FALSE(Demand::faces_one_who_stands(car, step, before(0, between, 0).view()))
+        << "in a queue";
+    EXPECT_FALSE(Demand::faces_one_who_stands(car, step, before(M_PI, between, 0.5).view()))
+        << "who goes back";
+    EXPECT_FALSE(Demand::faces_one_who_stands(car, step, before(M_PI, between + 5, 0).view()))
+        << "there is room between";
+    car.stuck_ticks = 1900;
+    EXPECT_FALSE(Demand::faces_one_who_stands(car, step, before(M_PI, between, 0).view()));
 }
 
 /// Of a full town, where one waits at a minor road until he is let in. Town 1 has no dead end, at
