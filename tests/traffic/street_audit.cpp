@@ -367,6 +367,11 @@ void StreetAudit::judge(const world::Crash& crash) {
     }
     if (one->lane < town_->lanes.size())
         found.lane = town_->lanes[one->lane].name;
+    if (two == nullptr && crash.other != 0) {
+        found.fault = "the other appeared where it drove";
+        collisions_.push_back(found);
+        return;
+    }
     if (two == nullptr) {
         found.fault = std::abs(one->speed) < moving ? "it stood" : "it left its way";
         found.avoidable = std::abs(one->speed) >= moving;

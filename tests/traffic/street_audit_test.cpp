@@ -38,7 +38,7 @@ TEST(StreetAudit, FindsWhoDrivesThroughWhom) {
 /// Who stands in the way from afar could have been avoided; who steps out at the last moment not.
 TEST(StreetAudit, KnowsWhatAnAttentiveDriverCouldHaveAvoided) {
     const world::TownT town = straight_road(400);
-    const auto audited = [&](double comes_at) {
+    const auto audited = [&](double comes_at, std::uint64_t appears_in = 1) {
         StreetAudit audit(town, {}, audit_step);
         for (std::uint64_t tick = 1; tick <= 100; ++tick) {
             const double x = 20 + 0.5 * static_cast<double>(tick);
@@ -51,7 +51,8 @@ TEST(StreetAudit, KnowsWhatAnAttentiveDriverCouldHaveAvoided) {
             measured.mutate_speed(10);
             measured.mutate_lane(1);
             draft.tick.measurements = {measured};
-            draft.traffic.cars = {car_at(7, 74, y)};
+            if (tick >= appears_in)
+                draft.traffic.cars = {car_at(7, 74, y)};
             if (tick == 100) {
                 for (const auto kind :
                      {world::EventKind::collision, world::EventKind::collision_ended}) {
@@ -74,6 +75,8 @@ TEST(StreetAudit, KnowsWhatAnAttentiveDriverCouldHaveAvoided) {
     EXPECT_EQ(audited(1)[0].fault, "the other stood in its way");
     EXPECT_EQ(audited(1)[0].lane, "east_1");
     EXPECT_FALSE(audited(90)[0].avoidable) << "half a second";
+    EXPECT_FALSE(audited(1, 100)[0].avoidable) << "spawned there";
+    EXPECT_EQ(audited(1, 100)[0].fault, "the other appeared where it drove");
 }
 
 }  // namespace
