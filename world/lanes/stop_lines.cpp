@@ -14,7 +14,9 @@ namespace {
 
 constexpr double beside_lane = 0.5;     ///< [m] a line reaches so far beyond its lane
 constexpr double misfit_per_rad = 4;    ///< [m], as LaneMap::best weighs
-constexpr double clear_lead = 1;        ///< [m] by which one turning must fit better
+constexpr double clear_lead = 1;        ///< [m] by which one turning must fit better,
+constexpr double inside = 3;            ///< [m] once the rear axle is so far behind the line
+constexpr double around = 1;            ///< [rad] who has turned so far is not before it any more
 constexpr double turn_is_over = 60;     ///< [m] behind the line
 constexpr std::size_t longest_way = 8;  ///< internal lanes of one link
 
@@ -136,15 +138,19 @@ void RedLightWatch::decide(const TownT& town,
                            double yaw,
                            double lead) {
     const LaneT& lane = town.lanes[lane_];
+    const LanePoint end = point_at(lane, lane.length);
+    const Eigen::Vector2d behind = (p_rear - end.position).head<2>();
+    const bool is_before =
+        behind.dot(ahead_of(end.yaw)) < 0 && std::abs(wrap_angle(yaw - end.yaw)) < around;
+    if (lead > 0 && (is_before || behind.norm() < inside))
+        return;
     double red = std::numeric_limits<double>::infinity();
     double free = red;
     for (std::size_t i = 0; i < red_.size(); ++i) {
         double& best = red_[i] ? red : free;
         best = std::min(best, misfit(town, lane.links[i], p_rear, yaw));
     }
-    const bool is_over =
-        (p_rear - point_at(lane, lane.length).position).head<2>().norm() > turn_is_over;
-    if (std::abs(red - free) < lead && !is_over)
+    if (std::abs(red - free) < lead && behind.norm() <= turn_is_over)
         return;
     ran_red_ = ran_red_ || red < free;
     lane_ = none;

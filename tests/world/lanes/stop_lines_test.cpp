@@ -124,6 +124,20 @@ TEST(RedLightWatch, AsksForTheLightOfTheTurningThatIsTaken) {
     }
 }
 
+/// As maps draw bends: its first piece leads aside at once. Who turns is still straight at the
+/// line, or swings out; straight on it was red.
+TEST(RedLightWatch, WaitsUntilWhoTurnsHasTurned) {
+    for (const double swing : {0.0, 0.1}) {
+        Car right({red, green, green});
+        right.town.lanes[2].centre = {
+            Vec3(50, -1.75, 0), Vec3(55.66, -4.09, 0), Vec3(58, -9.75, 0)};
+        right.drive({30, -1.75}, {50, -1.75}, swing);
+        right.turn_right();
+        EXPECT_FALSE(right.ran_red()) << swing;
+        EXPECT_FALSE(right.watch.is_undecided());
+    }
+}
+
 TEST(RedLightWatch, TheTickOfTheCrossingCounts) {
     Car late({green, green, green});
     late.drive({30, -1.75}, {49, -1.75}, 0);
