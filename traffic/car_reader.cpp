@@ -204,13 +204,17 @@ double CarReader::even_lane_yaw_of(const Car& car) const {
     return even_yaw_at(on, car.lane_position * on.length / on.sumo_length);
 }
 
+/// To its left. Of who leans aside in a junction by its own axes: lanes begin there at an angle to
+/// those before them, and where a lane begins nobody is moved.
+Eigen::Vector2d CarReader::aside_of(const Car& car) const {
+    return world::turned_left(car.leans ? car.ahead : world::ahead_of(even_lane_yaw_of(car)));
+}
+
 /// The pose that the car shows, after its bumper.
 void CarReader::move_body(Car& car) const {
     Eigen::Vector3d shown = without_jumps(car, bumper_of(car));
-    if (car.offset != 0) {
-        const double lane_yaw = even_lane_yaw_of(car);
-        shown += car.offset * Eigen::Vector3d(-std::sin(lane_yaw), std::cos(lane_yaw), 0);
-    }
+    if (car.offset != 0)
+        shown.head<2>() += car.offset * aside_of(car);
     car.trail.advance(shown);
     car.rear = rolled(car, car.trail.rear());
     const Eigen::Vector3d body = car.trail.front() - car.rear;

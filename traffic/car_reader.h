@@ -43,6 +43,7 @@ class CarReader {
     void move_aside(Car& car, std::uint64_t tick) const;
     double lane_yaw_of(const Car& car) const;
     double even_lane_yaw_of(const Car& car) const;
+    Eigen::Vector2d aside_of(const Car& car) const;
     Eigen::Vector3d without_jumps(Car& car, const Eigen::Vector3d& sumo_front) const;
     void move_body(Car& car) const;
     Eigen::Vector3d rolled(const Car& car, const Eigen::Vector3d& wanted) const;

@@ -574,6 +574,70 @@ TEST(Meetings, OneOfTwoInEachOthersWayPushesPastAndNobodyPushesThrough) {
     EXPECT_GT(blocked, 20);
 }
 
+/// The body, and all of its way, so many metres to the left.
+double deepest_aside(const WayAhead& way, const BodyBox& standing, double left) {
+    double found = 0;
+    for (double driven = 0; driven < 5; driven += 0.25) {
+        BodyBox body = way.at(driven);
+        body.middle += left * world::turned_left(body.ahead);
+        found = std::max(found, depth(body, standing));
+    }
+    return found;
+}
+
+TEST(Meetings, WhoPushesPastSteersAsideInItsLaneAndThenBackAgain) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const RightOfWay right_of_way(town, {});
+    const LaneLines lines(town);
+    const std::vector<Entry> entries = entries_of(town);
+    const double width = world::vehicle_models()[0].width;
+    constexpr double sampled = 0.05;  // [m] that a look at each quarter of a metre may miss
+    int to_the_left = 0, to_the_right = 0;
+    for (const Entry& one : entries)
+        for (const Entry& other : entries) {
+            if (graph.edge_of(one.first) >= graph.edge_of(other.first) ||
+                town.lanes[one.second].junction != town.lanes[other.second].junction)
+                continue;
+            for (double s = 1; s < town.lanes[one.second].length - 1; s += 2)
+                for (double its = 1; its < town.lanes[other.second].length - 1; its += 2) {
+                    Cars cars;
+                    world::TickDraft draft;
+                    cars.add(car_inside(town, graph, 7, one, s), "", 0, draft);
+                    cars.add(car_inside(town, graph, 8, other, its), "", 0, draft);
+                    Meetings meetings(town, graph, right_of_way, meeting_step);
+                    meetings.look(cars, 2);
+                    if (cars[0].pushes_past.empty() && cars[1].pushes_past.empty()) {
+                        ASSERT_FALSE(cars[0].offset_order || cars[1].offset_order);
+                        continue;
+                    }
+                    const std::size_t who = cars[0].pushes_past.empty() ? 1 : 0;
+                    Car& pusher = cars[who];
+                    const WayAhead way(pusher, lines, graph, 20);
+                    const BodyBox standing = WayAhead(cars[1 - who], lines, graph, 20).at(0);
+                    const double straight_on = deepest_aside(way, standing, 0);
+                    ASSERT_FALSE(cars[1 - who].offset_order);
+                    if (!pusher.offset_order) {
+                        ASSERT_LT(straight_on, sampled);
+                        continue;
+                    }
+                    const double left = pusher.offset_order->change.to;
+                    ASSERT_LE(std::abs(left) + width / 2, town.lanes[pusher.lane].width / 2 + 1e-9);
+                    ASSERT_LT(deepest_aside(way, standing, left), std::max(straight_on, sampled));
+                    ++(left > 0 ? to_the_left : to_the_right);
+                    pusher.offset = left;
+                    meetings.look(cars, pusher.pushes_until - 1);
+                    ASSERT_EQ(pusher.offset_order->change.to, left);
+                    pusher.standing_ticks = pusher.stuck_ticks = 0;
+                    meetings.look(cars, pusher.pushes_until);
+                    ASSERT_EQ(pusher.offset_order->change.to, 0);
+                    ASSERT_EQ(pusher.offset_order->change.from, left);
+                }
+        }
+    EXPECT_GT(to_the_left, 0);
+    EXPECT_GT(to_the_right, 5);
+}
+
 /// Whoever lies in another one's body, by whatever went wrong before.
 TEST(Meetings, WhoLiesInAnotherBodyGetsNoDeeperIntoIt) {
     const TownT& town = own_town("town1").town;

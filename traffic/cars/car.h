@@ -114,6 +114,7 @@ struct Car {
     std::vector<std::uint32_t>
         pushes_past;                  ///< ids of those who stand in its way, and it in theirs
     std::uint64_t pushes_until = 0;   ///< tick; until then it stops for none of these
+    bool leans = false;               ///< aside in its lane, for whom it pushes past
     std::uint64_t brushes_until = 0;  ///< tick; until then it stops for no body beside its way
     std::uint64_t wedged_until = 0;   ///< tick; a vehicle stands at its flank, which it would hit
     bool ignores_standing = false;    ///< SUMO was told so

@@ -177,6 +177,8 @@ void Cars::add_to(world::Hasher& hasher) const {
         }
         if (!car.blocked_by.empty())
             hasher.add(std::span<const std::uint32_t>(car.blocked_by));
+        if (car.leans)
+            hasher.add(car.leans);
         if (car.wedged_until != 0)
             hasher.add(car.wedged_until);
         if (car.trajectory) {

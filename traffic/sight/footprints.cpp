@@ -133,7 +133,7 @@ void gather_footprints(const world::TickView& last,
     // SUMO believes them elsewhere: by order, or where it cut a change of lanes short.
     const auto is_aside = [](const Car& car) {
         // Its tail is still, where its bumper is back already.
-        const bool passes = car.origin == Origin::demand && car.offset_order;
+        const bool passes = car.origin == Origin::demand && car.offset_order && !car.leans;
         return passes || std::abs(car.offset) > far_aside ||
                std::abs(world::cross(car.ahead, car.slip)) > far_aside;
     };

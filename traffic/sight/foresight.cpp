@@ -160,10 +160,14 @@ bool Foresight::would_meet(const BodyBox& standing) {
     return false;
 }
 
-double Foresight::depth_in(const BodyBox& standing, double reach) const {
-    double deepest = 0;
-    for (double s = 0; s <= reach; s += spacing)
-        deepest = std::max(deepest, depth(way_.at(s), standing));
+Foresight::Intrusion Foresight::deepest_in(const BodyBox& standing, double reach) const {
+    Intrusion deepest;
+    for (double s = 0; s <= reach; s += spacing) {
+        const BodyBox body = way_.at(s);
+        const double there = depth(body, standing);
+        if (there > deepest.depth)
+            deepest = {there, world::cross(body.ahead, standing.middle - body.middle) > 0};
+    }
     return deepest;
 }
 

@@ -49,8 +49,19 @@ class Foresight {
     /// Likewise, into what stands there.
     bool would_meet(const BodyBox& standing);
 
-    /// [m] that its body would lie in that one at most within `reach` [m] of way; 0: beside it.
-    double depth_in(const BodyBox& standing, double reach) const;
+    /// How deep in another body, and on which side of its own that one is there.
+    struct Intrusion {
+        double depth = 0;  ///< [m]; 0: beside it
+        bool is_left = false;
+    };
+
+    /// Where its body would lie in that one deepest, within `reach` [m] of way.
+    Intrusion deepest_in(const BodyBox& standing, double reach) const;
+
+    /// [m] that it would lie in that one there.
+    double depth_in(const BodyBox& standing, double reach) const {
+        return deepest_in(standing, reach).depth;
+    }
 
     /// Where its body would lie first, driving on, on what another one stands on, or drives over.
     struct Entry {

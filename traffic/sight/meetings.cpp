@@ -7,6 +7,7 @@
 #include "traffic/roads/crossing_lanes.h"
 #include "traffic/sight/braking.h"
 #include "traffic/sight/footprints.h"
+#include "traffic/sight/swing.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
 #include "world/units.h"
@@ -23,6 +24,8 @@ constexpr double beside_its_lane = 0.6;    // [m] from its lane: seen as an obst
 constexpr double lets_go_first = 6;        // [s] of one who stands; then the other one waits
 constexpr std::uint64_t pushes_for = 240;  // [ticks]
 constexpr double deepest_push = 0.20;      // [m] in the other one's body, which mirrors give way to
+constexpr double leans_beside = 0.1;       // [m] from who is pushed past
+constexpr double leans_within = 0.5;       // [s]
 constexpr double has_just_started = 3;     // [m/s]
 constexpr double hard = 0.8;               // of the hardest braking, that one plans with
 constexpr double longest_body = 12;        // [m]
@@ -187,6 +190,7 @@ void Meetings::gather(std::span<const Car> cars) {
         driver.manner.take(car);
         driver.pushes_until = car.pushes_until;
         driver.pushes_past = car.pushes_past;
+        driver.leans = 0;
         const world::VehicleModel& model = world::vehicle_models()[car.model];
         driver.car = &car;
         driver.seen = nullptr;
@@ -296,15 +300,43 @@ void Meetings::wait(Driver& driver, Driver& other, const Stop& stop) {
 
 /// Of the two the one who is less in the other one's body on his way; through it nobody drives.
 void Meetings::push_past(Driver& one, Driver& other) const {
-    const double depth = one.seen->depth_in(other.seen->now(), one.reach);
-    const double its_depth = other.seen->depth_in(one.seen->now(), other.reach);
-    if (std::min(depth, its_depth) > deepest_push)
+    const Foresight::Intrusion depth = one.seen->deepest_in(other.seen->now(), one.reach);
+    const Foresight::Intrusion its_depth = other.seen->deepest_in(one.seen->now(), other.reach);
+    const bool is_one = depth.depth <= its_depth.depth;
+    const Foresight::Intrusion& least = is_one ? depth : its_depth;
+    if (least.depth > deepest_push)
         return;
-    Driver& driver = depth <= its_depth ? one : other;
+    Driver& driver = is_one ? one : other;
     if (driver.pushes_until <= tick_)
         driver.pushes_past.clear();
-    driver.pushes_past.push_back(depth <= its_depth ? other.car->id : one.car->id);
+    driver.pushes_past.push_back(is_one ? other.car->id : one.car->id);
     driver.pushes_until = tick_ + pushes_for;
+    driver.leans = lean_for(driver, least);
+}
+
+/// [m] left: out of the other one's body, as far as its lanes are wide.
+double Meetings::lean_for(const Driver& driver, const Foresight::Intrusion& intrusion) const {
+    if (intrusion.depth == 0)
+        return 0;
+    double spare = world::infinity;  // [m] at each side
+    for (const std::uint32_t lane : driver.seen->way().lanes())
+        spare = std::min(spare, lines_.town().lanes[lane].width / 2);
+    spare -= world::vehicle_models()[driver.car->model].width / 2;
+    const double metres = std::clamp(intrusion.depth + leans_beside, 0.0, std::max(spare, 0.0));
+    return intrusion.is_left ? -metres : metres;
+}
+
+/// By an offset from its lane, until it has pushed past.
+void Meetings::lean(Car& car, double wanted) const {
+    const bool is_past = car.pushes_until <= tick_;
+    if (wanted != 0 && !car.offset_order && car.offset == 0) {
+        car.offset_order = OffsetOrder{{0, wanted, leans_within, world::Shape::linear}, tick_ - 1};
+        car.leans = true;
+    } else if (car.leans && is_past && car.offset_order && car.offset_order->change.to != 0) {
+        car.offset_order =
+            OffsetOrder{{car.offset, 0, pull_out_time, world::Shape::linear}, tick_ - 1};
+    }
+    car.leans = car.leans && car.offset_order;
 }
 
 bool Meetings::pushes_past(const Driver& driver, const Driver& other) const {
@@ -521,6 +553,7 @@ void Meetings::look(Cars& cars, std::uint64_t tick) {
             continue;
         all[i].pushes_until = driver.pushes_until;
         all[i].pushes_past = driver.pushes_past;
+        lean(all[i], driver.leans);
     }
 }
 

@@ -26,7 +26,8 @@ namespace reprise::traffic {
 ///         begun to wait keeps to it. Before a long one that lies over his way in a bend who comes
 ///         towards it waits where he leaves it its own. When both have stood for long the other one
 ///         tries, and where they block each other for good, one pushes past, for which the other
-///         one stands still; not where it would be through the other one. Who lies in another one
+///         one stands still, aside from it in its own lane; not where it would be through the
+///         other one. Who lies in another one
 ///         gets no deeper in.
 /// KEEPS   with each car, whom it waits for, and whom it pushes past until when; what was worked
 ///         out for who stands, which decides nothing but the cost: a quarter of the cars stands.
@@ -76,6 +77,7 @@ class Meetings {
         std::vector<std::uint32_t> blocked_by;   ///< likewise
         std::uint64_t pushes_until = 0;          ///< tick
         std::vector<std::uint32_t> pushes_past;  ///< ids
+        double leans = 0;                        ///< [m] left, for whom it pushes past from now on
         Manner manner;                           ///< with which it came
     };
 
@@ -137,6 +139,8 @@ class Meetings {
     void wait(Driver& driver, Driver& other, const Stop& stop);
     void prepare(Driver& driver);
     void push_past(Driver& one, Driver& other) const;
+    double lean_for(const Driver& driver, const Foresight::Intrusion& intrusion) const;
+    void lean(Car& car, double wanted) const;
     bool pushes_past(const Driver& driver, const Driver& other) const;
     void part(const Driver& one, const Driver& other);
     void let_past(const Driver& driver, const Driver& other);
