@@ -23,8 +23,9 @@ constexpr double place = 35;       // [m] a junction with the ends of its roads
 constexpr double at_the_line = 3;  // [m] before the end of its lane
 constexpr double has_stopped = 2;  // [s]
 constexpr double halt = 0.3;       // [m/s]
-constexpr double starved = 40;     // [s] without a gap, until who comes lets him in,
+constexpr double starved = 30;     // [s] without a gap, until who comes lets him in,
 constexpr double asks_again = 60;  // [s] and from there on anew,
+constexpr double has_come = 15;    // [s] of this, if some wait for him already,
 constexpr double sight = 120;      // [m] from wherever he comes, or as he needs to stop
 constexpr double easily = 2;       // [m/s^2] and brakes no harder,
 constexpr double reaction = 1;     // [s]
@@ -114,16 +115,21 @@ double Standoffs::way_to_meeting(const Car& other, std::uint32_t way) const {
 }
 
 /// Else it would stand in the junction, and those who let it in behind it. Where the next junction
-/// is near, those who come out of this one change lanes already and stop.
+/// is near, those who come out of this one change lanes already and stop, if there are several; and
+/// a queue of a few cars reaches back into this one.
 bool Standoffs::has_room_behind(const Car& car, std::uint32_t way, const Cars& cars) const {
-    constexpr double longest_weave = 40;  // [m]
-    constexpr double slow = 2;            // [m/s]
-    constexpr double spare = 3;           // [m]
+    constexpr double longest_weave = 40;   // [m]
+    constexpr double shortest_queue = 25;  // [m]
+    constexpr double slow = 2;             // [m/s]
+    constexpr double spare = 3;            // [m]
     std::uint32_t lane = way;
     while (lane != world::none && town_->lanes[lane].kind == world::LaneKind::internal)
         lane = lane_after(lane, car, *town_, *graph_);
     const double needed = world::vehicle_models()[car.model].length + spare;
-    return lane != world::none && town_->lanes[lane].length > longest_weave &&
+    if (lane == world::none)
+        return false;
+    const bool weaves = graph_->edge(graph_->edge_of(lane)).lanes.size() > 1;
+    return town_->lanes[lane].length > (weaves ? longest_weave : shortest_queue) &&
            std::none_of(cars.all().begin(), cars.all().end(), [&](const Car& other) {
                return other.lane == lane && other.speed < slow &&
                       other.lane_position - world::vehicle_models()[other.model].length < needed;
@@ -158,7 +164,10 @@ void Standoffs::ask_to_let_in(Car& car,
                               Cars& cars,
                               std::uint64_t tick) const {
     const bool is_inside = town_->lanes[car.lane].kind == world::LaneKind::internal;
-    if (!is_inside && std::fmod(car.stuck_ticks * step_, asks_again) < starved)
+    const double stood = car.stuck_ticks * step_;  // [s]
+    const double since = std::fmod(stood, asks_again);
+    const bool goes_on = car.pushes_until > tick && stood > starved && since < has_come;
+    if (!is_inside && since < starved && !goes_on)
         return;
     const std::uint32_t way = is_inside ? car.lane : lane_after(car.lane, car, *town_, *graph_);
     if (way == world::none ||

@@ -214,7 +214,7 @@ TEST(Flow, NobodyWhoWaitedForLongIsTakenOutAsHeDrivesIntoAJunction) {
             for (const world::CarState& car : cars) {
                 int& ticks = waited[car.id()];
                 const bool inside = town1.town.lanes[car.lane()].kind == world::LaneKind::internal;
-                drove_in += inside && ticks > 41 * minute / 60;
+                drove_in += inside && ticks > 31 * minute / 60;
                 ticks = !inside && car.speed() < 1 ? ticks + 1 : 0;
             }
         }
