@@ -58,6 +58,7 @@ Continuation LaneGraph::straight_continuation(std::uint32_t lane) const {
 
 void LaneGraph::find_dead_ends() {
     const auto count = static_cast<std::uint32_t>(town_->lanes.size());
+    constexpr double shortest_change = 10;  // [m] of a lane on which one can leave it, see way.cpp
     continuation_.assign(count, Continuation::free);
     // Mark down what promises more than its links and neighbours hold until nothing changes; as
     // many rounds as the longest blind alley.
@@ -67,7 +68,7 @@ void LaneGraph::find_dead_ends() {
             if (town_->lanes[i].kind != LaneKind::driving)
                 continue;
             Continuation best = straight_continuation(i);
-            if (best < continuation_[i])
+            if (best < continuation_[i] && town_->lanes[i].length >= shortest_change)
                 for (const std::uint32_t to : reachable_sideways(i))
                     best = std::max(best, straight_continuation(to));
             changed = changed || best < continuation_[i];

@@ -130,6 +130,41 @@ world::TownT roundabout() {
     return town;
 }
 
+/// A street of two lanes whose right one goes on for so many metres and ends, beside one that leads
+/// on:   0 right, 1 left -> 2 right, 3 left; 3 -> 4
+world::TownT merging_road(double metres) {
+    world::TownT town;
+    town.name = "merging road";
+    town.lanes = {make_lane("before_0", Turtle(-100, 0, 0).ahead(100)),
+                  make_lane("before_1", Turtle(-100, 3.5, 0).ahead(100)),
+                  make_lane("short_0", Turtle(0, 0, 0).ahead(metres)),
+                  make_lane("short_1", Turtle(0, 3.5, 0).ahead(metres)),
+                  make_lane("behind_0", Turtle(metres, 3.5, 0).ahead(1500))};
+    for (const std::uint32_t right : {0u, 2u}) {
+        town.lanes[right].left = right + 1;
+        town.lanes[right + 1].right = right;
+        town.lanes[right + 1].edge = town.lanes[right].edge;
+        town.lanes[right].links.clear();
+    }
+    town.lanes[0].links = {make_link(2, world::none, Turn::straight)};
+    town.lanes[1].links = {make_link(3, world::none, Turn::straight)};
+    town.lanes[3].links = {make_link(4, world::none, Turn::straight)};
+    town.lanes[4].links = {make_link(0, world::none, Turn::straight)};
+    return town;
+}
+
+/// On a motorway of many short pieces one drove to the end of his lane, 4 m behind the last place
+/// where he could leave it, and stood there for as long as the run lasted.
+TEST(LaneGraph, WhoseLaneEndsTooSoonBehindTheNextJunctionLeavesItBefore) {
+    const world::TownT soon = merging_road(4);
+    const auto better = drivers::LaneGraph(soon).better_lane(0);
+    ASSERT_TRUE(better);
+    EXPECT_EQ(better->neighbour, 1u);
+    const world::TownT later = merging_road(60);
+    EXPECT_FALSE(drivers::LaneGraph(later).better_lane(0)) << "there is room for it there";
+    EXPECT_TRUE(drivers::LaneGraph(later).better_lane(2));
+}
+
 TEST(LaneGraph, NobodyWandersRoundAndRoundARoundabout) {
     const world::TownT town = roundabout();
     const drivers::LaneGraph graph(town);
