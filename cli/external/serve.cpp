@@ -1,5 +1,6 @@
 #include "cli/external/serve.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "cli/external/serve_folder.h"
+#include "cli/external/serve_places.h"
 #include "cli/external/serve_session.h"
 #include "cli/fingerprint/self_test.h"
 #include "cli/process/guard.h"
@@ -31,9 +33,9 @@ namespace {
 constexpr std::size_t largest_word = 2 << 20;    // [bytes] of a client
 constexpr std::string_view open_socket = "fd:";  // a socket that is open and connected
 constexpr const char* loopback = "127.0.0.1";
-constexpr std::size_t most_turned_away = 16;  // at once, while they are told why
-constexpr double greeting = 10;               // [s] for a client's first word
-constexpr double patience_at_end = 6;         // [s] for sessions to close their traces
+constexpr std::size_t most_strangers = 16;  // at once, who have not shown yet that they may come in
+constexpr double greeting = 10;             // [s] for a client's first word
+constexpr double patience_at_end = 6;       // [s] for sessions to close their traces
 
 /// As ssh does with keys. What is no file, such as a pipe of the shell's, has no mode that counts.
 void refuse_if_others_may(const std::string& path) {
@@ -86,7 +88,8 @@ class Server {
     Server(const ServeOptions& options, const process::HeldSignals& signals)
         : options_(options),
           signals_(&signals),
-          token_(read_token(options.token_file)) {
+          token_(read_token(options.token_file)),
+          places_(options.episodes) {
         if (options_.port)
             listener_.emplace(options_.listen.empty() ? loopback : options_.listen, *options_.port);
         else
@@ -110,7 +113,7 @@ class Server {
             poll(all.data(), all.size(), -1);
             if (all[1].revents != 0) {
                 const int signal = signals_->take();
-                sessions_.remove_if([](process::Offshoot& one) { return one.wait(0).has_value(); });
+                see_off();
                 if (signal != 0 && signal != SIGCHLD)
                     return signal;
             }
@@ -121,16 +124,51 @@ class Server {
 
     /// All episodes end, with whole traces where they can.
     void end() {
-        for (const process::Offshoot& session : sessions_)
-            session.ask_to_end();
+        for (const Guest& guest : sessions_)
+            guest.session.ask_to_end();
         double left = patience_at_end;
-        for (process::Offshoot& session : sessions_)
-            if (!session.wait(left))
+        for (Guest& guest : sessions_)
+            if (!guest.session.wait(left))
                 left = 0;
         sessions_.clear();
     }
 
   private:
+    /// The session of one who came, in the order in which they did.
+    struct Guest {
+        std::uint64_t number;
+        process::Offshoot session;
+    };
+
+    /// Those that have ended.
+    void see_off() {
+        sessions_.remove_if([&](Guest& one) {
+            const bool has_ended = one.session.wait(0).has_value();
+            if (has_ended)
+                places_.free(one.number);
+            return has_ended;
+        });
+    }
+
+    /// Who says nothing is waited for, but keeps nobody out: where too many do, the one who has
+    /// been silent for longest has to go.
+    void make_room() {
+        const auto is_stranger = [&](const Guest& one) { return !places_.has(one.number); };
+        const auto strangers = std::count_if(sessions_.begin(), sessions_.end(), is_stranger);
+        if (static_cast<std::size_t>(strangers) >= most_strangers)
+            sessions_.erase(std::find_if(sessions_.begin(), sessions_.end(), is_stranger));
+    }
+
+    /// In the session of a client whose first word is right. Empty: it may stay.
+    std::string why_not(std::uint64_t number, bool is_another_users) {
+        if (is_another_users)
+            return "this server is another user's: it wants a --token-file";
+        if (!places_.take(number))
+            return world::count_of(options_.episodes, "client is", "clients are") +
+                   " served already (--episodes)";
+        return "";
+    }
+
     void welcome() {
         std::optional<remote::FrameChannel> client;
         try {
@@ -138,26 +176,18 @@ class Server {
         } catch (const remote::ChannelFault&) {
             return;  // it went as soon as it came
         }
-        std::string why_not;
-        if (options_.port && token_.empty() && !remote::is_of_our_user(client->descriptor()))
-            why_not = "this server is another user's: it wants a --token-file";
-        else if (sessions_.size() >= options_.episodes)
-            why_not = world::count_of(options_.episodes, "client is", "clients are") +
-                      " served already (--episodes)";
-        if (sessions_.size() >= options_.episodes + most_turned_away)
-            return;  // without a word
+        const bool is_another_users = options_.port && token_.empty() &&
+                                      !remote::is_of_our_user(client->descriptor());
+        make_room();
         try {
-            sessions_.emplace_back(
-                [&] {
-                    listener_->let_go();
-                    if (why_not.empty())
-                        Session(options_, token_, std::move(town_), std::move(*client), *signals_)
-                            .run(greeting);
-                    else
-                        turn_away(*client, why_not);
-                    return exit_good;
-                },
-                true);
+            const std::uint64_t number = ++came_;
+            const auto serve_it = [&] {
+                listener_->let_go();
+                Session(options_, token_, std::move(town_), std::move(*client), *signals_)
+                    .run(greeting, [&] { return why_not(number, is_another_users); });
+                return exit_good;
+            };
+            sessions_.push_back({number, process::Offshoot(serve_it, true)});
         } catch (const world::Error& error) {
             say(stderr, "reprise: {}\n", error.what());  // the client is hung up on
         }
@@ -168,7 +198,9 @@ class Server {
     std::string token_;
     std::optional<remote::Listener> listener_;
     std::unique_ptr<ReadyTown> town_;
-    std::list<process::Offshoot> sessions_;
+    Places places_;
+    std::uint64_t came_ = 0;  ///< so many
+    std::list<Guest> sessions_;
 };
 
 }  // namespace
@@ -187,7 +219,7 @@ int serve(const ServeOptions& asked) {
                 std::move(town),
                 {*descriptor, largest_word},
                 signals)
-            .run(std::nullopt);
+            .run(std::nullopt, [] { return ""; });
         return exit_good;
     }
     Server server(options, signals);

@@ -81,17 +81,8 @@ std::unique_ptr<ReadyTown> make_ready(const std::string& town, const std::string
     return ready;
 }
 
-void turn_away(remote::FrameChannel& client, const std::string& why) {
-    try {
-        client.receive({1.0});  // who is hung up on in the middle of a word would not hear ours
-        send_fault(client, why);
-    } catch (const remote::ChannelFault&) {
-        // It has gone by itself.
-    }
-}
-
 struct Session::Parts {
-    void greet(const remote::Patience& patience);
+    void greet(const remote::Patience& patience, const std::function<std::string()>& why_not);
     std::optional<remote::Frame> begin(const remote::Frame& frame);
     void hang_up(const remote::ChannelFault& fault);
     world::EpisodeT episode_of(const remote::Reset& reset);
@@ -110,7 +101,8 @@ struct Session::Parts {
 };
 
 /// The client's first word, and ours. Throws ChannelFault when it shall not stay.
-void Session::Parts::greet(const remote::Patience& patience) {
+void Session::Parts::greet(const remote::Patience& patience,
+                           const std::function<std::string()>& why_not) {
     const remote::Frame frame = client.receive(patience);
     std::string why;
     if (frame.kind != Kind::open)
@@ -122,6 +114,8 @@ void Session::Parts::greet(const remote::Patience& patience) {
     else if (!is_same(text_of(open.token()), token))
         why = token.empty() ? "this server wants no token"
                             : "wrong token: it is in the server's --token-file";
+    else
+        why = why_not();
     if (!why.empty()) {
         send_fault(client, why);
         throw remote::ChannelFault(why);
@@ -243,14 +237,14 @@ Session::Session(const ServeOptions& options,
 
 Session::~Session() = default;
 
-void Session::run(std::optional<double> greeting) {
+void Session::run(std::optional<double> greeting, const std::function<std::string()>& why_not) {
     Parts& parts = *parts_;
     const auto is_to_end = [&] {
         const int signal = parts.signals.take();
         return parts.stopped = parts.stopped || (signal != 0 && signal != SIGCHLD);
     };
     try {
-        parts.greet({greeting, is_to_end});
+        parts.greet({greeting, is_to_end}, why_not);
         std::optional<remote::Frame> word;
         while (!is_to_end()) {
             if (!word)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,15 +40,13 @@ class Session {
 
     /// Until the client leaves, or a signal asks us to end. `greeting`: [s] of real time for its
     /// first word; without, for ever, as for a client that started us and may be stopped itself.
+    /// `why_not`: asked when that word is right, why it may not stay all the same; empty: it may.
     /// Throws nothing.
-    void run(std::optional<double> greeting);
+    void run(std::optional<double> greeting, const std::function<std::string()>& why_not);
 
   private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
-
-/// Hears a client's first word and tells it why it is not served. It need not be there any more.
-void turn_away(remote::FrameChannel& client, const std::string& why);
 
 }  // namespace reprise::cli

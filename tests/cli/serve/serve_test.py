@@ -666,6 +666,54 @@ class Servers(Case):
                 with self.assertRaisesRegex(reprise.Fault, "1 client is served already"):
                     reprise.Simulation(server=server.place)
 
+    def strangers(self, server, count, says=b""):
+        """Connections that never show that they may come in."""
+        host, _, port = server.place.rpartition(":")
+        for _ in range(count):
+            one = socket.create_connection((host, int(port))) if host else socket.socket(socket.AF_UNIX)
+            self.addCleanup(one.close)
+            if not host:
+                one.connect(server.place)
+            one.sendall(says)
+
+    def test_strangers_who_say_nothing_keep_nobody_out(self):
+        with Server("--socket", str(self.folder / "s"), "--episodes", "2") as server:
+            with reprise.Simulation(server=server.place) as before:
+                before.reset()
+                self.strangers(server, 1)
+                self.strangers(server, 1, b"\0")
+                with reprise.Simulation(server=server.place) as sim:
+                    self.assertEqual(sim.reset().index, 1)
+                    self.strangers(server, 40)  # more than are listened to at once
+                    with self.assertRaisesRegex(reprise.Fault, "2 clients are served already"):
+                        reprise.Simulation(server=server.place)
+                    self.assertLess(len(descendants(server.process.pid)), 30)
+                    self.assertEqual((before.step().index, sim.step().index), (2, 2))
+                self.strangers(server, 40)
+                wait_until(lambda: self.opens(server), "a place is free again")
+                self.assertEqual(before.step().index, 3)
+
+    def opens(self, server, **said):
+        try:
+            reprise.Simulation(server=server.place, **said).close()
+        except reprise.Fault:
+            return False
+        return True
+
+    def test_strangers_without_the_token_keep_nobody_out(self):
+        token = self.folder / "token"
+        token.touch(0o600)
+        token.write_text("a token of some length\n")
+        with Server("--port", "0", "--listen", "127.0.0.2", "--token-file", str(token), "--episodes", "1") as server:
+            self.strangers(server, 20)
+            for _ in range(3):
+                with self.assertRaisesRegex(reprise.Fault, "wrong token"):
+                    reprise.Simulation(server=server.place, token="another token, as long")
+            with reprise.Simulation(server=server.place, token="a token of some length") as sim:
+                self.assertEqual(sim.reset().index, 1)
+                with self.assertRaisesRegex(reprise.Fault, "wrong token"):  # not how many are served
+                    reprise.Simulation(server=server.place, token="another token, as long")
+
     def test_names_that_lead_out_of_the_folder_are_refused(self):
         inside = self.folder / "inside"
         inside.mkdir()
