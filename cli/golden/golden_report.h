@@ -35,7 +35,9 @@ struct CaseReport {
     std::string signature;   ///< of a change: cases that share it probably share the cause
     double seconds = 0;      ///< of wall time, the candidate's first run
     replay::GivenSetup given;
-    DriverOptions drivers;                                    ///< empty where nobody else drives
+    DriverOptions drivers;  ///< empty where nobody else drives
+    /// Who other programs drove; nothing where nobody else may, or the run did not go to its end.
+    std::optional<std::vector<std::string>> driven{};
     std::vector<std::pair<std::string, std::string>> starts;  ///< seed, parameters, ... of the run
 };
 

@@ -26,6 +26,7 @@
 #include "replay/golden/pins.h"
 #include "replay/trace_reader.h"
 #include "world/check.h"
+#include "world/external/external_drivers.h"
 #include "world/story/wording.h"
 #include "world/tick.h"
 
@@ -57,6 +58,19 @@ std::string complaint(const fs::path& log) {
         if (line.starts_with(mark))
             last = line.substr(std::strlen("reprise: "));
     return last;
+}
+
+/// The names of all cars that other programs drove.
+std::vector<std::string> driven_in(replay::TraceReader& trace) {
+    world::ExternalDrivers drivers;
+    std::vector<std::string> names;
+    for (std::uint64_t tick = 1; tick <= trace.ticks(); ++tick) {
+        drivers.hear(*trace.tick(tick).view.tick);
+        for (const auto& [actor, spawn] : drivers.spawns())
+            if (std::find(names.begin(), names.end(), spawn.command.text) == names.end())
+                names.push_back(spawn.command.text);
+    }
+    return names;
 }
 
 class Suite {
@@ -264,6 +278,8 @@ class Suite {
         replay::TraceReader trace(running.trace);
         if (!running.golden) {
             judge_checks(i, replay::make_golden(trace));
+            if (report.tested.state == State::external && report.result == CaseResult::passed)
+                report.driven = driven_in(trace);
             return;
         }
         running.candidate = replay::make_golden(trace, running.golden->sampling);

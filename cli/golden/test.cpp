@@ -13,6 +13,7 @@
 #include "cli/process/guard.h"
 #include "cli/process/say.h"
 #include "world/check.h"
+#include "world/printable.h"
 
 namespace reprise::cli {
 
@@ -101,6 +102,27 @@ void check_drivers(const TestOptions& options, const FoundCases& found) {
                                ": one run at a time can be at a socket: add --jobs 1");
 }
 
+/// A name that was typed wrong would pass for a driver that was tested.
+void check_all_drove(const TestOptions& options, const std::vector<CaseReport>& reports) {
+    std::vector<std::string> driven;
+    for (const CaseReport& report : reports) {
+        if (report.tested.state != State::external)
+            continue;
+        if (!report.driven)
+            return;  // somebody might have come later
+        driven.insert(driven.end(), report.driven->begin(), report.driven->end());
+    }
+    for (const std::string& driver : options.drivers) {
+        const std::string name = driver.substr(0, driver.find('='));
+        if (std::find(driven.begin(), driven.end(), name) == driven.end())
+            throw world::Error(fmt::format(
+                "--driver {}: no car of that name was driven by another program in any of these "
+                "scenarios{}",
+                world::printable(driver),
+                world::did_you_mean(name, driven)));
+    }
+}
+
 }  // namespace
 
 int test(const TestOptions& options) {
@@ -124,6 +146,7 @@ int test(const TestOptions& options) {
         print_summary(counts, result.seconds);
         if (!options.junit.empty())
             write_junit(options.junit, result.reports, result.seconds);
+        check_all_drove(options, result.reports);
         return exit_code(counts);
     } catch (const process::Stopped& stopped) {
         say(stderr, "reprise: interrupted; no run is left behind\n");

@@ -84,6 +84,38 @@ TEST_F(DriverSuite, OthersAreComparedWithTheirGoldensAsEver) {
                 HasSubstr("none of these scenarios has a car that another program drives"));
 }
 
+TEST_F(DriverSuite, ADriverWhoseNameNobodyHadIsAMistake) {
+    write_scenario("two", spawn("other", 20));
+    const auto test = [&](const std::string& third, int code) {
+        return run({"test",
+                    "--driver",
+                    steady,
+                    "--driver",
+                    "other=" + odd_driver + " steady",
+                    "--driver",
+                    third + "=" + odd_driver + " steady"},
+                   code);
+    };
+    EXPECT_THAT(test("othre", 2),
+                AllOf(HasSubstr("2 passed"),
+                      HasSubstr("reprise: --driver othre="),
+                      HasSubstr(": no car of that name was driven by another program in any of "
+                                "these scenarios (did you mean 'other'?)")));
+    EXPECT_THAT(test("ego ", 2), HasSubstr("did you mean 'ego'?"));
+    EXPECT_THAT(run({"test", "one.lua", "--driver", steady, "--driver", "other=true"}, 2),
+                HasSubstr("--driver other=true: no car of that name"));
+    EXPECT_THAT(run({"test",
+                     "--driver",
+                     steady,
+                     "--driver",
+                     "other=" + odd_driver + " killed 30",
+                     "--driver",
+                     "late=true"},
+                    1),
+                Not(HasSubstr("no car of that name")))
+        << "it might have come later";
+}
+
 TEST_F(DriverSuite, SaysWhatIsWrong) {
     EXPECT_THAT(run({"accept", "one.lua", "--because", "it drives"}, 2),
                 HasSubstr("only their checks are tested: reprise test --driver"));
