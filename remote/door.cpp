@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "remote/wire_generated.h"
+#include "world/printable.h"
 
 namespace reprise::remote {
 
@@ -19,7 +20,7 @@ constexpr int most_at_once = 16;                      // that are turned away be
 void refuse(int descriptor, const std::string& why) {
     FrameChannel channel(descriptor, largest_first_word);
     flatbuffers::FlatBufferBuilder builder;
-    builder.Finish(CreateFault(builder, builder.CreateString(why)));
+    builder.Finish(CreateFault(builder, builder.CreateString(world::printable(why))));
     try {
         channel.send(Kind::fault, {builder.GetBufferPointer(), builder.GetSize()}, {0.1});
     } catch (const ChannelFault&) {

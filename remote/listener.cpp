@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "world/check.h"
+#include "world/printable.h"
 
 namespace reprise::remote {
 
@@ -37,6 +38,21 @@ bool is_left_behind(const sockaddr_un& address) {
         errno == ECONNREFUSED;
     close(probe);
     return refused;
+}
+
+/// For people: what keeps us from making a socket at a path.
+std::string what_is_there(const sockaddr_un& address) {
+    struct stat there {};
+
+    if (lstat(static_cast<const char*>(address.sun_path), &there) != 0)
+        return std::strerror(EADDRINUSE);
+    if (S_ISSOCK(there.st_mode))
+        return "another program listens there";
+    const char* const what = S_ISREG(there.st_mode)   ? "a file"
+                             : S_ISDIR(there.st_mode) ? "a folder"
+                             : S_ISLNK(there.st_mode) ? "a link"
+                                                      : "something else than a socket";
+    return fmt::format("{} is there, and stays: expected a path where nothing is yet", what);
 }
 
 int bind_owners_only(int descriptor, const sockaddr_un& address) {
@@ -61,7 +77,7 @@ Listener::Listener(fs::path path, const std::string& who) : path_(std::move(path
     if (path_.native().size() >= sizeof(address.sun_path))
         throw world::Error(fmt::format("{}{}: a socket's path has at most {} bytes",
                                        who,
-                                       path_.string(),
+                                       world::printable(path_.string()),
                                        sizeof(address.sun_path) - 1));
     std::memcpy(address.sun_path, path_.c_str(), path_.native().size());
     descriptor_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -75,8 +91,11 @@ Listener::Listener(fs::path path, const std::string& who) : path_(std::move(path
         reason = errno;
     if (reason != 0) {
         close(descriptor_);
-        throw world::Error(fmt::format(
-            "{}{}: cannot listen there: {}", who, path_.string(), std::strerror(reason)));
+        throw world::Error(
+            fmt::format("{}{}: cannot listen there: {}",
+                        who,
+                        world::printable(path_.string()),
+                        reason == EADDRINUSE ? what_is_there(address) : std::strerror(reason)));
     }
 }
 
@@ -85,8 +104,9 @@ Listener::Listener(const std::string& address, std::uint16_t port) {
     place.sin_family = AF_INET;
     place.sin_port = htons(port);
     if (inet_pton(AF_INET, address.c_str(), &place.sin_addr) != 1)
-        throw world::Error(fmt::format(
-            "--listen {}: expected an IPv4 address in digits, such as 192.168.1.5", address));
+        throw world::Error(
+            fmt::format("--listen {}: expected an IPv4 address in digits, such as 192.168.1.5",
+                        world::printable(address)));
     descriptor_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     const int yes = 1;
     setsockopt(descriptor_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));

@@ -27,6 +27,7 @@
 #include "remote/schema.h"
 #include "remote/shared_memory.h"
 #include "world/check.h"
+#include "world/printable.h"
 
 namespace reprise::remote {
 
@@ -419,7 +420,7 @@ void Seat::leave(const std::string& reason, const std::optional<world::Outcome>&
 
 void Seat::fail(const std::string& text, std::uint32_t line) {
     flatbuffers::FlatBufferBuilder builder;
-    builder.Finish(CreateFault(builder, builder.CreateString(text), line));
+    builder.Finish(CreateFault(builder, builder.CreateString(world::printable(text)), line));
     parts_->say_last(Kind::fault, builder);
 }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "world/check.h"
+#include "world/printable.h"
 
 namespace reprise::remote {
 
@@ -25,13 +26,14 @@ std::uint16_t port_of(const std::string& digits, const std::string& text) {
 
 }  // namespace
 
-SeatPlan parse_seat(const std::string& text) {
-    const auto equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+SeatPlan parse_seat(const std::string& said) {
+    const std::string text = world::printable(said);  // for messages
+    const auto equals = said.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == said.size())
         throw world::Error("--driver " + text +
                            ": expected NAME=COMMAND, NAME=socket:PATH or NAME=tcp:PORT");
-    SeatPlan plan{text.substr(0, equals)};
-    const std::string who = text.substr(equals + 1);
+    SeatPlan plan{said.substr(0, equals)};
+    const std::string who = said.substr(equals + 1);
     if (who.starts_with(socket_word))
         plan.socket = who.substr(socket_word.size());
     else if (who.starts_with(port_word))

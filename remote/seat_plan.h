@@ -17,6 +17,6 @@ struct SeatPlan {
 };
 
 /// Throws world::Error, "--driver ego: expected NAME=COMMAND, NAME=socket:PATH or NAME=tcp:PORT".
-SeatPlan parse_seat(const std::string& text);
+SeatPlan parse_seat(const std::string& said);
 
 }  // namespace reprise::remote

@@ -34,8 +34,9 @@ std::vector<remote::SeatPlan> parse_seats(const std::vector<std::string>& texts)
             all.back().command = wheel_command();
         for (std::size_t i = 0; i + 1 < all.size(); ++i)
             if (all[i].actor == all.back().actor)
-                throw world::Error(
-                    fmt::format("--driver {}: '{}' has a driver already", text, all[i].actor));
+                throw world::Error(fmt::format("--driver {}: '{}' has a driver already",
+                                               world::printable(text),
+                                               world::printable(all[i].actor)));
     }
     return all;
 }
@@ -86,7 +87,8 @@ bool Seats::seat(const world::Spawn& spawn,
 std::string Seats::unused() const {
     std::string names;
     for (const auto& seat : free_)
-        names += (names.empty() ? "; there is a driver for " : ", ") + seat->actor();
+        names +=
+            (names.empty() ? "; there is a driver for " : ", ") + world::printable(seat->actor());
     return names;
 }
 

@@ -19,11 +19,13 @@
 #include "cli/external/serve_session.h"
 #include "cli/fingerprint/self_test.h"
 #include "cli/process/guard.h"
+#include "cli/process/reproduce.h"
 #include "cli/process/say.h"
 #include "process/held_signals.h"
 #include "process/offshoot.h"
 #include "remote/listener.h"
 #include "world/check.h"
+#include "world/printable.h"
 #include "world/story/wording.h"
 
 namespace reprise::cli {
@@ -46,9 +48,9 @@ void refuse_if_others_may(const std::string& path) {
     if (fs::is_regular_file(status) && (status.permissions() & others) != fs::perms::none)
         throw world::Error(
             fmt::format("--token-file {}: other users may open it (mode {:03o}): chmod 600 {}",
-                        path,
+                        world::printable(path),
                         static_cast<unsigned>(status.permissions() & fs::perms::all),
-                        path));
+                        shell_path(path)));
 }
 
 std::string read_token(const std::string& path) {
@@ -58,13 +60,15 @@ std::string read_token(const std::string& path) {
     refuse_if_others_may(path);
     std::ifstream file(path);
     if (!file)
-        throw world::Error(
-            fmt::format("--token-file {}: cannot be read: {}", path, std::strerror(errno)));
+        throw world::Error(fmt::format(
+            "--token-file {}: cannot be read: {}", world::printable(path), std::strerror(errno)));
     std::string token;
     std::getline(file, token);
     if (token.size() < shortest)
-        throw world::Error(fmt::format(
-            "--token-file {}: expected a first line of at least {} characters", path, shortest));
+        throw world::Error(
+            fmt::format("--token-file {}: expected a first line of at least {} characters",
+                        world::printable(path),
+                        shortest));
     return token;
 }
 
@@ -79,7 +83,8 @@ std::optional<int> open_descriptor(const std::string& text) {
     socklen_t size = sizeof(peer);
     if (std::from_chars(begin, end, descriptor).ptr != end || descriptor < 3 ||
         getpeername(descriptor, reinterpret_cast<sockaddr*>(&peer), &size) != 0)
-        throw world::Error("--socket " + text + ": expected the number of a connected socket");
+        throw world::Error("--socket " + world::printable(text) +
+                           ": expected the number of a connected socket");
     return descriptor;
 }
 
@@ -176,8 +181,8 @@ class Server {
         } catch (const remote::ChannelFault&) {
             return;  // it went as soon as it came
         }
-        const bool is_another_users = options_.port && token_.empty() &&
-                                      !remote::is_of_our_user(client->descriptor());
+        const bool is_another_users =
+            options_.port && token_.empty() && !remote::is_of_our_user(client->descriptor());
         make_room();
         try {
             const std::uint64_t number = ++came_;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "world/check.h"
+#include "world/printable.h"
 
 namespace reprise::cli {
 
@@ -86,7 +87,8 @@ void say_end(remote::FrameChannel& client, const world::Outcome& outcome) {
 
 void say_fault(remote::FrameChannel& client, const std::string& text, std::uint32_t line) {
     flatbuffers::FlatBufferBuilder builder;
-    builder.Finish(remote::CreateFault(builder, builder.CreateString(text), line));
+    builder.Finish(
+        remote::CreateFault(builder, builder.CreateString(world::printable(text)), line));
     say_last(client, remote::Kind::fault, builder);
 }
 

@@ -15,12 +15,8 @@ using Place = std::atomic<std::uint64_t>;
 static_assert(Place::is_always_lock_free, "a session that is killed must not hold a lock");
 
 Places::Places(std::size_t most) {
-    void* const memory = mmap(nullptr,
-                              most * sizeof(Place),
-                              PROT_READ | PROT_WRITE,
-                              MAP_SHARED | MAP_ANONYMOUS,
-                              -1,
-                              0);
+    void* const memory = mmap(
+        nullptr, most * sizeof(Place), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED)
         throw world::Error(std::string("no memory for the places of clients: ") +
                            std::strerror(errno));

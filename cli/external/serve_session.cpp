@@ -45,7 +45,8 @@ bool is_same(const std::string& said, const std::string& wanted) {
 
 void send_fault(remote::FrameChannel& client, const std::string& text) {
     flatbuffers::FlatBufferBuilder builder;
-    builder.Finish(remote::CreateFault(builder, builder.CreateString(text), line_named_in(text)));
+    builder.Finish(remote::CreateFault(
+        builder, builder.CreateString(world::printable(text)), line_named_in(text)));
     client.send(Kind::fault, {builder.GetBufferPointer(), builder.GetSize()}, {taking});
 }
 

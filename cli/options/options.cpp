@@ -164,9 +164,8 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
         const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
         const std::string text =
             error.what() + (extra ? option_meant(app, argc, argv) : std::string());
-        std::fprintf(stderr,
-                     "reprise: %s (reprise --help says more)\n",
-                     world::printable_lines(text).c_str());
+        std::fprintf(
+            stderr, "reprise: %s (reprise --help says more)\n", world::printable(text).c_str());
         return 2;
     }
     command = app.get_subcommands().front()->get_name();

@@ -12,6 +12,7 @@
 #include "cli/process/say.h"
 #include "cli/town/town_folder.h"
 #include "world/check.h"
+#include "world/printable.h"
 
 namespace reprise::cli {
 
@@ -139,8 +140,8 @@ fs::path find_network(const std::string& town, const fs::path& scenario) {
         return network_in(town);
     const auto names = names_in(folders);
     throw world::Error(
-        "no town '" + town + "'" + world::did_you_mean(town, names) + "; there are " +
-        joined_names(names) +
+        "no town '" + world::printable(town) + "'" + world::did_you_mean(town, names) +
+        "; there are " + joined_names(names) +
         ", or give the path of a SUMO network (.net.xml), a town's folder or a map (.xodr, .osm)");
 }
 
@@ -177,8 +178,8 @@ towns::Network load_named_town(const std::string& name, const fs::path& folder) 
         if (fs::path network = network_named(name, folders); !network.empty())
             return towns::load_network(network);
     const auto names = names_in(folders);
-    throw world::Error("no town '" + name + "'" + world::did_you_mean(name, names) +
-                       "; there are " + joined_names(names));
+    throw world::Error("no town '" + world::printable(name) + "'" +
+                       world::did_you_mean(name, names) + "; there are " + joined_names(names));
 }
 
 }  // namespace reprise::cli

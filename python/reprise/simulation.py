@@ -186,7 +186,7 @@ class Client:
     def _change_plan(self, changes: dict[str, Any]) -> None:
         for name in changes:
             if name not in self._plan:
-                raise TypeError(f"reset: no '{name}'; there are {', '.join(self._plan)}")
+                raise TypeError(f"reset: no {name!r}; there are {', '.join(self._plan)}")
         self._plan = {**self._plan, **changes}
         self._check_plan()
         self._check_asked(changes)
@@ -233,9 +233,9 @@ class Client:
                                    every=plan["every"])  # fmt: skip
             return message
         scenario = os.fspath(plan["scenario"])
-        if "\n" in scenario:
+        if "\n" in scenario and isinstance(plan["scenario"], str):
             message.update(source=scenario)
-        elif "/" in scenario:
+        elif "/" in scenario or "\n" in scenario:
             path = pathlib.Path(scenario)
             message.update(source=path.read_text(), name=path.name)
         else:

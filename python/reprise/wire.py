@@ -56,12 +56,18 @@ class WireError(RuntimeError):
     """The run is gone without a word, or speaks another version of the wire."""
 
 
+def printable(text: str) -> str:
+    """For a message of one line: what cannot be seen, or would begin another line, is written out, as in '\\n'."""
+    return "".join(one if one.isprintable() else repr(one)[1:-1] for one in text)
+
+
 def _connect(address: str) -> socket.socket:
+    shown = printable(address)
     if address.startswith("fd:"):
         try:
             return socket.socket(fileno=int(address[3:]))
         except (ValueError, OSError):
-            raise WireError(f"{address}: is no open socket; who starts a driver in turn must leave it open "
+            raise WireError(f"{shown}: is no open socket; who starts a driver in turn must leave it open "
                             "(subprocess.run(..., close_fds=False))") from None  # fmt: skip
     host, colon, port = address.rpartition(":")
     try:
@@ -72,7 +78,7 @@ def _connect(address: str) -> socket.socket:
         channel = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         channel.connect(address)
     except OSError as error:
-        raise WireError(f"{address}: nobody is there: {error.strerror or error}") from None
+        raise WireError(f"{shown}: nobody is there: {error.strerror or error}") from None
     return channel
 
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <fstream>
 #include <sys/socket.h>
 #include <thread>
 
@@ -379,13 +380,34 @@ TEST(Seat, SocketsAreTheirOwnersOnly) {
               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
 
+/// What is said of a socket that cannot be made there.
+std::string refusal_of(const std::filesystem::path& path) {
+    try {
+        const Seat seat({"ego", "", path}, {0.1});
+    } catch (const world::Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
 TEST(Seat, APathWhereSomethingLiesIsRefusedAndLeftAlone) {
-    const std::filesystem::path path =
-        testing::TempDir() + "seat_taken_" + std::to_string(getpid());
-    std::filesystem::create_directory(path);
-    EXPECT_THROW(Seat({"ego", "", path}, {0.1}), world::Error);
-    EXPECT_TRUE(std::filesystem::is_directory(path));
-    std::filesystem::remove(path);
+    namespace fs = std::filesystem;
+    const fs::path folder = testing::TempDir() + "seat_taken_" + std::to_string(getpid());
+    fs::create_directory(folder);
+    EXPECT_THAT(refusal_of(folder),
+                HasSubstr("cannot listen there: a folder is there, and stays: expected a path "
+                          "where nothing is yet"));
+    EXPECT_TRUE(fs::is_directory(folder));
+    std::ofstream(folder / "notes") << "mine";
+    EXPECT_THAT(refusal_of(folder / "notes"), HasSubstr("notes: cannot listen there: a file is"));
+    EXPECT_EQ(fs::file_size(folder / "notes"), 4U);
+    fs::create_symlink("nowhere", folder / "link");
+    EXPECT_THAT(refusal_of(folder / "link"), HasSubstr("a link is there"));
+    const Seat other({"ego", "", folder / "s"}, {0.1});
+    EXPECT_THAT(refusal_of(folder / "s"), HasSubstr("another program listens there"));
+    EXPECT_THAT(refusal_of(folder / "no\nfolder" / "s"),
+                HasSubstr("no\\x0afolder/s: cannot listen there: No such file"));
+    fs::remove_all(folder);
 }
 
 TEST(SeatPlan, IsReadFromWhatTheUserSays) {
@@ -403,6 +425,8 @@ TEST(SeatPlan, IsReadFromWhatTheUserSays) {
                               "ego=tcp:-1",
                               "ego=tcp:1.2.3.4:5"})
         EXPECT_THROW(parse_seat(wrong), world::Error) << wrong;
+    EXPECT_THAT([] { parse_seat("a\nb=tcp:x"); },
+                testing::ThrowsMessage<world::Error>(HasSubstr("--driver a\\x0ab=tcp:x: ")));
 }
 
 }  // namespace

@@ -736,7 +736,10 @@ class Servers(Case):
             for name in ("../a.mcap", str(self.folder / "a.mcap"), "link.mcap", "late.mcap", ".mcap", "a.txt"):
                 with self.subTest(trace=name):
                     wire.say("reset", file="driven.lua", trace=name)
-                    self.assertEqual(wire.receive()[0], "fault")
+                    kind, message = wire.receive()
+                    self.assertEqual(kind, "fault")
+                    # Before anything is begun: not by a writer that finds it out later.
+                    self.assertIn("links are not followed" if name.startswith("l") else "expected the name of a file", message.text)
             for town in ("../town1", "/etc/passwd", "town1/town1.net.xml", ".", ""):
                 with self.subTest(town=town):
                     wire.say("reset", task={"town": town})
@@ -784,6 +787,53 @@ class Servers(Case):
             with self.assertRaises(WireError):
                 wire.receive()
             wire.close()
+
+    def hears(self, client):
+        """All that is said to a socket until it is hung up on."""
+        client.settimeout(WAITING)
+        said = b""
+        try:
+            while more := client.recv(4096):
+                said += more
+        except ConnectionResetError:
+            pass
+        return said
+
+    def test_only_who_has_greeted_and_says_nonsense_is_told_so(self):
+        with Server("--socket", str(self.folder / "s")) as server:
+            with socket.socket(socket.AF_UNIX) as stranger:
+                stranger.connect(server.place)
+                stranger.sendall(struct.pack("<II", 4, 99) + b"none")
+                self.assertEqual(self.hears(stranger), b"")
+            idle = Wire(server.place)
+            idle.say("open", version=1)
+            self.assertEqual(idle.receive()[0], "open")
+            server.process.terminate()
+            with self.assertRaisesRegex(WireError, "hung up"):  # it made no mistake
+                idle.receive()
+            idle.close()
+
+    def test_a_fault_is_one_line_whatever_it_names(self):
+        nasty = "a\nb\x1b[31m"
+        changes = [dict(trace=nasty + ".mcap"), dict(town=nasty), dict(weather=nasty), dict(model=nasty), dict(start=(nasty, 3.0)),
+                   dict(scenario=DRIVEN, settings={nasty: 1}), dict(scenario=nasty.replace("\n", "") + ".lua")]  # fmt: skip
+        with reprise.Simulation("straight", folder=self.folder) as sim:
+            for change in changes:
+                with self.subTest(change), self.assertRaises(reprise.Fault) as caught:
+                    sim.reset(**change)
+                self.assertTrue(str(caught.exception).isprintable(), str(caught.exception))
+            with self.assertRaises(FileNotFoundError):  # a path is one, whatever it holds
+                sim.reset(scenario=self.folder / "a\nb.lua")
+            (self.folder / "a\nb.lua").write_text(DRIVEN)
+            self.assertEqual(sim.reset(scenario=self.folder / "a\nb.lua").index, 1)
+            with self.assertRaisesRegex(TypeError, r"^reset: no 'a\\nb'; there are town"):
+                sim.reset(**{"a\nb": 1})
+        for place in ("/tmp/a\nb", "a\nb:3"):
+            with self.assertRaisesRegex(WireError, r"a\\nb.*: nobody is there"):
+                reprise.Simulation(server=place)
+        with reprise.MultiSimulation(("a\nb",), DRIVEN, folder=self.folder) as sim:
+            with self.assertRaisesRegex(reprise.Fault, r"there is a driver for a\\x0ab$"):
+                sim.reset()
 
     def test_what_is_no_message_ends_the_session_only(self):
         with Server("--socket", str(self.folder / "s")) as server:
