@@ -18,6 +18,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 
+from .arguments import whole
 from .driver import Control
 from .navigation import TASKS, Journey, action_space, cars_of, control_of, observation_space, read_episodes, rig_of
 from .simulation import Simulation
@@ -73,9 +74,7 @@ class Navigation(gymnasium.Env):
         traffic = int(self.np_random.integers(2**31))
         weather = self.weathers[int(self.np_random.integers(len(self.weathers)))]
         options = options or {}
-        chosen = int(options.get("episode", chosen))
-        if not 0 <= chosen < len(self.episodes):
-            raise ValueError(f"options: 'episode' is {chosen}, of {len(self.episodes)}: expected 0 to {len(self.episodes) - 1}")
+        chosen = whole("options: episode", options.get("episode", chosen), 0, len(self.episodes) - 1, "of this task")
         task = self.episodes[chosen]
         start, goal = ((task[end]["lane"], task[end]["s"]) for end in ("start", "goal"))
         self._sim.reset(seed=traffic, weather=weather, start=start, goal=goal, trace=options.get("trace"))

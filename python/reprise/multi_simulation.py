@@ -7,6 +7,7 @@ import select
 import socket
 from typing import Any, Mapping, Sequence
 
+from .arguments import shown
 from .driver import Control, Driver, Observation, Run, values_of
 from .simulation import Client, Fault, Outcome
 from .wire import Wire, WireError
@@ -43,8 +44,9 @@ class MultiSimulation(Client):
 
     def _check_plan(self) -> None:
         names = self._plan["drivers"]
-        if isinstance(names, str) or not names or len(set(names)) < len(names):
-            raise ValueError(f"drivers={names!r}: expected the names of different vehicles, such as ('a', 'b')")
+        is_list = isinstance(names, (tuple, list)) and all(isinstance(name, str) for name in names)
+        if not is_list or not names or len(set(names)) < len(names):
+            raise ValueError(f"drivers={shown(names)}: expected the names of different vehicles, such as ('a', 'b')")
         if self._plan["scenario"] is None:
             raise ValueError("scenario=None: expected a scenario that spawns " + ", ".join(names))
 

@@ -15,6 +15,7 @@ from typing import Any, Sequence
 import numpy as np
 from gymnasium import spaces
 
+from .arguments import shown
 from .driver import Control, Ego, Observation
 from .simulation import find_program
 from .state import COMMANDS, SIZE, Measured, StateVector
@@ -81,7 +82,10 @@ def observation_space(obs: str) -> spaces.Box:
 
 def control_of(action: Sequence[float] | np.ndarray) -> Control:
     """What a car can do of an action."""
-    steer, pedals = (min(max(float(one), -1.0), 1.0) for one in action)
+    try:
+        steer, pedals = (min(max(float(one), -1.0), 1.0) for one in action)
+    except (TypeError, ValueError):
+        raise ValueError(f"action={shown(action)}: expected two numbers in [-1, 1], steer and pedals") from None
     return Control(throttle=max(pedals, 0.0), brake=max(-pedals, 0.0), steer=steer)
 
 

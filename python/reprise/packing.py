@@ -8,6 +8,7 @@ import flatbuffers
 import numpy as np
 
 from . import schema
+from .arguments import shown
 from .nouns import dtype
 
 _SLOTS = {
@@ -66,14 +67,14 @@ def _number(field: str, kind: np.dtype, value: Any) -> bool | int | float:
     except (TypeError, ValueError, OverflowError):
         is_possible = False
     if not is_possible:
-        raise ValueError(f"{field}: expected {words}, got {value!r}")
+        raise ValueError(f"{field}: expected {words}, got {shown(value)}")
     return kind.type(number).item()
 
 
 def _outside(builder: flatbuffers.Builder, field: str, of: str, name: str, value: Any) -> int | None:
     if of == "string":
         if not isinstance(value, str):
-            raise ValueError(f"{field}: expected a text, got {value!r}")
+            raise ValueError(f"{field}: expected a text, got {shown(value)}")
         return builder.CreateString(value)
     if of.startswith("["):
         items = [_outside(builder, field, of[1:-1], name, item) for item in value]

@@ -8,8 +8,10 @@ import pathlib
 import shutil
 import socket
 import subprocess
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence, TypeVar
 
+from . import arguments
+from .arguments import Place, shown
 from .driver import Control, Driver, Observation, Run, values_of
 from .nouns import Noun
 from .wire import POLLING, VERSION, Wire, WireError
@@ -18,7 +20,6 @@ if TYPE_CHECKING:
     from .view import View
 
 _Client = TypeVar("_Client", bound="Client")
-Place = Union[str, int, "tuple[str, float]", None]
 
 
 class Fault(ValueError):
@@ -47,18 +48,6 @@ def find_program() -> str:
     if not program:
         raise FileNotFoundError("no program 'reprise' in PATH: install it, or name it in the variable REPRISE")
     return program
-
-
-def _place(place: Place) -> dict[str, Any] | None:
-    if place is None:
-        return None
-    if place == "drawn":
-        return {"kind": "drawn"}
-    if isinstance(place, str):
-        return {"kind": "lane", "lane": place, "s": 10.0}
-    if isinstance(place, tuple):
-        return {"kind": "lane", "lane": place[0], "s": float(place[1])}
-    return {"kind": "spawn_point", "spawn_point": int(place)}
 
 
 class _Server:
@@ -91,22 +80,10 @@ class _Server:
                 continue
 
 
-#: of a sensor, where nothing else is said
-_SENSOR = dict(kind="rgb", width=800, height=600, fov_deg=90.0, x=1.0, y=0.0, z=1.4, yaw_deg=0.0, pitch_deg=0.0,
-               roll_deg=0.0, every=0)  # fmt: skip
-
-
 _OF_TASKS = ("town", "cars", "weather", "model", "start", "goal", "rig")
 #: of the plan of an episode, where nothing else is said
 _UNASKED: dict[str, Any] = dict(town="town1", cars=0, weather="clear_noon", model="sedan")
 _MOST = 2 << 20  # [bytes] of a message, as servers take them
-
-
-def _sensor(said: Mapping[str, Any]) -> dict[str, Any]:
-    sensor = {**_SENSOR, **said}
-    attributes = sensor.pop("attributes", None) or {}
-    sensor["attributes"] = [dict(name=name, value=float(value)) for name, value in attributes.items()] or None
-    return sensor
 
 
 class Client:
@@ -168,6 +145,7 @@ class Client:
         return WireError(f"{error}{self._server.end_of_it()}") if self._server else error
 
     def _say(self, kind: str, **values: Any) -> None:
+        arguments.refuse_nul(kind, values)
         try:
             self._open_wire().say(kind, _MOST, **values)
         except WireError as error:
@@ -207,32 +185,31 @@ class Client:
             raise ValueError("walkers: a scenario says itself how many people walk: walkers = 100 in its header")
         if self._plan["scenario"] is not None and self._plan["every"] != 1:
             raise ValueError("every: a scenario says itself how often its driver is asked: spawn{ every = 2 }")
-        if not (isinstance(self._plan["every"], int) and 1 <= self._plan["every"] <= 100):
-            raise ValueError(f"every={self._plan['every']!r}: expected 1 to 100 ticks")
+        arguments.whole("every", self._plan["every"], 1, 100, "ticks")
 
     def _check_asked(self, asked: Mapping[str, Any]) -> None:
         """What was asked for now must not be passed over."""
         for name, value in asked.items():
-            if value in (None, (), [], {}, _UNASKED.get(name)):
+            if arguments.is_unsaid(value) or (isinstance(value, (str, int)) and value == _UNASKED.get(name)):
                 continue
             if self._plan["scenario"] is not None and name in _OF_TASKS:
-                raise ValueError(f"{name}={value!r}: is for tasks, a scenario says that itself")
+                raise ValueError(f"{name}={shown(value)}: is for tasks, a scenario says that itself")
             if self._plan["scenario"] is None and name == "settings":
-                raise ValueError(f"settings={value!r}: is for scenarios, a task has none")
+                raise ValueError(f"settings={shown(value)}: is for scenarios, a task has none")
 
     def _message(self) -> dict[str, Any]:
         plan = self._plan
-        message: dict[str, Any] = dict(seeded=plan["seed"] is not None, seed=plan["seed"] or 0,
-                                       seconds=plan["seconds"] or 0.0, trace=plan["trace"])  # fmt: skip
+        message: dict[str, Any] = dict(seeded=plan["seed"] is not None, seed=0 if plan["seed"] is None else plan["seed"],
+                                       seconds=0.0 if plan["seconds"] is None else plan["seconds"], trace=plan["trace"])  # fmt: skip
         if plan["scenario"] is None:
             message["task"] = dict(town=plan["town"], cars=plan["cars"], walkers=plan["walkers"],
                                    walker_seeded=plan["walker_seed"] is not None,
-                                   walker_seed=plan["walker_seed"] or 0, weather=plan["weather"], model=plan["model"],
-                                   start=_place(plan["start"]), goal=_place(plan["goal"]),
-                                   rig=[_sensor(sensor) for sensor in plan["rig"]] or None,
+                                   walker_seed=0 if plan["walker_seed"] is None else plan["walker_seed"], weather=plan["weather"], model=plan["model"],
+                                   start=arguments.place("start", plan["start"]),
+                                   goal=arguments.place("goal", plan["goal"]), rig=arguments.sensors(plan["rig"]),
                                    every=plan["every"])  # fmt: skip
             return message
-        scenario = os.fspath(plan["scenario"])
+        scenario = arguments.path_or_text("scenario", plan["scenario"])
         if "\n" in scenario and isinstance(plan["scenario"], str):
             message.update(source=scenario)
         elif "/" in scenario or "\n" in scenario:
@@ -240,9 +217,7 @@ class Client:
             message.update(source=path.read_text(), name=path.name)
         else:
             message.update(file=scenario)
-        texts = {key: str(value).lower() if isinstance(value, bool) else str(value)
-                 for key, value in (plan["settings"] or {}).items()}  # fmt: skip
-        message["settings"] = [dict(key=key, value=value) for key, value in texts.items()] or None
+        message["settings"] = arguments.settings(plan["settings"])
         return message
 
 

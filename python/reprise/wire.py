@@ -1,6 +1,7 @@
 """The driver's end of the wire: frames over a Unix domain socket. remote/wire.fbs and docs/drivers.md say what they hold."""
 from __future__ import annotations
 
+import numbers
 import os
 import select
 import socket
@@ -12,6 +13,7 @@ import flatbuffers
 from flatbuffers.table import Table
 
 from . import schema
+from .arguments import path_or_text, printable, shown
 from .nouns import Noun
 from .packing import pack
 
@@ -54,11 +56,6 @@ _GUESS = 1 << 16  # [bytes] a message mostly is no longer, with its head
 
 class WireError(RuntimeError):
     """The run is gone without a word, or speaks another version of the wire."""
-
-
-def printable(text: str) -> str:
-    """For a message of one line: what cannot be seen, or would begin another line, is written out, as in '\\n'."""
-    return "".join(one if one.isprintable() else repr(one)[1:-1] for one in text)
 
 
 def _connect(address: str) -> socket.socket:
@@ -140,10 +137,12 @@ class Wire:
     digest = schema.DIGEST
 
     def __init__(self, address: str | socket.socket | None = None, polling: float = POLLING) -> None:
+        if isinstance(polling, bool) or not isinstance(polling, numbers.Real):
+            raise ValueError(f"polling={shown(polling)}: expected seconds")
         self._descriptor: int | None = None
         self._ahead = b""  # of the next messages
         if not isinstance(address, socket.socket):
-            address = address or os.environ.get("REPRISE_DRIVER", "")
+            address = path_or_text("address", address or os.environ.get("REPRISE_DRIVER", ""))
             if not address:
                 raise WireError("no run to drive in: start this program by reprise run SCENARIO.lua --driver NAME='...', or "
                                 "name a socket")  # fmt: skip

@@ -155,8 +155,11 @@ def what_cannot_be_is_told():
     refuses(lambda: reprise.gym.Navigation(weather=[]), "weather=[]")
     refuses(lambda: reprise.gym.Navigation(town="nowhere"), "of the town 'nowhere', but of town1, town2; ", "tasks=")
     env = reprise.gym.Navigation(task="straight")
-    for number in (-1, 25):
-        refuses(lambda: env.reset(options={"episode": number}), f"'episode' is {number}", "0 to 24")
+    for wrong in (np.zeros(3, np.float32), [0.5], 0.5, None, "ab", np.zeros((1, 2)), [[0, 1], [0, 1]]):
+        env.reset(seed=1)
+        refuses(lambda: env.step(wrong), "action=", "expected two numbers in [-1, 1], steer and pedals")
+    for number in (-1, 25, 2.5, "a", None):
+        refuses(lambda: env.reset(options={"episode": number}), f"episode={number!r}", "0 to 24")
     env.close()
     several = reprise.zoo.navigation(agents=1, task="straight")
     refuses(lambda: several.reset(options={"episodes": [25]}), "names 25", "0 to 24")

@@ -441,6 +441,43 @@ class Episodes(Case):
             self.assertEqual(len(sim.reset().cars), 3)
             self.assertEqual(len(sim.reset(scenario="driven.lua").cars), 20)  # what was asked of tasks waits for the next one
 
+    def test_arguments_of_odd_types_are_refused_in_a_line_before_anything_is_said(self):
+        array = np.zeros((2, 2))
+        odd = [("rig", ("front", {"front": {}}, ["front"], [array], 3, array), "expected a list of sensors, each a dict"),
+               ("rig", ([dict(name="a", attributes=3)], [dict(name="a", attributes=dict(range="far"))]), "expected a dict of names and numbers"),
+               ("rig", ([dict(name="a", width=2.5)], [dict(name="a", width=-1)]), "expected a whole number"),
+               ("start", (2.5, True, array, b"x", (), ("a",), ("a", "b"), {"a": 1}, -1, 2**32), "expected"),
+               ("goal", (float("nan"), float("inf"), object(), (1, 2, 3), np.zeros(2)), "expected a lane, with or without metres"),
+               ("scenario", (3, b"x", ["a"], array), "expected a text or a path"),
+               ("every", (0, 101, 2.0, "2", None, array, 10**30), "expected 1 to 100 ticks"),
+               ("seed", ("", [], array, -1, 2**64, 0.5), "expected a whole number"),
+               ("walker_seed", ("", {}), "expected a whole number"), ("seconds", ("", [], array), "expected a number"),
+               ("cars", (array, "", 1e308), "expected a whole number"), ("town", (array, 3, b"town1", "town1\0"), "expected a text"),
+               ("weather", ("a\0b",), "expected a text without"), ("trace", (3, "a\0.mcap"), "expected a text")]  # fmt: skip
+        with reprise.Simulation("straight", folder=self.folder) as sim:
+            for name, values, wanted in odd:
+                for value in values:
+                    with self.subTest(name, value=value), self.assertRaises(ValueError) as caught:
+                        sim.reset(**{name: value})
+                    self.assertNotIsInstance(caught.exception, reprise.Fault)
+                    said = str(caught.exception)
+                    self.assertIn(wanted, said)
+                    self.assertTrue(said.isprintable() and len(said) < 400, said)
+            for value in (3, "gap", [("gap", 3)], {3: 3}, array):
+                with self.subTest(settings=value), self.assertRaisesRegex(ValueError, "^settings=.*: expected a dict"):
+                    sim.reset(scenario=DRIVEN, settings=value)
+            seen = sim.reset(start=np.int64(0), every=np.int32(2), seed=np.uint8(3))
+            self.assertEqual((seen.index, seen.run.every, seen.run.episode.seed), (1, 2, 3))
+        for drivers in (5, None, [5], ["a", ["b"]], {"a": 1}, b"ab"):
+            with self.subTest(drivers=drivers), self.assertRaisesRegex(ValueError, "names of different vehicles"):
+                reprise.MultiSimulation(drivers, SEVERAL)
+        for server in (3, b"s", ["s"]):
+            with self.subTest(server=server), self.assertRaisesRegex(ValueError, "^address=.*: expected a text or a path"):
+                reprise.Simulation(server=server)
+        for polling in (None, "x", [1], True):
+            with self.subTest(polling=polling), self.assertRaisesRegex(ValueError, "^polling=.*: expected seconds"):
+                reprise.Simulation(polling=polling)
+
     def test_seconds_that_cannot_be_are_told_in_the_words_of_who_asked(self):
         with reprise.Simulation("straight") as sim:
             for seconds in (-1, float("nan"), float("inf"), 86401):
@@ -615,6 +652,11 @@ class Servers(Case):
                     found.append(seen.tick.digests["chain"].tobytes())
                     seen, other = one.step(drive(seen)), two.step(drive(other))
             self.assertEqual(found, wanted)
+
+    def test_a_server_is_named_by_a_path_as_well(self):
+        with Server("--socket", str(self.folder / "s")) as server:
+            with reprise.Simulation(server=pathlib.Path(server.place)) as sim:
+                self.assertEqual(sim.reset().index, 1)
 
     def test_the_socket_is_its_owners_and_gone_in_the_end(self):
         path = self.folder / "s"
