@@ -142,6 +142,23 @@ TEST_F(LiveFrames, ASliceBehindTheSpawnGivesTheFramesOfTheWholeTrace) {
     EXPECT_GE(frames, 8U) << "of several sensors, some not in every tick";
 }
 
+TEST_F(LiveFrames, OfOddSizesAreThoseThatTheTraceGivesAfterwards) {
+    // Few pixels, or many in one direction only: rows of no whole words, no whole blocks of rays.
+    scenario("odd", std::string("driver = 'external', latency = 2, ") + R"(rig = {
+        { name = 'dot', width = 1, height = 1 },
+        { name = 'dot_depth', kind = 'depth', width = 1, height = 1, fov_deg = 1 },
+        { name = 'dot_label', kind = 'instance', width = 1, height = 1, fov_deg = 170, every = 7 },
+        { name = 'row', width = 4096, height = 1, every = 4 },
+        { name = 'column', kind = 'semantic', width = 3, height = 4096, every = 4 },
+        { name = 'odd', kind = 'flow', width = 17, height = 31, every = 3 },
+        { name = 'odd_normals', kind = 'normals', width = 31, height = 17, fov_deg = 169, every = 3 },
+        { name = 'rough', width = 7, height = 5, attributes = { readout_time = 7, samples = 3, motion_blur = 1 } },
+        { name = 'dot_events', kind = 'dvs', width = 1, height = 1 },
+    }, )");
+    run("odd", compiled + make_folder("odd_frames"));
+    expect_frames_of_trace("odd", "odd_frames", 2);
+}
+
 TEST_F(LiveFrames, FramesSeenAreThoseThatTheTraceGivesAfterwards) {
     scenario("seen", std::string(rig) + "driver = 'external' ");
     run("seen", compiled + make_folder("cpp"));
