@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Callable
 
 import numpy as np
 
+from .arguments import printable
 from .nouns import Noun, dtype, enum
 from .pictures import Frames, Images, Sensors
 from .wire import POLLING, VERSION, Wire, WireError
@@ -286,7 +287,7 @@ def last_words(error: BaseException, where: str) -> str:
         if os.path.isfile(path) and os.path.dirname(path) != os.path.dirname(__file__) and "-packages" not in path:
             line = f" ({os.path.basename(path)}:{step.tb_lineno})"
         step = step.tb_next
-    told = str(error)  # the run takes 300 bytes; the place shall be among them
+    told = printable(str(error))  # the run takes 300 bytes; the place shall be among them
     told = told if len(told) <= 160 else told[:160] + " ..."
     return f"{type(error).__name__} {where}: {told}{line}"
 

@@ -130,6 +130,7 @@ class MultiSimulation(Client):
         shows, by name; empty when the episode is over, and `outcome` says how it ended."""
         if not self._seen:
             raise RuntimeError("no episode runs: reset() begins one")
+        self._open_wire()  # nothing is said where it is not ours
         if set(controls) != set(self._seen):
             raise ValueError(f"step: expected a control for each of {', '.join(self._seen)}, got {', '.join(controls) or 'none'}")
         values = {name: values_of(control) for name, control in controls.items()}  # all of them, before one is said

@@ -137,6 +137,8 @@ class Client:
             server.end()
 
     def _open_wire(self) -> Wire:
+        if self._process != os.getpid():  # two that step the same episode would not hear each its own answers
+            raise RuntimeError("this simulation is of the process that this one was forked from: make another one here")
         if self._wire is None:
             raise WireError("this simulation is closed")
         return self._wire

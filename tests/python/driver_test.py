@@ -29,6 +29,7 @@ SCENARIO = """return scenario 'one' { town = 'small.net.xml', cars = 0, seed = 1
 # What stands in the driver's third line, asked in tick 5 -> what the run says; None: nothing, as it may be done.
 MISTAKES = {
     "raise RuntimeError('my own')": r"RuntimeError in tick 5: my own \(driver.py:4\)",
+    "raise RuntimeError('one\\ntwo \\udcff')": r"RuntimeError in tick 5: one\\ntwo \\udcff \(driver.py:4\)",
     "return None": r"TypeError in tick 5: a driver returns a reprise.Control, not None \(is a `return` missing\?\)",
     "return {'throttle': 0.4}": r"TypeError in tick 5: a driver returns a reprise.Control, not \{.*\(reprise.Control\(\*\*values\)",
     "return reprise.Control(throttle=2)": r"ValueError in tick 5: Control\(throttle=2\): expected a number in \[0, 1\] \(driver.py:4\)",

@@ -430,6 +430,24 @@ class Episodes(Case):
             os.waitpid(child, 0)
             self.assertEqual([sim.step().index for _ in range(3)], [2, 3, 4])
 
+    def test_a_fork_does_not_step_the_episode_of_who_made_it(self):
+        with reprise.Simulation("straight") as one, reprise.MultiSimulation(("a",), SEVERAL, folder=self.folder) as several:
+            one.reset()
+            several.reset()
+            child = os.fork()
+            if child == 0:
+                signal.alarm(WAITING)  # where it waits for an answer that the other one has heard
+                told = 0
+                for use in (one.step, one.reset, one.hear, lambda: several.step({"a": reprise.Control()}), several.reset):
+                    try:
+                        use()
+                    except RuntimeError as error:
+                        told += "forked from: make another one here" in str(error) or use == one.hear
+                os._exit(told)
+            self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 5, "-14: it waited")
+            self.assertEqual([one.step().index for _ in range(3)], [2, 3, 4])
+            self.assertEqual(several.step({"a": reprise.Control()})["a"].index, 2)
+
     def test_what_would_be_passed_over_is_refused(self):
         for wrong in (dict(cars=5), dict(town="town2"), dict(goal="drawn"), dict(rig=[dict(name="front")]), dict(model="van")):
             with self.subTest(wrong), self.assertRaisesRegex(ValueError, f"^{next(iter(wrong))}=.*is for tasks"):
