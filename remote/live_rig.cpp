@@ -43,6 +43,9 @@ std::array<int, 2> socket_pair() {
 
 }  // namespace
 
+/// The exit code of programs of ours that have told what is wrong: for a renderer, no memory.
+constexpr int said_itself = 2;
+
 struct LiveRig::Parts {
     Parts(const world::Rig& rig, unsigned latency, int descriptor)
         : needs_last(world::need_last(rig.sensors)),
@@ -52,11 +55,14 @@ struct LiveRig::Parts {
 
     /// What became of it says more than a socket that is closed.
     [[noreturn]] void fail(const std::string& fault) {
-        std::string reason = fault;
-        if (const auto ended = program->wait(1))
-            reason = ended->signal != 0 ? fmt::format("was ended by signal {}", ended->signal)
-                                        : fmt::format("ended with exit code {}", ended->code);
-        throw RenderFault(reason);
+        const auto ended = program->wait(1);
+        if (!ended)
+            throw RenderFault(fault, true);
+        if (ended->signal != 0)
+            throw RenderFault(fmt::format("was ended by signal {}", ended->signal), true);
+        if (ended->code == said_itself)
+            throw RenderFault("could not go on, and has said why", false);
+        throw RenderFault(fmt::format("ended with exit code {}", ended->code), true);
     }
 
     void hear(const Patience& patience) {

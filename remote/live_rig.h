@@ -17,10 +17,13 @@ namespace reprise::remote {
 
 class SharedMemory;
 
-/// The process that renders is gone, which is never the user's mistake: "was ended by signal 9".
+/// The process that renders is gone: "was ended by signal 9". That is ours unless it has said
+/// itself what it lacked, such as memory.
 class RenderFault : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    RenderFault(const std::string& what, bool ours) : std::runtime_error(what), is_ours(ours) {}
+
+    bool is_ours;
 };
 
 /// What the sensors of one vehicle see while the run goes on. A process of its own renders: it is

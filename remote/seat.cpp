@@ -185,7 +185,7 @@ struct Seat::Parts {
     Lost lost_renderer(const RenderFault& fault) const {
         return {fmt::format("the process that renders for '{}' {}", plan.actor, fault.what()),
                 std::nullopt,
-                true};
+                fault.is_ours};
     }
 
     /// Whoever has hung up may have said why: answer() reads what is left, and finds that out.

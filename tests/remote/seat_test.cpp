@@ -149,6 +149,40 @@ TEST(Seat, ADriverThatAlreadyRunsComesToTheSocket) {
     EXPECT_FALSE(std::filesystem::exists(path));
 }
 
+/// How a driver is lost whose vehicle carries a camera, with this in place of what renders.
+Lost lost_by_renderer(const std::string& program) {
+    Seat seat({"ego", ODD_DRIVER " steady"}, {10.0});
+    world::CommandT spawn;
+    spawn.kind = world::CommandKind::spawn;
+    spawn.actor = 7;
+    spawn.text = "ego";
+    spawn.rig.push_back(std::make_unique<world::SensorT>());
+    world::SensorT& camera = *spawn.rig.back();
+    camera.name = "front";
+    camera.width = camera.height = 8;
+    camera.fov = 1;
+    camera.every = 1;
+    auto lost = seat.take(7, recording(), {&spawn, 1, 1, program});
+    if (!lost)
+        lost = seat.show(tick(1));
+    if (!lost)
+        lost = seat.show_due();
+    if (lost)
+        return std::move(*lost);
+    auto answer = seat.answer();
+    return std::get<Lost>(std::move(answer));
+}
+
+TEST(Seat, ARendererThatEndsIsOurFaultUnlessItHasSaidWhatItLacks) {
+    const Lost crashed = lost_by_renderer("exit 70");
+    EXPECT_THAT(crashed.reason, HasSubstr("renders for 'ego' ended with exit code 70"));
+    EXPECT_TRUE(crashed.ours);
+    EXPECT_TRUE(lost_by_renderer("kill -9 $$").ours);
+    const Lost starved = lost_by_renderer("exit 2");  // behind "reprise: out of memory"
+    EXPECT_THAT(starved.reason, HasSubstr("renders for 'ego' could not go on, and has said why"));
+    EXPECT_FALSE(starved.ours);
+}
+
 TEST(Seat, WhatADriverSaysAtItsEndIsShortened) {
     const Drive done = drive_oddly("chatters");
     EXPECT_THAT(done.lost, HasSubstr("left: I am\nxxx"));
