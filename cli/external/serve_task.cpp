@@ -25,7 +25,7 @@ constexpr unsigned most_attributes = 40;
 constexpr std::size_t longest_word = 40;
 constexpr std::uint64_t most_seed = std::numeric_limits<std::int64_t>::max();  // Lua's integers
 constexpr std::string_view word_letters =
-    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
 
 /// A place as the parameters of the script have it: lane '' is drawn there.
 struct NamedPlace {
@@ -99,7 +99,7 @@ std::string_view word(const flatbuffers::String* text) {
     if (text == nullptr || text->size() == 0 || text->size() > longest_word ||
         text->string_view().find_first_not_of(word_letters) != std::string_view::npos)
         throw world::Error(
-            "the task's rig: names and kinds have letters, digits and _, at most 40 of them");
+            "the task's rig: names and kinds have letters, digits, _ and -, at most 40 of them");
     return text->string_view();
 }
 

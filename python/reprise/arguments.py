@@ -72,6 +72,11 @@ def sensors(said: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]] | None:
 
 
 def _sensor(said: Mapping[str, Any]) -> dict[str, Any]:
+    for key in said:
+        if key not in _SENSOR and key not in ("name", "attributes"):
+            raise ValueError(f"rig: a sensor has no {shown(key)}; there are name, {', '.join(_SENSOR)}, attributes")
+    if "name" not in said:
+        raise ValueError(f"rig: {shown(dict(said))} has no name: its frames are asked for by that, seen.image('front')")
     sensor = {**_SENSOR, **said}
     attributes = sensor.pop("attributes", None)
     attributes = {} if attributes is None else attributes

@@ -54,13 +54,20 @@ class _Server:
     """A `reprise serve` of our own, for one client; ends with us however we end, as it loses its socket then."""
 
     def __init__(self, folder: str) -> None:
+        if not os.path.isdir(folder):
+            raise NotADirectoryError(f"folder={shown(folder)}: there is no such folder")
         self.channel, its_own = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
         number = its_own.fileno()
-        with its_own:
+        try:
             self._process = subprocess.Popen(
                 [find_program(), "serve", "--socket", f"fd:{number}", "--folder", folder],
                 pass_fds=[number], stdin=subprocess.DEVNULL, start_new_session=True,
             )  # fmt: skip
+        except BaseException:
+            self.channel.close()
+            raise
+        finally:
+            its_own.close()
 
     def end_of_it(self) -> str:
         """For a message: how it ended, if it did; nobody but us lets it."""

@@ -12,6 +12,7 @@ import sys
 import tempfile
 import time
 import unittest
+import unittest.mock
 
 import numpy as np
 import reprise
@@ -323,6 +324,10 @@ class Episodes(Case):
             ground = lambda points: reprise.xyz(points)[(points["y"] > 2) & (points["y"] < 4), 2].min()
             self.assertGreater(abs(ground(roof) - ground(level)), 0.2)
 
+    def test_a_sensor_of_a_task_may_be_named_as_that_of_a_scenario(self):
+        with reprise.Simulation("straight", rig=[dict(name="front-left_2", width=4, height=4)]) as sim:
+            self.assertEqual(sim.reset().image("front-left_2").shape, (4, 4, 3))
+
     def test_what_only_cameras_have_is_refused_of_other_sensors(self):
         for said in (dict(width=5), dict(height=100), dict(fov_deg=60)):
             with reprise.Simulation("town1", folder=self.folder, rig=[dict(name="imu", kind="imu", **said)]) as sim:
@@ -463,6 +468,8 @@ class Episodes(Case):
         array = np.zeros((2, 2))
         odd = [("rig", ("front", {"front": {}}, ["front"], [array], 3, array), "expected a list of sensors, each a dict"),
                ("rig", ([dict(name="a", attributes=3)], [dict(name="a", attributes=dict(range="far"))]), "expected a dict of names and numbers"),
+               ("rig", ([dict(name="a", wide=2)], [{"name": "a", 3: 2}]), "rig: a sensor has no "),
+               ("rig", ([dict(width=2)], [{}]), "has no name"),
                ("rig", ([dict(name="a", width=2.5)], [dict(name="a", width=-1)]), "expected a whole number"),
                ("start", (2.5, True, array, b"x", (), ("a",), ("a", "b"), {"a": 1}, -1, 2**32), "expected"),
                ("goal", (float("nan"), float("inf"), object(), (1, 2, 3), np.zeros(2)), "expected a lane, with or without metres"),
@@ -495,6 +502,18 @@ class Episodes(Case):
         for polling in (None, "x", [1], True):
             with self.subTest(polling=polling), self.assertRaisesRegex(ValueError, "^polling=.*: expected seconds"):
                 reprise.Simulation(polling=polling)
+
+    def test_a_server_that_cannot_be_started_leaves_nothing_and_says_why(self):
+        (self.folder / "file").touch()
+        before = os.listdir("/proc/self/fd")
+        for folder in ("none", "file"):
+            with self.assertRaisesRegex(NotADirectoryError, f"^folder='.*{folder}': there is no such folder"):
+                reprise.Simulation(folder=self.folder / folder)
+        with unittest.mock.patch.dict(os.environ, REPRISE=str(self.folder / "none")):
+            try:
+                reprise.Simulation()
+            except FileNotFoundError as error:  # which keeps alive what was not closed
+                self.assertEqual(len(os.listdir("/proc/self/fd")), len(before), error)
 
     def test_seconds_that_cannot_be_are_told_in_the_words_of_who_asked(self):
         with reprise.Simulation("straight") as sim:
