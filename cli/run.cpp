@@ -12,6 +12,7 @@
 #include "cli/fingerprint/self_test.h"
 #include "cli/fingerprint/this_build.h"
 #include "cli/process/guard.h"
+#include "cli/process/output.h"
 #include "cli/process/progress.h"
 #include "cli/process/reproduce.h"
 #include "cli/process/say.h"
@@ -315,6 +316,7 @@ int run(const RunOptions& options) {
     const world::Recording recording = before ? prepare_again(options, *before) : prepare(options);
     const std::optional<kernel::Nudge> nudge = planned_nudge(options, recording.episode);
     const fs::path path = output_path(options);
+    refuse_overwriting(options.scenario, path);
     const fs::path target = files::output_target(path, "the trace");
     const std::string rest = "; what was recorded until then is in " + target.string() +
                              ".partial: " + recover_command(target.string() + ".partial");

@@ -106,6 +106,25 @@ TEST(Mistakes, MissingScenarioIsNamed) {
     EXPECT_THAT(result.out, HasSubstr("no_such.lua"));
 }
 
+TEST(Mistakes, WhatIsRunIsNotWrittenOver) {
+    const Folder folder;
+    const std::string scenario =
+        "return scenario 'mine' { town = 'straight', duration = 0.1, run = function() wait(1) end "
+        "}\n";
+    write_file(folder / "mine.lua", scenario);
+    std::filesystem::create_symlink("mine.lua", folder / "link.mcap");
+    for (const char* output : {"mine.lua", "./mine.lua", "link.mcap"}) {
+        const Result result = reprise({"run", "mine.lua", "-o", output}, folder.path());
+        EXPECT_EQ(result.code, 2);
+        EXPECT_THAT(result.out, HasSubstr(std::string(output) + ": the output is the input"));
+        EXPECT_EQ(read_file(folder / "mine.lua"), scenario);
+    }
+    EXPECT_EQ(reprise({"run", "mine.lua", "-o", "a.mcap"}, folder.path()).code, 0);
+    const std::string trace = read_file(folder / "a.mcap");
+    EXPECT_EQ(reprise({"run", "a.mcap", "--for", "0.05", "-o", "a.mcap"}, folder.path()).code, 2);
+    EXPECT_EQ(read_file(folder / "a.mcap"), trace);
+}
+
 TEST(Mistakes, WhatIsNotATraceIsSaidSo) {
     const Folder folder;
     write_file(folder / "not.mcap",
