@@ -58,7 +58,6 @@ Continuation LaneGraph::straight_continuation(std::uint32_t lane) const {
 
 void LaneGraph::find_dead_ends() {
     const auto count = static_cast<std::uint32_t>(town_->lanes.size());
-    constexpr double shortest_change = 10;  // [m] of a lane on which one can leave it, see way.cpp
     continuation_.assign(count, Continuation::free);
     // Mark down what promises more than its links and neighbours hold until nothing changes; as
     // many rounds as the longest blind alley.

@@ -11,6 +11,11 @@
 
 namespace reprise::drivers {
 
+/// [m] The shortest change of lanes, and so the shortest lane that can be left. A quintic step of w
+/// metres aside in L metres is bent by 5.8 w / L^2 at most: 10 m ask a car for nearly all its
+/// steering angle.
+inline constexpr double shortest_change = 10;
+
 /// Where a way leads in the end.
 enum class Continuation : std::uint8_t {
     dead_end,

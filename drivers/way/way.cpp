@@ -16,14 +16,11 @@ namespace {
 using world::LaneT;
 using world::Link;
 
-constexpr double speed_share = 0.95;  // of the limit that we aim for
-constexpr double change_time = 3.5;   // [s] that a change of lanes takes
-// A quintic step of w metres aside in L metres is bent by 5.8 w / L^2 at most. 10 m ask a car for
-// nearly all its steering angle; at 2.3 s of its speed it feels 4 m/s^2.
-constexpr double between_changes = 5;   // [m]
-constexpr double shortest_change = 10;  // [m]
-constexpr double shortest_time = 2.3;   // [s]
-constexpr double firm_braking = 2;      // [m/s^2] that the path's envelope of speeds counts on
+constexpr double speed_share = 0.95;   // of the limit that we aim for
+constexpr double change_time = 3.5;    // [s] that a change of lanes takes
+constexpr double between_changes = 5;  // [m]
+constexpr double shortest_time = 2.3;  // [s] at this a change is felt with 4 m/s^2
+constexpr double firm_braking = 2;     // [m/s^2] that the path's envelope of speeds counts on
 // Who goes nowhere in particular leaves a lane that leads nowhere so long before its end.
 constexpr double wander_time = 12;    // [s] at the lane's limit
 constexpr double least_wander = 100;  // [m] for each change
