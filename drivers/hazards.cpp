@@ -185,7 +185,9 @@ void Hazards::foresee(const Body& body, const Scene& scene, double distance) {
     const Eigen::Vector2d nose =
         ego.position.head<2>() + (ego.model->length - ego.model->rear_overhang) * ego.direction;
     const double heading = body.direction.dot(ego.direction);
-    if ((body.centre - nose).dot(ego.direction) < 0 && heading > 0.7)
+    const Eigen::Vector2d from_nose = body.centre - nose;
+    const bool follows = from_nose.dot(ego.direction) < 0 && heading > 0.7;
+    if (follows && !is_swung_into(body, ego))
         return;
 
     double entered = world::infinity;
@@ -206,6 +208,10 @@ void Hazards::foresee(const Body& body, const Scene& scene, double distance) {
         return;
     if (left > horizon_ - look_step)
         left += 1;  // still there at the end of our foresight
+    if (follows) {
+        acceleration_ = std::min(acceleration_, let_past(contact, left, scene));
+        return;
+    }
 
     const double along = moved.speed * moved.direction.dot(scene.path.at(contact).direction);
     const double gap = contact - ego.front_s();
@@ -231,6 +237,27 @@ void Hazards::foresee(const Body& body, const Scene& scene, double distance) {
         return;
     acceleration_ = std::min(
         acceleration_, stop_acceleration(gap - 1, ego.speed, 3 * scene.style.share, scene.style));
+}
+
+/// Who follows or passes us looks out for us, but not for a body that swings out over his lane.
+bool Hazards::is_swung_into(const Body& body, const Ego& ego) const {
+    const double aside =
+        std::abs(world::cross(ego.direction, body.centre - ego.position.head<2>()));
+    return !swept_.empty() && body.kind != BodyKind::walker &&
+           aside > ego.model->width / 2 + 0.9 * body.half_width;
+}
+
+/// Someone beside or behind us who will be where we swing out, until then [s]. [m/s^2]
+double Hazards::let_past(double contact, double left, const Scene& scene) const {
+    const double gap = contact - scene.ego.front_s();
+    const double speed = std::max(scene.ego.speed, 2 * scene.style.speed_share());
+    const double come = std::max(gap, 0.0) / speed;
+    if (come > left + 0.5)
+        return world::infinity;
+    constexpr double hardest = 1.5;  // times that: there may be others behind us
+    const double braking = 3 * scene.style.share;
+    return std::max(stop_acceleration(gap - 1, scene.ego.speed, braking, scene.style),
+                    -hardest * braking);
 }
 
 /// Where the body will be: along its lane when it follows one, straight on otherwise. False when

@@ -65,6 +65,8 @@ class Hazards {
     bool swings_out(const Body& body) const;
     void consider(const Body& body, const Scene& scene);
     void foresee(const Body& body, const Scene& scene, double distance);
+    bool is_swung_into(const Body& body, const Ego& ego) const;
+    double let_past(double contact, double left, const Scene& scene) const;
     bool place_after(const Body& body, double time, Body& moved) const;
     double first_contact(const Body& one, const Path& path) const;
     double coarse_distance(const Eigen::Vector2d& p_world) const;

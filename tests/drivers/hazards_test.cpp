@@ -30,13 +30,18 @@ class Road {
 
     double look(std::vector<world::CarState> cars,
                 std::vector<world::WalkerState> walkers = {},
-                std::vector<world::PropState> props = {}) {
+                std::vector<world::PropState> props = {},
+                std::vector<world::VehicleState> vehicles = {},
+                double swept_left = 0) {
         world::TickDraft draft;
         draft.tick.props = std::move(props);
+        draft.tick.vehicles = std::move(vehicles);
         draft.traffic.cars = std::move(cars);
         draft.traffic.walkers = std::move(walkers);
         const world::SealedTick tick = world::seal(draft, {});
-        hazards.look(tick.view(), ego_, path_, style);
+        const std::vector<SweptWidth> swept(path_.points().size(), {swept_left, 1});
+        const auto none = std::span<const SweptWidth>();
+        hazards.look(tick.view(), ego_, path_, style, swept_left > 0 ? swept : none);
         return hazards.acceleration();
     }
 
@@ -159,6 +164,18 @@ TEST(Hazards, TheTailOfALongVehicleThatTurnsNeedsRoom) {
     // In a street where that bends: its front still looks south while it lies eastward.
     EXPECT_LT(beside_us("bus", 1, 13), 1);
     EXPECT_EQ(beside_us("bus", 1, 60), world::infinity);
+}
+
+TEST(Hazards, WhoSwingsOutOverTheNextLaneLooksWhoComesFromBehind) {
+    // On the lane to the left, behind our nose and faster; our body will reach half over that lane.
+    const auto overtaken_by = [](double y, double x, double swept_left) {
+        return Road(5).look({test::car_at(1'000'000, x, y, 0, 12)}, {}, {}, {}, swept_left);
+    };
+    EXPECT_LT(overtaken_by(3.5, -8, 3), 0);
+    EXPECT_EQ(overtaken_by(3.5, -8, 1), world::infinity) << "we keep to our lane";
+    EXPECT_EQ(overtaken_by(3.5, -8, 0), world::infinity);
+    EXPECT_EQ(overtaken_by(3.5, -40, 3), world::infinity) << "we are through before it comes";
+    EXPECT_EQ(overtaken_by(0, -12, 3), world::infinity) << "who follows us looks out himself";
 }
 
 TEST(Hazards, TheOuterCornerOfTheFrontNeedsRoomInABend) {
