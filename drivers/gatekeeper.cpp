@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/control/long_turner.h"
 #include "world/models/catalogue.h"
 #include "world/units.h"
 
@@ -14,6 +15,7 @@ using world::SignalColor;
 using world::Turn;
 
 constexpr double line_distance = 1;     // [m] from the lane's end to our bumper when we stand
+constexpr double held_back = 9;         // [m] the same while somebody long turns in beside us
 constexpr double yellow_braking = 3.5;  // [m/s^2] harder than this we rather drive through
 constexpr double red_braking = 7;       // [m/s^2] at red only what is hardly possible
 constexpr double patience = 12;         // [s]
@@ -171,7 +173,12 @@ double Gatekeeper::decide(const world::TickView& last,
         }
         if (must_stop(last, ego, way, gate, overlaps, style, step)) {
             // Whoever comes to stop nearer to the line need not stamp on the brake for it.
-            const double distance = std::max(to_line - line_distance, to_line / 2);
+            double distance = std::max(to_line - line_distance, to_line / 2);
+            if (turns_in_beside(last, *town_, gate, ego.id))
+                distance =
+                    std::min(distance,
+                             std::max(to_line - held_back,
+                                      ego.speed * ego.speed / (2 * style.comfortable_braking)));
             return stop_acceleration(distance, ego.speed, style.comfortable_braking, style);
         }
         if (gate.serial == creeping_gate_)

@@ -17,7 +17,8 @@ namespace reprise::drivers {
 ///
 /// MUST    stop at red; at yellow where that is comfortable; at a stop sign, whoever comes; give
 /// way
-///         where the link says so; leave the junction free when there is no room behind it.
+///         where the link says so; leave the junction free when there is no room behind it, and
+///         who has to stop leaves room for a bus that turns in beside him.
 /// ASSUMES others accelerate no harder than 2 m/s^2 and hold their lane; lamps that are on tell
 ///         where a car turns.
 /// GOES    through the gates ahead, nearest first, until one says stop.

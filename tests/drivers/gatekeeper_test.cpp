@@ -140,6 +140,36 @@ TEST(Gatekeeper, StopsAtRedWithTheBrakingOfTheTextbook) {
     EXPECT_EQ(approach.allowed(31, 10, tick_of({}, {world::SignalColor::green})), world::infinity);
 }
 
+/// junction_road, where who comes north may turn left into the street that we come from as well.
+world::TownT turning_road() {
+    world::TownT town = test::junction_road(false);
+    const test::Turtle turn = test::Turtle(205, -5, north).ahead(3.5).turn(north, 5);
+    town.lanes.push_back(test::make_lane(":2", turn, 8, world::LaneKind::internal));
+    town.lanes.push_back(test::make_lane("back", test::Turtle(200, 3.5, 2 * north).ahead(200)));
+    town.lanes[3].links.push_back(test::make_link(7, 6, world::Turn::left, true));
+    town.lanes[6].links = {test::make_link(7, world::none, world::Turn::left)};
+    town.lanes[0].links = {test::make_link(2, 1, world::Turn::straight, false, 0)};
+    return town;
+}
+
+TEST(Gatekeeper, StopsFartherFromTheLineWhileABusTurnsInBeside) {
+    const auto allowed = [](const char* model, std::uint32_t lane, double distance, double speed) {
+        world::CarState other = crossing_car(-2, 3);
+        other.mutate_model(world::find_vehicle_model(model).value());
+        other.mutate_lane(lane);
+        return Approach(turning_road())
+            .allowed(distance, speed, tick_of({other}, {world::SignalColor::red}));
+    };
+    const DrivingStyle style;
+    EXPECT_EQ(allowed("bus", 6, 31, 8), stop_acceleration(31 - 9, 8, 2, style));
+    EXPECT_EQ(allowed("sedan", 6, 31, 8), stop_acceleration(31 - to_stop_at, 8, 2, style));
+    EXPECT_EQ(allowed("bus", 4, 31, 8), stop_acceleration(31 - to_stop_at, 8, 2, style))
+        << "goes straight on";
+    // Too late for that: as soon as it is comfortable. Who stands there already stays.
+    EXPECT_EQ(allowed("bus", 6, 12, 5), stop_acceleration(5 * 5 / 4.0, 5, 2, style));
+    EXPECT_LT(allowed("bus", 6, 5, 0), 0);
+}
+
 TEST(Gatekeeper, DrivesThroughYellowWhereStoppingTakesMoreThanItLikes) {
     // 10 m/s within 15 m - 1 m: 3.6 m/s^2, more than the 3.5 of comfortable stops at yellow; from
     // 16 m it is 3.3.
