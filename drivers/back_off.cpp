@@ -25,6 +25,7 @@ constexpr double backwards = 1.2;       // [m/s]
 constexpr double behind_clear = 0.5;    // [m] kept from those behind
 constexpr double behind_braking = 1.5;  // [m/s^2]
 constexpr double lets_go_for = 6;       // [s] the other one, who takes a while to start
+constexpr double lets_go_longest = 20;  // [s] while somebody moves ahead
 constexpr double gives_up = 3;          // [s] of standing while it wants back
 constexpr double turn_of_tail = 0.3;    // [rad] for each metre beside the path
 constexpr double most_turn = 0.5;       // [rad]
@@ -133,6 +134,23 @@ bool BackOff::somebody_is_behind(const world::TickView& last, const Ego& ego) co
     });
 }
 
+bool BackOff::somebody_moves_ahead(const world::TickView& last, const Ego& ego) const {
+    constexpr double near = 8;     // [m] before the bumper, as far as the other one's middle
+    constexpr double moves = 0.1;  // [m/s]
+    const double front = ego.model->length - ego.model->rear_overhang;
+    const Eigen::Vector2d nose = ego.position.head<2>() + front * ego.direction;
+    world::Box around;
+    around.take(nose, near);
+    std::vector<Body> bodies;
+    collect_bodies(last, ego.id, around, 0, bodies);
+    return std::any_of(bodies.begin(), bodies.end(), [&](const Body& one) {
+        const Eigen::Vector2d from_nose = one.centre - nose;
+        return one.kind == BodyKind::vehicle && one.speed > moves &&
+               std::abs(one.z - ego.position.z()) < world::level_clearance &&
+               from_nose.dot(ego.direction) > 0 && from_nose.norm() < near + one.half_length;
+    });
+}
+
 /// Its tail is about to? From off the road nothing leads back, and across other lanes it would
 /// stand in the way of whom it makes room for. Who is there already may go on.
 bool BackOff::leaves_its_lanes(const Ego& ego) const {
@@ -183,7 +201,11 @@ BackOff::Move BackOff::next(const world::TickView& last,
     const double driven = (from_ - ego.position.head<2>()).dot(ego.direction);
     const bool done = driven > distance_ - 0.3 || standing_ticks_ * step_ > gives_up;
     if (waiting_ticks_ > 0 || (done && std::abs(ego.speed) < 0.1)) {
-        going_back_ = lets_go_first_ && ++waiting_ticks_ * step_ < lets_go_for;
+        ++waiting_ticks_;
+        const double waited = waiting_ticks_ * step_;
+        going_back_ =
+            lets_go_first_ &&
+            (waited < lets_go_for || (waited < lets_go_longest && somebody_moves_ahead(last, ego)));
         return {};
     }
     Move move;

@@ -60,6 +60,7 @@ class BackOff {
   private:
     void begin(double distance, const Ego& ego);
     bool somebody_is_behind(const world::TickView& last, const Ego& ego) const;
+    bool somebody_moves_ahead(const world::TickView& last, const Ego& ego) const;
     bool leaves_its_lanes(const Ego& ego) const;
     bool somebody_is_beside_nose(const world::TickView& last, const Ego& ego, double side) const;
 

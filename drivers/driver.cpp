@@ -118,7 +118,8 @@ void Autopilot::put_elsewhere() {
     state_->back_off.end();
     state_->to_and_fro.end();
     state_->cramped_ticks = 0;
-    state_->waiting_ticks = state_->standoff_ticks = state_->standoffs = state_->held_ticks = 0;
+    state_->waiting_ticks = state_->standoff_ticks = state_->standoffs = state_->held_ticks =
+        state_->nosing_ticks = 0;
     state_->strays = 0;
     put_to_speed();
 }
@@ -454,6 +455,8 @@ std::uint64_t Autopilot::digest() const {
         hasher.add(state.turner_ticks);
     if (state.wedged_ticks > 0)
         hasher.add(state.wedged_ticks);
+    if (state.nosing_ticks > 0)
+        hasher.add(state.nosing_ticks);
     hasher.add(state.has_wide_turn);
     if (state.has_wide_turn)
         state.wide_turn->add_to(hasher);

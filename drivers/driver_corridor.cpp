@@ -135,8 +135,13 @@ double DriverState::tracked_beside(const Ego& ego) const {
 /// Around what stands in the way, where that is free; what it sees on the path is then looked at
 /// anew.
 void DriverState::pass(const world::TickView& last, const Ego& ego) {
-    if (!may_overtake || pid || way().keeps_lane() || lateral_order.side(tick, step) != 0)
+    if (pid || lateral_order.side(tick, step) != 0)
         return;
+    if (!may_overtake || way().keeps_lane()) {
+        if (!passing.plan())
+            notice_standoff(last, ego);
+        return;
+    }
     if (passing.consider(last, ego, way(), hazards.overlaps(), tracked_beside(ego), style)) {
         hazards.look(last, ego, way().path(), style, corridor(ego));
         const PassingPlan& plan = *passing.plan();
@@ -203,19 +208,22 @@ bool DriverState::is_held_by(std::uint32_t other,
                    goes_our_way;
     const world::VehicleState* vehicle = world::find(last.vehicles(), other);
     if (vehicle == nullptr || other >= world::first_background_id ||
-        has_hazard_lights(vehicle->lamps()))
+        (vehicle->lamps() & world::lamp_brake) == 0 || has_hazard_lights(vehicle->lamps()))
         return false;
     const Ego seen = ego_of(*vehicle);
     return std::abs(seen.speed) < stands && there.direction.dot(seen.direction) < goes_our_way;
 }
 
 /// Two may stand nose to flank in a junction, each where the other has to go. Neither can until one
-/// makes room: who has it behind him goes back, and lets the other one go first.
+/// makes room: who has it behind him goes back, and lets the other one go first. Of two who both
+/// could it is the one who came into the world later.
 void DriverState::notice_standoff(const world::TickView& last, const Ego& ego) {
-    constexpr double patience = 10;  // [s] and as much more each time
-    constexpr double drives_on = 3;  // [m/s]
-    constexpr double near = 7;       // [m] ahead
-    constexpr double back = 2.5;     // [m]
+    constexpr double patience = 10;     // [s] and as much more each time
+    constexpr double other_first = 10;  // [s] longer
+    constexpr double drives_on = 3;     // [m/s]
+    constexpr double near = 7;          // [m] ahead
+    constexpr double back = 2.5;        // [m]
+    constexpr double more = 2;          // [m] each time
     const auto overlaps = hazards.overlaps();
     const auto nearest =
         std::min_element(overlaps.begin(), overlaps.end(), [](const auto& one, const auto& other) {
@@ -227,7 +235,10 @@ void DriverState::notice_standoff(const world::TickView& last, const Ego& ego) {
     standoff_ticks = held ? standoff_ticks + 1 : 0;
     if (ego.speed > drives_on)
         standoffs = 0;
-    if (standoff_ticks * step < patience * (1 + standoffs) || !back_off.give_room(back, last, ego))
+    const bool is_other_later =
+        held && nearest->id > actor && world::find(last.vehicles(), nearest->id) != nullptr;
+    const double wait = patience * (1 + standoffs) + (is_other_later ? other_first : 0);
+    if (standoff_ticks * step < wait || !back_off.give_room(back + more * standoffs, last, ego))
         return;
     standoff_ticks = 0;
     ++standoffs;

@@ -79,7 +79,7 @@ double DriverState::turn_past(const world::TickView& last, const Ego& ego) {
     };
     const double ample = first();
     if (std::abs(ego.speed) > squeeze_speed || ample == in_sight) {
-        wedged_ticks = 0;
+        wedged_ticks = nosing_ticks = 0;
         return world::infinity;
     }
     const auto look = [&](Hazards::Room room) {
@@ -90,7 +90,30 @@ double DriverState::turn_past(const world::TickView& last, const Ego& ego) {
     if (wedged_ticks * step > squeeze_patience)
         return squeeze_gain * (creeping - ego.speed);
     look(Hazards::Room::ample);
-    return world::infinity;
+    return nose_up(last, ego);
+}
+
+/// Two who stand nose to flank in a junction, one of them long: it comes nearer than one stands in
+/// a queue, or what the other one gives it by going back would be what it keeps.
+/// Behind a look with ample room. [m/s^2] for that
+double DriverState::nose_up(const world::TickView& last, const Ego& ego) {
+    constexpr double near = 7;      // [m] before the bumper
+    constexpr double kept = 0.8;    // [m]
+    constexpr double creeping = 1;  // [m/s]
+    const auto overlaps = hazards.overlaps();
+    const auto nearest = std::min_element(
+        overlaps.begin(), overlaps.end(), [](const Overlap& one, const Overlap& other) {
+            return one.s < other.s;
+        });
+    const bool is_held = nearest != overlaps.end() && nearest->s - ego.front_s() < near &&
+                         is_held_by(nearest->id, last, way().path().at(nearest->s));
+    nosing_ticks = is_held ? nosing_ticks + 1 : 0;
+    if (nosing_ticks * step < squeeze_patience)
+        return world::infinity;
+    DrivingStyle close = style;
+    close.standing_gap = kept;
+    hazards.look(last, ego, way().path(), close, corridor(ego));
+    return squeeze_gain * (creeping - ego.speed);
 }
 
 }  // namespace reprise::drivers

@@ -50,6 +50,7 @@ struct DriverState {
     double past_junction_things(const world::TickView& last, const Ego& ego);
     double look_around(const world::TickView& last, const Ego& ego);
     double turn_past(const world::TickView& last, const Ego& ego);
+    double nose_up(const world::TickView& last, const Ego& ego);
     double last_resort(const world::TickView& last, const Ego& ego);
     bool is_held_from_beside(const Ego& ego) const;
     bool town_is_before(const Ego& ego, double reach) const;
@@ -110,6 +111,7 @@ struct DriverState {
     std::uint32_t strays = 0;             ///< off every road: how often something held it there
     std::uint32_t turner_ticks = 0;       ///< before somebody who turns where we want to
     std::uint32_t wedged_ticks = 0;       ///< beside somebody whom it could creep past
+    std::uint32_t nosing_ticks = 0;       ///< in a tight turn, before somebody across its way
     bool at_end = false;                  ///< follows from the last tick and the way: not digested
 };
 

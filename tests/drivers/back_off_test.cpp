@@ -1,6 +1,7 @@
 // Who is held by what it touches goes back, and tries again.
 #include "drivers/back_off.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -134,11 +135,15 @@ TEST(BackOff, ItsNoseDoesNotSwingIntoWhoStandsBesideIt) {
     EXPECT_FALSE(news.empty());
 }
 
-/// Nose to flank, as two stand in a junction.
-TEST(BackOff, ToLetGoWhoStandsAcrossItsWay) {
+/// Nose to flank, as two stand in a junction; whether it may overtake or not.
+class BackOffBeforeOneAcross : public testing::TestWithParam<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(MayOvertake, BackOffBeforeOneAcross, testing::Bool());
+
+TEST_P(BackOffBeforeOneAcross, LetsItGo) {
     Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
     drive.place(0, 20, 5);
-    drive.autopilot->may_overtake(true);
+    drive.autopilot->may_overtake(GetParam());
     world::CarState across{};
     across.mutate_id(50);
     across.mutate_lane(world::none);
@@ -170,6 +175,81 @@ TEST(BackOff, ToLetGoWhoStandsAcrossItsWay) {
     while (drive.seconds() < begun + 30)
         drive.step();
     EXPECT_GT(drive.car.x, 80) << "drives on";
+}
+
+/// Both may be built-in drivers, and both be held by the other one.
+TEST(BackOff, OfTwoTheOneWhoCameLaterMakesRoom) {
+    const auto goes_back_after = [](std::uint32_t other, std::uint16_t lamps) {
+        Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
+        drive.place(0, 20, 5);
+        drive.others = {vehicle_at(other, 60, -2, std::acos(0.0), 0)};
+        drive.others[0].mutate_lamps(lamps);
+        double stood_at = 0;
+        while (drive.seconds() < 60 && drive.autopilot->news() == nullptr) {
+            drive.step();
+            if (stood_at == 0 && drive.seconds() > 1 && drive.car.speed < 0.1)
+                stood_at = drive.seconds();
+        }
+        return drive.seconds() - stood_at;
+    };
+    EXPECT_NEAR(goes_back_after(0, world::lamp_brake), 10, 1);
+    EXPECT_NEAR(goes_back_after(2, world::lamp_brake), 20, 1);
+    EXPECT_GT(goes_back_after(2, 0), 40) << "nobody is at its wheel: it waits for nobody";
+}
+
+/// What the other one gives by going back is of use only to who comes nearer than in a queue.
+TEST(BackOff, ABusNosesUpToWhoStandsAcrossItsTurn) {
+    Drive drive(one_lane(Turtle(0, 0, 0).ahead(60).turn(quarter, 14).ahead(200)),
+                7,
+                *world::find_vehicle_model("bus"));
+    drive.place(0, 20, 5);
+    world::CarState across{};
+    across.mutate_id(50);
+    across.mutate_lane(world::none);
+    across.mutate_yaw(static_cast<float>(-quarter));
+    across.mutate_lamps(world::lamp_brake);
+    across.mutable_position() = world::Vec3(58, 2, 0);
+    drive.cars = {across};
+    const double side = 58 - world::vehicle_models()[0].width / 2;
+    std::vector<double> gaps;  // each second
+    while (drive.seconds() < 30 && drive.autopilot->news() == nullptr) {
+        drive.step();
+        if (drive.tick % 20 == 0)
+            gaps.push_back(side - drive.car.x - drive.car.front());
+    }
+    EXPECT_NEAR(gaps.back(), 0.9, 0.3);
+    EXPECT_GE(std::ranges::count_if(gaps, [](double gap) { return gap > 2.4 && gap < 3; }), 3)
+        << "it stood before as in a queue";
+}
+
+/// For as long as the other one is on its way past, but not for ever.
+TEST(BackOff, WaitsWhileTheOtherOneGoes) {
+    const auto waits = [](double speed) {
+        Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
+        drive.place(0, 20, 5);
+        world::CarState across{};
+        across.mutate_id(50);
+        across.mutate_lane(world::none);
+        across.mutate_yaw(static_cast<float>(std::acos(0.0)));
+        across.mutate_lamps(world::lamp_brake);
+        across.mutable_position() = world::Vec3(60, -2, 0);
+        drive.cars = {across};
+        while (drive.seconds() < 60 && drive.autopilot->news() == nullptr)
+            drive.step();
+        const double begun = drive.seconds();
+        drive.cars[0].mutate_speed(static_cast<float>(speed));
+        double least = drive.car.x;
+        while (drive.seconds() < begun + 60 && drive.car.x < least + 0.3) {
+            drive.step();
+            least = std::min(least, drive.car.x);
+            drive.cars[0].mutable_position().mutate_y(drive.cars[0].position().y() + speed * 0.05);
+        }
+        return drive.seconds() - begun;
+    };
+    const double standing = waits(0);
+    EXPECT_LT(standing, 14);
+    EXPECT_GT(waits(0.25), standing + 8);
+    EXPECT_LT(waits(0.15), 40) << "the longest";
 }
 
 /// Beside its path and turned away from that, as after a step back: the path is free, but the way

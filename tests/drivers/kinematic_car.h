@@ -104,6 +104,8 @@ class Drive {
         draft.tick.index = ++tick;
         draft.tick.vehicles = {car.state(1)};
         draft.tick.vehicles[0].mutable_position().mutate_z(z + car.slope * car.x);
+        draft.tick.vehicles.insert(draft.tick.vehicles.end(), others.begin(), others.end());
+        std::ranges::sort(draft.tick.vehicles, {}, &world::VehicleState::id);
         draft.tick.signals = signals;
         draft.tick.weather = start.weather;
         draft.traffic.cars = cars;
@@ -137,6 +139,7 @@ class Drive {
     world::EpisodeT start;
     KinematicCar car;
     std::optional<drivers::Autopilot> autopilot;
+    std::vector<world::VehicleState> others;
     std::vector<world::CarState> cars;
     std::vector<world::WalkerState> walkers;
     std::vector<world::PropState> props;
