@@ -35,6 +35,8 @@ Body body_of(const world::VehicleState& state) {
     body.velocity = {state.velocity().x(), state.velocity().y()};
     body.speed = body.velocity.norm();
     body.z = other.position.z();
+    body.yaw_rate = other.yaw_rate;
+    body.axle_ahead = other.model->rear_overhang - body.half_length;
     body.id = state.id();
     body.abandoned = looks_abandoned(state.lamps());
     return body;

@@ -26,6 +26,8 @@ struct Body {
     double half_width = 0;
     Eigen::Vector2d velocity;
     double speed = 0;
+    double yaw_rate = 0;    ///< [rad/s] of driven vehicles, about the point that is next
+    double axle_ahead = 0;  ///< [m] of the centre: where the rear axle is, below 0
     std::uint32_t id = 0;
     std::uint32_t lane = world::none;  ///< of SUMO's cars
     double lane_s = 0;                 ///< of the front bumper

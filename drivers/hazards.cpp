@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "drivers/control/steering.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
@@ -19,6 +21,7 @@ constexpr double bare_room = 0.1;       // [m]
 constexpr double stands = 0.1;          // [m/s]
 constexpr double horizon = 1.5;         // [s] of foresight
 constexpr double look_step = 0.25;      // [s]
+constexpr double furthest_turn = 1.5;   // [rad] foreseen
 constexpr double side_by_side = 0.9;    // cosine of the angle to us: drives as we do
 constexpr double long_half = 3.5;       // [m]
 constexpr double corner_margin = 0.1;   // [m] of the front's outer corner in a bend
@@ -260,8 +263,8 @@ double Hazards::let_past(double contact, double left, const Scene& scene) const 
                     -hardest * braking);
 }
 
-/// Where the body will be: along its lane when it follows one, straight on otherwise. False when
-/// that cannot be said: past the end of a lane, where drivers choose.
+/// Where the body will be: along its lane when it follows one, as it moves and turns otherwise.
+/// False when that cannot be said: past the end of a lane, where drivers choose.
 bool Hazards::place_after(const Body& body, double time, Body& moved) const {
     if (body.lane < town_->lanes.size()) {
         const world::LaneT& lane = town_->lanes[body.lane];
@@ -279,7 +282,11 @@ bool Hazards::place_after(const Body& body, double time, Body& moved) const {
             return true;
         }
     }
-    moved.centre = body.centre + time * body.velocity;
+    const double turn = std::clamp(body.yaw_rate * time, -furthest_turn, furthest_turn);
+    const Eigen::Rotation2Dd half(turn / 2);
+    moved.direction = half * (half * body.direction);
+    moved.centre = body.centre + time * (half * body.velocity) +
+                   body.axle_ahead * (body.direction - moved.direction);
     return true;
 }
 

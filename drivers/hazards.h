@@ -27,7 +27,7 @@ struct Overlap {
 ///
 /// MUST    find all whose footprint lies in the corridor that our car sweeps, and those who will be
 ///         there when we are (1.5 s ahead); say how hard to brake for the worst of them.
-/// ASSUMES cars on a lane follow it; everything else goes on as it moves now.
+/// ASSUMES cars on a lane follow it; everything else goes on as it moves and turns now.
 /// GOES    a box around the path culls most; a coarse polyline (4 m) culls nearly all; what is left
 ///         is tested sample by sample: cross-section of the corridor against the oriented box.
 /// KEEPS   nothing from tick to tick but its buffers.

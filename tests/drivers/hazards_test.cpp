@@ -166,6 +166,19 @@ TEST(Hazards, TheTailOfALongVehicleThatTurnsNeedsRoom) {
     EXPECT_EQ(beside_us("bus", 1, 60), world::infinity);
 }
 
+TEST(Hazards, WhoTurnsIsForeseenWhereHisWheelsLead) {
+    // Ahead of us on the right, parallel: within 1.5 s it turns through a quarter of a circle of 6
+    // m, onto our lane or away from it.
+    const auto turning = [](double yaw_rate) {
+        world::VehicleState other = test::vehicle_at(2, 20, -6, 0, 6);
+        other.mutable_angular_velocity() = world::Vec3(0, 0, yaw_rate);
+        return Road(10).look({}, {}, {}, {other});
+    };
+    EXPECT_LT(turning(1), 0);
+    EXPECT_EQ(turning(0), world::infinity);
+    EXPECT_EQ(turning(-1), world::infinity);
+}
+
 TEST(Hazards, WhoSwingsOutOverTheNextLaneLooksWhoComesFromBehind) {
     // On the lane to the left, behind our nose and faster; our body will reach half over that lane.
     const auto overtaken_by = [](double y, double x, double swept_left) {
