@@ -151,6 +151,8 @@ struct Seat::Parts {
     std::optional<Lost> greet(const Packed& hello, const Descriptor& memory) {
         channel->send(Kind::hello, bytes_of(hello), patience, memory.number());
         Frame frame = channel->receive(patience);
+        if (frame.kind == Kind::open && door)  // and hears by our hello that we are no server
+            throw ChannelFault("wants a server", ChannelFault::Why::hung_up);
         if (frame.kind != Kind::ready)
             return said_else(std::move(frame), "did not say that it is ready");
         if (const auto version = frame.as<Ready>().version(); version != wire_version)
@@ -308,7 +310,7 @@ std::optional<Lost> Seat::take(std::uint32_t id,
             return parts.greet(hello, memory);
         } catch (const ChannelFault& fault) {
             // It only looked whether somebody listens there, as another run does that was told the
-            // same place.
+            // same place; or it came for episodes.
             if (!parts.door || fault.why != ChannelFault::Why::hung_up)
                 return parts.lost(fault);
         }

@@ -174,6 +174,8 @@ struct Simulation::Connection {
             const auto* text = answer.as<Fault>().text();
             throw world::Error(text == nullptr ? "the server refuses us" : text->str());
         }
+        if (answer.kind == Kind::hello)
+            throw world::Error("no server is there, but a run that waits for a driver");
         if (answer.kind != Kind::open || answer.as<Open>().version() != wire_version)
             throw world::Error(
                 fmt::format("the server speaks another version of the wire than this program ({})",

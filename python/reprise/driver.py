@@ -242,7 +242,11 @@ def drive(driver: Driver, address: str | None = None, *, polling: float = POLLIN
     wire = Wire(address, polling)
     ticks, where = 0, "before its first tick"
     try:
-        kind, hello = wire.receive_first()
+        try:
+            kind, hello = wire.receive_first()
+        except WireError as error:
+            hint = "; at a `reprise serve` a reprise.Simulation begins episodes" if address else ""
+            raise WireError(f"{error} before it said hello{hint}") from None
         if kind == "fault":
             raise WireError(hello.text)
         if kind == "goodbye":

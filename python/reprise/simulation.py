@@ -109,6 +109,8 @@ class Client:
             self._wire = Wire(self._server.channel if self._server else server, polling)
             self._say("open", version=VERSION, schema=self._wire.digest, token=token)
             kind, answer = self._hear()
+            if kind == "hello":
+                raise WireError(f"{shown(server)}: no server is there, but a run that waits for a driver: reprise.drive()")
             if kind != "open" or answer.version != VERSION:
                 raise WireError(f"the server speaks another version of the wire than this package ({VERSION})")
         except BaseException:

@@ -14,6 +14,7 @@
 #include "remote/frame_channel.h"
 #include "remote/messages.h"
 #include "remote/schema.h"
+#include "remote/simulation.h"
 #include "tests/support/places.h"
 #include "world/check.h"
 
@@ -365,6 +366,30 @@ TEST_P(Door, WhoHangsUpBeforeItIsReadyWasNoDriver) {
     }
     seat.leave("done");
     driver.join();
+}
+
+TEST_P(Door, WhoComesForEpisodesWasNoDriver) {
+    Seat seat(plan(), {10.0});
+    std::string told;
+    std::thread others([&] {
+        try {
+            const Simulation client({.address = seat.place()});
+        } catch (const world::Error& error) {
+            told = error.what();
+        }
+        Client run(seat.place());
+        while (run.next())
+            run.say({.throttle = 0.5});
+    });
+    const auto taken = seat.take(3, recording());
+    EXPECT_FALSE(taken) << taken->reason;
+    if (!taken) {
+        EXPECT_FALSE(seat.show(tick(1)));
+        EXPECT_TRUE(std::holds_alternative<world::Control>(seat.answer()));
+    }
+    seat.leave("done");
+    others.join();
+    EXPECT_EQ(told, "no server is there, but a run that waits for a driver");
 }
 
 TEST(Seat, WhomTheUserWaitsForNoLongerHearsGoodbye) {

@@ -690,6 +690,25 @@ class Servers(Case):
                     seen, other = one.step(drive(seen)), two.step(drive(other))
             self.assertEqual(found, wanted)
 
+    def test_who_comes_to_a_run_for_episodes_is_told_and_the_run_waits_on(self):
+        place = self.folder / "s"
+        run = subprocess.Popen([PROGRAM, "run", "driven.lua", "--driver", f"ego=socket:{place}", "-o", "a.mcap"], cwd=self.folder,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)  # fmt: skip
+        self.addCleanup(run.kill)
+        wait_until(place.exists, "the run listens")
+        for make in (lambda: reprise.Simulation(server=place), lambda: reprise.MultiSimulation(("a",), SEVERAL, server=place)):
+            with self.assertRaisesRegex(WireError, "s'\\): no server is there, but a run that waits for a driver: reprise.drive()"):
+                make()
+        self.assertEqual(reprise.drive(drive, place), 59)
+        self.assertIn("completed", run.communicate(timeout=WAITING)[0])
+
+    def test_who_comes_to_a_server_for_a_run_is_told_when_it_is_hung_up_on(self):
+        ours, theirs = socket.socketpair()
+        with ours, unittest.mock.patch("reprise.wire._connect", lambda _: ours):
+            theirs.close()
+            with self.assertRaisesRegex(WireError, "hung up before it said hello; at a `reprise serve` a reprise.Simulation begins"):
+                reprise.drive(drive, "s")
+
     def test_a_server_is_named_by_a_path_as_well(self):
         with Server("--socket", str(self.folder / "s")) as server:
             with reprise.Simulation(server=pathlib.Path(server.place)) as sim:
