@@ -165,6 +165,21 @@ TEST(LaneGraph, WhoseLaneEndsTooSoonBehindTheNextJunctionLeavesItBefore) {
     EXPECT_TRUE(drivers::LaneGraph(later).better_lane(2));
 }
 
+TEST(Wandering, ALaneThatEndsTooSoonBehindTheNextJunctionIsLeftBefore) {
+    for (const std::uint64_t seed : {1u, 7u, 21u}) {
+        Drive drive(merging_road(4), seed);
+        drive.place(0, 10, 10);
+        double slowest = 10;
+        while (drive.seconds() < 40 && drive.car.x < 100) {
+            drive.step();
+            slowest = std::min(slowest, drive.car.speed);
+        }
+        EXPECT_GT(drive.car.x, 99) << "seed " << seed;
+        EXPECT_NEAR(drive.car.y, 3.5, 0.3);
+        EXPECT_GT(slowest, 4) << "without a stop";
+    }
+}
+
 TEST(LaneGraph, NobodyWandersRoundAndRoundARoundabout) {
     const world::TownT town = roundabout();
     const drivers::LaneGraph graph(town);
