@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/control/long_turner.h"
+#include "drivers/turning_room.h"
 #include "world/models/catalogue.h"
 #include "world/units.h"
 
