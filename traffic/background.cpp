@@ -28,7 +28,7 @@
 #include "traffic/orders.h"
 #include "traffic/placements.h"
 #include "traffic/rescue_lane.h"
-#include "traffic/roads/closed_lanes.h"
+#include "traffic/roads/car_network.h"
 #include "traffic/roads/right_of_way.h"
 #include "traffic/roads/road_graph.h"
 #include "traffic/route_planner.h"
@@ -48,8 +48,9 @@ namespace {
 /// Of SUMO, which runs by now: who may use each of the town's lanes.
 std::vector<world::ClassSet> lane_classes(const world::TownT& town) {
     std::vector<world::ClassSet> classes(town.lanes.size(), 0);
+    const std::vector<bool> is_known = lanes_in_sumo(town);
     for (std::size_t i = 0; i < town.lanes.size(); ++i) {
-        if (!world::is_for_cars(town.lanes[i]))
+        if (!world::is_for_cars(town.lanes[i]) || !is_known[i])
             continue;
         const std::vector<std::string> allowed = libsumo::Lane::getAllowed(town.lanes[i].name);
         for (const std::string& name : allowed)
@@ -68,7 +69,7 @@ struct Background::Parts {
           const world::TownT& town,
           const world::LaneMap& lanes,
           std::string_view network)
-        : process(episode, network),
+        : process(episode, network_for_cars(network, town)),
           graph(town, lane_classes(town)),
           right_of_way(right_of_way_in_sumo(town)),
           points(town, graph),
@@ -89,9 +90,7 @@ struct Background::Parts {
           reader(town, graph, world::seconds(1, episode.step_ns), episode.seed),
           signal_orders(town),
           signals(town),
-          step_ns(episode.step_ns) {
-        close_other_lanes(town);
-    }
+          step_ns(episode.step_ns) {}
 
     void carry_out(const world::TickView& last, world::TickDraft& next);
     void give(const world::CommandT& command, Car& car, std::uint64_t tick);

@@ -101,8 +101,11 @@ CarReader::CarReader(const world::TownT& town,
         const world::LaneT& lane = town.lanes[i];
         lanes_by_name_.emplace(lane.name, i);
         const Road& road = roads[lane.edge];
-        measures_.push_back(
-            {lane.length, lane.sumo_length, road.shortest - rounding, lane.index, road.lanes == 1});
+        measures_.push_back({lane.length,
+                             lane.sumo_length,
+                             road.shortest - rounding,
+                             graph.index_of(i),
+                             road.lanes == 1});
     }
 }
 

@@ -82,7 +82,8 @@ Mirrors::Target Mirrors::target_of(const world::VehicleState& vehicle) const {
     const Eigen::Vector3d front = origin + ahead * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0);
     Target target{front.x(), front.y(), sumo_angle_deg(yaw)};
     const auto found = lanes_->best(front, yaw, reach);
-    if (!found)
+    // Of the ways through a junction SUMO has only those that are for cars.
+    if (!found || graph_->edge_of(found->lane) == world::none)
         return target;
     const world::LaneT& lane = town_->lanes[found->lane];
     const bool inside = lane.kind == world::LaneKind::internal;
@@ -234,6 +235,7 @@ void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Tar
         return;
     }
     const world::LaneT& lane = town_->lanes[target.lane];
+    const auto index = static_cast<int>(graph_->index_of(target.lane));
     const std::uint32_t edge = graph_->edge_of(target.lane);
     const std::uint32_t after = graph_->edge_after(target.lane);
     auto at = std::find(mirror.route.begin(), mirror.route.end(), edge);
@@ -253,7 +255,7 @@ void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Tar
         if (!connected || !start_where_sumo_has_it(mirror, way)) {
             // SUMO finds the edge by the place, and takes it for the whole route until the next
             // tick.
-            place(lane.edge, lane.index, anywhere);
+            place(lane.edge, index, anywhere);
             mirror.route = {edge};
             mirror.edge = edge;
             mirror.after = after;
@@ -267,10 +269,10 @@ void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Tar
         // Bound to its route, SUMO takes the nearest way through the junction that leads to any
         // edge of the route; when that is not ours it aborts (an assertion of MSLaneChanger's).
         // Free to look, it takes the lane that we name, and forgets the rest of the route.
-        place(lane.edge, lane.index, anywhere);
+        place(lane.edge, index, anywhere);
         mirror.lamps = 0xffff;
     } else {
-        place(lane.edge, lane.index, on_its_route);
+        place(lane.edge, index, on_its_route);
     }
     mirror.edge = edge;
     mirror.after = after;

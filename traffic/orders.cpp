@@ -274,7 +274,7 @@ void Orders::follow_lane_order(Car& car,
     // Within a time it is changed at once, else when there is room.
     if (target.edge != here.edge || (order.duration == 0 && !may_change(car)))
         return;
-    Vehicle::changeLane(car.sumo, target.index, 1.0);
+    Vehicle::changeLane(car.sumo, static_cast<int>(graph_->index_of(order.lane)), 1.0);
 }
 
 /// On a lane that does not lead to the next edge?

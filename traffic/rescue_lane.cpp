@@ -192,7 +192,8 @@ void RescueLane::leave_lane(const Car& car) const {
     const std::uint32_t inner = town_->left_hand ? lane.right : lane.left;
     for (const std::uint32_t beside : {outer, inner})
         if (beside != none && town_->lanes[beside].kind == world::LaneKind::driving) {
-            libsumo::Vehicle::changeLane(car.sumo, town_->lanes[beside].index, asked_for);
+            libsumo::Vehicle::changeLane(
+                car.sumo, static_cast<int>(graph_->index_of(beside)), asked_for);
             return;
         }
 }

@@ -26,6 +26,12 @@ extern "C" char*(gettext)(const char* message) noexcept {
 
 namespace reprise::traffic {
 
+/// SUMO's MSNet::writeOutput, taken over as its gettext is: in each step it looks up by their names
+/// which of some thirty files it is to write, and it writes none.
+void write_no_output(void* net) asm("_ZN5MSNet11writeOutputEv");
+
+void write_no_output(void*) {}
+
 namespace {
 
 bool running = false;  // libsumo is a global of the process, and silently accepts a second start
@@ -153,6 +159,9 @@ std::vector<std::string> command_line(const world::EpisodeT& episode,
         "--max-num-vehicles",
         "-1",
         "--scale",
+        "1",
+        // For how long SUMO remembers when a car has waited: nobody asks it.
+        "--waiting-time-memory",
         "1",
         "--no-internal-links",
         "false",

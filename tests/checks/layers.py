@@ -50,7 +50,7 @@ INNER = {
 LIBRARIES = {
     r"lua\.hpp": "scripting",
     r"libsumo/": "traffic",
-    r"pugixml\.hpp": "towns cli",
+    r"pugixml\.hpp": "towns cli traffic",
     r"(bt|Bullet|LinearMath/)": "kernel/physics",
     r"(embree3|tbb)/": "render",
     r"opencv2/": "render",

@@ -6,6 +6,7 @@
 #include <libsumo/libsumo.h>
 
 #include "traffic/cars/fleet.h"
+#include "traffic/roads/car_network.h"
 #include "world/geometry2d.h"
 #include "world/units.h"
 
@@ -100,11 +101,12 @@ Bends::Bends(const world::TownT& town) : town_(&town), bends_(town.lanes.size())
         }
     }
     std::vector<double> limits(town.lanes.size(), world::infinity);
+    const std::vector<bool> is_known = lanes_in_sumo(town);
     for (std::size_t i = 0; i < town.lanes.size(); ++i)
-        if (world::is_for_cars(town.lanes[i]))
+        if (world::is_for_cars(town.lanes[i]) && is_known[i])
             limits[i] = add_lane(town.lanes[i], before[i], behind[i]);
     for (std::size_t i = 0; i < town.lanes.size(); ++i)
-        if (is_slowed_whole(town.lanes[i]))
+        if (is_slowed_whole(town.lanes[i]) && is_known[i])
             slow_before_bends(town.lanes[i], limits[i]);
 }
 

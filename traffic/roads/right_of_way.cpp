@@ -8,6 +8,8 @@
 
 #include <libsumo/libsumo.h>
 
+#include "traffic/roads/car_network.h"
+
 namespace reprise::traffic {
 
 using world::none;
@@ -51,11 +53,12 @@ RightOfWay right_of_way_in_sumo(const world::TownT& town) {
         const auto found = by_name.find(name);
         return found != by_name.end() && world::is_for_cars(town.lanes[found->second]);
     };
+    const std::vector<bool> is_known = lanes_in_sumo(town);
     std::vector<bool> crossed(town.lanes.size(), false);
     RightOfWay::Firsts firsts(town.lanes.size());
     for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
         const world::LaneT& lane = town.lanes[i];
-        if (!world::is_for_cars(lane))
+        if (!world::is_for_cars(lane) || !is_known[i])
             continue;
         if (lane.kind == world::LaneKind::internal) {
             const auto foes = libsumo::Lane::getInternalFoes(lane.name);
@@ -63,7 +66,7 @@ RightOfWay right_of_way_in_sumo(const world::TownT& town) {
             continue;
         }
         for (const world::Link& link : lane.links) {
-            if (link.via() == none || link.to() == none)
+            if (link.via() == none || link.to() == none || !is_known[link.via()])
                 continue;
             auto& before_us = firsts[link.via()];
             for (const std::string& foe :

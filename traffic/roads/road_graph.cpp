@@ -22,13 +22,16 @@ RoadGraph::RoadGraph(const world::TownT& town, std::vector<world::ClassSet> clas
       edge_after_(town.lanes.size(), none) {
     // Edges, sorted by name; their lanes by index.
     std::map<std::string, std::map<int, std::uint32_t>> by_name;
-    for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
+    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
+        index_of_lane_.push_back(town.lanes[i].index);
         if (town.lanes[i].kind == LaneKind::driving)
             by_name[town.lanes[i].edge][town.lanes[i].index] = i;
+    }
     for (const auto& [name, lanes] : by_name) {
         Edge edge;
         edge.name = name;
         for (const auto& [index, lane] : lanes) {
+            index_of_lane_[lane] = static_cast<std::uint32_t>(edge.lanes.size());
             edge.lanes.push_back(lane);
             edge.length = town.lanes[lane].length;
             edge_of_lane_[lane] = edge_after_[lane] = static_cast<std::uint32_t>(edges_.size());

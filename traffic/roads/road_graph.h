@@ -32,6 +32,10 @@ class RoadGraph {
     /// The edge that an internal lane leads to; for others the same as edge_of.
     std::uint32_t edge_after(std::uint32_t lane) const { return edge_after_[lane]; }
 
+    /// Of a driving lane, among those of its road; of others as the network counts them. SUMO's
+    /// index, too: it has no other lanes beside them, see network_for_cars.
+    std::uint32_t index_of(std::uint32_t lane) const { return index_of_lane_[lane]; }
+
     bool may_use(std::uint32_t lane, world::ClassSet car) const {
         return (classes_[lane] & car) != 0;
     }
@@ -57,6 +61,7 @@ class RoadGraph {
     std::vector<Edge> edges_;  ///< sorted by name
     std::vector<std::uint32_t> edge_of_lane_;
     std::vector<std::uint32_t> edge_after_;
+    std::vector<std::uint32_t> index_of_lane_;
 };
 
 }  // namespace reprise::traffic
