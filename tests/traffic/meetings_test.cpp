@@ -738,7 +738,6 @@ TEST(Meetings, NobodyDrivesIntoWhoIsAheadOnHisLane) {
 /// SUMO stops at his line who goes the other way of a fork, with his nose in who stands behind it.
 TEST(Meetings, NobodyDrivesIntoWhoStandsBehindAFork) {
     const TownT& whole = own_town("town1").town;
-    const RoadGraph graph = graph_for(whole);
     int looked_at = 0;
     for (const auto& [lane, via] : entries_of(whole)) {
         if (whole.lanes[via].length < 6 || whole.lanes[lane].links.front().via() != via)
@@ -750,6 +749,7 @@ TEST(Meetings, NobodyDrivesIntoWhoStandsBehindAFork) {
             links.resize(1);
             if (forks)
                 links.push_back(links.front());
+            const RoadGraph graph = graph_for(town);
             Cars cars;
             world::TickDraft draft;
             Car leader = car_before(town, graph, 7, "sedan", lane, via, 0, 0);

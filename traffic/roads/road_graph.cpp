@@ -67,6 +67,16 @@ bool RoadGraph::leads_to(std::uint32_t lane, std::uint32_t edge) const {
     });
 }
 
+bool RoadGraph::forks(std::uint32_t lane) const {
+    const auto& links = town_->lanes[lane].links;
+    for (auto one = links.begin(); one != links.end(); ++one)
+        if (one->to() != none && std::any_of(one + 1, links.end(), [&](const world::Link& other) {
+                return other.to() != none && edge_of_lane_[one->to()] == edge_of_lane_[other.to()];
+            }))
+            return true;
+    return false;
+}
+
 std::vector<std::uint32_t> RoadGraph::ways_on(std::uint32_t lane,
                                               world::ClassSet car,
                                               bool keeps_lane) const {

@@ -50,6 +50,10 @@ class RoadGraph {
     /// Does a link of this driving lane lead to that edge?
     bool leads_to(std::uint32_t lane, std::uint32_t edge) const;
 
+    /// Does this driving lane lead to one edge by several ways? A car's route does not tell by
+    /// which it goes.
+    bool forks(std::uint32_t lane) const;
+
     /// Edges of the shortest way from one edge to another, both included; empty when there is none.
     std::vector<std::uint32_t> shortest(std::uint32_t from, std::uint32_t to) const;
 

@@ -18,39 +18,16 @@ namespace {
 
 using world::none;
 
-constexpr double least_sweep = 6;          // [m] and its length: of way that also slow ones want
-constexpr double gap_before = 0.7;         // [m] before another's way
-constexpr double beside_its_lane = 0.6;    // [m] from its lane: seen as an obstruction
-constexpr double lets_go_first = 6;        // [s] of one who stands; then the other one waits
-constexpr std::uint64_t pushes_for = 240;  // [ticks]
-constexpr double deepest_push = 0.20;      // [m] in the other one's body, which mirrors give way to
-constexpr double leans_beside = 0.1;       // [m] from who is pushed past
-constexpr double leans_within = 0.5;       // [s]
-constexpr double has_just_started = 3;     // [m/s]
-constexpr double hard = 0.8;               // of the hardest braking, that one plans with
-constexpr double longest_body = 12;        // [m]
-constexpr double off_its_lane = 0.6;       // [m] of bumper or tail, from the middle of its lane
+constexpr double gap_before = 0.7;      // [m] before another's way
+constexpr double lets_go_first = 6;     // [s] of one who stands; then the other one waits
+constexpr double has_just_started = 3;  // [m/s]
+constexpr double hard = 0.8;            // of the hardest braking, that one plans with
+constexpr double longest_body = 12;     // [m]
 
 /// Most pairs that are near each other west to east are not south to north: these come first.
 bool touch(const world::Box& one, const world::Box& other) {
     return one.low.y() <= other.high.y() && other.low.y() <= one.high.y() &&
            one.low.x() <= other.high.x() && other.low.x() <= one.high.x();
-}
-
-/// [lane] Does it lead to one edge by several ways? A car's route does not tell by which it goes.
-std::vector<bool> lanes_that_fork(const world::TownT& town, const RoadGraph& graph) {
-    std::vector<bool> fork(town.lanes.size(), false);
-    for (std::uint32_t i = 0; i < town.lanes.size(); ++i) {
-        if (!world::is_for_cars(town.lanes[i]))
-            continue;
-        std::vector<std::uint32_t> edges;
-        for (const world::Link& link : town.lanes[i].links)
-            if (link.to() != none)
-                edges.push_back(graph.edge_of(link.to()));
-        std::sort(edges.begin(), edges.end());
-        fork[i] = std::adjacent_find(edges.begin(), edges.end()) != edges.end();
-    }
-    return fork;
 }
 
 }  // namespace
@@ -61,11 +38,11 @@ Meetings::Meetings(const world::TownT& town,
                    double step)
     : lines_(town),
       graph_(&graph),
+      places_(lines_, graph),
+      pushing_past_(lines_),
       right_of_way_(&right_of_way),
       step_(step),
-      yields_(town.lanes.size(), false),
-      crosses_(lanes_that_cross(town)),
-      forks_(lanes_that_fork(town, graph)) {
+      yields_(town.lanes.size(), false) {
     for (const world::LaneT& lane : town.lanes)
         for (const world::Link& link : lane.links)
             if (world::is_for_cars(lane) && link.yields())
@@ -80,136 +57,12 @@ Meetings::Meetings(const world::TownT& town,
                 }
 }
 
-/// Between two lanes, as who changes them: a tail in the other one stays there while its own lane
-/// stands.
-bool Meetings::is_between_lanes(const Car& car) const {
-    const world::VehicleModel& model = world::vehicle_models()[car.model];
-    const world::LaneT& lane = lines_.town().lanes[car.lane];
-    const double s = car.lane_position * lane.length / lane.sumo_length;
-    for (const double behind : {0.0, model.length}) {
-        const Eigen::Vector2d place =
-            car.rear.head<2>() + (model.length - model.rear_overhang - behind) * car.ahead;
-        const Eigen::Vector2d middle = lines_.position_at(car.lane, std::max(s - behind, 0.0));
-        if ((place - middle).squaredNorm() > off_its_lane * off_its_lane)
-            return true;
-    }
-    return false;
-}
-
-bool Meetings::Pose::is_of(const Car& car) const {
-    return lane_position == car.lane_position && speed == car.speed && lane == car.lane &&
-           model == car.model && yaw == car.yaw && travelled == car.trail.travelled() &&
-           trail == car.trail.points_digest() && front == car.trail.front() && rear == car.rear &&
-           route == car.route;
-}
-
-void Meetings::Pose::take(const Car& car) {
-    lane = car.lane;
-    model = car.model;
-    lane_position = car.lane_position;
-    speed = car.speed;
-    yaw = car.yaw;
-    travelled = car.trail.travelled();
-    trail = car.trail.points_digest();
-    front = car.trail.front();
-    rear = car.rear;
-    route = car.route;
-}
-
-bool Meetings::Manner::is_of(const Car& car) const {
-    return standing_ticks == car.standing_ticks && stuck_ticks == car.stuck_ticks &&
-           pushes_until == car.pushes_until && pushes_past == car.pushes_past &&
-           waits_for == car.waits_for;
-}
-
-void Meetings::Manner::take(const Car& car) {
-    standing_ticks = car.standing_ticks;
-    stuck_ticks = car.stuck_ticks;
-    pushes_until = car.pushes_until;
-    pushes_past = car.pushes_past;
-    waits_for = car.waits_for;
-}
-
-bool Meetings::takes_part(const Car& car) {
-    return !car.sumo.empty() && car.origin != Origin::parked && car.lane != none && !car.pass &&
-           std::abs(car.offset) <= beside_its_lane;
-}
-
-/// One for each of them, in their order: of who was there before, his own.
-void Meetings::remember(std::span<const Car> cars) {
-    const auto is_its = [](const Car& car, const std::unique_ptr<Memory>& memory) {
-        return memory != nullptr && memory->id == car.id;
-    };
-    if (std::equal(cars.begin(), cars.end(), memories_.begin(), memories_.end(), is_its))
-        return;
-    std::vector<std::unique_ptr<Memory>> before = std::move(memories_);
-    memories_.clear();
-    auto at = before.begin();
-    for (const Car& car : cars) {
-        while (at != before.end() && (*at)->id < car.id)
-            ++at;
-        if (at != before.end() && (*at)->id == car.id) {
-            memories_.push_back(std::move(*at++));
-            continue;
-        }
-        memories_.push_back(std::make_unique<Memory>());
-        memories_.back()->id = car.id;
-    }
-}
-
-Meetings::Place Meetings::place_of(const Car& car, const Driver& driver) const {
-    const world::LaneT& lane = lines_.town().lanes[car.lane];
-    const double left = (lane.sumo_length - car.lane_position) * lane.length / lane.sumo_length;
-    const double length = 2 * driver.half_length;
-    Place place;
-    place.x = driver.middle.x();
-    place.reach = driver.reach;
-    place.area = area_ahead(car, lines_, *graph_, driver.reach);
-    place.area.take(place.area.low, Foresight::room);
-    place.area.take(place.area.high, Foresight::room);
-    place.lane = car.lane;
-    place.is_turning = lane.kind == world::LaneKind::internal || left < driver.reach ||
-                       length > longest_short_car || car.lane_position < length ||
-                       crosses_[car.lane] || is_between_lanes(car);
-    return place;
-}
-
 void Meetings::gather(std::span<const Car> cars) {
-    remember(cars);
     drivers_.resize(cars.size());
-    places_.clear();
+    for (std::size_t i = 0; i < cars.size(); ++i)
+        drivers_[i].take(cars[i]);
     allowed_.assign(cars.size(), world::infinity);
-    for (std::size_t i = 0; i < cars.size(); ++i) {
-        const Car& car = cars[i];
-        Driver& driver = drivers_[i];
-        driver.car = nullptr;
-        driver.waits_for.clear();
-        driver.blocked_by.clear();
-        if (!takes_part(car))
-            continue;
-        driver.manner.take(car);
-        driver.pushes_until = car.pushes_until;
-        driver.pushes_past = car.pushes_past;
-        driver.leans = 0;
-        const world::VehicleModel& model = world::vehicle_models()[car.model];
-        driver.car = &car;
-        driver.seen = nullptr;
-        driver.half_length = model.length / 2;
-        driver.middle = car.rear.head<2>() + (driver.half_length - model.rear_overhang) * car.ahead;
-        driver.reach = std::max(Foresight::look_ahead * (car.speed + Foresight::speeding_up),
-                                least_sweep + model.length);
-        Memory& memory = *memories_[i];
-        if (!memory.pose.is_of(car)) {
-            memory.pose.take(car);
-            memory.place = place_of(car, driver);
-            memory.is_foreseen = false;
-        }
-        places_.push_back(memory.place);
-        places_.back().driver = static_cast<std::uint32_t>(i);
-    }
-    std::sort(places_.begin(), places_.end(), [](const Place& one, const Place& other) {
-        return std::pair(one.x, one.driver) < std::pair(other.x, other.driver);
-    });
+    places_.gather(cars, drivers_);
 }
 
 /// On one level, and near enough.
@@ -222,14 +75,9 @@ bool Meetings::could_meet(const Driver& one, const Driver& other) const {
 }
 
 void Meetings::prepare(Driver& driver) {
-    if (driver.seen != nullptr)
-        return;
-    Memory& memory = *memories_[static_cast<std::size_t>(&driver - drivers_.data())];
-    driver.seen = &memory.foresight;
-    if (memory.is_foreseen)
-        return driver.seen->stay(*driver.car);
-    driver.seen->look(*driver.car, lines_, *graph_, driver.reach);
-    memory.is_foreseen = true;
+    if (driver.seen == nullptr)
+        driver.seen =
+            places_.foresight(static_cast<std::size_t>(&driver - drivers_.data()), driver);
 }
 
 bool Meetings::has_stood(const Driver& driver) const {
@@ -295,54 +143,7 @@ void Meetings::wait(Driver& driver, Driver& other, const Stop& stop) {
     // Both stand, each for the other's body: nobody else will solve it.
     if (is_in_its_way && is_stuck(driver) && is_stuck(other) &&
         driver.seen->would_meet(other.seen->now()))
-        push_past(driver, other);
-}
-
-/// Of the two the one who is less in the other one's body on his way; through it nobody drives.
-void Meetings::push_past(Driver& one, Driver& other) const {
-    const Foresight::Intrusion depth = one.seen->deepest_in(other.seen->now(), one.reach);
-    const Foresight::Intrusion its_depth = other.seen->deepest_in(one.seen->now(), other.reach);
-    const bool is_one = depth.depth <= its_depth.depth;
-    const Foresight::Intrusion& least = is_one ? depth : its_depth;
-    if (least.depth > deepest_push)
-        return;
-    Driver& driver = is_one ? one : other;
-    if (driver.pushes_until <= tick_)
-        driver.pushes_past.clear();
-    driver.pushes_past.push_back(is_one ? other.car->id : one.car->id);
-    driver.pushes_until = tick_ + pushes_for;
-    driver.leans = lean_for(driver, least);
-}
-
-/// [m] left: out of the other one's body, as far as its lanes are wide.
-double Meetings::lean_for(const Driver& driver, const Foresight::Intrusion& intrusion) const {
-    if (intrusion.depth == 0)
-        return 0;
-    double spare = world::infinity;  // [m] at each side
-    for (const std::uint32_t lane : driver.seen->way().lanes())
-        spare = std::min(spare, lines_.town().lanes[lane].width / 2);
-    spare -= world::vehicle_models()[driver.car->model].width / 2;
-    const double metres = std::clamp(intrusion.depth + leans_beside, 0.0, std::max(spare, 0.0));
-    return intrusion.is_left ? -metres : metres;
-}
-
-/// By an offset from its lane, until it has pushed past.
-void Meetings::lean(Car& car, double wanted) const {
-    const bool is_past = car.pushes_until <= tick_;
-    if (wanted != 0 && !car.offset_order && car.offset == 0) {
-        car.offset_order = OffsetOrder{{0, wanted, leans_within, world::Shape::linear}, tick_ - 1};
-        car.leans = true;
-    } else if (car.leans && is_past && car.offset_order && car.offset_order->change.to != 0) {
-        car.offset_order =
-            OffsetOrder{{car.offset, 0, pull_out_time, world::Shape::linear}, tick_ - 1};
-    }
-    car.leans = car.leans && car.offset_order;
-}
-
-bool Meetings::pushes_past(const Driver& driver, const Driver& other) const {
-    const auto& ids = driver.pushes_past;
-    return driver.pushes_until > tick_ &&
-           std::find(ids.begin(), ids.end(), other.car->id) != ids.end();
+        pushing_past_.begin(driver, other, tick_);
 }
 
 /// Who is pushed past stands until the other one is through: two that push meet in the middle.
@@ -359,7 +160,7 @@ void Meetings::part(const Driver& one, const Driver& other) {
     const double now = depth(one.seen->now(), other.seen->now()) + rounding;
     const double soon = one.seen->depth_in(other.seen->now(), looked_at);
     const double its_soon = other.seen->depth_in(one.seen->now(), looked_at);
-    const bool is_deep = std::min(soon, its_soon) > std::max(now, deepest_push);
+    const bool is_deep = std::min(soon, its_soon) > std::max(now, PushingPast::deepest);
     if (soon > now && (soon > its_soon || is_deep))
         hold(one, {});
     if (its_soon > now && (its_soon >= soon || is_deep))
@@ -434,7 +235,7 @@ bool Meetings::follows(const Driver& driver, const Driver& leader) {
 /// SUMO does. But where it has the driver go the other way of a fork, it stops him at his line,
 /// with his nose in the tail of who has just gone this way.
 void Meetings::keep_behind(const Driver& driver, const Driver& leader) {
-    if (forks_[driver.car->lane])
+    if (graph_->forks(driver.car->lane))
         hold(driver, stop_before_body(driver, leader));
 }
 
@@ -472,9 +273,9 @@ void Meetings::meet(Driver& one, Driver& other) {
         return keep_behind(one, other);
     if (other_follows && is_all_on_its_lane(one))
         return keep_behind(other, one);
-    if (pushes_past(one, other))
+    if (PushingPast::has_begun(one, other, tick_))
         return let_past(other, one);
-    if (pushes_past(other, one))
+    if (PushingPast::has_begun(other, one, tick_))
         return let_past(one, other);
     if (overlap(one.seen->now(), other.seen->now()))
         return part(one, other);
@@ -496,10 +297,12 @@ void Meetings::meet(Driver& one, Driver& other) {
 
 void Meetings::look_at_pairs() {
     double farthest = 0;
-    for (const Place& place : places_)
+    using Place = MeetingPlaces::Place;
+    const std::vector<Place>& places = places_.all();
+    for (const Place& place : places)
         farthest = std::max(farthest, place.reach + longest_body / 2);
-    const Place* const end = places_.data() + places_.size();
-    for (const Place* at = places_.data(); at != end; ++at) {
+    const Place* const end = places.data() + places.size();
+    for (const Place* at = places.data(); at != end; ++at) {
         const Place one = *at;
         const double window = one.reach + longest_body / 2 + farthest;
         for (const Place* next = at + 1; next != end; ++next) {
@@ -530,8 +333,9 @@ bool Meetings::has_foreseen(std::span<const Car> cars, std::uint64_t tick) const
     for (std::size_t i = 0; i < cars.size(); ++i) {
         const Car& car = cars[i];
         const Driver& driver = drivers_[i];
-        if (memories_[i]->id != car.id || takes_part(car) != (driver.car != nullptr) ||
-            (driver.car != nullptr && !(driver.manner.is_of(car) && memories_[i]->pose.is_of(car))))
+        const bool takes_part = Driver::takes_part(car);
+        if (takes_part != (driver.car != nullptr) || !places_.has_stayed(i, car, takes_part) ||
+            (takes_part && !driver.manner.is_of(car)))
             return false;
     }
     return true;
@@ -553,7 +357,7 @@ void Meetings::look(Cars& cars, std::uint64_t tick) {
             continue;
         all[i].pushes_until = driver.pushes_until;
         all[i].pushes_past = driver.pushes_past;
-        lean(all[i], driver.leans);
+        PushingPast::steer(all[i], driver, tick_);
     }
 }
 

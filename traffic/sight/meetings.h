@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,7 +9,9 @@
 #include "traffic/roads/right_of_way.h"
 #include "traffic/roads/road_graph.h"
 #include "traffic/sight/foresight.h"
-#include "world/geometry2d.h"
+#include "traffic/sight/meeting_places.h"
+#include "traffic/sight/met_driver.h"
+#include "traffic/sight/pushing_past.h"
 #include "world/town.h"
 
 namespace reprise::traffic {
@@ -29,8 +30,7 @@ namespace reprise::traffic {
 ///         one stands still, aside from it in its own lane; not where it would be through the
 ///         other one. Who lies in another one
 ///         gets no deeper in.
-/// KEEPS   with each car, whom it waits for, and whom it pushes past until when; what was worked
-///         out for who stands, which decides nothing but the cost: a quarter of the cars stands.
+/// KEEPS   with each car, whom it waits for, and whom it pushes past until when (PushingPast).
 class Meetings {
   public:
     /// All three must outlive this. `step` [s] of a tick.
@@ -54,68 +54,7 @@ class Meetings {
     const LaneLines& lines() const { return lines_; }
 
   private:
-    /// What decides about a car beside its pose.
-    struct Manner {
-        std::uint32_t standing_ticks = 0;
-        std::uint32_t stuck_ticks = 0;
-        std::uint64_t pushes_until = 0;
-        std::vector<std::uint32_t> pushes_past;  ///< ids
-        std::vector<std::uint32_t> waits_for;    ///< ids, of the last look
-
-        bool is_of(const Car& car) const;
-        void take(const Car& car);
-    };
-
-    /// One of the cars.
-    struct Driver {
-        const Car* car = nullptr;
-        double reach = 0;  ///< [m] of way that is looked at
-        double half_length = 0;
-        Eigen::Vector2d middle;
-        Foresight* seen = nullptr;               ///< once it is asked for
-        std::vector<std::uint32_t> waits_for;    ///< ids, of this tick
-        std::vector<std::uint32_t> blocked_by;   ///< likewise
-        std::uint64_t pushes_until = 0;          ///< tick
-        std::vector<std::uint32_t> pushes_past;  ///< ids
-        double leans = 0;                        ///< [m] left, for whom it pushes past from now on
-        Manner manner;                           ///< with which it came
-    };
-
-    /// What decides about most pairs, side by side in memory; by `x`, then by the cars' ids.
-    struct Place {
-        double x = 0;      ///< [m] of its middle
-        double reach = 0;  ///< [m]
-        world::Box area;   ///< that its body does not leave
-        std::uint32_t lane = 0;
-        std::uint32_t driver = 0;  ///< index
-        bool is_turning = false;   ///< or will be in a moment
-    };
-
-    /// All of a car that its place and its way follow from.
-    struct Pose {
-        std::uint32_t lane = 0;
-        std::uint16_t model = 0;
-        double lane_position = 0;
-        double speed = 0;
-        double yaw = 0;
-        double travelled = 0;
-        std::uint64_t trail = 0;  ///< digest of its points
-        Eigen::Vector3d front = Eigen::Vector3d::Zero();
-        Eigen::Vector3d rear = Eigen::Vector3d::Zero();
-        std::vector<std::uint32_t> route;
-
-        bool is_of(const Car& car) const;
-        void take(const Car& car);
-    };
-
-    /// Of a car, for as long as it stays where it is.
-    struct Memory {
-        std::uint32_t id = 0;
-        Pose pose;
-        Place place;
-        Foresight foresight;
-        bool is_foreseen = false;
-    };
+    using Driver = MetDriver;
 
     /// Where one can stop before another's way.
     struct Stop {
@@ -125,23 +64,15 @@ class Meetings {
         double time = 0;  ///< [s] until it is there
     };
 
-    static bool takes_part(const Car& car);
     bool has_foreseen(std::span<const Car> cars, std::uint64_t tick) const;
     void gather(std::span<const Car> cars);
     void look_at_pairs();
-    void remember(std::span<const Car> cars);
-    Place place_of(const Car& car, const Driver& driver) const;
-    bool is_between_lanes(const Car& car) const;
     bool could_meet(const Driver& one, const Driver& other) const;
     void meet(Driver& one, Driver& other);
     void follow(const Driver& one, const Driver& other);
     void keep_behind(const Driver& driver, const Driver& leader);
     void wait(Driver& driver, Driver& other, const Stop& stop);
     void prepare(Driver& driver);
-    void push_past(Driver& one, Driver& other) const;
-    double lean_for(const Driver& driver, const Foresight::Intrusion& intrusion) const;
-    void lean(Car& car, double wanted) const;
-    bool pushes_past(const Driver& driver, const Driver& other) const;
     void part(const Driver& one, const Driver& other);
     void let_past(const Driver& driver, const Driver& other);
     bool has_stood(const Driver& driver) const;
@@ -163,15 +94,13 @@ class Meetings {
 
     const LaneLines lines_;
     const RoadGraph* graph_;
+    MeetingPlaces places_;
+    PushingPast pushing_past_;
     const RightOfWay* right_of_way_;
-    double step_;                ///< [s]
-    std::vector<bool> yields_;   ///< by lane of a junction: has to let others go first
-    std::vector<bool> crosses_;  ///< by lane outside of one: another road's runs over it
-    std::vector<bool> forks_;    ///< by lane: leads to one edge by several ways
+    double step_;               ///< [s]
+    std::vector<bool> yields_;  ///< by lane of a junction: has to let others go first
     std::vector<double> allowed_;
     std::vector<Driver> drivers_;  ///< [i] of cars[i]; without a car who takes no part
-    std::vector<Place> places_;
-    std::vector<std::unique_ptr<Memory>> memories_;  ///< [i] of cars[i]
     std::uint64_t tick_ = 0;
     std::uint64_t ahead_of_ = 0;  ///< tick that was looked at ahead; 0: none
 };
