@@ -92,6 +92,26 @@ std::string Seats::unused() const {
     return names;
 }
 
+void Seats::add_client(std::unique_ptr<remote::Seat> seat) {
+    client_ = seat->actor();
+    add(std::move(seat));
+}
+
+std::optional<std::string> Seats::somebody_driven() const {
+    return taken_.empty() ? std::nullopt : std::optional(taken_.begin()->second.seat->actor());
+}
+
+void Seats::take_away(std::map<std::uint32_t, Taken>::iterator gone) {
+    remote::Seat& seat = *gone->second.seat;
+    if (seat.actor() == client_) {
+        seat.abandon();
+        client_is_without_car_ = true;
+    } else {
+        seat.leave("the vehicle was taken away");
+    }
+    taken_.erase(gone);
+}
+
 /// Who was spawned gets its driver, who was despawned loses it.
 void Seats::welcome(const world::Tick& tick) {
     const world::EpisodeT& episode = recording_->episode;
@@ -100,10 +120,8 @@ void Seats::welcome(const world::Tick& tick) {
     for (const world::Command* command : *tick.commands()) {
         if (command->kind() == world::CommandKind::despawn) {
             const auto gone = taken_.find(command->actor());
-            if (gone != taken_.end()) {
-                gone->second.seat->leave("the vehicle was taken away");
-                taken_.erase(gone);
-            }
+            if (gone != taken_.end())
+                take_away(gone);
         }
         if (command->kind() != world::CommandKind::spawn ||
             command->driver() != world::Driver::external)

@@ -40,6 +40,13 @@ class Seats {
     /// One more, of a driver that is here already.
     void add(std::unique_ptr<remote::Seat> seat) { free_.push_back(std::move(seat)); }
 
+    /// The same of one that hears the end of the run whatever happens to its vehicle, from who adds
+    /// it: when that is taken away, nothing is said to it.
+    void add_client(std::unique_ptr<remote::Seat> seat);
+
+    /// Whether the vehicle of that one was taken away.
+    bool has_client_without_car() const { return client_is_without_car_; }
+
     /// Behind a tick that is not the last: shows it to those who are to see it, does `meanwhile`
     /// while drivers think, and waits for the answers that are due: to this tick, or to an earlier
     /// one by the latency that the scenario gave an actor. Until the next is due the last one
@@ -91,6 +98,9 @@ class Seats {
     /// Without a word: they have something else to listen to.
     void abandon();
 
+    /// The name of one that is driven now; none: nobody is on the road.
+    std::optional<std::string> somebody_driven() const;
+
     /// Whether the driver of this actor is one of ours.
     bool drives(std::uint32_t actor) const { return taken_.count(actor) > 0; }
 
@@ -105,6 +115,7 @@ class Seats {
     };
 
     void welcome(const world::Tick& tick);
+    void take_away(std::map<std::uint32_t, Taken>::iterator gone);
     std::string unused() const;
     bool seat(const world::Spawn& spawn,
               std::uint64_t now,
@@ -120,6 +131,8 @@ class Seats {
     std::map<std::uint32_t, Taken> taken_;  ///< by actor
     std::vector<world::Control> controls_;
     std::optional<Loss> loss_;
+    std::string client_;  ///< name of its actor; empty: nobody was added as client
+    bool client_is_without_car_ = false;
 };
 
 }  // namespace reprise::cli

@@ -36,12 +36,15 @@ struct Played {
     const files::StopRequest stop{};
     Seats seats;
 
-    /// Who drives several speaks on its own connection to end the episode; it is heard behind it.
-    bool is_left() const { return !drivers.empty() && cli::is_left(client); }
+    /// Whether the client hears and speaks on its own connection, as who drives several does, and
+    /// whose only vehicle was taken away: what it says ends the episode, and is heard behind it.
+    bool looks_on() const { return !drivers.empty() || seats.has_client_without_car(); }
+
+    bool is_left() const { return looks_on() && cli::is_left(client); }
 
     /// Whether the client ended the episode, and did not fail in it.
     bool is_ended_by_client() const {
-        if (!drivers.empty())
+        if (looks_on())
             return !seats.loss() && cli::is_left(client) && !has_gone(client);
         if (!seats.loss() || !seats.loss()->said)
             return false;
@@ -50,7 +53,7 @@ struct Played {
     }
 
     /// How the episode ended. A client that begins another one, or says goodbye, ends it; one that
-    /// is gone, or breaks the rules, is a lost driver.
+    /// is gone, or breaks the rules, is a lost driver where it has somebody on the road.
     world::Outcome outcome(std::uint64_t ticks) const {
         if (kernel.finished())
             return kernel.outcome();
@@ -58,8 +61,10 @@ struct Played {
             return world::outcome_of_ended_by_server(ticks);
         if (is_ended_by_client())
             return world::outcome_of_ended_by_client(ticks);
-        const std::string& first = drivers.empty() ? driven : drivers.front();
-        return world::outcome_of_lost_driver(seats.loss() ? seats.loss()->actor : first, ticks);
+        const auto lost =
+            seats.loss() ? std::optional(seats.loss()->actor) : seats.somebody_driven();
+        return lost ? world::outcome_of_lost_driver(*lost, ticks)
+                    : world::outcome_of_ended_by_client(ticks);
     }
 
     /// Until it is over. The trace is whole before anybody hears of the end.
@@ -93,11 +98,11 @@ void Played::tell(const world::Outcome& outcome) {
         seats.leave(outcome.reason, outcome);
     else if (stop.signal() != 0)
         seats.fail("the server ends", 0);
-    else if (!drivers.empty() || is_ended_by_client())
+    else if (looks_on() || is_ended_by_client())
         seats.abandon();  // the client is answered by who hears what it said
     else
         say_fault(client, seats.loss()->reason, 0);
-    if (!drivers.empty())
+    if (looks_on() && (!drivers.empty() || !is_left()))
         say_end(client, outcome);
 }
 
@@ -127,11 +132,12 @@ std::optional<remote::Frame> play_episode(kernel::Kernel& kernel,
             played.seats.add(
                 std::make_unique<remote::Seat>(name, channel_for(name, played.client), patience));
         if (drivers.empty())
-            played.seats.add(std::make_unique<remote::Seat>(driven, copy_of(client), patience));
+            played.seats.add_client(
+                std::make_unique<remote::Seat>(driven, copy_of(client), patience));
         played.tell(played.play(trace));
     } catch (const std::exception& error) {  // whatever it was, the session lives on
         played.seats.fail(error.what(), line_named_in(error.what()));
-        if (!drivers.empty())
+        if (played.looks_on())
             say_fault(played.client, error.what(), line_named_in(error.what()));
     }
     return drivers.empty() && played.is_ended_by_client() ? played.seats.take_said() : std::nullopt;

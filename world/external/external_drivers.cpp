@@ -11,9 +11,8 @@ void ExternalDrivers::hear(const Tick& tick) {
 }
 
 bool ExternalDrivers::explain(const Outcome& outcome) const {
-    if (outcome == outcome_of_ended_by_client(outcome.ticks))
-        return !spawns_.empty();
-    if (outcome == outcome_of_ended_by_server(outcome.ticks))
+    if (outcome == outcome_of_ended_by_client(outcome.ticks) ||
+        outcome == outcome_of_ended_by_server(outcome.ticks))
         return true;
     return std::any_of(spawns_.begin(), spawns_.end(), [&](const auto& one) {
         const std::string& name = one.second.command.text;

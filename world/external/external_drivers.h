@@ -16,8 +16,8 @@ class ExternalDrivers {
     const Spawns& spawns() const { return spawns_; }
 
     /// Whether an outcome says that the driver of one of them was lost, or ended the run, which one
-    /// cannot be seen in ticks; or that a client ended the episode, which is one of them; or the
-    /// server, at any time.
+    /// cannot be seen in ticks; or that a client or the server ended the episode, at any time: a
+    /// client's vehicles may be still to come, or taken away.
     bool explain(const Outcome& outcome) const;
 
   private:

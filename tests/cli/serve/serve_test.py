@@ -221,6 +221,35 @@ class Episodes(Case):
                     sim._look()
                 self.assert_whole("bad.mcap", "driver_lost: the driver of 'ego' was lost")
 
+    def test_whose_vehicle_is_taken_away_hears_how_the_episode_ends(self):
+        gone = DRIVEN.replace("spawn", "local ego = spawn").replace("wait(3600)", "wait(1)\n        ego:despawn()\n        wait(3600)")
+        endless = gone.replace("duration = 3", "duration = 80000")
+        broken = gone.replace("wait(3600)", "wait(1)\n        spam()")
+        drive_on = lambda seen: reprise.Control(throttle=0.4)
+        with reprise.Simulation(scenario=gone, folder=self.folder) as sim:
+            for _ in range(2):
+                sim.reset(trace="gone.mcap")
+                outcome = sim.run(drive_on)
+                self.assertEqual((outcome.verdict, outcome.reason, outcome.ticks), ("completed", "time limit", 60))
+            self.assert_whole("gone.mcap", "completed: time limit")
+            sim.reset(scenario=broken)
+            with self.assertRaisesRegex(reprise.Fault, "scenario.lua:8: .*spam"):
+                sim.run(drive_on)
+            # Nobody waits for the end of what would take hours: neither the next episode, nor who closes.
+            seen = sim.reset(scenario=endless, trace="left.mcap")
+            for _ in range(19):
+                seen = sim.step(throttle=0.4)
+            sim.say(reprise.Control())
+            begin = time.monotonic()
+            self.assertEqual(sim.reset(scenario=gone, trace=None).index, 1)
+            self.assertLess(time.monotonic() - begin, WAITING)
+            self.assert_whole("left.mcap", "ended: by its client")
+            sim.reset(scenario=endless, trace="closed.mcap")
+            for _ in range(19):
+                sim.step(throttle=0.4)
+            sim.say(reprise.Control())
+        self.assert_whole("closed.mcap", "ended: by its client")
+
     def test_a_goodbye_in_an_episode_ends_the_session(self):
         with Server("--socket", str(self.folder / "s"), "--folder", str(self.folder)) as server:
             sim = reprise.Simulation(scenario="driven.lua", server=server.place)
@@ -599,6 +628,40 @@ class Several(Case):
             self.assertEqual((sim.outcome.verdict, sim.outcome.ticks), ("completed", 100))
         self.assertEqual([names for names, _ in ways], 20 * [["a"]] + 40 * [["a", "b"]] + 39 * [["b"]])
         self.assert_same_as_programs(ways)
+
+    def test_an_episode_that_is_left_with_nobody_on_the_road_verifies(self):
+        late = SEVERAL.replace("local a", "wait(80000) local a").replace("duration = 5", "duration = 80000")
+        gone = SEVERAL.replace("wait(1)\n", "wait(1) a:despawn() wait(80000)\n").replace("duration = 5", "duration = 80000")
+        for scenario in (late, gone):
+            for ends in ("goodbye", "close"):
+                with self.subTest(ends, late=scenario is late):
+                    with Server("--socket", str(self.folder / "s"), "--folder", str(self.folder)) as server:
+                        sim = reprise.MultiSimulation(("a", "b"), scenario, server=server.place, trace="left.mcap")
+                        sim._say("reset", **sim._message(), drivers=["a", "b"])
+                        for _ in range(2):
+                            kind, message = sim._hear(first=True)
+                            sim._wires[message.name] = Wire(socket.socket(fileno=sim._wire.descriptor()))
+                        if scenario is gone:
+                            wire = sim._wires["a"]
+                            self.assertEqual(wire.receive_first()[0], "hello")
+                            wire.ready()
+                            for _ in range(20):
+                                wire.control(wire.receive()[1].nested("tick", "world.Tick").index, 0, 0, 0, False, False, 0)
+                            self.assertEqual(wire.receive()[0], "goodbye")
+                        else:
+                            wait_until((self.folder / "left.mcap.partial").exists, "the episode runs")
+                        if ends == "goodbye":
+                            sim._wire.goodbye("enough")
+                        sim._let_go()
+                        sim._wire.close()
+                        wait_until((self.folder / "left.mcap").exists, "the trace is closed")
+                        sim._wire = None
+                        sim.close()
+                    code, said = reprise_program("verify", str(self.folder / "left.mcap"))
+                    self.assertEqual(code, 0, said)
+                    # By whom is a race where it hangs up: who waits for it may see that first.
+                    self.assertRegex(reprise_program("info", str(self.folder / "left.mcap"))[1], "ended: by its (client|server)")
+                    (self.folder / "left.mcap").unlink()
 
     def test_each_is_shown_the_ticks_that_its_scenario_says(self):
         several = SEVERAL.replace("name = 'a',", "name = 'a', every = 3,").replace("name = 'b',", "name = 'b', every = 4,")
