@@ -96,10 +96,15 @@ void check_drivers(const TestOptions& options, const FoundCases& found) {
     if (std::none_of(found.cases.begin(), found.cases.end(), is_external))
         throw world::Error("--driver " + options.drivers.front() +
                            ": none of these scenarios has a car that another program drives");
-    for (const std::string& driver : options.drivers)
-        if (driver.find("=socket:") != std::string::npos && options.jobs != 1)
-            throw world::Error("--driver " + driver +
-                               ": one run at a time can be at a socket: add --jobs 1");
+    for (const std::string& driver : options.drivers) {
+        const std::string who = driver.substr(driver.find('=') + 1);
+        if (who == "tcp:0")
+            throw world::Error("--driver " + world::printable(driver) +
+                               ": nobody would hear which port is free: name one");
+        if ((who.starts_with("socket:") || who.starts_with("tcp:")) && options.jobs != 1)
+            throw world::Error("--driver " + world::printable(driver) +
+                               ": one run at a time can be at a socket or port: add --jobs 1");
+    }
 }
 
 /// A name that was typed wrong would pass for a driver that was tested.

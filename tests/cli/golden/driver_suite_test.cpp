@@ -120,7 +120,10 @@ TEST_F(DriverSuite, SaysWhatIsWrong) {
     EXPECT_THAT(run({"accept", "one.lua", "--because", "it drives"}, 2),
                 HasSubstr("only their checks are tested: reprise test --driver"));
     EXPECT_FALSE(fs::exists(folder_ / "one.golden"));
-    EXPECT_THAT(run({"test", "--driver", "ego=socket:s.sock"}, 2), HasSubstr("add --jobs 1"));
+    for (const char* place : {"ego=socket:s.sock", "ego=tcp:2000"})
+        EXPECT_THAT(run({"test", "--driver", place}, 2), HasSubstr("add --jobs 1"));
+    EXPECT_THAT(run({"test", "--driver", "ego=tcp:0", "--jobs", "1"}, 2),
+                HasSubstr("--driver ego=tcp:0: nobody would hear which port is free"));
     EXPECT_THAT(run({"test", "--driver", "ega=true"}, 2),
                 HasSubstr("ERROR     one  one.lua:3: spawn: 'ego' is driven by another program"));
 }
