@@ -5,6 +5,7 @@ import contextlib
 import dataclasses
 import os
 import pathlib
+import select
 import shutil
 import socket
 import subprocess
@@ -296,6 +297,9 @@ class Simulation(Client):
             return self._begin()
 
     def _begin(self) -> Observation:
+        if self._is_unheard and select.select([self._open_wire()], [], [], 0)[0]:
+            with contextlib.suppress(Fault):  # Ctrl-C came while we waited for it: perhaps that episode's last word
+                self._hear()
         self._seen, self.outcome, self._is_unheard = None, None, False
         self._say("reset", **self._message())
         kind, message = self._hear(first=True)

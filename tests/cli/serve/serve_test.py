@@ -439,6 +439,15 @@ class Episodes(Case):
             wait_until(lambda: select.select([sim._wire], [], [], 0)[0], "the server answers")
             self.assertEqual(chains(sim, 5), wanted)
 
+    def test_begins_anew_where_the_last_word_of_an_episode_was_not_heard(self):
+        broken = DRIVEN.replace("wait(3600)", "wait_ticks(1) spam()")
+        with reprise.Simulation("straight", seconds=0.1, folder=self.folder) as sim:
+            for again in (dict(), dict(scenario=broken), dict(scenario=None)):
+                sim.reset(**again)
+                sim.say(reprise.Control())  # and Ctrl-C: nobody reads how it ends
+                wait_until(lambda: select.select([sim._wire], [], [], 0)[0], "the server answers")
+            self.assertEqual(sim.reset().index, 1)
+
     def test_each_control_is_said_once_and_heard_of_once(self):
         with reprise.Simulation("straight") as sim:
             sim.reset()
