@@ -235,7 +235,8 @@ void Mirrors::move(Mirror& mirror, const world::VehicleState& vehicle, const Tar
         return;
     }
     const world::LaneT& lane = town_->lanes[target.lane];
-    const auto index = static_cast<int>(graph_->index_of(target.lane));
+    // SUMO makes the lane's name of it: not the index that it counts itself.
+    const int index = lane.index;
     const std::uint32_t edge = graph_->edge_of(target.lane);
     const std::uint32_t after = graph_->edge_after(target.lane);
     auto at = std::find(mirror.route.begin(), mirror.route.end(), edge);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <libsumo/libsumo.h>
 
 #include "process/program.h"
 #include "tests/support/worlds.h"
@@ -103,6 +104,25 @@ TEST(Mirrors, ACarFollowsADrivingEgoAtItsSpeed) {
     ASSERT_NE(stage.car(follower), nullptr);
     EXPECT_NEAR(static_cast<double>(stage.car(follower)->speed()), speed, 0.3);
     EXPECT_GT(s - static_cast<double>(stage.car(follower)->lane_s()), sumo_gap);
+}
+
+/// Beside a pavement and another lane; SUMO, which has no pavement, counts these lanes otherwise
+/// than the network does. Somebody changed lanes into an ego that was beside him on the map, and
+/// behind him to SUMO.
+TEST(Mirrors, ADrivingVehicleIsInItsOwnLaneInSumo) {
+    const auto& loaded = own_town("town1");
+    for (const std::string name : {"l1_t1_1", "l1_t1_2"}) {
+        const world::LaneT& road = loaded.town.lanes[lane(loaded.town, name)];
+        Stage stage(loaded, 0);
+        for (double s = 20; s < 120; s += 0.5) {
+            stage.step({}, {vehicle_on(road, ego, s, 10)});
+            if (s < 21)  // seen a tick later, and just put there
+                continue;
+            const std::vector<std::string> known = libsumo::Vehicle::getIDList();
+            ASSERT_EQ(known.size(), 1U);
+            ASSERT_EQ(libsumo::Vehicle::getLaneID(known.front()), name) << s << " m";
+        }
+    }
 }
 
 TEST(Mirrors, TheEgoMayDriveOverAJunctionAnyWay) {
