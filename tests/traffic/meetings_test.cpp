@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/towns.h"
+#include "tests/traffic/met_cars.h"
 #include "traffic/cars/fleet.h"
 #include "traffic/sight/foresight.h"
 #include "traffic/sight/way_ahead.h"
@@ -19,188 +20,6 @@
 
 namespace reprise::traffic {
 namespace {
-
-using test::own_town;
-using world::TownT;
-
-constexpr double meeting_step = 0.05;
-
-RoadGraph graph_for(const TownT& town) {
-    return {town,
-            std::vector<world::ClassSet>(town.lanes.size(), world::permitted("", "pedestrian"))};
-}
-
-/// Of SUMO, that far [m] before the end of a lane that leads into `via`, on its way through that.
-Car car_before(const TownT& town,
-               const RoadGraph& graph,
-               std::uint32_t id,
-               const char* model,
-               std::uint32_t lane,
-               std::uint32_t via,
-               double before,
-               double speed) {
-    Car car;
-    car.id = id;
-    car.model = world::find_vehicle_model(model).value();
-    car.sumo = "known";
-    car.lane = lane;
-    const world::LaneT& on = town.lanes[lane];
-    car.lane_position = (on.length - before) / on.length * on.sumo_length;
-    car.speed = speed;
-    car.route = {graph.edge_of(lane), graph.edge_after(via)};
-    const world::LanePoint at = world::point_at(on, on.length - before);
-    car.turn_to(at.yaw);
-    const Eigen::Vector3d ahead(std::cos(at.yaw), std::sin(at.yaw), 0);
-    car.trail.start(at.position, -ahead, origin_to_front(car.model));
-    car.rear = car.trail.rear();
-    return car;
-}
-
-/// A lane and the one of a junction that it leads to.
-using Entry = std::pair<std::uint32_t, std::uint32_t>;
-
-std::vector<Entry> entries_of(const TownT& town) {
-    std::vector<Entry> entries;
-    for (std::uint32_t i = 0; i < town.lanes.size(); ++i)
-        if (world::is_for_cars(town.lanes[i]) && town.lanes[i].kind != world::LaneKind::internal &&
-            town.lanes[i].length > 25)
-            for (const world::Link& link : town.lanes[i].links)
-                if (link.via() != world::none)
-                    entries.emplace_back(i, link.via());
-    return entries;
-}
-
-/// Two routes that must agree: what is foretold, and a trail that is led along the lanes.
-TEST(WayAhead, BodiesComeWhereTheirTrailWillLead) {
-    const TownT& town = own_town("town1").town;
-    const RoadGraph graph = graph_for(town);
-    const LaneLines lines(town);
-    int turned = 0;
-    for (const auto& [lane, via] : entries_of(town)) {
-        const Car car = car_before(town, graph, 7, "bus", lane, via, 5, 4);
-        Trail trail = car.trail;
-        const WayAhead way(car, lines, graph, 16);
-        const world::LaneT& on = town.lanes[lane];
-        const world::LaneT& behind = town.lanes[via];
-        for (double driven = 0.05; driven < 5 + behind.length && driven < 15; driven += 0.05) {
-            const double s = on.length - 5 + driven;
-            trail.advance(s < on.length ? world::point_at(on, s).position
-                                        : world::point_at(behind, s - on.length).position);
-            const Eigen::Vector2d body = (trail.front() - trail.rear()).head<2>();
-            const BodyBox foretold = way.at(driven);
-            ASSERT_LT(std::abs(world::cross(foretold.ahead, body.normalized())), 0.06)
-                << on.name << " to " << behind.name << " after " << driven << " m";
-            turned += std::abs(world::cross(world::ahead_of(car.yaw), foretold.ahead)) > 0.3;
-        }
-    }
-    EXPECT_GT(turned, 100) << "no bend: nothing is shown";
-}
-
-/// Most pairs of cars are told apart by these two alone.
-TEST(WayAhead, NoBodyLeavesItsAreaOrItsCorridor) {
-    constexpr double reach = 20;
-    const TownT& town = own_town("town1").town;
-    const RoadGraph graph = graph_for(town);
-    const LaneLines lines(town);
-    double narrowest = 1e9;
-    for (const auto& [lane, via] : entries_of(town))
-        for (const char* model : {"bus", "sedan", "bicycle"})
-            for (const double beside : {0.0, 0.4}) {
-                Car car = car_before(town, graph, 7, model, lane, via, 8, 4);
-                car.trail.advance(car.trail.front() +
-                                  beside * Eigen::Vector3d(-car.ahead.y(), car.ahead.x(), 0));
-                car.rear = car.trail.rear() + Eigen::Vector3d(0, beside / 2, 0);
-                const world::Box area = area_ahead(car, lines, graph, reach);
-                const WayAhead way(car, lines, graph, reach + 1);
-                const BodyBox corridor = way.corridor(reach, way.at(0).ahead);
-                narrowest = std::min(narrowest, corridor.half_width);
-                for (double driven = 0; driven < reach; driven += 0.25) {
-                    const BodyBox body = way.at(driven);
-                    for (const double along : {-1, 1})
-                        for (const double across : {-1, 1}) {
-                            const Eigen::Vector2d corner =
-                                body.middle + along * body.half_length * body.ahead +
-                                across * body.half_width * world::turned_left(body.ahead);
-                            world::Box with = area;
-                            with.take(corner);
-                            ASSERT_TRUE(with.low == area.low && with.high == area.high)
-                                << model << " on " << town.lanes[lane].name << " to "
-                                << town.lanes[via].name << " after " << driven << " m";
-                            const Eigen::Vector2d offset = corner - corridor.middle;
-                            ASSERT_LE(std::abs(offset.dot(corridor.ahead)), corridor.half_length)
-                                << model << " on " << town.lanes[lane].name << " to "
-                                << town.lanes[via].name << " after " << driven << " m";
-                            ASSERT_LE(std::abs(world::cross(corridor.ahead, offset)),
-                                      corridor.half_width)
-                                << model << " on " << town.lanes[lane].name << " to "
-                                << town.lanes[via].name << " after " << driven << " m";
-                        }
-                }
-            }
-    EXPECT_LT(narrowest, 0.5) << "of a bicycle that drives straight on";
-}
-
-/// The same question, of every moment that is looked at.
-bool meets_at_any_moment(const Car& one,
-                         const WayAhead& way,
-                         const Car& other,
-                         const WayAhead& its_way) {
-    for (const double speed :
-         {std::max(one.speed, Foresight::least_speed), one.speed + Foresight::speeding_up})
-        for (std::size_t i = 1; i < Foresight::samples; ++i) {
-            const double seconds = Foresight::sample * static_cast<double>(i);
-            if (overlap(way.at(speed * seconds).widened(Foresight::room),
-                        its_way.at(other.speed * seconds)))
-                return true;
-        }
-    return false;
-}
-
-/// [m] to the first place on the other's way, of every place that is looked at; none: -1.
-double first_on_way(const WayAhead& way, const WayAhead& its_way, double reach) {
-    for (double s = 0; s <= reach; s += Foresight::spacing)
-        for (std::size_t i = 0; i < Foresight::samples; ++i)
-            if (overlap(way.at(s).widened(Foresight::room),
-                        its_way.at(reach / (Foresight::samples - 1) * static_cast<double>(i))))
-                return s;
-    return -1;
-}
-
-/// What is passed over because it is sure is what a look at everything would find.
-TEST(Foresight, TellsWhatALookAtEveryMomentTells) {
-    constexpr double reach = 26;
-    const TownT& town = own_town("town1").town;
-    const RoadGraph graph = graph_for(town);
-    const LaneLines lines(town);
-    const std::vector<Entry> entries = entries_of(town);
-    int met = 0, missed = 0;
-    for (const Entry& one : entries)
-        for (const Entry& other : entries) {
-            if (graph.edge_of(one.first) >= graph.edge_of(other.first) ||
-                town.lanes[one.second].junction != town.lanes[other.second].junction)
-                continue;
-            for (const double speed : {0.0, 0.5, 4.0, 8.0}) {
-                const Car car =
-                    car_before(town, graph, 7, "bus", one.first, one.second, 1 + speed, speed);
-                const Car its =
-                    car_before(town, graph, 8, "sedan", other.first, other.second, 6, 7);
-                Foresight seen, its_seen;
-                seen.look(car, lines, graph, reach);
-                its_seen.look(its, lines, graph, reach);
-                const WayAhead way(car, lines, graph, reach + 1);
-                const WayAhead its_way(its, lines, graph, reach + 1);
-                const bool meets = meets_at_any_moment(car, way, its, its_way);
-                (meets ? met : missed) += 1;
-                ASSERT_EQ(seen.would_meet(its_seen), meets)
-                    << town.lanes[one.second].name << " and " << town.lanes[other.second].name;
-                ASSERT_EQ(its_seen.would_meet(seen), meets_at_any_moment(its, its_way, car, way));
-                const Foresight::Entry first = seen.first_on_way_of(its_seen);
-                ASSERT_EQ(first.is_any ? first.driven : -1, first_on_way(way, its_way, reach));
-            }
-        }
-    EXPECT_GT(met, 50);
-    EXPECT_GT(missed, 100);
-}
 
 /// Its bumper is in the left lane, where a queue stands; who comes on the right sees its tail.
 TEST(Meetings, NobodyDrivesThroughTheTailOfWhoStandsBetweenTwoLanes) {
@@ -498,146 +317,6 @@ TEST(Meetings, WhatWasForeseenHoldsUntilSomethingHappensToTheCars) {
         EXPECT_GT(mattered[i], 0) << "change " << i << " shows nothing";
 }
 
-/// In the junction, so far [m] along its lane, and there for long.
-Car car_inside(
-    const TownT& town, const RoadGraph& graph, std::uint32_t id, const Entry& entry, double s) {
-    Car car = car_before(town, graph, id, "sedan", entry.first, entry.second, 1, 0);
-    const world::LaneT& on = town.lanes[entry.second];
-    for (double driven = -1; driven <= s; driven += 0.1)
-        car.trail.advance(driven < 0 ? world::point_at(town.lanes[entry.first],
-                                                       town.lanes[entry.first].length + driven)
-                                           .position
-                                     : world::point_at(on, driven).position);
-    car.lane = entry.second;
-    car.lane_position = s / on.length * on.sumo_length;
-    car.rear = car.trail.rear();
-    const Eigen::Vector2d body = (car.trail.front() - car.rear).head<2>();
-    car.turn_to(std::atan2(body.y(), body.x()));
-    car.standing_ticks = car.stuck_ticks = 200;
-    return car;
-}
-
-/// Two that stand in each other's way: one gets past by a mirror's width for which the other one
-/// waits, and through a body nobody drives. (What they would touch is worked out twice, once by
-/// Foresight and once by a look at each half metre of the way.)
-TEST(Meetings, OneOfTwoInEachOthersWayPushesPastAndNobodyPushesThrough) {
-    const TownT& town = own_town("town1").town;
-    const RoadGraph graph = graph_for(town);
-    const RightOfWay right_of_way(town, {});
-    const LaneLines lines(town);
-    const std::vector<Entry> entries = entries_of(town);
-    int past = 0, blocked = 0;
-    for (const Entry& one : entries)
-        for (const Entry& other : entries) {
-            if (graph.edge_of(one.first) >= graph.edge_of(other.first) ||
-                town.lanes[one.second].junction != town.lanes[other.second].junction)
-                continue;
-            for (double s = 1; s < town.lanes[one.second].length - 1; s += 1)
-                for (double its = 1; its < town.lanes[other.second].length - 1; its += 0.5) {
-                    Cars cars;
-                    world::TickDraft draft;
-                    cars.add(car_inside(town, graph, 7, one, s), "", 0, draft);
-                    cars.add(car_inside(town, graph, 8, other, its), "", 0, draft);
-                    const WayAhead way(cars[0], lines, graph, 20);
-                    const WayAhead its_way(cars[1], lines, graph, 20);
-                    const auto deepest = [](const WayAhead& of, const BodyBox& standing) {
-                        double found = 0;
-                        for (double driven = 0; driven < 5; driven += 0.25)
-                            found = std::max(found, depth(of.at(driven), standing));
-                        return found;
-                    };
-                    if (overlap(way.at(0).widened(0.1), its_way.at(0)))
-                        continue;
-                    const double least =
-                        std::min(deepest(way, its_way.at(0)), deepest(its_way, way.at(0)));
-                    Meetings meetings(town, graph, right_of_way, meeting_step);
-                    meetings.look(cars, 2);
-                    const std::size_t pushing =
-                        cars[0].pushes_past.size() + cars[1].pushes_past.size();
-                    ASSERT_LE(pushing, 1U) << "both would";
-                    if (least > 0.6) {
-                        ++blocked;
-                        ASSERT_EQ(pushing, 0U) << least << " m";
-                    }
-                    if (pushing == 0)
-                        continue;
-                    ++past;
-                    const std::size_t who = cars[0].pushes_past.empty() ? 1 : 0;
-                    ASSERT_LT(deepest(who == 0 ? way : its_way, (who == 0 ? its_way : way).at(0)),
-                              0.5);
-                    meetings.look(cars, 3);
-                    EXPECT_TRUE(std::isinf(meetings.allowed_speed(who)));
-                    EXPECT_EQ(meetings.allowed_speed(1 - who), 0);
-                }
-        }
-    EXPECT_GT(past, 5);
-    EXPECT_GT(blocked, 20);
-}
-
-/// The body, and all of its way, so many metres to the left.
-double deepest_aside(const WayAhead& way, const BodyBox& standing, double left) {
-    double found = 0;
-    for (double driven = 0; driven < 5; driven += 0.25) {
-        BodyBox body = way.at(driven);
-        body.middle += left * world::turned_left(body.ahead);
-        found = std::max(found, depth(body, standing));
-    }
-    return found;
-}
-
-TEST(Meetings, WhoPushesPastSteersAsideInItsLaneAndThenBackAgain) {
-    const TownT& town = own_town("town1").town;
-    const RoadGraph graph = graph_for(town);
-    const RightOfWay right_of_way(town, {});
-    const LaneLines lines(town);
-    const std::vector<Entry> entries = entries_of(town);
-    const double width = world::vehicle_models()[0].width;
-    constexpr double sampled = 0.05;  // [m] that a look at each quarter of a metre may miss
-    int to_the_left = 0, to_the_right = 0;
-    for (const Entry& one : entries)
-        for (const Entry& other : entries) {
-            if (graph.edge_of(one.first) >= graph.edge_of(other.first) ||
-                town.lanes[one.second].junction != town.lanes[other.second].junction)
-                continue;
-            for (double s = 1; s < town.lanes[one.second].length - 1; s += 2)
-                for (double its = 1; its < town.lanes[other.second].length - 1; its += 2) {
-                    Cars cars;
-                    world::TickDraft draft;
-                    cars.add(car_inside(town, graph, 7, one, s), "", 0, draft);
-                    cars.add(car_inside(town, graph, 8, other, its), "", 0, draft);
-                    Meetings meetings(town, graph, right_of_way, meeting_step);
-                    meetings.look(cars, 2);
-                    if (cars[0].pushes_past.empty() && cars[1].pushes_past.empty()) {
-                        ASSERT_FALSE(cars[0].offset_order || cars[1].offset_order);
-                        continue;
-                    }
-                    const std::size_t who = cars[0].pushes_past.empty() ? 1 : 0;
-                    Car& pusher = cars[who];
-                    const WayAhead way(pusher, lines, graph, 20);
-                    const BodyBox standing = WayAhead(cars[1 - who], lines, graph, 20).at(0);
-                    const double straight_on = deepest_aside(way, standing, 0);
-                    ASSERT_FALSE(cars[1 - who].offset_order);
-                    if (!pusher.offset_order) {
-                        ASSERT_LT(straight_on, sampled);
-                        continue;
-                    }
-                    const double left = pusher.offset_order->change.to;
-                    ASSERT_LE(std::abs(left) + width / 2, town.lanes[pusher.lane].width / 2 + 1e-9);
-                    ASSERT_LT(deepest_aside(way, standing, left), std::max(straight_on, sampled));
-                    ++(left > 0 ? to_the_left : to_the_right);
-                    pusher.offset = left;
-                    meetings.look(cars, pusher.pushes_until - 1);
-                    ASSERT_EQ(pusher.offset_order->change.to, left);
-                    pusher.standing_ticks = pusher.stuck_ticks = 0;
-                    meetings.look(cars, pusher.pushes_until);
-                    ASSERT_EQ(pusher.offset_order->change.to, 0);
-                    ASSERT_EQ(pusher.offset_order->change.from, left);
-                }
-        }
-    EXPECT_GT(to_the_left, 0);
-    EXPECT_GT(to_the_right, 5);
-}
-
 /// Whoever lies in another one's body, by whatever went wrong before.
 TEST(Meetings, WhoLiesInAnotherBodyGetsNoDeeperIntoIt) {
     const TownT& town = own_town("town1").town;
@@ -645,38 +324,28 @@ TEST(Meetings, WhoLiesInAnotherBodyGetsNoDeeperIntoIt) {
     const RightOfWay right_of_way(town, {});
     const LaneLines lines(town);
     int deeper = 0, out = 0;
-    for (const Entry& one : entries_of(town))
-        for (const Entry& other : entries_of(town)) {
-            if (graph.edge_of(one.first) >= graph.edge_of(other.first) ||
-                town.lanes[one.second].junction != town.lanes[other.second].junction ||
-                graph.edge_after(one.second) == graph.edge_after(other.second))
+    for_pairs_inside(town, graph, {1, 1, 3}, [&](const Entry& one, const Entry& other, Cars& cars) {
+        if (graph.edge_after(one.second) == graph.edge_after(other.second))
+            return;
+        const WayAhead way(cars[0], lines, graph, 20);
+        const WayAhead its_way(cars[1], lines, graph, 20);
+        const double now = depth(way.at(0), its_way.at(0));
+        if (now < 0.02)
+            return;
+        Meetings meetings(town, graph, right_of_way, meeting_step);
+        meetings.look(cars, 2);
+        for (const std::size_t who : {0U, 1U}) {
+            if (std::isfinite(meetings.allowed_speed(who)))
                 continue;
-            for (double s = 1; s < town.lanes[one.second].length - 3; s += 1)
-                for (double its = 1; its < town.lanes[other.second].length - 3; its += 1) {
-                    Cars cars;
-                    world::TickDraft draft;
-                    cars.add(car_inside(town, graph, 7, one, s), "", 0, draft);
-                    cars.add(car_inside(town, graph, 8, other, its), "", 0, draft);
-                    const WayAhead way(cars[0], lines, graph, 20);
-                    const WayAhead its_way(cars[1], lines, graph, 20);
-                    const double now = depth(way.at(0), its_way.at(0));
-                    if (now < 0.02)
-                        continue;
-                    Meetings meetings(town, graph, right_of_way, meeting_step);
-                    meetings.look(cars, 2);
-                    for (const std::size_t who : {0U, 1U}) {
-                        if (std::isfinite(meetings.allowed_speed(who)))
-                            continue;
-                        ++out;
-                        const WayAhead& of = who == 0 ? way : its_way;
-                        const BodyBox standing = (who == 0 ? its_way : way).at(0);
-                        const double soon = depth(of.at(1.2), standing);
-                        ASSERT_LT(soon, std::max(now + 0.1, 0.5)) << now << " m";
-                    }
-                    for (const std::size_t who : {0U, 1U})
-                        deeper += meetings.allowed_speed(who) == 0;
-                }
+            ++out;
+            const WayAhead& of = who == 0 ? way : its_way;
+            const BodyBox standing = (who == 0 ? its_way : way).at(0);
+            const double soon = depth(of.at(1.2), standing);
+            ASSERT_LT(soon, std::max(now + 0.1, 0.5)) << now << " m";
         }
+        for (const std::size_t who : {0U, 1U})
+            deeper += meetings.allowed_speed(who) == 0;
+    });
     EXPECT_GT(deeper, 50);
     EXPECT_GT(out, 50);
 }
