@@ -232,7 +232,10 @@ void Lookout::advance(const world::TickView& last, Cars& cars, std::uint64_t tic
         else if (car.pass)
             passing_.follow(car, tick);
         double allowed = allowed_speed(car, cars);
-        if (car.held_back && !car.pass && allowed < Passing::speed) {
+        // Where there is a lane beside its own SUMO has it stand before a stand-in.
+        const bool is_held = car.held_back || town_->lanes[car.lane].left != none ||
+                             town_->lanes[car.lane].right != none;
+        if (is_held && !car.pass && allowed < Passing::speed) {
             passing_.begin(car, cars, last, tick);
             if (car.pass)
                 allowed = allowed_speed(car, cars);

@@ -1,11 +1,14 @@
 #include "traffic/sight/passing.h"
 
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/towns.h"
 #include "tests/support/worlds.h"
+#include "tests/traffic/stage.h"
 #include "traffic/cars/fleet.h"
 #include "traffic/sight/obstructions.h"
 #include "traffic/sight/pulling_out.h"
@@ -120,6 +123,35 @@ TEST(Passing, NobodyPassesAQueueThatGoesOnRoundABend) {
 
 /// SUMO counts the rest of a change in whole milliseconds, and asserts before a turn that one is
 /// left: who stood a few centimetres from the end of a change stopped the run.
+/// A wreck across the line between two lanes stood before a queue on both of them for half an hour.
+TEST(Passing, WhereEachLaneIsBlockedTheInnerOneGoesThroughTheOncomingOne) {
+    const test::Loaded& loaded = test::own_town("town1");
+    const std::uint32_t inner = test::lane(loaded.town, "l1_t1_2");
+    const std::uint32_t outer = test::lane(loaded.town, "l1_t1_1");
+    const double s = 100;
+    const std::vector<world::VehicleState> wrecks{
+        test::vehicle_on(loaded.town.lanes[inner], 1, s),
+        test::vehicle_on(loaded.town.lanes[outer], 2, s),
+    };
+    test::Stage stage(loaded, 100, 2);
+    std::map<std::uint32_t, double> before;
+    int past = 0;
+    for (int i = 0; i < 6000; ++i) {
+        stage.step({}, wrecks);
+        for (const world::CarState& car : stage.view().cars()) {
+            if (car.lane() != inner && car.lane() != outer)
+                continue;
+            const double at = static_cast<double>(car.lane_s());
+            const auto last = before.find(car.id());
+            const bool is_past = last != before.end() && last->second < s && at > s;
+            ASSERT_FALSE(is_past && car.lane() == outer) << "through the wreck";
+            past += is_past;
+            before[car.id()] = at;
+        }
+    }
+    EXPECT_GT(past, 3);
+}
+
 TEST(PullingOut, WhatIsLeftOfAChangeTakesAStepAndNoLess) {
     for (const double off : {0.004, 0.02, 0.05, 0.3, 1.6})
         for (const double side : {-1, 1}) {

@@ -17,6 +17,7 @@ namespace {
 using world::none;
 
 constexpr double pass_patience = 8;      // [s]
+constexpr double patience_beside = 20;   // [s] where a lane beside its own may get free
 constexpr double first_in_line = 9;      // [m] at most to what is passed
 constexpr double longest_row = 25;       // [m] of what is passed at once
 constexpr double room_to_return = 14;    // [m] of the lane, beside the car's own length
@@ -147,8 +148,11 @@ void Passing::begin(Car& car,
         static_cast<double>(car.standing_ticks) * step_ < pass_patience)
         return;
     const world::LaneT& lane = town_->lanes[car.lane];
-    if (lane.kind != world::LaneKind::driving || lane.opposite == none || lane.left != none ||
-        lane.right != none || town_->lanes[lane.opposite].kind != world::LaneKind::driving)
+    const std::uint32_t inner = town_->left_hand ? lane.right : lane.left;
+    const std::uint32_t outer = town_->left_hand ? lane.left : lane.right;
+    if (lane.kind != world::LaneKind::driving || lane.opposite == none || inner != none ||
+        town_->lanes[lane.opposite].kind != world::LaneKind::driving ||
+        (outer != none && static_cast<double>(car.standing_ticks) * step_ < patience_beside))
         return;
     const world::LaneT& opposite = town_->lanes[lane.opposite];
     const double aside = (town_->left_hand ? -1 : 1) * (lane.width + opposite.width) / 2;

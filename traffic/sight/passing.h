@@ -11,7 +11,7 @@
 
 namespace reprise::traffic {
 
-/// Around what blocks the only lane of its direction: through the oncoming one.
+/// Around what blocks each lane of its direction: through the oncoming one.
 ///
 /// MUST    begin only where the oncoming lane is free for as long as it takes, and where there is
 ///         room to come back before the lane ends.
@@ -19,7 +19,8 @@ namespace reprise::traffic {
 ///         the while, and that others see a car that is aside (see footprints.h).
 /// GOES    who has stood for some seconds, first behind the thing, is told to drive aside by a
 ///         lane's width, and behind the thing to come back; slowly, where it stands so close that
-///         a corner would touch the thing otherwise, and not at all where it would even so.
+///         a corner would touch the thing otherwise, and not at all where it would even so. Where
+///         there is a lane beside its own, which may get free (PullingOut), it has more patience.
 /// KEEPS   nothing beside the cars.
 class Passing {
   public:
