@@ -138,19 +138,24 @@ TEST(BackOff, ItsNoseDoesNotSwingIntoWhoStandsBesideIt) {
 /// Nose to flank, as two stand in a junction; whether it may overtake or not.
 class BackOffBeforeOneAcross : public testing::TestWithParam<bool> {};
 
-INSTANTIATE_TEST_SUITE_P(MayOvertake, BackOffBeforeOneAcross, testing::Bool());
-
-TEST_P(BackOffBeforeOneAcross, LetsItGo) {
-    Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
-    drive.place(0, 20, 5);
-    drive.autopilot->may_overtake(GetParam());
+/// Of SUMO, in a junction, with its flank before who comes along y = 0 to x = 60.
+world::CarState car_across() {
     world::CarState across{};
     across.mutate_id(50);
     across.mutate_lane(world::none);
     across.mutate_yaw(static_cast<float>(std::acos(0.0)));
     across.mutate_lamps(world::lamp_brake);
     across.mutable_position() = world::Vec3(60, -2, 0);
-    drive.cars = {across};
+    return across;
+}
+
+INSTANTIATE_TEST_SUITE_P(MayOvertake, BackOffBeforeOneAcross, testing::Bool());
+
+TEST_P(BackOffBeforeOneAcross, LetsItGo) {
+    Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
+    drive.place(0, 20, 5);
+    drive.autopilot->may_overtake(GetParam());
+    drive.cars = {car_across()};
     std::vector<std::string> news;
     double farthest = 0;
     double back_at = 0;
@@ -227,13 +232,7 @@ TEST(BackOff, WaitsWhileTheOtherOneGoes) {
     const auto waits = [](double speed) {
         Drive drive(one_lane(Turtle(0, 0, 0).ahead(600)));
         drive.place(0, 20, 5);
-        world::CarState across{};
-        across.mutate_id(50);
-        across.mutate_lane(world::none);
-        across.mutate_yaw(static_cast<float>(std::acos(0.0)));
-        across.mutate_lamps(world::lamp_brake);
-        across.mutable_position() = world::Vec3(60, -2, 0);
-        drive.cars = {across};
+        drive.cars = {car_across()};
         while (drive.seconds() < 60 && drive.autopilot->news() == nullptr)
             drive.step();
         const double begun = drive.seconds();

@@ -349,6 +349,16 @@ TEST_P(Door, TheFirstDrivesAndEverybodyElseIsToldWhyNot) {
     EXPECT_THAT(refusal(place), HasSubstr("nobody is there"));
 }
 
+void drive_a_tick(Seat& seat) {
+    const auto taken = seat.take(3, recording());
+    EXPECT_FALSE(taken) << taken->reason;
+    if (!taken) {
+        EXPECT_FALSE(seat.show(tick(1)));
+        EXPECT_TRUE(std::holds_alternative<world::Control>(seat.answer()));
+    }
+    seat.leave("done");
+}
+
 /// As another run does that was told the same place, and wants to know whether somebody is there.
 TEST_P(Door, WhoHangsUpBeforeItIsReadyWasNoDriver) {
     Seat seat(plan(), {10.0});
@@ -358,13 +368,7 @@ TEST_P(Door, WhoHangsUpBeforeItIsReadyWasNoDriver) {
         while (run.next())
             run.say({.throttle = 0.5});
     });
-    const auto taken = seat.take(3, recording());
-    EXPECT_FALSE(taken) << taken->reason;
-    if (!taken) {
-        EXPECT_FALSE(seat.show(tick(1)));
-        EXPECT_TRUE(std::holds_alternative<world::Control>(seat.answer()));
-    }
-    seat.leave("done");
+    drive_a_tick(seat);
     driver.join();
 }
 
@@ -381,13 +385,7 @@ TEST_P(Door, WhoComesForEpisodesWasNoDriver) {
         while (run.next())
             run.say({.throttle = 0.5});
     });
-    const auto taken = seat.take(3, recording());
-    EXPECT_FALSE(taken) << taken->reason;
-    if (!taken) {
-        EXPECT_FALSE(seat.show(tick(1)));
-        EXPECT_TRUE(std::holds_alternative<world::Control>(seat.answer()));
-    }
-    seat.leave("done");
+    drive_a_tick(seat);
     others.join();
     EXPECT_EQ(told, "no server is there, but a run that waits for a driver");
 }
