@@ -19,6 +19,7 @@
 #include "traffic/car_reader.h"
 #include "traffic/cars/bends.h"
 #include "traffic/cars/cars.h"
+#include "traffic/cars/decisions.h"
 #include "traffic/demand.h"
 #include "traffic/detours.h"
 #include "traffic/insertion.h"
@@ -81,6 +82,7 @@ struct Background::Parts {
           spawns(episode, town, graph, points, insertion, placements),
           orders(episode, town, graph, routes),
           lookout(episode, town, lanes, graph, right_of_way, orders),
+          decisions(town, world::seconds(1, episode.step_ns)),
           standoffs(town, graph, right_of_way, world::seconds(1, episode.step_ns)),
           bends(town),
           lane_change_pace(town),
@@ -110,6 +112,7 @@ struct Background::Parts {
     ScriptedSpawns spawns;
     Orders orders;
     Lookout lookout;
+    Decisions decisions;
     Standoffs standoffs;
     Bends bends;
     LaneChangePace lane_change_pace;
@@ -237,6 +240,7 @@ void Background::advance(const world::TickView& last, world::TickDraft& next) {
     parts.standoffs.hold(parts.cars, next.tick.index);
     parts.lookout.advance(last, parts.cars, next.tick.index);
     parts.standoffs.advance(last, parts.cars, next.tick.index);
+    parts.decisions.follow(parts.cars);
     parts.signal_orders.follow(next.tick.index);
     parts.mirrors.advance(last, parts.cars.all(), beside_sumo, wrecks);
 

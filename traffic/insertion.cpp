@@ -50,6 +50,7 @@ void Insertion::insert(Car& car, const InsertionPoint& point, const std::string&
     Vehicle::setPreviousSpeed(car.sumo, car.speed);
     car.aside_limit = -1;
     car.bend_limit = 0;
+    car.skips = 0;
     car.lane_change_mode = -1;
     car.trail.start(way_to(lane, point.s, origin_to_front(car.model)), origin_to_front(car.model));
     car.rear = car.trail.rear();

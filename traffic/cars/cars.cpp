@@ -84,7 +84,7 @@ CarDigest kept_of(const Car& car) {
              car.last_lane,
              static_cast<std::uint32_t>(car.route.size()),
              std::uint32_t{car.held_back},
-             0}};
+             car.skips}};
 }
 
 }  // namespace
