@@ -65,13 +65,15 @@ class Lookout {
     /// Behind SUMO's step: what can be told of the next tick already. Changes nothing that can be
     /// asked here, as Meetings::look_ahead.
     void look_ahead(const Cars& cars, std::uint64_t tick) {
-        meetings_.look_ahead(cars.all(), tick);
+        if (Meetings::looks_in(tick))
+            meetings_.look_ahead(cars.all(), tick);
     }
 
     /// Beside what the cars keep; nothing where nothing is in the way.
     void add_to(world::Hasher& hasher) const {
         obstructions_.add_to(hasher);
         stand_ins_.add_to(hasher);
+        meetings_.add_to(hasher);
     }
 
   private:

@@ -164,6 +164,50 @@ TEST(Meetings, WhoTakesNoPartWaitsForNobody) {
     EXPECT_TRUE(cars[0].blocked_by.empty());
 }
 
+/// By the word of one look alone: it knows where it has to stop, and how far it has come.
+TEST(Meetings, WhoIsHeldBackStopsWithoutAnotherLook) {
+    const TownT& town = own_town("town1").town;
+    const RoadGraph graph = graph_for(town);
+    const RightOfWay right_of_way(town, {});
+    const std::vector<Entry> entries = entries_of(town);
+    constexpr double before = 9;  // [m]
+    int held = 0;
+    for (const Entry& one : entries)
+        for (const Entry& other : entries) {
+            if (graph.edge_of(one.first) == graph.edge_of(other.first) ||
+                town.lanes[one.second].junction != town.lanes[other.second].junction)
+                continue;
+            Cars cars;
+            world::TickDraft draft;
+            cars.add(car_before(town, graph, 7, "sedan", one.first, one.second, before, 6),
+                     "",
+                     0,
+                     draft);
+            cars.add(
+                car_before(town, graph, 8, "sedan", other.first, other.second, 0, 6), "", 0, draft);
+            Meetings meetings(town, graph, right_of_way, meeting_step);
+            meetings.keep(cars);
+            EXPECT_FALSE(std::isfinite(meetings.allowed_speed(0)));
+            meetings.look(cars, 2);
+            if (!std::isfinite(meetings.allowed_speed(0)))
+                continue;
+            ++held;
+            double driven = 0;  // [m]
+            for (int i = 0; i < 200; ++i) {
+                cars[0].speed = std::min(meetings.allowed_speed(0), cars[0].speed);
+                driven += cars[0].speed * meeting_step;
+                meetings.keep(cars);
+            }
+            EXPECT_LT(cars[0].speed, 0.1) << town.lanes[one.second].name;
+            EXPECT_LT(driven, Foresight::look_ahead * (6 + Foresight::speeding_up));
+            EXPECT_GT(driven, before / 2);
+            cars[0].offset = 1.5;  // and who drives around something by now goes on with nothing
+            meetings.keep(cars);
+            EXPECT_FALSE(std::isfinite(meetings.allowed_speed(0)));
+        }
+    EXPECT_GT(held, 10);
+}
+
 /// What was worked out for who stands is the same as if it were worked out anew: two routes.
 TEST(Meetings, WhoStandsIsSeenAsIfHeWereSeenForTheFirstTime) {
     const TownT& town = own_town("town1").town;

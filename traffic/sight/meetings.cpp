@@ -62,6 +62,7 @@ void Meetings::gather(std::span<const Car> cars) {
     for (std::size_t i = 0; i < cars.size(); ++i)
         drivers_[i].take(cars[i]);
     allowed_.assign(cars.size(), world::infinity);
+    found_.clear();
     places_.gather(cars, drivers_);
 }
 
@@ -123,12 +124,16 @@ Meetings::Stop Meetings::stop_before_body(const Driver& driver, const Driver& ot
     return stop_at(driver, driver.seen->first_on(body), other, body);
 }
 
-void Meetings::hold(const Driver& driver, const Stop& stop) {
-    const Car& car = *driver.car;
+double Meetings::speed_before(const Car& car, const Hold& hold) const {
     const Braking braking{
         car.speed, comfortable_braking(car.model), emergency_braking(car.model), step_};
+    return braking.speed_before(hold.distance, gap_before, hold.speed);
+}
+
+void Meetings::hold(const Driver& driver, const Stop& stop) {
+    found_.push_back({driver.car->id, stop.distance, stop.speed});
     double& allowed = allowed_[static_cast<std::size_t>(&driver - drivers_.data())];
-    allowed = std::min(allowed, braking.speed_before(stop.distance, gap_before, stop.speed));
+    allowed = std::min(allowed, speed_before(*driver.car, found_.back()));
 }
 
 /// Whom it waits for goes on, as far as there is room beside who waits.
@@ -341,6 +346,26 @@ bool Meetings::has_foreseen(std::span<const Car> cars, std::uint64_t tick) const
     return true;
 }
 
+void Meetings::keep(const Cars& cars) {
+    allowed_.assign(cars.size(), world::infinity);
+    for (Hold& hold : kept_) {
+        const Car* car = cars.find(hold.id);
+        if (car == nullptr || !Driver::takes_part(*car))
+            continue;
+        hold.distance += (hold.speed - car->speed) * step_;
+        double& allowed = allowed_[static_cast<std::size_t>(car - cars.all().data())];
+        allowed = std::min(allowed, speed_before(*car, hold));
+    }
+}
+
+void Meetings::add_to(world::Hasher& hasher) const {
+    for (const Hold& hold : kept_) {
+        hasher.add(hold.id);
+        hasher.add(hold.distance);
+        hasher.add(hold.speed);
+    }
+}
+
 void Meetings::look(Cars& cars, std::uint64_t tick) {
     const auto all = cars.all();
     if (!has_foreseen(all, tick)) {
@@ -349,6 +374,7 @@ void Meetings::look(Cars& cars, std::uint64_t tick) {
         look_at_pairs();
     }
     ahead_of_ = 0;
+    kept_ = found_;
     for (std::size_t i = 0; i < drivers_.size(); ++i) {
         const Driver& driver = drivers_[i];
         all[i].waits_for = driver.waits_for;

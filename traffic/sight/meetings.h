@@ -30,7 +30,8 @@ namespace reprise::traffic {
 ///         one stands still, aside from it in its own lane; not where it would be through the
 ///         other one. Who lies in another one
 ///         gets no deeper in.
-/// KEEPS   with each car, whom it waits for, and whom it pushes past until when (PushingPast).
+/// KEEPS   with each car, whom it waits for, and whom it pushes past until when (PushingPast); who
+///         is held back before what, from one look to the next.
 class Meetings {
   public:
     /// All three must outlive this. `step` [s] of a tick.
@@ -42,19 +43,36 @@ class Meetings {
     /// As the cars are now, in the tick being made.
     void look(Cars& cars, std::uint64_t tick);
 
+    /// Every second tick is enough for who looks seconds ahead; in the others, keep().
+    static bool looks_in(std::uint64_t tick) { return tick % 2 == 0; }
+
+    /// Whoever is held back since the last look goes on with it, one tick later and further on.
+    void keep(const Cars& cars);
+
     /// What look() will find in that tick, if nothing happens to the cars until then; where
     /// something does, it looks anew. Changes nothing that can be asked here: another thread may do
     /// it while nobody else changes or asks anything of the cars or of this.
     void look_ahead(std::span<const Car> cars, std::uint64_t tick);
 
-    /// [m/s] for cars[index] in the next tick, as of the last look; infinite where nobody is met.
+    /// [m/s] for cars[index] in the next tick, as of the last look or keep; infinite where nobody
+    /// is met.
     double allowed_speed(std::size_t index) const { return allowed_[index]; }
 
     /// Of the town's lanes, for who foretells bodies as well.
     const LaneLines& lines() const { return lines_; }
 
+    /// What is kept beside what the cars keep.
+    void add_to(world::Hasher& hasher) const;
+
   private:
     using Driver = MetDriver;
+
+    /// Whom it holds back, and before what.
+    struct Hold {
+        std::uint32_t id = 0;
+        double distance = 0;  ///< [m] that its bumper may go on
+        double speed = 0;     ///< [m/s] of what is there, along its way
+    };
 
     /// Where one can stop before another's way.
     struct Stop {
@@ -91,6 +109,7 @@ class Meetings {
     static Stop stop_before_way(const Driver& driver, const Driver& other);
     static Stop stop_before_body(const Driver& driver, const Driver& other);
     void hold(const Driver& driver, const Stop& stop);
+    double speed_before(const Car& car, const Hold& hold) const;
 
     const LaneLines lines_;
     const RoadGraph* graph_;
@@ -100,6 +119,8 @@ class Meetings {
     double step_;               ///< [s]
     std::vector<bool> yields_;  ///< by lane of a junction: has to let others go first
     std::vector<double> allowed_;
+    std::vector<Hold> found_;      ///< by looking, also ahead
+    std::vector<Hold> kept_;       ///< of the last look, as of the last tick
     std::vector<Driver> drivers_;  ///< [i] of cars[i]; without a car who takes no part
     std::uint64_t tick_ = 0;
     std::uint64_t ahead_of_ = 0;  ///< tick that was looked at ahead; 0: none
