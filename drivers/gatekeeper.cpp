@@ -102,6 +102,17 @@ bool meet(const Stay& ours, const Stay& theirs) {
     return theirs.from < ours.to + time_margin && theirs.to > ours.from - time_margin;
 }
 
+/// [s] until one who turns has driven `inside` metres of a junction that begins `to_line` metres
+/// ahead of him: he brakes for it.
+double turning_time(double to_line, double inside, double speed, double pace) {
+    constexpr double braking = 2.5;  // [m/s^2]
+    if (speed <= pace)
+        return travel_time(to_line, speed, 1, pace) + inside / pace;
+    const double slows = (speed * speed - pace * pace) / (2 * braking);
+    const double slowing = std::min(slows, to_line);
+    return (to_line - slowing) / speed + slowing / ((speed + pace) / 2) + inside / pace;
+}
+
 bool conflicts(const Comer& comer,
                const ConflictPoint& conflict,
                const Stay& ours,
@@ -120,8 +131,14 @@ bool conflicts(const Comer& comer,
         return false;  // waits in the junction, perhaps for us
     }
     const double top = std::max({comer.speed, lane.speed_limit * 0.8, 3.0});
+    const double to_leave = to_meeting + comer.length + space_margin;
+    const double to_line = conflict.inside ? 0 : std::max(lane.length - comer.front_s, 0.0);
+    const double turned =
+        std::isfinite(conflict.pace)
+            ? turning_time(to_line, to_leave - to_line, comer.speed, conflict.pace)
+            : 0;
     const Stay theirs{travel_time(to_meeting - space_margin, comer.speed, 2, top),
-                      travel_time(to_meeting + comer.length + space_margin, comer.speed, 1, top)};
+                      std::max(travel_time(to_leave, comer.speed, 1, top), turned)};
     return meet(ours, theirs);
 }
 

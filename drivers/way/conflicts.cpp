@@ -1,5 +1,6 @@
 #include "drivers/way/conflicts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -56,6 +57,23 @@ std::optional<Meeting> crossing(const Line& ours, const Line& theirs) {
         }
     }
     return std::nullopt;
+}
+
+/// [m/s] at which a driver takes it, by its mean radius; infinite where it leads straight on.
+double pace_on(const Line& line) {
+    constexpr double sideways = 2;  // [m/s^2] that drivers like
+    constexpr double least = 2.5;   // [m/s]
+    constexpr double bends = 0.35;  // [rad] all of it
+    const std::size_t last = line.points.size() - 1;
+    double turned = 0;
+    for (std::size_t i = 1; i < last; ++i) {
+        const Eigen::Vector2d before = line.points[i] - line.points[i - 1];
+        const Eigen::Vector2d behind = line.points[i + 1] - line.points[i];
+        turned += std::atan2(world::cross(before, behind), before.dot(behind));
+    }
+    turned = std::abs(turned);
+    return turned < bends ? world::infinity
+                          : std::max(std::sqrt(sideways * line.s.back() / turned), least);
 }
 
 double end_yaw(const LaneT& lane) {
@@ -121,6 +139,7 @@ std::vector<ConflictPoint> find_conflicts(const LaneGraph& graph,
             if (!meeting)
                 continue;
             pattern.our_s = gate_s + meeting->ours;
+            pattern.pace = pace_on(theirs);
             add_conflict(graph, other, other_link, inside, *meeting, pattern, conflicts);
         }
     }

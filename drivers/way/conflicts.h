@@ -5,6 +5,7 @@
 
 #include "drivers/way/lane_graph.h"
 #include "world/tick.h"
+#include "world/units.h"
 
 namespace reprise::drivers {
 
@@ -15,8 +16,9 @@ struct ConflictPoint {
     double our_s = 0;                          ///< the same place along our path
     std::uint32_t signal = world::none;        ///< of that lane's link
     world::Turn turn = world::Turn::straight;  ///< of that lane's link
-    bool inside = false;  ///< an internal lane: who is there is in the junction already
-    bool yields = false;  ///< that lane's link must give way, too
+    double pace = world::infinity;  ///< [m/s] at most through the junction, who turns there
+    bool inside = false;            ///< an internal lane: who is there is in the junction already
+    bool yields = false;            ///< that lane's link must give way, too
     bool from_right = false;
     bool oncoming = false;
 };

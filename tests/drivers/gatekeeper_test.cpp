@@ -131,6 +131,27 @@ TEST(Gatekeeper, GoesWhenTheOtherIsFarFromItsConflictPoint) {
     EXPECT_EQ(approach.allowed(20, 10, tick_of({crossing_car(100, 10)})), world::infinity);
 }
 
+/// Both come to the eastern lane; a bend of 5 m is no place to drive 12 m/s on.
+TEST(Gatekeeper, WaitsForWhoMustSlowDownForHisTurn) {
+    world::TownT bent = test::junction_road(true);
+    bent.lanes[4] = test::make_lane(
+        ":1", test::Turtle(205, -5, north).turn(-north, 5), 13.89, world::LaneKind::internal);
+    bent.lanes[3].links = {test::make_link(2, 4, world::Turn::right, false)};
+    bent.lanes[4].links = {test::make_link(2, world::none, world::Turn::right)};
+    world::TownT joining = bent;
+    joining.lanes[4] = test::make_lane(
+        ":1", test::Turtle(205, -5, north * 0.5).ahead(7), 13.89, world::LaneKind::internal);
+    // 20 m at 12 m/s, and the rest at no more than 3.2 m/s: it is there when we are, in 4 s.
+    const world::SealedTick tick = tick_of({crossing_car(20, 12)});
+    EXPECT_LT(Approach(bent).allowed(40, 11, tick), 0);
+    EXPECT_EQ(Approach(joining).allowed(40, 11, tick), world::infinity);
+    // Who is in the bend already does not hurry, either.
+    world::CarState in_it = crossing_car(0, 3);
+    in_it.mutate_lane(4);
+    in_it.mutate_lane_s(1);
+    EXPECT_LT(Approach(bent).allowed(50, 11, tick_of({in_it})), world::infinity);
+}
+
 TEST(Gatekeeper, StopsAtRedWithTheBrakingOfTheTextbook) {
     Approach approach(false, 0);
     const double allowed = approach.allowed(31, 10, tick_of({}, {world::SignalColor::red}));
