@@ -8,6 +8,7 @@
 
 #include "cli/external/seats.h"
 #include "cli/external/serve_drivers.h"
+#include "cli/external/serve_folder.h"
 #include "files/ending.h"
 #include "replay/trace_writer.h"
 #include "world/check.h"
@@ -120,7 +121,8 @@ std::optional<remote::Frame> play_episode(kernel::Kernel& kernel,
                                           const world::Recording& recording,
                                           const remote::FrameChannel& client,
                                           const std::vector<std::string>& drivers,
-                                          const std::filesystem::path& trace) {
+                                          const std::filesystem::path& trace,
+                                          const std::filesystem::path& folder) {
     Played played{.kernel = kernel,
                   .recording = recording,
                   .drivers = drivers,
@@ -136,9 +138,10 @@ std::optional<remote::Frame> play_episode(kernel::Kernel& kernel,
                 std::make_unique<remote::Seat>(driven, copy_of(client), patience));
         played.tell(played.play(trace));
     } catch (const std::exception& error) {  // whatever it was, the session lives on
-        played.seats.fail(error.what(), line_named_in(error.what()));
+        const std::string why = as_named_in(folder, error.what());
+        played.seats.fail(why, line_named_in(why));
         if (played.looks_on())
-            say_fault(played.client, error.what(), line_named_in(error.what()));
+            say_fault(played.client, why, line_named_in(why));
     }
     return drivers.empty() && played.is_ended_by_client() ? played.seats.take_said() : std::nullopt;
 }

@@ -1,6 +1,7 @@
 #include "cli/external/serve_folder.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -48,6 +49,31 @@ void refuse_links_to_towns(const fs::path& folder, const std::string& town) {
     refuse(towns / town);
     for (const auto& entry : fs::directory_iterator(towns / town, ignored))
         refuse(entry);
+}
+
+std::string as_named_in(const fs::path& folder, std::string message) {
+    std::error_code ignored;
+    const auto goes_on_before = [&](std::size_t at) {
+        const auto before = static_cast<unsigned char>(at == 0 ? ' ' : message[at - 1]);
+        return std::isalnum(before) != 0 || before == '/' || before == '.' || before == '_' ||
+               before == '-';
+    };
+    for (const fs::path& path : {fs::absolute(folder, ignored),
+                                 fs::absolute(folder, ignored).lexically_normal(),
+                                 fs::weakly_canonical(folder, ignored),
+                                 folder}) {
+        std::string root = path.string();
+        if (root.empty())
+            continue;
+        if (root.back() != '/')
+            root += '/';
+        for (std::size_t at = 0; (at = message.find(root, at)) != std::string::npos;)
+            if (goes_on_before(at))
+                ++at;
+            else
+                message.erase(at, root.size());
+    }
+    return message;
 }
 
 }  // namespace reprise::cli

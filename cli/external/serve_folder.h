@@ -15,4 +15,8 @@ std::filesystem::path file_in(const std::filesystem::path& folder,
 /// anything in that is a link. Throws world::Error.
 void refuse_links_to_towns(const std::filesystem::path& folder, const std::string& town = "");
 
+/// What went wrong, for a client: files of the folder by their names in it, as the client knows
+/// them; where the folder stands on the server is not its business.
+std::string as_named_in(const std::filesystem::path& folder, std::string message);
+
 }  // namespace reprise::cli

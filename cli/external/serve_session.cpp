@@ -216,7 +216,7 @@ std::optional<remote::Frame> Session::Parts::begin(const remote::Frame& frame) {
         throw;
     } catch (const std::exception& error) {
         stage.reset();
-        send_fault(client, error.what());
+        send_fault(client, as_named_in(options.folder, error.what()));
         return std::nullopt;
     }
 }

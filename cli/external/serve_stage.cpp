@@ -72,7 +72,8 @@ int be_episode(kernel::Kernel& kernel,
                                        set.recording,
                                        set.client,
                                        drivers_of(asked, set.client),
-                                       traced ? set.folder / name->str() : "");
+                                       traced ? set.folder / name->str() : "",
+                                       set.folder);
         if (next && next->kind == Kind::goodbye)
             send_left(line);
         else if (next)

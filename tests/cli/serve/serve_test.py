@@ -919,6 +919,35 @@ class Servers(Case):
             wire.close()
         self.assertEqual(sorted(one.name for one in self.folder.iterdir()), ["driven.lua", "inside", "secret.csv"])
 
+    def test_faults_name_files_as_in_the_folder_and_not_where_that_stands(self):
+        inside = self.folder / "in:side"
+        broken = inside / "towns/broken"
+        broken.mkdir(parents=True)
+        (broken / "broken.net.xml").write_text("<net>\n<edge")
+        (inside / "wrong.lua").write_text(DRIVEN.replace("wait(3600)", "wait('x')"))
+        self.assertIn("wait('x')", (inside / "wrong.lua").read_text())
+        for folder in (inside, pathlib.Path(os.path.relpath(inside))):
+            with self.subTest(folder), Server("--socket", str(self.folder / "s"), "--folder", str(folder)) as server:
+                wire = Wire(server.place)
+                wire.say("open", version=1)
+                self.assertEqual(wire.receive()[0], "open")
+                heard = []
+                for said in ({"file": "nope.lua"}, {"task": {"town": "broken"}}, {"file": "wrong.lua"}):
+                    wire.say("reset", **said)
+                    kind, message = wire.receive()
+                    while kind == "hello" or kind == "observation":
+                        kind, message = wire.receive()
+                    self.assertEqual(kind, "fault")
+                    self.assertNotIn("in:side", message.text)
+                    self.assertNotIn(self.folder.name, message.text)
+                    heard.append(message)
+                self.assertIn("no scenario file 'nope.lua'", heard[0].text)
+                self.assertRegex(heard[1].text, r"^towns/broken/\S+\.xml:2: ")
+                self.assertEqual(heard[1].line, 2)
+                self.assertRegex(heard[2].text, "^wrong.lua:[0-9]+: ")
+                self.assertEqual(heard[2].line, int(heard[2].text.split(":")[1]))
+                wire.close()
+
     def test_links_to_towns_elsewhere_are_refused(self):
         elsewhere, inside = self.folder / "elsewhere", self.folder / "inside"
         inside.mkdir()
