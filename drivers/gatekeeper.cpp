@@ -133,12 +133,10 @@ bool conflicts(const Comer& comer,
     const double top = std::max({comer.speed, lane.speed_limit * 0.8, 3.0});
     const double to_leave = to_meeting + comer.length + space_margin;
     const double to_line = conflict.inside ? 0 : std::max(lane.length - comer.front_s, 0.0);
-    const double turned =
-        std::isfinite(conflict.pace)
-            ? turning_time(to_line, to_leave - to_line, comer.speed, conflict.pace)
-            : 0;
-    const Stay theirs{travel_time(to_meeting - space_margin, comer.speed, 2, top),
-                      std::max(travel_time(to_leave, comer.speed, 1, top), turned)};
+    const double slowest =
+        std::max(travel_time(to_leave, comer.speed, 1, top),
+                 turning_time(to_line, to_leave - to_line, comer.speed, conflict.pace));
+    const Stay theirs{travel_time(to_meeting - space_margin, comer.speed, 2, top), slowest};
     return meet(ours, theirs);
 }
 

@@ -84,7 +84,7 @@ struct Car {
     double aside_limit = -1;    ///< [m/s] sideways; negative: what its type says
     double bend_limit = 0;      ///< [m/s] for a bend of its lane; 0: none
     int lane_change_mode = -1;  ///< SUMO's bits, of the demand's cars; negative: nothing yet
-    std::uint32_t skips = 0;    ///< [ticks] from one decision to the next; see decisions.h
+    std::uint32_t skips = 0;    ///< [ticks] between two decisions; see decisions.h
 
     // Where it goes: edges, the current one first; `last_lane` is where the plan ends.
     std::vector<std::uint32_t> route;
