@@ -229,9 +229,12 @@ void Hazards::foresee(const Body& body, const Scene& scene, double distance) {
             return;
         }
     }
-    // Crosses: into our side, where braking helps nobody; or before us, then only if we are there
-    // at the same time, half a second more or less.
-    if (gap < 0)
+    // Crosses: into our side, where braking helps nobody, but who has hardly begun to drive stays
+    // where he is, if it is at his nose; or before us, then only if we are there at the same time,
+    // half a second more or less.
+    constexpr double begins = 1;     // [m/s]
+    constexpr double beside = -1.5;  // [m]
+    if (gap < (std::abs(ego.speed) < begins ? beside : 0))
         return;
     const double speed = std::max(ego.speed, 2 * scene.style.speed_share());
     const double come = gap / speed;
