@@ -52,43 +52,67 @@ struct Surfaces {
     ground::Area walkable;
 };
 
+/// What a vehicle covers.
+class Footprint {
+  public:
+    Footprint(const world::Loop& outline, const Eigen::Isometry3d& pose_world_vehicle)
+        : corner_(outline[0]),
+          along_((outline[1] - outline[0]).normalized()),
+          box_(box_of(outline)),
+          z_(pose_world_vehicle.translation().z()),
+          ahead_(pose_world_vehicle.linear().col(0).head<2>()) {}
+
+    /// Of what is near, most does not reach below it, and would only cost time.
+    bool may_lie_on(const world::Loop& loop) const { return world::touch(box_of(loop), box_); }
+
+    bool is_level_with(double z) const { return std::abs(z - z_) <= level; }
+
+    bool runs_with(const Eigen::Vector2d& way) const { return way.dot(ahead_) > 0; }
+
+  private:
+    /// Seen in the direction of its right side.
+    world::Box box_of(const world::Loop& loop) const {
+        world::Box box;
+        for (const Eigen::Vector2d& p : loop)
+            box.take({along_.dot(p - corner_), world::cross(along_, p - corner_)});
+        return box;
+    }
+
+    Eigen::Vector2d corner_;
+    Eigen::Vector2d along_;
+    world::Box box_;
+    double z_;
+    Eigen::Vector2d ahead_;
+};
+
 /// A lane's surface, segment by segment: each runs its own way.
-void add_ribbon(const world::LaneT& lane,
-                const Eigen::Isometry3d& pose_world_vehicle,
-                double reach,
-                Surfaces& surfaces) {
+void add_ribbon(const world::LaneT& lane, const Footprint& footprint, Surfaces& surfaces) {
     const bool is_way = world::is_for_cars(lane);
-    const Eigen::Vector3d here = pose_world_vehicle.translation();
-    const Eigen::Vector3d ahead = pose_world_vehicle.linear().col(0);
     const auto line = ground::clean_line(lane.centre);
     const ground::Ribbon ribbon = ground::make_ribbon(line, -lane.width / 2, lane.width / 2);
     for (const auto& piece : ribbon.pieces) {
         const world::Loop loop = world::in_plan(piece);
-        const world::Box box = world::box_around(loop, reach);
-        const double z = piece.front().z();
-        if ((here.head<2>().array() < box.low.array()).any() ||
-            (here.head<2>().array() > box.high.array()).any() || std::abs(z - here.z()) > level)
+        if (!footprint.is_level_with(piece.front().z()) || !footprint.may_lie_on(loop))
             continue;
         // From its right border's first corner to the second: the way that it runs.
-        const Eigen::Vector3d along = piece[1] - piece[0];
-        ground::Area& area = !is_way                                    ? surfaces.walkable
-                             : along.head<2>().dot(ahead.head<2>()) > 0 ? surfaces.with
-                                                                        : surfaces.against;
+        ground::Area& area = !is_way                                  ? surfaces.walkable
+                             : footprint.runs_with(loop[1] - loop[0]) ? surfaces.with
+                                                                      : surfaces.against;
         area.add(loop);
     }
 }
 
-Surfaces surfaces_around(const world::TownT& town,
-                         std::span<const std::uint32_t> near,
-                         const Eigen::Isometry3d& pose_world_vehicle,
-                         double reach) {
-    Surfaces surfaces(pose_world_vehicle.translation().head<2>());
+Surfaces surfaces_below(const Footprint& footprint,
+                        const Eigen::Vector2d& origin,
+                        const world::TownT& town,
+                        std::span<const std::uint32_t> near) {
+    Surfaces surfaces(origin);
     for (const std::uint32_t index : near) {
         const world::LaneT& lane = town.lanes[index];
         if (lane.outline.empty())
-            add_ribbon(lane, pose_world_vehicle, reach, surfaces);
+            add_ribbon(lane, footprint, surfaces);
         else if (std::any_of(lane.outline.begin(), lane.outline.end(), [&](const world::Vec3& p) {
-                     return std::abs(p.z() - pose_world_vehicle.translation().z()) <= level;
+                     return footprint.is_level_with(p.z());
                  }))
             surfaces.walkable.add(world::in_plan(lane.outline));
     }
@@ -118,22 +142,24 @@ FootprintShares footprint_shares(const world::TownT& town,
             return under.opposite_lane || under.sidewalk;
         }))
         return {};
-    ground::Area footprint(pose_world_vehicle.translation().head<2>());
+    const Eigen::Vector2d origin = pose_world_vehicle.translation().head<2>();
     world::Loop outline;
     for (std::size_t i = 0; i < 4; ++i)
         outline.emplace_back(probes[i].head<2>());
-    footprint.add(outline);
-    const double whole = footprint.size();
-    Surfaces surfaces = surfaces_around(town, near, pose_world_vehicle, 2 * reach);
-    ground::Area opposite = footprint.copy();
-    opposite.intersect(surfaces.against);
-    opposite.subtract(surfaces.with);
-    ground::Area sidewalk = footprint.copy();
-    sidewalk.intersect(surfaces.walkable);
-    sidewalk.subtract(surfaces.with);
-    sidewalk.subtract(surfaces.against);
-    return whole > 0 ? FootprintShares{opposite.size() / whole, sidewalk.size() / whole}
-                     : FootprintShares{};
+    ground::Area left(origin);
+    left.add(outline);
+    const double whole = left.size();
+    if (whole <= 0)
+        return {};
+    const Surfaces below =
+        surfaces_below(Footprint(outline, pose_world_vehicle), origin, town, near);
+    left.subtract(below.with);
+    const double not_with = left.size();
+    left.subtract(below.against);
+    const double beside_ways = left.size();
+    left.subtract(below.walkable);
+    const auto share = [whole](double area) { return std::max(area, 0.0) / whole; };
+    return {share(not_with - beside_ways), share(beside_ways - left.size())};
 }
 
 }  // namespace reprise::kernel

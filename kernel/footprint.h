@@ -16,7 +16,7 @@ struct FootprintShares {
 /// What of the rectangle that a vehicle covers lies over what: lanes' surfaces are clipped with it,
 /// on whole millimetres (ground::Area). Inside junctions lanes overlap: where any of them runs with
 /// the vehicle, it is no opposite lane. A vehicle whose four corners and middle are where they
-/// belong is not clipped: nearly all, nearly always. Else about 0.1 ms.
+/// belong is not clipped: nearly all, nearly always. Else about 50 us.
 FootprintShares footprint_shares(const world::TownT& town,
                                  const world::LaneMap& lanes,
                                  const world::VehicleModel& model,

@@ -56,7 +56,7 @@ bool has_stood_still(const world::VehicleState& before, const world::VehicleStat
            (other.coeffs() - one.coeffs()).cwiseAbs().maxCoeff() < still;
 }
 
-/// Of its footprint, which is cut exactly: up to 200 us. Who stands still has them already.
+/// Of its footprint, which is cut exactly: some 50 us. Who stands still has them already.
 FootprintShares shares_of(const world::TownT& town,
                           const world::LaneMap& lanes,
                           const world::VehicleState& vehicle,

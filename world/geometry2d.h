@@ -33,6 +33,11 @@ struct Box {
     bool empty() const { return low.x() > high.x() || low.y() > high.y(); }
 };
 
+inline bool touch(const Box& one, const Box& other) {
+    return one.low.y() <= other.high.y() && other.low.y() <= one.high.y() &&
+           one.low.x() <= other.high.x() && other.low.x() <= one.high.x();
+}
+
 inline Eigen::Vector2d in_plan(const Vec3& p) {
     return {p.x(), p.y()};
 }

@@ -40,11 +40,6 @@ double time_for(double metres, double speed, double acceleration, double top) {
     return (std::sqrt(speed * speed + 2 * acceleration * metres) - speed) / acceleration;
 }
 
-bool are_apart(const world::Box& one, const world::Box& other) {
-    return (one.low.array() > other.high.array()).any() ||
-           (other.low.array() > one.high.array()).any();
-}
-
 }  // namespace
 
 void GivingWay::look(const world::TickView& last) {
@@ -148,7 +143,7 @@ double GivingWay::allowed_speed(const Car& car) const {
     const bool is_long = world::vehicle_models()[car.model].length > longest_short_car;
     const auto is_near = [&](const Comer& comer) {
         const bool sweeps = is_long && comer.bodies.front().ahead.dot(car.ahead) > beside;
-        return !sweeps && !are_apart(area, comer.area) &&
+        return !sweeps && world::touch(area, comer.area) &&
                std::abs(comer.z - car.rear.z()) < world::level_clearance;
     };
     if (std::none_of(comers_.begin(), comers_.end(), is_near))

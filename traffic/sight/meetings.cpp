@@ -24,12 +24,6 @@ constexpr double has_just_started = 3;  // [m/s]
 constexpr double hard = 0.8;            // of the hardest braking, that one plans with
 constexpr double longest_body = 12;     // [m]
 
-/// Most pairs that are near each other west to east are not south to north: these come first.
-bool touch(const world::Box& one, const world::Box& other) {
-    return one.low.y() <= other.high.y() && other.low.y() <= one.high.y() &&
-           one.low.x() <= other.high.x() && other.low.x() <= one.high.x();
-}
-
 }  // namespace
 
 Meetings::Meetings(const world::TownT& town,
@@ -316,7 +310,7 @@ void Meetings::look_at_pairs() {
                 break;
             if (one.lane == other.lane)
                 follow(drivers_[one.driver], drivers_[other.driver]);
-            else if ((one.is_turning || other.is_turning) && touch(one.area, other.area) &&
+            else if ((one.is_turning || other.is_turning) && world::touch(one.area, other.area) &&
                      could_meet(drivers_[one.driver], drivers_[other.driver]))
                 meet(drivers_[one.driver], drivers_[other.driver]);
         }

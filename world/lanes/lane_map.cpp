@@ -32,11 +32,6 @@ void add_boxes(const LaneT& lane, std::uint32_t index, std::vector<BoxGrid::Entr
         entries.push_back({box_around(in_plan(lane.outline)), index});
 }
 
-bool touch(const Box& one, const Box& other) {
-    return (one.low.array() <= other.high.array()).all() &&
-           (other.low.array() <= one.high.array()).all();
-}
-
 /// Does the centre line come within `reach` of p, in plan? What is farther need not be projected,
 /// which costs ten times as much.
 bool is_within_reach(const LaneT& lane, const Eigen::Vector2d& p, double reach) {
