@@ -80,8 +80,15 @@ struct Client::Parts {
             throw world::Error("the run did not begin with hello");
         const Hello& hello = frame.as<Hello>();
         flatbuffers::FlatBufferBuilder builder;
-        builder.Finish(CreateReady(builder, wire_version, builder.CreateString(schema_digest())));
-        channel.send(Kind::ready, {builder.GetBufferPointer(), builder.GetSize()});
+        auto mailbox = make_mailbox();
+        builder.Finish(CreateReady(builder,
+                                   wire_version,
+                                   builder.CreateString(schema_digest()),
+                                   mailbox ? Mailbox::bytes() : 0));
+        channel.send(Kind::ready,
+                     {builder.GetBufferPointer(), builder.GetSize()},
+                     {},
+                     mailbox ? mailbox->descriptor() : -1);
         if (hello.version() != wire_version)
             throw world::Error(fmt::format("the run speaks version {} of the wire, this driver {}",
                                            hello.version(),
@@ -97,6 +104,17 @@ struct Client::Parts {
         if (hello.shared_bytes() > 0)
             memory.emplace(
                 std::move(frame.descriptor), hello.shared_bytes(), SharedMemory::Use::look);
+        if (mailbox)
+            channel.use(std::move(mailbox));
+    }
+
+    /// None: over TCP, or where there is no memory for it, all goes through the socket.
+    std::unique_ptr<Mailbox> make_mailbox() const {
+        try {
+            return channel.carries_descriptors() ? std::make_unique<Mailbox>() : nullptr;
+        } catch (const world::Error&) {
+            return nullptr;
+        }
     }
 
     void read_rig(const Hello& hello) {

@@ -96,6 +96,30 @@ bool is_message(Kind kind, std::span<const std::uint8_t> body) {
     return false;
 }
 
+/// Throws ChannelFault.
+void check(const Frame& frame) {
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(frame.words.data());
+    if (!is_message(frame.kind, {bytes, frame.size}))
+        throw ChannelFault(
+            fmt::format("said what is no message (kind {}, {} bytes): docs/drivers.md",
+                        static_cast<std::uint32_t>(frame.kind),
+                        frame.size));
+}
+
+/// Once it goes: awake again, however the sleep ended.
+class Awake {
+  public:
+    explicit Awake(Mailbox& mailbox) : mailbox_(&mailbox) {}
+
+    ~Awake() { mailbox_->sleep(false); }
+
+    Awake(const Awake&) = delete;
+    Awake& operator=(const Awake&) = delete;
+
+  private:
+    Mailbox* mailbox_;
+};
+
 }  // namespace
 
 /// Until a moment, and not for ever where somebody may give up.
@@ -153,6 +177,7 @@ FrameChannel::FrameChannel(int descriptor, std::size_t largest)
 FrameChannel::FrameChannel(FrameChannel&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
       largest_(other.largest_),
+      mailbox_(std::move(other.mailbox_)),
       polling_(other.polling_),
       reads_whole_messages_(other.reads_whole_messages_),
       last_size_(other.last_size_),
@@ -176,6 +201,17 @@ void FrameChannel::send(Kind kind,
                         std::span<const std::uint8_t> body,
                         const Patience& patience,
                         int handed_over) {
+    if (mailbox_ && handed_over < 0 && mailbox_->put(kind, body))
+        return;
+    send_through_socket(kind, body, patience, handed_over);
+    if (mailbox_)
+        mailbox_->sent();
+}
+
+void FrameChannel::send_through_socket(Kind kind,
+                                       std::span<const std::uint8_t> body,
+                                       const Patience& patience,
+                                       int handed_over) {
     Header header{static_cast<std::uint32_t>(body.size()), static_cast<std::uint32_t>(kind)};
     std::array<iovec, 2> parts{iovec{&header, sizeof(header)},
                                iovec{const_cast<std::uint8_t*>(body.data()), body.size()}};
@@ -210,6 +246,10 @@ void FrameChannel::send(Kind kind,
 }
 
 bool FrameChannel::has_input() const {
+    return (mailbox_ && mailbox_->has_letter()) || socket_has_input();
+}
+
+bool FrameChannel::socket_has_input() const {
     pollfd one{descriptor_, POLLIN, 0};
     return ahead_begin_ < ahead_end_ || poll(&one, 1, 0) > 0;
 }
@@ -217,7 +257,7 @@ bool FrameChannel::has_input() const {
 /// Never sleeps in recvmsg(): there it would be woken for nothing when the other end reads what we
 /// said, at the cost of that one, some 15 us. poll() is told what it is to be woken for.
 void FrameChannel::await_input(const Wait& wait) {
-    if (!polling_.finds([&] { return has_input(); }))
+    if (!polling_.finds([&] { return socket_has_input(); }))
         wait.until_ready(descriptor_, POLLIN);
 }
 
@@ -266,6 +306,41 @@ void FrameChannel::read(void* target, std::size_t size, const Wait& wait, Descri
 
 Frame FrameChannel::receive(const Patience& patience) {
     const Wait wait(patience);
+    if (!mailbox_)
+        return receive_from_socket(wait);
+    if (auto letter = receive_letter(wait))
+        return std::move(*letter);
+    Frame frame = receive_from_socket(wait);
+    mailbox_->received();
+    return frame;
+}
+
+std::optional<Frame> FrameChannel::receive_letter(const Wait& wait) {
+    if (!mailbox_->has_letter())
+        await_letter(wait);
+    auto letter = mailbox_->take();
+    if (!letter)
+        return std::nullopt;
+    Frame frame{letter->kind, std::move(letter->words), letter->size};
+    check(frame);
+    return frame;
+}
+
+/// Or for something to read. Of the two ways letters come by one, the socket is asked seldom.
+void FrameChannel::await_letter(const Wait& wait) {
+    constexpr unsigned seldom = 16;
+    unsigned looks = 0;
+    if (polling_.finds([&] {
+            return mailbox_->has_letter() || (++looks % seldom == 0 && socket_has_input());
+        }))
+        return;
+    mailbox_->sleep(true);
+    const Awake later(*mailbox_);
+    if (!mailbox_->has_letter() && ahead_begin_ == ahead_end_)
+        wait.until_ready(descriptor_, POLLIN);
+}
+
+Frame FrameChannel::receive_from_socket(const Wait& wait) {
     Header header;
     Descriptor came_along;
     if (reads_whole_messages_ && ahead_begin_ == ahead_end_) {
@@ -287,12 +362,7 @@ Frame FrameChannel::receive(const Patience& patience) {
                 header.size};
     read(frame.words.data(), header.size, wait, came_along);
     frame.descriptor = std::move(came_along);
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(frame.words.data());
-    if (!is_message(frame.kind, {bytes, frame.size}))
-        throw ChannelFault(
-            fmt::format("said what is no message (kind {}, {} bytes): docs/drivers.md",
-                        header.kind,
-                        header.size));
+    check(frame);
     return frame;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "remote/descriptor.h"
+#include "remote/mailbox.h"
 #include "remote/polling.h"
 #include "remote/wire_generated.h"
 
@@ -86,6 +88,9 @@ class FrameChannel {
     /// For so long [s] receive() polls from now on, before it sleeps.
     void poll_for(double longest) { polling_ = Polling(longest); }
 
+    /// From now on messages go through the mailbox where they can.
+    void use(std::unique_ptr<Mailbox> mailbox) { mailbox_ = std::move(mailbox); }
+
     /// Whether there is something to receive.
     bool has_input() const;
 
@@ -98,6 +103,17 @@ class FrameChannel {
     friend void wait_for_any_input(std::span<const int> descriptors, const Patience& patience);
     struct Wait;
 
+    void send_through_socket(Kind kind,
+                             std::span<const std::uint8_t> body,
+                             const Patience& patience,
+                             int handed_over);
+
+    /// A letter, unless there is something to read first.
+    std::optional<Frame> receive_letter(const Wait& wait);
+    void await_letter(const Wait& wait);
+    Frame receive_from_socket(const Wait& wait);
+    bool socket_has_input() const;
+
     /// Until there is something to read.
     void await_input(const Wait& wait);
 
@@ -107,6 +123,7 @@ class FrameChannel {
 
     int descriptor_;
     std::size_t largest_;
+    std::unique_ptr<Mailbox> mailbox_;
     Polling polling_;
     bool reads_whole_messages_ = false;
     std::size_t last_size_ = 0;       ///< [bytes] of the last body, as far as it is read ahead

@@ -159,6 +159,14 @@ struct Seat::Parts {
             return lost(ChannelFault(
                 fmt::format("speaks version {} of the wire, this is {}", version, wire_version)));
         channel->poll_for(polling);
+        // Whose frames are waited for as well looks at descriptors only.
+        if (frame.as<Ready>().mailbox() == Mailbox::bytes() && frame.descriptor.number() >= 0 &&
+            !rig)
+            try {
+                channel->use(std::make_unique<Mailbox>(std::move(frame.descriptor)));
+            } catch (const world::Error& fault) {
+                return lost(ChannelFault(std::string("handed over no mailbox: ") + fault.what()));
+            }
         return std::nullopt;
     }
 

@@ -16,13 +16,13 @@ namespace {
 constexpr int size_seals = F_SEAL_SHRINK | F_SEAL_GROW;
 
 [[noreturn]] void throw_no_memory() {
-    throw world::Error(std::string("no memory for pictures: ") + std::strerror(errno));
+    throw world::Error(std::string("no memory to share: ") + std::strerror(errno));
 }
 
 }  // namespace
 
 SharedMemory::SharedMemory(std::size_t bytes)
-    : descriptor_(memfd_create("reprise pictures", MFD_CLOEXEC | MFD_ALLOW_SEALING)),
+    : descriptor_(memfd_create("reprise", MFD_CLOEXEC | MFD_ALLOW_SEALING)),
       size_(bytes) {
     if (descriptor() < 0 || ftruncate(descriptor(), static_cast<off_t>(bytes)) != 0 ||
         fcntl(descriptor(), F_ADD_SEALS, size_seals | F_SEAL_SEAL) != 0)
@@ -39,7 +39,7 @@ SharedMemory::SharedMemory(Descriptor descriptor, std::size_t bytes, Use use)
     if (fstat(descriptor_.number(), &facts) != 0 || seals < 0 ||
         (seals & size_seals) != size_seals ||
         static_cast<std::uint64_t>(facts.st_size) < std::uint64_t{bytes})
-        throw world::Error("the memory for pictures is not what the run's hello says");
+        throw world::Error("the shared memory is not as large as was said, or can be cut off");
     map(use);
 }
 

@@ -1,6 +1,6 @@
 """Made by make_schema.py from world/*.fbs, remote/wire.fbs and world/models/vehicle_models.cpp: change those."""
 
-DIGEST = "0459779f632567a0"
+DIGEST = "9a9d104104028871"
 
 # name: (type, values)
 ENUMS = {'remote.Kind': ('uint',
@@ -281,7 +281,7 @@ TABLES = {'remote.Hello': {'version': (0, 'uint'),
                   'shared_bytes': (8, 'ulong'),
                   'route': (9, '[ubyte]'),
                   'network': (10, 'string')},
- 'remote.Ready': {'version': (0, 'uint'), 'schema': (1, 'string')},
+ 'remote.Ready': {'version': (0, 'uint'), 'schema': (1, 'string'), 'mailbox': (2, 'ulong')},
  'remote.Picture': {'sensor': (0, 'ushort'),
                     'tick': (1, 'ulong'),
                     'offset': (2, 'ulong'),
