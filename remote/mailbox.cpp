@@ -94,7 +94,8 @@ std::optional<Mailbox::Letter> Mailbox::take() {
     letter.size = std::min<std::size_t>(place.size, is_run_ ? to_run : to_driver);
     letter.words.resize((letter.size + 7) / 8);
     const auto* body = is_run_ ? places_->to_run.data() : places_->to_driver.data();
-    std::memcpy(letter.words.data(), body, letter.size);
+    if (letter.size > 0)
+        std::memcpy(letter.words.data(), body, letter.size);
     is_used_ = true;
     received();
     return letter;

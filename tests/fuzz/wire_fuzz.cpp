@@ -1,8 +1,9 @@
-// libFuzzer at both ends of the wire: whatever a driver says, the run's seat answers with a control
-// or says that it is lost; whatever a run says, the driver's client sees ticks, an end or an error.
-// Start: wire_fuzz --seeds FOLDER writes inputs; wire_fuzz FOLDER.
+// libFuzzer at both ends of the wire: whatever a driver says, or writes into its mailbox, the run's
+// seat answers with a control or says that it is lost; whatever a run says, the driver's client
+// sees ticks, an end or an error. Start: wire_fuzz --seeds FOLDER writes inputs; wire_fuzz FOLDER.
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string>
 #include <sys/socket.h>
@@ -11,6 +12,7 @@
 
 #include "remote/client.h"
 #include "remote/frame_channel.h"
+#include "remote/mailbox.h"
 #include "remote/schema.h"
 #include "remote/seat.h"
 #include "tests/fuzz/start.h"
@@ -26,6 +28,7 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr unsigned to_client = 1;  // else to the seat
 constexpr unsigned framed =
     2;  // kind, size (two bytes), body, ...: made frames; else bytes as they are
+constexpr unsigned by_mail = 4;  // the same in a driver's mailbox, after it said that it is ready
 
 const world::Recording& recording() {
     static const world::Recording all = [] {
@@ -78,20 +81,64 @@ void drain(int socket) {
     }
 }
 
-/// Five ticks with a driver that says this.
-void drive_seat(const Bytes& said) {
+/// What a driver writes into its mailbox: kind and its highest bit for a length that is none, size
+/// (two bytes), body, ...
+class Mail {
+  public:
+    explicit Mail(std::span<const std::uint8_t> input)
+        : memory_(remote::Mailbox::bytes()),
+          input_(input) {}
+
+    /// `to_run`: says ready, and hands it over.
+    void hand_over(int to_run) const {
+        remote::FrameChannel channel(dup(to_run), 64 << 10);
+        flatbuffers::FlatBufferBuilder builder;
+        builder.Finish(
+            remote::CreateReady(builder, remote::wire_version, 0, remote::Mailbox::bytes()));
+        channel.send(remote::Kind::ready,
+                     {builder.GetBufferPointer(), builder.GetSize()},
+                     {},
+                     memory_.descriptor());
+    }
+
+    /// The next letter, where the run looks for that number, as remote/mailbox.cpp lays it.
+    void lay(std::uint32_t number) {
+        if (input_.size() < 3)
+            return;
+        const std::size_t size = std::min<std::size_t>(
+            {input_[1] + 256U * input_[2], input_.size() - 3, remote::Mailbox::to_run});
+        const std::uint32_t told = input_[0] < 128 ? static_cast<std::uint32_t>(size) : ~0U;
+        const std::array<std::uint32_t, 5> place{number, number, 0, input_[0] % 128U, told};
+        const auto memory = memory_.writable();
+        std::memcpy(&memory[64], place.data(), sizeof(place));
+        const auto body = input_.subspan(3, size);
+        std::copy(body.begin(), body.end(), memory.last(remote::Mailbox::to_run).begin());
+        input_ = input_.subspan(3 + size);
+    }
+
+  private:
+    remote::SharedMemory memory_;
+    std::span<const std::uint8_t> input_;
+};
+
+/// Five ticks with a driver that says this, by mail or through the socket.
+void drive_seat(const Bytes& said, Mail* mail = nullptr) {
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) != 0)
         std::abort();
     constexpr std::size_t largest_answer = 64 << 10;  // [bytes] as a run takes them
     remote::Seat seat("ego", remote::FrameChannel(ends[1], largest_answer), {5.0});
     const int socket_to_run = ends[0];
+    if (mail != nullptr)
+        mail->hand_over(socket_to_run);
     say(socket_to_run, said);
     bool lost = seat.take(1, recording()).has_value();
-    for (int i = 0; i < 5 && !lost; ++i) {
+    for (std::uint32_t i = 0; i < 5 && !lost; ++i) {
         lost = seat.show(tick()).has_value();
         if (lost)
             break;
+        if (mail != nullptr)
+            mail->lay(i + 1);
         const auto answer = seat.answer();
         lost = std::holds_alternative<remote::Lost>(answer);
         if (const auto* control = std::get_if<world::Control>(&answer))
@@ -164,6 +211,15 @@ std::string of_driver() {
     return text;
 }
 
+std::string by_mail_of_driver() {
+    std::string text(1, static_cast<char>(by_mail));
+    for (int i = 0; i < 3; ++i)
+        add_message(text, remote::Kind::control, [](auto& builder) {
+            builder.Finish(remote::CreateControl(builder, 1, 0.5, 0.25, -0.5, true, false, 8));
+        });
+    return text;
+}
+
 std::string of_run() {
     std::string text(1, static_cast<char>(framed | to_client));
     add_message(text, remote::Kind::hello, [](auto& builder) {
@@ -196,6 +252,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
     return test::start_fuzzing(argc, argv, [](const std::filesystem::path& folder) {
         test::write_seed(folder / "driver", of_driver());
         test::write_seed(folder / "driver_plain", plain(of_driver()));
+        test::write_seed(folder / "driver_mail", by_mail_of_driver());
         test::write_seed(folder / "run", of_run());
         test::write_seed(folder / "run_plain", plain(of_run()));
     });
@@ -204,8 +261,12 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0)
         return 0;
-    const Bytes said = said_by({data + 1, size - 1}, (data[0] & framed) != 0);
-    if ((data[0] & to_client) != 0)
+    const std::span<const std::uint8_t> input(data + 1, size - 1);
+    const Bytes said = said_by(input, (data[0] & framed) != 0);
+    if ((data[0] & by_mail) != 0) {
+        Mail mail(input);
+        drive_seat({}, &mail);
+    } else if ((data[0] & to_client) != 0)
         drive_client(said);
     else
         drive_seat(said);
