@@ -13,6 +13,7 @@
 #include <pugixml.hpp>
 #include <zlib.h>
 
+#include "towns/network/backward_ways.h"
 #include "towns/network/joined_lanes.h"
 #include "towns/network/mended_lanes.h"
 #include "towns/network/network_check.h"
@@ -352,6 +353,12 @@ Network load_network(const std::filesystem::path& path) {
     network.notes += notes_on(mend_lanes(root), path);
     if (!has_car_lane(root))
         fail_at(path, root_line, "has no edge that a passenger car may use, but lanes of no width");
+    if (const std::size_t backward = mend_backward_ways(root); backward > 0)
+        network.notes += fmt::format(
+            "{}: {} through junctions drawn against the traffic, as the roads overlap: these are "
+            "cut\n",
+            path.string(),
+            world::count_of(backward, "way"));
     if (const std::size_t zippers = mend_zippers(root); zippers > 0)
         network.notes += fmt::format(
             "{}: {} where more than two lanes take turns (zipper), which SUMO 1.15 cannot "
