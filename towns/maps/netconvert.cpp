@@ -114,9 +114,11 @@ std::vector<std::string> openstreetmap_words(const std::string& file, bool left_
     std::vector<std::string> words{
         "--osm-files",
         file,
-        // Most roads have no maxspeed: 50 km/h in towns instead of the 80 and 100 of the first.
+        // Most roads have no maxspeed: 50 km/h in towns instead of the 80 and 100 of the first. The
+        // third takes walkers off the roads: netconvert guesses no crossing of what they may walk
+        // on, and footways that the map draws beside a road would have none.
         "--type-files",
-        types + ".typ.xml," + types + "UrbanDe.typ.xml",
+        types + ".typ.xml," + types + "UrbanDe.typ.xml," + types + "Pedestrians.typ.xml",
         "--junctions.join",
         "--tls.guess-signals",
         "--tls.join",

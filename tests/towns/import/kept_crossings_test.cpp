@@ -103,5 +103,23 @@ TEST_F(Imports, CrossingsOfAStreetMapThatFindNoPlaceAreCounted) {
     EXPECT_THAT(report, HasSubstr("lost: 1 crossing between junctions"));
 }
 
+/// As most cities are mapped: sidewalks are ways of their own, and so is what leads over the road.
+TEST_F(Imports, FootwaysOfAStreetMapCrossItsRoadsOnACrossing) {
+    StreetMap map;
+    const Tagged foot{{"highway", "footway"}};
+    const int zebra = map.node(100, 0, {{"highway", "crossing"}});
+    map.way({map.node(0, 0), zebra, map.node(200, 0)}, {{"highway", "residential"}});
+    for (const double side : {-8, 8}) {
+        const int middle = map.node(100, side);
+        map.way({map.node(0, side), middle, map.node(200, side)}, foot);
+        map.way({middle, zebra}, foot);
+    }
+    const std::string report =
+        import_town({write("foot.osm", map.text()), "", false, false}, empty("t"));
+    const world::TownT town = read_town(load_network(folder_ / "t/foot.net.xml"));
+    EXPECT_EQ(count_of(town, LaneKind::crossing), 1);
+    EXPECT_THAT(report, Not(HasSubstr("lost: 1 crossing")));
+}
+
 }  // namespace
 }  // namespace reprise::towns
