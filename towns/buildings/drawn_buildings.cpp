@@ -23,16 +23,41 @@ constexpr double smallest_drawn = 2;     ///< [m2]
 /// Each has some thousand triangles: in a city the rest stay prisms.
 constexpr std::size_t most_models = 1500;
 
-/// Does no wall of it reach into a lane by more than is allowed?
-bool leaves_lanes_free(const world::Loop& loop, const Clearance& lanes) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vector2d along = loop[(i + 1) % loop.size()] - loop[i];
-        const double yaw = std::atan2(along.y(), along.x());
-        if (!lanes.is_clear({loop[i] + along / 2, yaw, along.norm(), 0}, 0))
-            return false;
+/// The lanes for cars, as buildings have to leave them free.
+class FreeLanes {
+  public:
+    explicit FreeLanes(const world::TownT& town) {
+        std::vector<world::BoxGrid::Entry> entries;
+        for (const world::LaneT& lane : town.lanes) {
+            if (!world::is_for_cars(lane))
+                continue;
+            strips_.add_line(lane.centre, std::max(0.1, lane.width / 2 - overlap_allowed));
+            const Vector2d start = world::in_plan(lane.centre.front());
+            entries.push_back({{start, start}, static_cast<std::uint32_t>(starts_.size())});
+            starts_.push_back(start);
+        }
+        grid_ = world::BoxGrid(entries);
     }
-    return true;
-}
+
+    /// Does no wall reach into a lane by more than is allowed, and lies none inside?
+    bool are_clear_of(const world::Loop& loop) const {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vector2d along = loop[(i + 1) % loop.size()] - loop[i];
+            const double yaw = std::atan2(along.y(), along.x());
+            if (!strips_.is_clear({loop[i] + along / 2, yaw, along.norm(), 0}, 0))
+                return false;
+        }
+        const std::vector<std::uint32_t> near = grid_.near(world::box_around(loop));
+        return std::none_of(near.begin(), near.end(), [&](std::uint32_t lane) {
+            return world::contains(loop, starts_[lane]);
+        });
+    }
+
+  private:
+    Clearance strips_{1};
+    std::vector<Vector2d> starts_;
+    world::BoxGrid grid_;
+};
 
 /// A whole building of its model, with roof, door and chimneys, where the footprint allows. False:
 /// it stays as drawn.
@@ -44,7 +69,9 @@ bool stand_as_model(PlacementContext& context,
     const world::BuildingModel& model = world::building_models()[drawn.model - 1];
     const auto site = rectangular_site(world::in_plan(drawn.outline), streets);
     const auto f = site ? fit(model, *site, streets) : std::nullopt;
-    if (!f)
+    // Its rectangle reaches over corners that the outline leaves to the buses.
+    constexpr double margin = 0.15;  // [m]
+    if (!f || !context.roads.is_clear(*f, margin))
         return false;
     context.solid.add_footprint(*f);
     // The model's door may be on another side than the one that the outline's floor was set for.
@@ -64,10 +91,7 @@ bool stand_as_model(PlacementContext& context,
 }  // namespace
 
 void keep_drawn_buildings(PlacementContext& context) {
-    Clearance lanes(1);
-    for (const world::LaneT& lane : context.town.lanes)
-        if (world::is_for_cars(lane))
-            lanes.add_line(lane.centre, std::max(0.1, lane.width / 2 - overlap_allowed));
+    const FreeLanes lanes(context.town);
     const Districts districts(context);
     const Streets streets(context.town);
     for (std::size_t i = 0; i < context.place.buildings.size(); ++i) {
@@ -78,7 +102,7 @@ void keep_drawn_buildings(PlacementContext& context) {
         if (area < 0)
             std::reverse(drawn.outline.begin(), drawn.outline.end());
         const world::Loop loop = world::in_plan(drawn.outline);
-        if (!leaves_lanes_free(loop, lanes))
+        if (!lanes.are_clear_of(loop))
             continue;
         set_floor(context, drawn);
         Draws draws(context.seed, Purpose::building_model, 1U << 24 | i);

@@ -1,10 +1,11 @@
 // What it must do: turn a map's areas into buildings and plots that a town can use: simple
 //   polygons, counter-clockwise, near the roads, buildings clear of the lanes.
 // What it assumes: polyconvert has projected them, in millimetres; each carries its tags as
-// <param>. How it goes: sort out what crosses itself and courtyards (inner rings come as areas of
-// their own);
+//   <param>.
+// How it goes: sort out what crosses itself and courtyards (inner rings come as areas of their
+// own);
 //   clip plots to the neighbourhood of the roads; cut the lanes' strips out of buildings. What
-//   needs no cut keeps its points.
+//   needs no cut keeps its points; one around a lane becomes two beside it.
 // What it keeps: nothing.
 #include "towns/import/footprints.h"
 
@@ -134,22 +135,50 @@ std::vector<Piece> pieces_of(const ground::Area& area) {
     return pieces;
 }
 
-/// What is left of a footprint beside the lanes; nothing when that is less than half of it.
-std::optional<Piece> beside_lanes(const Outline& outline, const LaneStrips& lanes) {
+Loop rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+    return {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+}
+
+/// Adds the pieces of an area, which is one part, cut through each of its holes.
+void cut_at_holes(ground::Area area, const Eigen::Vector2d& origin, std::vector<Piece>& pieces) {
+    constexpr double narrowest = 0.01;                 // [m]
+    const std::vector<Loop> borders = area.borders();  // the outer one, and holes
+    const Box whole = world::box_around(borders.front());
+    const Box hole = world::box_around(borders.back());
+    if (borders.size() < 2 || hole.high.x() - hole.low.x() < narrowest) {
+        pieces.push_back({borders.front(), area.size()});
+        return;
+    }
+    const double middle = std::round((hole.low.x() + hole.high.x()) * 500) / 1000;
+    for (const ground::Area& side :
+         {area_of(rectangle(whole.low, {middle, whole.high.y()}), origin),
+          area_of(rectangle({middle, whole.low.y()}, whole.high), origin)}) {
+        ground::Area half = area.copy();
+        half.intersect(side);
+        for (ground::Area& part : half.parts())
+            cut_at_holes(std::move(part), origin, pieces);
+    }
+}
+
+/// What is left of a footprint beside the lanes; nothing when that is less than half of it. In two
+/// or more pieces where lanes lie within it, as in a yard.
+std::vector<Piece> beside_lanes(const Outline& outline, const LaneStrips& lanes) {
     const Eigen::Vector2d origin = origin_of(outline.loop);
     ground::Area rest = area_of(outline.loop, origin);
     const double whole = rest.size();
     rest.subtract(lanes.around(outline.loop, origin));
     if (rest.size() >= whole)
-        return Piece{outline.loop, outline.size};
-    const std::vector<Piece> pieces = pieces_of(rest);
-    const auto largest =
-        std::max_element(pieces.begin(), pieces.end(), [](const Piece& p, const Piece& q) {
-            return p.size < q.size;
+        return {{outline.loop, outline.size}};
+    std::vector<ground::Area> parts = rest.parts();
+    const auto largest = std::max_element(
+        parts.begin(), parts.end(), [](const ground::Area& one, const ground::Area& other) {
+            return one.size() < other.size();
         });
-    if (largest == pieces.end() || largest->size < outline.size / 2)
-        return std::nullopt;
-    return *largest;
+    std::vector<Piece> pieces;
+    if (largest != parts.end() && largest->size() >= outline.size / 2)
+        cut_at_holes(std::move(*largest), origin, pieces);
+    std::erase_if(pieces, [](const Piece& piece) { return piece.size < smallest_building; });
+    return pieces;
 }
 
 /// What lies in the box. [m]
@@ -160,7 +189,7 @@ std::vector<Piece> clip(const Outline& outline, const Box& box) {
         return {{outline.loop, outline.size}};
     const Eigen::Vector2d origin = origin_of(outline.loop);
     ground::Area inside = area_of(outline.loop, origin);
-    inside.intersect(area_of({low, {high.x(), low.y()}, high, {low.x(), high.y()}}, origin));
+    inside.intersect(area_of(rectangle(low, high), origin));
     return pieces_of(inside);
 }
 
@@ -176,15 +205,18 @@ void place_building(const Outline& outline,
                     const Streets& streets,
                     Place& place,
                     FootprintReport& report) {
-    const std::optional<Piece> rest = beside_lanes(outline, lanes);
-    if (!rest || rest->size < smallest_building) {
-        ++report.on_roads;
-        return;
+    const std::vector<Piece> pieces = beside_lanes(outline, lanes);
+    double size = 0;
+    for (const Piece& piece : pieces) {
+        place.buildings.push_back(mapped_building(
+            outline.tags, on_the_ground(piece.loop), streets, world::digest128(outline.id).low()));
+        size += piece.size;
     }
-    report.cut += rest->size < outline.size - 0.01 ? 1 : 0;
-    place.buildings.push_back(mapped_building(
-        outline.tags, on_the_ground(rest->loop), streets, world::digest128(outline.id).low()));
-    ++report.buildings;
+    if (pieces.empty())
+        ++report.on_roads;
+    else
+        ++report.buildings;
+    report.cut += !pieces.empty() && size < outline.size - 0.01 ? 1 : 0;
 }
 
 void place_plot(const Outline& outline, const Box& box, Place& place, FootprintReport& report) {

@@ -52,12 +52,13 @@ bool LaneStrips::is_near(const world::Loop& loop, double distance) const {
 
 ground::Area LaneStrips::around(const world::Loop& loop, const Eigen::Vector2d& origin) const {
     constexpr double margin = 0.2;  // [m] so that no wall touches a kerb
+    constexpr double at_ends = 1;   // [m] of footways end at a door: room to stand before it
     ground::Area strips(origin);
     for (const std::uint32_t index : touching(world::box_around(loop))) {
         const world::LaneT& lane = roads_.lanes[index];
         const double half = lane.width / 2 + margin;
         const ground::Ribbon ribbon =
-            ground::make_ribbon(ground::clean_line(lane.centre), -half, half);
+            ground::make_ribbon(ground::clean_line(lane.centre, at_ends), -half, half);
         for (const world::Loop& part : ribbon.loops())
             strips.add(part);
     }

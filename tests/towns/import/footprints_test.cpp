@@ -7,6 +7,7 @@
 #include "tests/support/worlds.h"
 #include "world/geometry2d.h"
 #include "world/models/catalogue.h"
+#include "world/town.h"
 
 namespace reprise::towns {
 namespace {
@@ -132,6 +133,24 @@ TEST(FootprintsInABend, AreCutBackToWhereABusSweeps) {
         EXPECT_FALSE(world::contains(left, {50 - reach, reach})) << piece;
         EXPECT_TRUE(world::contains(left, {34, 12}));
     }
+}
+
+/// A block around a yard that the map says nothing of, and a street in it.
+TEST_F(Footprints, AroundALaneStandOnBothSidesOfIt) {
+    const Points block = rectangle(-40, -30, 280, 60);
+    const FootprintReport report = place({building("1", block)});
+    EXPECT_EQ(report.buildings, 1);
+    EXPECT_EQ(report.cut, 1);
+    ASSERT_THAT(place_.buildings, SizeIs(2));
+    double size = 0;
+    for (const world::DrawnBuildingT& each : place_.buildings) {
+        const world::Loop loop = world::in_plan(each.outline);
+        size += world::signed_area(loop);
+        for (const world::LaneT& lane : roads_.lanes)
+            for (double s = 1; s < lane.length - 1; s += 1)
+                EXPECT_FALSE(world::contains(loop, world::point_at(lane, s).position.head<2>()));
+    }
+    EXPECT_NEAR(size, 280 * 60 - 202 * 2 * edge, 1);
 }
 
 TEST_F(Footprints, MayOverlapEachOther) {
