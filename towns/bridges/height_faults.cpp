@@ -14,6 +14,7 @@
 #include "towns/bridges/height_profile.h"
 #include "towns/check/furniture_check.h"
 #include "towns/check/ground_check.h"
+#include "towns/check/standing_check.h"
 #include "towns/check/walk_check.h"
 #include "walkers/map/walk_map.h"
 #include "world/frames.h"
@@ -78,6 +79,8 @@ bool HeightFaultFinder::was_there(const Criterion& criterion, const Criterion::P
         criteria_of_flat_->push_back(check_walking(town, walkers::WalkMap(ground)));
         for (Criterion& each : towns::check_furniture(town))
             criteria_of_flat_->push_back(std::move(each));
+        for (Criterion& each : towns::check_standing(town, ground))
+            criteria_of_flat_->push_back(std::move(each));
     }
     for (const Criterion& flat : *criteria_of_flat_)
         if (flat.name == criterion.name)
@@ -100,6 +103,8 @@ std::vector<HeightFault> HeightFaultFinder::faults(const std::string& xml) {
     if (found.empty() && all_pass(criteria)) {
         criteria.push_back(check_walking(town, walkers::WalkMap(ground)));
         for (Criterion& each : towns::check_furniture(town))
+            criteria.push_back(std::move(each));
+        for (Criterion& each : towns::check_standing(town, ground))
             criteria.push_back(std::move(each));
     }
     for (const Criterion& criterion : criteria)
