@@ -23,8 +23,10 @@
 #include "towns/import/import_check.h"
 #include "towns/import/map_signs.h"
 #include "towns/import/mirrored_town.h"
+#include "towns/import/overreaching_junctions.h"
 #include "towns/import/right_of_way.h"
 #include "towns/import/road_ids.h"
+#include "towns/import/signal_cycles.h"
 #include "towns/import/signal_sites.h"
 #include "towns/maps/map_source.h"
 #include "towns/maps/netconvert.h"
@@ -41,8 +43,9 @@ namespace {
 namespace fs = std::filesystem;
 using world::LaneKind;
 
-constexpr const char* made = "made.net.xml";  ///< in the work folder
-constexpr std::uintmax_t room = 1 << 20;      ///< [bytes] of a disk with less it is said to be full
+constexpr const char* made = "made.net.xml";    ///< in the work folder
+constexpr const char* joins = "joins.nod.xml";  ///< netconvert's own, there
+constexpr std::uintmax_t room = 1 << 20;  ///< [bytes] of a disk with less it is said to be full
 
 std::string read_text(const fs::path& path) {
     std::ostringstream text;
@@ -158,6 +161,39 @@ class Import {
         run_netconvert(std::move(words));
     }
 
+    /// Until no junction reaches over the next one; `words` then make what there is.
+    void join_overreaching(std::vector<std::string>& words) {
+        constexpr int most_rounds = 8;  // a city of 30 km of lanes takes 4
+        const fs::path told = work_ / joins;
+        std::vector<JunctionIds> now =
+            fs::exists(told) ? read_joins(read_text(told)) : std::vector<JunctionIds>();
+        const std::size_t merges = merges_in(now);
+        for (int round = 0; round < most_rounds; ++round) {
+            const std::vector<JunctionIds> more = with_overreaching(now, network);
+            if (more == now)
+                break;
+            write_text(work_ / "joined.nod.xml", joins_xml(more));
+            std::vector<std::string> joined = words;
+            if (round == 0) {
+                std::erase(joined, "--junctions.join");
+                joined.insert(joined.end(), {"--node-files", "joined.nod.xml"});
+            }
+            run_netconvert(joined);
+            words = std::move(joined);
+            now = more;
+        }
+        if (const std::size_t joined = merges_in(now) - merges; joined > 0)
+            say("junctions: {} reached over the next one and became one with it", joined);
+    }
+
+    void shorten_signal_cycles() {
+        if (const ShortenedCycles cycles = shorten_cycles(network); cycles.programs > 0)
+            say("signals: {} took up to {:.0f} s for a cycle and take 120 s at most now, or 6 s of "
+                "green for everybody",
+                count(cycles.programs, "program"),
+                cycles.longest);
+    }
+
     void count_crossings(const std::vector<Eigen::Vector3d>& mapped) {
         if (const int lost = lost_crossings(read_roads(network, map_).town, mapped); lost > 0)
             say("lost: {} between junctions or without sidewalks", count(lost, "crossing"));
@@ -269,13 +305,16 @@ class Import {
             guess_sidewalks(words);
         // Each road says which ways it was made of: bridges and signs are looked up by that.
         words.emplace_back("--output.original-names");
+        words.insert(words.end(), {"--junctions.join-output", joins});
         convert(words);
         if (read_roads(network, map_).town.lanes.empty())
             return;  // a clearer word is said when the network is read
+        join_overreaching(words);
         const MapShapes shapes = read_shapes("map.osm", made, work_, map_);
         take_back_crossings(words, shapes.crossings);
-        const ImportedRoads roads = read_roads(network, map_);
         obey_signs([&](const ImportedRoads& seen) { return lane_signs(shapes.signs, seen.town); });
+        shorten_signal_cycles();
+        const ImportedRoads roads = read_roads(network, map_);
         Place found;
         const FootprintReport areas = place_footprints(shapes.areas, roads.town, found);
         say("buildings: {} with their own footprints; {} cut back to the edge of a road, {} left "

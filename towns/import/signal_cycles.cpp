@@ -1,0 +1,72 @@
+#include "towns/import/signal_cycles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <pugixml.hpp>
+
+#include "towns/network/network_xml.h"
+
+namespace reprise::towns {
+
+namespace {
+
+constexpr double longest_cycle = 120;  ///< [s] as guidelines for signals have it (RiLSA: 90, 120)
+constexpr double shortest_green = 6;   ///< [s]
+
+/// Somebody's green: what lies between greens clears the junction and stays as long as it is.
+constexpr double clearance = 6;  ///< [s] phases up to here
+
+double duration(pugi::xml_node phase) {
+    return number(phase.attribute("duration").value(), 0);
+}
+
+bool is_green(pugi::xml_node phase) {
+    const std::string_view state = phase.attribute("state").value();
+    return duration(phase) > clearance && state.find('y') == std::string_view::npos &&
+           state.find_first_of("Gg") != std::string_view::npos;
+}
+
+/// [s] of a cycle before; 0: it is short enough.
+double shorten(pugi::xml_node program) {
+    double cycle = 0, greens = 0;
+    for (const pugi::xml_node phase : program.children("phase")) {
+        cycle += duration(phase);
+        greens += is_green(phase) ? duration(phase) : 0;
+    }
+    if (cycle <= longest_cycle || greens <= 0)
+        return 0;
+    const double share = std::max(0.0, longest_cycle - (cycle - greens)) / greens;
+    for (pugi::xml_node phase : program.children("phase"))
+        if (is_green(phase))
+            phase.attribute("duration")
+                .set_value(
+                    fmt::format("{}", std::max(shortest_green, std::floor(duration(phase) * share)))
+                        .c_str());
+    return cycle;
+}
+
+}  // namespace
+
+ShortenedCycles shorten_cycles(std::string& network) {
+    pugi::xml_document document;
+    document.load_buffer(network.data(), network.size());
+    ShortenedCycles shortened;
+    for (const pugi::xml_node program : document.child("net").children("tlLogic"))
+        if (const double cycle = shorten(program); cycle > 0) {
+            ++shortened.programs;
+            shortened.longest = std::max(shortened.longest, cycle);
+        }
+    if (shortened.programs == 0)
+        return shortened;
+    std::ostringstream text;
+    document.save(text, "    ");
+    network = std::move(text).str();
+    return shortened;
+}
+
+}  // namespace reprise::towns
