@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "towns/import/united_greens.h"
+#include "towns/network/junction_links.h"
 #include "towns/network/network_xml.h"
 
 namespace reprise::towns {
@@ -31,23 +33,25 @@ bool is_green(pugi::xml_node phase) {
            state.find_first_of("Gg") != std::string_view::npos;
 }
 
-/// [s] of a cycle before; 0: it is short enough.
-double shorten(pugi::xml_node program) {
-    double cycle = 0, greens = 0;
-    for (const pugi::xml_node phase : program.children("phase")) {
+double cycle_of(pugi::xml_node program) {
+    double cycle = 0;
+    for (const pugi::xml_node phase : program.children("phase"))
         cycle += duration(phase);
+    return cycle;
+}
+
+void shorten(pugi::xml_node program) {
+    double greens = 0;
+    for (const pugi::xml_node phase : program.children("phase"))
         greens += is_green(phase) ? duration(phase) : 0;
-    }
-    if (cycle <= longest_cycle || greens <= 0)
-        return 0;
-    const double share = std::max(0.0, longest_cycle - (cycle - greens)) / greens;
+    const double others = cycle_of(program) - greens;
+    const double share = std::max(0.0, longest_cycle - others) / std::max(greens, 1.0);
     for (pugi::xml_node phase : program.children("phase"))
         if (is_green(phase))
             phase.attribute("duration")
                 .set_value(
                     fmt::format("{}", std::max(shortest_green, std::floor(duration(phase) * share)))
                         .c_str());
-    return cycle;
 }
 
 }  // namespace
@@ -55,12 +59,19 @@ double shorten(pugi::xml_node program) {
 ShortenedCycles shorten_cycles(std::string& network) {
     pugi::xml_document document;
     document.load_buffer(network.data(), network.size());
+    const pugi::xml_node net = document.child("net");
+    const JunctionLinks links(net);
     ShortenedCycles shortened;
-    for (const pugi::xml_node program : document.child("net").children("tlLogic"))
-        if (const double cycle = shorten(program); cycle > 0) {
-            ++shortened.programs;
-            shortened.longest = std::max(shortened.longest, cycle);
-        }
+    for (const pugi::xml_node program : net.children("tlLogic")) {
+        const double cycle = cycle_of(program);
+        if (cycle <= longest_cycle)
+            continue;
+        ++shortened.programs;
+        shortened.longest = std::max(shortened.longest, cycle);
+        unite_greens(program, net, links);
+        if (cycle_of(program) > longest_cycle)
+            shorten(program);
+    }
     if (shortened.programs == 0)
         return shortened;
     std::ostringstream text;

@@ -188,8 +188,8 @@ class Import {
 
     void shorten_signal_cycles() {
         if (const ShortenedCycles cycles = shorten_cycles(network); cycles.programs > 0)
-            say("signals: {} took up to {:.0f} s for a cycle and take 120 s at most now, or 6 s of "
-                "green for everybody",
+            say("signals: {} took up to {:.0f} s for a cycle; roads that do not meet have green "
+                "together now, for a cycle of at most 120 s, or greens of 6 s",
                 count(cycles.programs, "program"),
                 cycles.longest);
     }

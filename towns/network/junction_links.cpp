@@ -16,6 +16,12 @@ JunctionLinks::JunctionLinks(pugi::xml_node net) {
 }
 
 std::vector<JunctionLink> JunctionLinks::through(pugi::xml_node junction) const {
+    std::vector<JunctionLink> ways = through_and_over(junction);
+    std::erase_if(ways, [](const JunctionLink& way) { return way.walks; });
+    return ways;
+}
+
+std::vector<JunctionLink> JunctionLinks::through_and_over(pugi::xml_node junction) const {
     std::vector<JunctionLink> ways;
     std::size_t index = 0;
     for (const std::string_view lane : world::words(junction.attribute("incLanes").value()))
@@ -24,12 +30,13 @@ std::vector<JunctionLink> JunctionLinks::through(pugi::xml_node junction) const 
             const bool walks = function(link, "from") == "walkingarea";
             if (to == "walkingarea" || (walks && to != "crossing"))
                 continue;
-            if (!walks && *link.attribute("via").value() != '\0')
+            if (walks || *link.attribute("via").value() != '\0')
                 ways.push_back({index,
                                 link,
                                 link.attribute("from").value(),
                                 link.attribute("to").value(),
-                                link.attribute("toLane").value()});
+                                link.attribute("toLane").value(),
+                                walks});
             ++index;
         }
     return ways;

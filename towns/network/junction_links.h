@@ -12,11 +12,12 @@
 
 namespace reprise::towns {
 
-/// One way through a junction, of those who do not walk.
+/// One way through a junction, or over a crossing of it.
 struct JunctionLink {
     std::size_t index = 0;  ///< in its junction's rows
     pugi::xml_node xml;     ///< <connection>
     std::string_view from, to, lane;
+    bool walks = false;  ///< over a crossing
 };
 
 /// The links of a network (.net.xml), as SUMO numbers them. The network must outlive this.
@@ -26,6 +27,9 @@ class JunctionLinks {
 
     /// Lane by lane into the junction; walkers on crossings count, and are left out.
     std::vector<JunctionLink> through(pugi::xml_node junction) const;
+
+    /// As above, with the crossings.
+    std::vector<JunctionLink> through_and_over(pugi::xml_node junction) const;
 
     /// Those from a lane, named as "edge_index".
     const std::vector<pugi::xml_node>& from(std::string_view lane) const;

@@ -8,14 +8,21 @@
 namespace reprise::towns {
 namespace {
 
-/// Of as many approaches, each with a green and 8 s to clear the junction.
+/// Of as many approaches, each with a green and 8 s to clear the junction; nobody knows who meets.
 std::string program(int approaches, double green) {
     std::string phases;
-    for (int i = 0; i < approaches; ++i)
+    for (int i = 0; i < approaches; ++i) {
+        std::string go(static_cast<std::size_t>(approaches), 'r'), stop = go;
+        go[static_cast<std::size_t>(i)] = 'G';
+        stop[static_cast<std::size_t>(i)] = 'y';
         phases += fmt::format(
-            "<phase duration='{}' state='G'/><phase duration='5' state='G'/>"
-            "<phase duration='3' state='y'/>",
-            green);
+            "<phase duration='{}' state='{}'/><phase duration='5' state='{}'/>"
+            "<phase duration='3' state='{}'/>",
+            green,
+            go,
+            go,
+            stop);
+    }
     return "<net><tlLogic id='a' type='static'>" + phases + "</tlLogic></net>";
 }
 
