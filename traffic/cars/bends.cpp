@@ -19,7 +19,8 @@ using Line = std::vector<Eigen::Vector2d>;
 // Everyday drivers stay below 3 m/s^2 sideways in town; ours drive by up to 1.2 times what a lane
 // allows (the speed factor in fleet.cpp), which is 1.44 times the acceleration.
 constexpr double sideways = 3.0;   // [m/s^2]
-constexpr double slowest = 2.5;    // [m/s] that anybody takes any bend at
+constexpr double slowest = 1.5;    // [m/s] that anybody takes any bend at
+constexpr double tight = 2.5;      // [m/s] slower bends turn the tail when the bumper is out
 constexpr double braking = 1.5;    // [m/s^2] before a bend
 constexpr double window = 3;       // [m] over which a way is one direction: about a wheelbase
 constexpr double short_lane = 40;  // [m]
@@ -108,6 +109,18 @@ Bends::Bends(const world::TownT& town) : town_(&town), bends_(town.lanes.size())
     for (std::size_t i = 0; i < town.lanes.size(); ++i)
         if (is_slowed_whole(town.lanes[i]) && is_known[i])
             slow_before_bends(town.lanes[i], limits[i]);
+    for (std::size_t i = 0; i < town.lanes.size(); ++i)
+        if (town.lanes[i].kind == world::LaneKind::internal && limits[i] < tight)
+            keep_slow_behind(town.lanes[i], limits[i]);
+}
+
+/// Who has just turned round in a few metres speeds up when all of him has.
+void Bends::keep_slow_behind(const world::LaneT& lane, double limit) {
+    for (const world::Link& link : lane.links)
+        if (link.via() == world::none && link.to() != world::none) {
+            std::vector<Bend>& bends = bends_[link.to()];
+            bends.insert(bends.begin(), {0, tail, limit});
+        }
 }
 
 /// Who comes onto a long lane too fast for a bend soon behind its start could not slow down there.

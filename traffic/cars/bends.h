@@ -32,6 +32,7 @@ class Bends {
                     const std::vector<Eigen::Vector2d>& before,
                     const std::vector<Eigen::Vector2d>& behind);
     void slow_before_bends(const world::LaneT& lane, double limit) const;
+    void keep_slow_behind(const world::LaneT& lane, double limit);
     double limit_at(const Car& car) const;
 
     const world::TownT* town_;

@@ -57,5 +57,49 @@ TEST(Bends, SoonBehindAJunctionAreSeenFromBeforeIt) {
     EXPECT_LT(sideways, 6) << "without it 21";
 }
 
+/// A street whose halves join within three metres, as where two junctions of a map became one.
+constexpr const char* hairpin = R"(<net version="1.9">
+<location netOffset="0,0" convBoundary="0,0,210,3" origBoundary="0,0,210,3" projParameter="!"/>
+<edge id=":j_0" function="internal"><lane id=":j_0_0" index="0" speed="20" length="4.7"
+  shape="200,0 201.1,0.4 201.5,1.5 201.1,2.6 200,3"/></edge>
+<edge id="a" from="w" to="j" priority="1"><lane id="a_0" index="0" speed="20" length="200"
+  shape="0,0 200,0"/></edge>
+<edge id="b" from="j" to="e" priority="1"><lane id="b_0" index="0" speed="20" length="200"
+  shape="200,3 0,3"/></edge>
+<junction id="w" type="dead_end" x="0" y="0" incLanes="" intLanes="" shape="0,2 0,-2"/>
+<junction id="j" type="priority" x="201" y="1.5" incLanes="a_0" intLanes=":j_0_0"
+  shape="200,-2 204,-2 204,5 200,5"><request index="0" response="0" foes="0" cont="0"/></junction>
+<junction id="e" type="dead_end" x="0" y="3" incLanes="" intLanes="" shape="0,1 0,5"/>
+<connection from="a" to="b" fromLane="0" toLane="0" via=":j_0_0" dir="t" state="M"/>
+<connection from=":j_0" to="b" fromLane="0" toLane="0" dir="s" state="M"/>
+</net>
+)";
+
+TEST(Bends, NobodySpeedsUpBeforeAllOfHimHasTurnedRound) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / "bends_test";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "hairpin.net.xml") << hairpin;
+    const test::Loaded loaded = test::load(folder / "hairpin.net.xml");
+    test::Stage stage(loaded, 0);
+    stage.step({test::spawn(1, test::lane(loaded.town, "a_0"), 150, 10)});
+    double fastest = 0;                       // [m/s] while it turns
+    double turned = 0, largest = 0, yaw = 0;  // [rad]
+    for (int tick = 0; tick < 600; ++tick) {
+        stage.step();
+        const world::CarState* car = stage.car(1);
+        if (car == nullptr)
+            break;
+        const double turn = std::abs(world::wrap_angle(static_cast<double>(car->yaw()) - yaw));
+        turned += turn;
+        largest = std::max(largest, turn);
+        if (turn > 0.02)
+            fastest = std::max(fastest, static_cast<double>(car->speed()));
+        yaw = static_cast<double>(car->yaw());
+    }
+    EXPECT_NEAR(turned, 3.142, 0.2) << "it is no proof before it has turned";
+    EXPECT_LT(largest * 180 / 3.14159, 10) << "degrees a tick";
+    EXPECT_LT(fastest, 3);
+}
+
 }  // namespace
 }  // namespace reprise::traffic
