@@ -30,6 +30,7 @@ constexpr double gives_up = 3;          // [s] of standing while it wants back
 constexpr double turn_of_tail = 0.3;    // [rad] for each metre beside the path
 constexpr double most_turn = 0.5;       // [rad]
 constexpr double turn_gain = 2;
+constexpr double behind_bend = 4;        // [m] before its front axle
 constexpr double nose_room = 0.8;        // [m] that the nose swings out, about
 constexpr double nearly_straight = 0.1;  // [rad] of the wheels
 constexpr double patience_circling = 6;  // [s]
@@ -88,6 +89,13 @@ bool BackOff::make_room(double distance, const world::TickView& last, const Ego&
     return true;
 }
 
+bool BackOff::turn_on(double distance, const world::TickView& last, const Ego& ego) {
+    if (!make_room(distance, last, ego))
+        return false;
+    turns_on_ = true;
+    return true;
+}
+
 bool BackOff::give_room(double distance, const world::TickView& last, const Ego& ego) {
     if (!make_room(distance, last, ego))
         return false;
@@ -106,7 +114,7 @@ void BackOff::begin(double distance, const Ego& ego) {
     from_ = ego.position.head<2>();
     pushing_ticks_ = standing_ticks_ = circling_ticks_ = 0;
     free_ticks_ = waiting_ticks_ = 0;
-    lets_go_first_ = false;
+    lets_go_first_ = turns_on_ = false;
 }
 
 bool BackOff::somebody_is_behind(const world::TickView& last, const Ego& ego) const {
@@ -213,7 +221,9 @@ BackOff::Move BackOff::next(const world::TickView& last,
         const PathPoint here = path->at(s);
         const double beside =
             world::cross(here.direction, ego.position.head<2>() - here.position.head<2>());
-        const double wanted = here.yaw + std::clamp(turn_of_tail * beside, -most_turn, most_turn);
+        const double wanted =
+            turns_on_ ? path->at(s + ego.model->wheelbase + behind_bend).yaw
+                      : here.yaw + std::clamp(turn_of_tail * beside, -most_turn, most_turn);
         move.steer = std::clamp(
             -turn_gain * world::wrap_angle(wanted - ego.yaw) / ego.model->max_steering_angle,
             -1.0,
@@ -245,6 +255,8 @@ void BackOff::add_to(world::Hasher& hasher) const {
     hasher.add(from_.x());
     hasher.add(from_.y());
     hasher.add(standing_ticks_);
+    if (turns_on_)
+        hasher.add(turns_on_);
     if (!lets_go_first_)
         return;
     hasher.add(lets_go_first_);

@@ -40,6 +40,10 @@ class BackOff {
     /// Goes back by so much, to have room ahead [m]; false: somebody is behind, or it did often.
     bool make_room(double distance, const world::TickView& last, const Ego& ego);
 
+    /// As above, before a wall in a bend: with the wheels turned the other way, so that the car
+    /// points farther around the bend when it goes on.
+    bool turn_on(double distance, const world::TickView& last, const Ego& ego);
+
     /// Two stand, each in the other's way: goes back by so much [m], and lets the other one go
     /// first, for some seconds. False: as above.
     bool give_room(double distance, const world::TickView& last, const Ego& ego);
@@ -76,6 +80,7 @@ class BackOff {
     double distance_ = 0;
     Eigen::Vector2d from_ = {0, 0};     ///< where it began
     std::uint32_t standing_ticks_ = 0;  ///< while it wants to go back
+    bool turns_on_ = false;             ///< towards where the path goes behind the bend
     bool lets_go_first_ = false;        ///< and then waits
     std::uint32_t waiting_ticks_ = 0;   ///< for so long
 };

@@ -286,13 +286,15 @@ double DriverState::last_resort(const world::TickView& last, const Ego& ego) {
     constexpr double back = 2;        // [m]
     const double speed = std::max(ego.speed, 0.0);
     const double reach = 0.1 + reaction * speed + speed * speed / (2 * braking * style.share);
-    if (speed > fastest * style.speed_share() ||
-        (!something_is_before(last, ego, reach, stands) && !town_is_before(ego, reach))) {
+    const bool is_fast = speed > fastest * style.speed_share();
+    const bool before_something = !is_fast && something_is_before(last, ego, reach, stands);
+    if (!before_something && (is_fast || !town_is_before(ego, reach))) {
         held_ticks = 0;
         return world::infinity;
     }
     held_ticks = speed < 0.1 ? held_ticks + 1 : 0;
-    if (held_ticks * step > patience && back_off.make_room(back, last, ego)) {
+    if (held_ticks * step > patience && (before_something ? back_off.make_room(back, last, ego)
+                                                          : back_off.turn_on(back, last, ego))) {
         held_ticks = 0;
         news = {
             world::EventKind::backed_off,
@@ -306,7 +308,7 @@ double DriverState::last_resort(const world::TickView& last, const Ego& ego) {
 /// way: others are on it.
 bool DriverState::town_is_before(const Ego& ego, double reach) const {
     constexpr double creeping = 3;  // [m/s]
-    constexpr double far = 0.6;     // of the greatest angle
+    constexpr double far = 0.3;     // of the greatest angle
     constexpr double askew = 0.4;   // [rad]
     const bool is_askew =
         std::abs(world::wrap_angle(ego.yaw - way().path().at(ego.rear_axle_s).yaw)) > askew;

@@ -135,6 +135,33 @@ TEST(BackOff, ItsNoseDoesNotSwingIntoWhoStandsBesideIt) {
     EXPECT_FALSE(news.empty());
 }
 
+/// A corner without a curve, and a house behind it: at full lock it does not come round in one go.
+/// Back along its own arc it came to where it was before, for ever.
+TEST(BackOff, TurnsOnBackwardsInACornerBeforeAWall) {
+    world::Obstacle house;
+    house.shape = world::Obstacle::Shape::box;
+    house.position << 103.6, 0, 0;
+    house.half = {1.5, 12, 2};
+    const std::vector<world::Obstacle> obstacles{house};
+    Drive drive(
+        one_lane(Turtle(0, 0, 0).ahead(100).turn(quarter, 0.2).ahead(100)), 7, 0, obstacles);
+    drive.place(0, 50, 8);
+    std::vector<std::string> news;
+    double deepest = -1e9;
+    while (drive.seconds() < 60 && drive.car.y < 40) {
+        drive.step();
+        if (const drivers::DriverNews* said = drive.autopilot->news())
+            news.push_back(said->text);
+        const Eigen::Vector2d bow(drive.car.x + drive.car.front() * std::cos(drive.car.yaw),
+                                  drive.car.y + drive.car.front() * std::sin(drive.car.yaw));
+        const double half = world::vehicle_models()[0].width / 2;
+        deepest = std::max(deepest, bow.x() + half * std::abs(std::sin(drive.car.yaw)));
+    }
+    EXPECT_GT(drive.car.y, 39) << "has come round";
+    EXPECT_LT(deepest, 102.1) << "[m] of its front corner: the house begins there";
+    EXPECT_FALSE(news.empty()) << "it is no proof otherwise";
+}
+
 /// Nose to flank, as two stand in a junction; whether it may overtake or not.
 class BackOffBeforeOneAcross : public testing::TestWithParam<bool> {};
 
