@@ -126,6 +126,8 @@ std::vector<std::string> openstreetmap_words(const std::string& file, bool left_
         "--keep-edges.by-vclass",
         "passenger,pedestrian",
         "--geometry.remove",
+        // Nobody turns round in the middle of a city's junction.
+        "--no-turnarounds.except-deadend",
         "--osm.sidewalks",
         "--crossings.guess",
         "--walkingareas",

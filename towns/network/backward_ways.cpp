@@ -6,56 +6,24 @@
 // Keeps: nothing.
 #include "towns/network/backward_ways.h"
 
-#include <algorithm>
 #include <map>
-#include <set>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include <fmt/format.h>
 #include <pugixml.hpp>
 
-#include "towns/network/network_xml.h"
-#include "world/frames.h"
+#include "towns/network/drawn_ways.h"
 
 namespace reprise::towns {
 
 namespace {
 
-using Line = std::vector<Eigen::Vector3d>;
+using Line = DrawnLine;
+using Lanes = DrawnWays;
 
 constexpr double against = -0.85;     ///< cosine of a turn that nobody drives
 constexpr double longest_reach = 30;  ///< [m] what is longer was drawn so
 constexpr double least_left = 1;      ///< [m] of a lane that is cut,
 constexpr double least_way = 0.2;     ///< of a way, and of a lane that is nothing but moved
-
-Line lane_line(pugi::xml_node lane) {
-    Line line;
-    for (const world::Vec3& point : parse_shape(lane.attribute("shape").value()))
-        line.push_back(world::to_eigen(point));
-    return line;
-}
-
-double drawn_metres(const Line& line) {
-    double length = 0;
-    for (std::size_t i = 1; i < line.size(); ++i)
-        length += (line[i] - line[i - 1]).norm();
-    return length;
-}
-
-/// In plan, from the first point to the first that is elsewhere; zero: there is none.
-Eigen::Vector2d first_direction(const Line& line) {
-    for (std::size_t i = 1; i < line.size(); ++i)
-        if (const Eigen::Vector2d way = (line[i] - line.front()).head<2>(); way.norm() > 1e-3)
-            return way.normalized();
-    return Eigen::Vector2d::Zero();
-}
-
-Line reversed(Line line) {
-    std::reverse(line.begin(), line.end());
-    return line;
-}
 
 /// What is left of a line that is to begin here, and leads in this direction at first.
 Line from_here(const Line& line, const Eigen::Vector3d& begin, const Eigen::Vector2d& ahead) {
@@ -65,77 +33,6 @@ Line from_here(const Line& line, const Eigen::Vector3d& begin, const Eigen::Vect
             left.push_back(point);
     return left;
 }
-
-/// The lanes of a network by their ids, with the ways through junctions.
-class Lanes {
-  public:
-    struct Lane {
-        pugi::xml_node node;
-        Line line;
-        std::set<std::string> before;  ///< ids of ways that lead onto it
-        std::set<std::string> behind;  ///< and off it
-    };
-
-    explicit Lanes(pugi::xml_node net) {
-        for (const pugi::xml_node edge : net.children("edge"))
-            for (const pugi::xml_node lane : edge.children("lane"))
-                lanes_[lane.attribute("id").value()] = {lane, lane_line(lane), {}, {}};
-        for (const pugi::xml_node connection : net.children("connection"))
-            take(connection);
-    }
-
-    Lane& at(const std::string& id) { return lanes_.at(id); }
-
-    struct Way {
-        std::string from;
-        std::string via;
-        std::string to;
-    };
-
-    /// Those that join two roads by one lane.
-    const std::vector<Way>& ways() const { return ways_; }
-
-    void redraw(const std::string& id, const Line& line) {
-        Lane& lane = lanes_.at(id);
-        lane.line = line;
-        const bool is_flat =
-            std::all_of(line.begin(), line.end(), [](const auto& p) { return p.z() == 0; });
-        std::string shape;
-        for (const Eigen::Vector3d& p : line) {
-            shape += fmt::format("{}{:.3f},{:.3f}", shape.empty() ? "" : " ", p.x(), p.y());
-            if (!is_flat)
-                shape += fmt::format(",{:.3f}", p.z());
-        }
-        lane.node.attribute("shape").set_value(shape.c_str());
-        // SUMO has one length for all lanes of a road.
-        const std::string length = fmt::format("{:.3f}", drawn_metres(line));
-        for (pugi::xml_node each : lane.node.parent().children("lane"))
-            each.attribute("length").set_value(length.c_str());
-    }
-
-  private:
-    void take(pugi::xml_node connection) {
-        const auto id = [&](const char* edge, const char* lane) {
-            return std::string(connection.attribute(edge).value()) + "_" +
-                   connection.attribute(lane).value();
-        };
-        const std::string from = id("from", "fromLane");
-        const std::string via = connection.attribute("via").value();
-        const std::string to = id("to", "toLane");
-        if (!lanes_.contains(from) || !lanes_.contains(to))
-            return;
-        if (from.starts_with(':')) {
-            if (via.empty())
-                lanes_[to].before.insert(from);
-        } else if (lanes_.contains(via)) {
-            lanes_[from].behind.insert(via);
-            ways_.push_back({from, via, to});
-        }
-    }
-
-    std::map<std::string, Lane> lanes_;
-    std::vector<Way> ways_;
-};
 
 /// The second lane begins where the first one ends, and a little further on.
 bool cut_second(Lanes& lanes, const Lanes::Way& way, const Eigen::Vector2d& ahead) {

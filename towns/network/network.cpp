@@ -21,6 +21,7 @@
 #include "towns/network/out_of_place.h"
 #include "towns/network/place.h"
 #include "towns/network/shared_lanes.h"
+#include "towns/network/sharp_corners.h"
 #include "towns/network/waiting_places.h"
 #include "towns/network/zippers.h"
 #include "world/check.h"
@@ -359,6 +360,12 @@ Network load_network(const std::filesystem::path& path) {
             "cut\n",
             path.string(),
             world::count_of(backward, "way"));
+    if (const std::size_t corners = mend_sharp_corners(root); corners > 0)
+        network.notes += fmt::format(
+            "{}: {} through junctions turned back onto a road: it begins or ends further away "
+            "now\n",
+            path.string(),
+            world::count_of(corners, "way"));
     if (const std::size_t zippers = mend_zippers(root); zippers > 0)
         network.notes += fmt::format(
             "{}: {} where more than two lanes take turns (zipper), which SUMO 1.15 cannot "

@@ -1,0 +1,167 @@
+// Must: leave no corner at a junction at which nobody could turn, where the roads have room for it.
+// Assumes: lanes whose numbers were checked (network.cpp); backward ways were mended.
+// Goes: way by way; the road that begins too early is cut metre by metre until a curve leads onto
+//   it; the one that ends too late likewise, seen from its end.
+// Keeps: nothing.
+#include "towns/network/sharp_corners.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include <pugixml.hpp>
+
+#include "towns/network/drawn_ways.h"
+
+namespace reprise::towns {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double sharp = -0.3;          ///< cosine of a turn at a joint that nobody drives
+constexpr double wide_enough = 0.5;     ///< cosine of what is left to turn at the curve's end
+constexpr double furthest = 8;          ///< [m] that is cut off a road
+constexpr double cut_step = 0.5;        ///< [m]
+constexpr double least_road = 2;        ///< [m] of the road
+constexpr double share_of_many = 0.15;  ///< of a road with other lanes, which keep what is cut
+constexpr int curve_points = 8;         ///< of a curve
+
+/// What is left of a line behind `cut` metres, and what is cut off, both with the place itself.
+struct Cut {
+    DrawnLine off;
+    DrawnLine left;
+};
+
+Cut cut_at(const DrawnLine& line, double cut) {
+    Cut parts;
+    double driven = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (i > 0) {
+            const double length = (line[i] - line[i - 1]).norm();
+            if (driven < cut && driven + length >= cut) {
+                const Vector3d place =
+                    line[i - 1] + (line[i] - line[i - 1]) * ((cut - driven) / length);
+                parts.off.push_back(place);
+                parts.left.push_back(place);
+            }
+            driven += length;
+        }
+        if (driven < cut)
+            parts.off.push_back(line[i]);
+        else if (parts.left.empty() || (line[i] - parts.left.back()).norm() > 1e-3)
+            parts.left.push_back(line[i]);
+    }
+    return parts;
+}
+
+/// From one place and direction to another.
+DrawnLine curve(const Vector3d& from,
+                const Vector2d& ahead,
+                const Vector3d& to,
+                const Vector2d& onto) {
+    const double reach = 0.4 * (to - from).norm();
+    Vector3d out = from, in = to;
+    out.head<2>() += reach * ahead;
+    in.head<2>() -= reach * onto;
+    DrawnLine line;
+    for (int i = 0; i < curve_points; ++i) {
+        const double t = static_cast<double>(i) / (curve_points - 1), u = 1 - t;
+        line.push_back(u * u * u * from + 3 * u * u * t * out + 3 * u * t * t * in +
+                       t * t * t * to);
+    }
+    return line;
+}
+
+/// Where a road may begin that one comes to from `end` in the direction `came`.
+std::optional<Cut> begin_behind(const DrawnLine& road,
+                                const Vector3d& end,
+                                const Vector2d& came,
+                                double most) {
+    const double metres = drawn_metres(road);
+    for (double cut = cut_step; cut <= most && cut <= metres - least_road; cut += cut_step) {
+        Cut parts = cut_at(road, cut);
+        const Vector2d chord = (parts.left.front() - end).head<2>();
+        if (chord.norm() > 1 && chord.normalized().dot(first_direction(parts.left)) > wide_enough &&
+            chord.dot(came) >= 0)
+            return parts;
+    }
+    return std::nullopt;
+}
+
+double most_of(const DrawnWays::Lane& lane) {
+    const bool is_one =
+        lane.node.next_sibling("lane").empty() && lane.node.previous_sibling("lane").empty();
+    return is_one ? furthest : std::min(furthest, share_of_many * drawn_metres(lane.line));
+}
+
+/// The road behind the way begins later.
+bool mend_end(DrawnWays& lanes, const DrawnWays::Way& way) {
+    const DrawnLine last = lanes.at(way.last).line;
+    const DrawnLine road = lanes.at(way.to).line;
+    if (last.size() < 2 || road.size() < 2 ||
+        -first_direction(reversed(last)).dot(first_direction(road)) > sharp)
+        return false;
+    const Vector2d came = way.last == way.via
+                              ? Vector2d(-first_direction(reversed(lanes.at(way.from).line)))
+                              : first_direction(last);
+    const auto parts = begin_behind(road, last.front(), came, most_of(lanes.at(way.to)));
+    if (!parts)
+        return false;
+    for (const std::string& onto : lanes.at(way.to).before) {
+        DrawnLine line = lanes.at(onto).line;
+        line.insert(line.end(), parts->off.begin() + 1, parts->off.end());
+        lanes.redraw(
+            onto,
+            onto == way.last
+                ? curve(last.front(), came, parts->left.front(), first_direction(parts->left))
+                : line);
+    }
+    lanes.redraw(way.to, parts->left);
+    return true;
+}
+
+/// The road before the way ends earlier.
+bool mend_start(DrawnWays& lanes, const DrawnWays::Way& way) {
+    const DrawnLine first = lanes.at(way.via).line;
+    const DrawnLine road = reversed(lanes.at(way.from).line);
+    if (first.size() < 2 || road.size() < 2 ||
+        -first_direction(first).dot(first_direction(road)) > sharp)
+        return false;
+    const Vector2d goes = way.last == way.via ? first_direction(lanes.at(way.to).line)
+                                              : Vector2d(-first_direction(reversed(first)));
+    const auto parts = begin_behind(road, first.back(), -goes, most_of(lanes.at(way.from)));
+    if (!parts)
+        return false;
+    for (const std::string& off : lanes.at(way.from).behind) {
+        const DrawnLine gone = reversed(parts->off);
+        DrawnLine line = lanes.at(off).line;
+        line.insert(line.begin(), gone.begin(), gone.end() - 1);
+        lanes.redraw(
+            off,
+            off == way.via
+                ? reversed(
+                      curve(first.back(), -goes, parts->left.front(), first_direction(parts->left)))
+                : line);
+    }
+    lanes.redraw(way.from, reversed(parts->left));
+    return true;
+}
+
+}  // namespace
+
+std::size_t mend_sharp_corners(pugi::xml_node net) {
+    DrawnWays lanes(net);
+    std::size_t mended = 0;
+    for (const DrawnWays::Way& way : lanes.ways()) {
+        if (way.turns_round)
+            continue;
+        const bool end = mend_end(lanes, way);
+        const bool start = mend_start(lanes, way);
+        mended += end || start ? 1 : 0;
+    }
+    return mended;
+}
+
+}  // namespace reprise::towns
