@@ -31,6 +31,8 @@ constexpr double turn_of_tail = 0.3;    // [rad] for each metre beside the path
 constexpr double most_turn = 0.5;       // [rad]
 constexpr double turn_gain = 2;
 constexpr double behind_bend = 4;        // [m] before its front axle
+constexpr double longest_turn = 6;       // [m] driven
+constexpr double turned_enough = 0.3;    // [rad]
 constexpr double nose_room = 0.8;        // [m] that the nose swings out, about
 constexpr double nearly_straight = 0.1;  // [rad] of the wheels
 constexpr double patience_circling = 6;  // [s]
@@ -104,7 +106,7 @@ bool BackOff::give_room(double distance, const world::TickView& last, const Ego&
 }
 
 void BackOff::end() {
-    going_back_ = false;
+    going_back_ = steers_on_ = false;
     pushing_ticks_ = 0;
 }
 
@@ -114,7 +116,21 @@ void BackOff::begin(double distance, const Ego& ego) {
     from_ = ego.position.head<2>();
     pushing_ticks_ = standing_ticks_ = circling_ticks_ = 0;
     free_ticks_ = waiting_ticks_ = 0;
-    lets_go_first_ = turns_on_ = false;
+    lets_go_first_ = turns_on_ = steers_on_ = false;
+}
+
+/// [rad] that the car still has to turn, to look where the path goes behind the bend.
+double BackOff::turn_behind_bend(const Ego& ego, const Path& path, double s) {
+    return world::wrap_angle(path.at(s + ego.model->wheelbase + behind_bend).yaw - ego.yaw);
+}
+
+std::optional<double> BackOff::steer_on(const Ego& ego, const Path& path, double s) {
+    const double turn = turn_behind_bend(ego, path, s);
+    steers_on_ = steers_on_ && (ego.position.head<2>() - from_).norm() < longest_turn &&
+                 std::abs(turn) > turned_enough;
+    if (!steers_on_)
+        return std::nullopt;
+    return std::clamp(turn_gain * turn / ego.model->max_steering_angle, -1.0, 1.0);
 }
 
 bool BackOff::somebody_is_behind(const world::TickView& last, const Ego& ego) const {
@@ -214,6 +230,10 @@ BackOff::Move BackOff::next(const world::TickView& last,
         going_back_ =
             lets_go_first_ &&
             (waited < lets_go_for || (waited < lets_go_longest && somebody_moves_ahead(last, ego)));
+        if (turns_on_) {
+            steers_on_ = true;
+            from_ = ego.position.head<2>();
+        }
         return {};
     }
     Move move;
@@ -222,7 +242,7 @@ BackOff::Move BackOff::next(const world::TickView& last,
         const double beside =
             world::cross(here.direction, ego.position.head<2>() - here.position.head<2>());
         const double wanted =
-            turns_on_ ? path->at(s + ego.model->wheelbase + behind_bend).yaw
+            turns_on_ ? ego.yaw + turn_behind_bend(ego, *path, s)
                       : here.yaw + std::clamp(turn_of_tail * beside, -most_turn, most_turn);
         move.steer = std::clamp(
             -turn_gain * world::wrap_angle(wanted - ego.yaw) / ego.model->max_steering_angle,
@@ -249,11 +269,16 @@ void BackOff::add_to(world::Hasher& hasher) const {
         hasher.add(circling_ticks_);
         hasher.add(circling_from_);
     }
+    if (steers_on_)
+        hasher.add(steers_on_);
+    if (going_back_)
+        hasher.add(distance_);
+    if (going_back_ || steers_on_) {
+        hasher.add(from_.x());
+        hasher.add(from_.y());
+    }
     if (!going_back_)
         return;
-    hasher.add(distance_);
-    hasher.add(from_.x());
-    hasher.add(from_.y());
     hasher.add(standing_ticks_);
     if (turns_on_)
         hasher.add(turns_on_);

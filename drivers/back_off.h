@@ -56,6 +56,10 @@ class BackOff {
     /// Where it goes back: [m] that it means to.
     double distance() const { return distance_; }
 
+    /// After it turned on backwards, the next metres: the steering, as in Control, that leads
+    /// around the bend. None: as always, to the path, which would lead to where it stood.
+    std::optional<double> steer_on(const Ego& ego, const Path& path, double s);
+
     /// While it goes back. `path` and `s`: where the car is on its way, none off every road.
     Move next(const world::TickView& last, const Ego& ego, const Path* path, double s);
 
@@ -63,6 +67,7 @@ class BackOff {
 
   private:
     void begin(double distance, const Ego& ego);
+    static double turn_behind_bend(const Ego& ego, const Path& path, double s);
     bool somebody_is_behind(const world::TickView& last, const Ego& ego) const;
     bool somebody_moves_ahead(const world::TickView& last, const Ego& ego) const;
     bool leaves_its_lanes(const Ego& ego) const;
@@ -81,6 +86,7 @@ class BackOff {
     Eigen::Vector2d from_ = {0, 0};     ///< where it began
     std::uint32_t standing_ticks_ = 0;  ///< while it wants to go back
     bool turns_on_ = false;             ///< towards where the path goes behind the bend
+    bool steers_on_ = false;            ///< forward again, from `from_`
     bool lets_go_first_ = false;        ///< and then waits
     std::uint32_t waiting_ticks_ = 0;   ///< for so long
 };

@@ -222,6 +222,8 @@ world::Control Autopilot::decide(const world::TickView& last) {
     const std::optional<BesidePath> beside = state.beside(ego);
     control.mutate_steer(state.has_wide_turn ? steer(ego, *state.wide_turn, beside)
                                              : steer(ego, state.way().path(), beside));
+    if (const auto on = state.back_off.steer_on(ego, state.way().path(), ego.rear_axle_s))
+        control.mutate_steer(*on);
     control.mutate_lamps(state.lamps(last, ego));
     return control;
 }
