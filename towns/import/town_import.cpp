@@ -14,6 +14,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "files/output_place.h"
 #include "towns/bridges/guessed_bridges.h"
@@ -28,6 +29,7 @@
 #include "towns/import/road_ids.h"
 #include "towns/import/signal_cycles.h"
 #include "towns/import/signal_sites.h"
+#include "towns/import/stubs.h"
 #include "towns/maps/map_source.h"
 #include "towns/maps/netconvert.h"
 #include "towns/maps/opendrive.h"
@@ -186,6 +188,27 @@ class Import {
             say("junctions: {} reached over the next one and became one with it", joined);
     }
 
+    /// Two rounds: behind a stub there may have been another.
+    void drop_stubs() {
+        std::size_t dropped = 0;
+        for (int round = 0; round < 2; ++round) {
+            const std::vector<std::string> ids = stubs(network);
+            if (ids.empty())
+                break;
+            dropped += ids.size();
+            write_text(work_ / "with_stubs.net.xml", network);
+            run_netconvert({"--sumo-net-file",
+                            "with_stubs.net.xml",
+                            "--offset.disable-normalization",
+                            "--no-turnarounds.except-deadend",
+                            "--remove-edges.explicit",
+                            fmt::format("{}", fmt::join(ids, ",")),
+                            "--output.original-names"});
+        }
+        if (dropped > 0)
+            say("roads: {} of less than 8 m that lead nowhere were left out", dropped);
+    }
+
     void shorten_signal_cycles() {
         if (const ShortenedCycles cycles = shorten_cycles(network); cycles.programs > 0)
             say("signals: {} took up to {:.0f} s for a cycle; roads that do not meet have green "
@@ -313,6 +336,7 @@ class Import {
         const MapShapes shapes = read_shapes("map.osm", made, work_, map_);
         take_back_crossings(words, shapes.crossings);
         obey_signs([&](const ImportedRoads& seen) { return lane_signs(shapes.signs, seen.town); });
+        drop_stubs();
         shorten_signal_cycles();
         const ImportedRoads roads = read_roads(network, map_);
         Place found;
