@@ -20,8 +20,22 @@ bool finds(Polling& polling, Looks& looks) {
     return polling.finds([&] { return looks(); });
 }
 
-constexpr double ages = 3600;    // [s]
-constexpr double moment = 1e-9;  // [s] two looks
+/// A thread that gets this share of a processor. Each look at a clock takes a second.
+class Shared {
+  public:
+    Polling::Clocks clocks() {
+        return {[this] { return now_ += 1; }, [this] { return own_ += share; }};
+    }
+
+    double share = 1;
+
+  private:
+    double now_ = 0;
+    double own_ = 0;
+};
+
+constexpr double ages = 3600;   // [s]
+constexpr double moment = 0.5;  // [s] two looks at such a clock
 
 class PollingOnSeveralProcessors : public testing::Test {
   protected:
@@ -46,7 +60,8 @@ TEST(Polling, OfNoTimeNeverLooks) {
 }
 
 TEST_F(PollingOnSeveralProcessors, ThatFoundNothingSleepsThroughTwoWaits) {
-    Polling polling(moment);
+    Shared thread;
+    Polling polling(moment, thread.clocks());
     for (unsigned time = 0; time < 10; ++time) {
         Looks never, unasked{1};
         EXPECT_FALSE(finds(polling, never));
@@ -58,20 +73,6 @@ TEST_F(PollingOnSeveralProcessors, ThatFoundNothingSleepsThroughTwoWaits) {
     Looks there{1};
     EXPECT_TRUE(finds(polling, there));
 }
-
-/// A thread that gets this share of a processor. Each look at a clock takes a second.
-class Shared {
-  public:
-    Polling::Clocks clocks() {
-        return {[this] { return now_ += 1; }, [this] { return own_ += share; }};
-    }
-
-    double share = 1;
-
-  private:
-    double now_ = 0;
-    double own_ = 0;
-};
 
 /// Waits that are over at the second look: how many of the next so many are polled.
 unsigned polled(Polling& polling, unsigned waits) {
