@@ -335,8 +335,9 @@ class Import {
         join_overreaching(words);
         const MapShapes shapes = read_shapes("map.osm", made, work_, map_);
         take_back_crossings(words, shapes.crossings);
-        obey_signs([&](const ImportedRoads& seen) { return lane_signs(shapes.signs, seen.town); });
+        // Before signs are obeyed: netconvert would forget which roads have none.
         drop_stubs();
+        obey_signs([&](const ImportedRoads& seen) { return lane_signs(shapes.signs, seen.town); });
         shorten_signal_cycles();
         const ImportedRoads roads = read_roads(network, map_);
         Place found;

@@ -68,5 +68,28 @@ TEST_F(Imports, NoRoadThatAMapCutsOffJustBehindAJunctionIsLeft) {
     EXPECT_EQ(driven, 6);
 }
 
+/// netconvert, asked to take roads out of a network, lets everybody stop at a junction with a sign.
+TEST_F(Imports, RoadsWithoutAStopSignHaveNoneWhereAStubIsLeftOut) {
+    StreetMap map;
+    const Tagged main{{"highway", "secondary"}}, side{{"highway", "residential"}};
+    const int corner = map.node(0, 0);
+    map.way({map.node(-150, 0), corner, map.node(150, 0)}, main);
+    map.way({map.node(0, -150), map.node(0, -15, {{"highway", "stop"}}), corner}, side);
+    map.way({corner, map.node(0, 150)}, side);
+    const int cut = map.node(150, 150);
+    map.way({map.node(0, 150), cut, map.node(300, 150)}, side);
+    map.way({cut, map.node(150, 159)}, side);
+    const std::string report =
+        import_town({write("stop.osm", map.text()), "", false, false}, empty("t"));
+    EXPECT_THAT(report, HasSubstr("of less than 8 m"));
+    EXPECT_THAT(report, HasSubstr("as stop and yield signs say at 1 junction"));
+    const std::string network = load_network(folder_ / "t/stop.net.xml").xml;
+    std::size_t stops = 0;
+    for (std::size_t at = network.find("state=\"s\""); at != std::string::npos;
+         at = network.find("state=\"s\"", at + 1))
+        ++stops;
+    EXPECT_EQ(stops, 3U) << "left, straight on and right, from the south";
+}
+
 }  // namespace
 }  // namespace reprise::towns
