@@ -125,9 +125,11 @@ double BackOff::turn_behind_bend(const Ego& ego, const Path& path, double s) {
 }
 
 std::optional<double> BackOff::steer_on(const Ego& ego, const Path& path, double s) {
+    if (!steers_on_)
+        return std::nullopt;
     const double turn = turn_behind_bend(ego, path, s);
-    steers_on_ = steers_on_ && (ego.position.head<2>() - from_).norm() < longest_turn &&
-                 std::abs(turn) > turned_enough;
+    steers_on_ =
+        (ego.position.head<2>() - from_).norm() < longest_turn && std::abs(turn) > turned_enough;
     if (!steers_on_)
         return std::nullopt;
     return std::clamp(turn_gain * turn / ego.model->max_steering_angle, -1.0, 1.0);

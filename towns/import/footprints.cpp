@@ -2,8 +2,7 @@
 //   polygons, counter-clockwise, near the roads, buildings clear of the lanes.
 // What it assumes: polyconvert has projected them, in millimetres; each carries its tags as
 //   <param>.
-// How it goes: sort out what crosses itself and courtyards (inner rings come as areas of their
-// own);
+// How it goes: sort out what crosses itself and courtyards (inner rings are areas of their own);
 //   clip plots to the neighbourhood of the roads; cut the lanes' strips out of buildings. What
 //   needs no cut keeps its points; one around a lane becomes two beside it.
 // What it keeps: nothing.

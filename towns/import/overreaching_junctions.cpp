@@ -1,8 +1,7 @@
 // Must: name the junctions between which no road has room.
-// Assumes: a network that netconvert made with these joins: "cluster_1_2_3_4_#7more" is one of
-// them. Goes: a way through a junction that runs against both roads that it joins says that the
-// shorter
-//   of them has no room; the junctions at its ends become one.
+// Assumes: a network that netconvert made with these joins: "cluster_1_2_3_4_#7more" is one.
+// Goes: a way through a junction that runs against both roads that it joins says that the
+//   shorter of them has no room; the junctions at its ends become one.
 // Keeps: nothing. netconvert draws anew, and may reach over one more: the caller asks again.
 #include "towns/import/overreaching_junctions.h"
 
@@ -16,6 +15,7 @@
 
 #include "towns/network/network_xml.h"
 #include "world/frames.h"
+#include "world/words.h"
 
 namespace reprise::towns {
 
@@ -120,15 +120,8 @@ std::vector<JunctionIds> read_joins(const std::string& xml) {
     document.load_buffer(xml.data(), xml.size());
     std::vector<JunctionIds> joins;
     for (const pugi::xml_node join : document.child("nodes").children("join")) {
-        JunctionIds ids(1);
-        for (const char c : std::string_view(join.attribute("nodes").value()))
-            if (c != ' ')
-                ids.back() += c;
-            else if (!ids.back().empty())
-                ids.emplace_back();
-        if (ids.back().empty())
-            ids.pop_back();
-        joins.push_back(std::move(ids));
+        const auto ids = world::words(join.attribute("nodes").value());
+        joins.emplace_back(ids.begin(), ids.end());
     }
     return joins;
 }

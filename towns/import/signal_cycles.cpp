@@ -18,19 +18,9 @@ namespace reprise::towns {
 namespace {
 
 constexpr double longest_cycle = 120;  ///< [s] as guidelines for signals have it (RiLSA: 90, 120)
-constexpr double shortest_green = 6;   ///< [s]
-
-/// Somebody's green: what lies between greens clears the junction and stays as long as it is.
-constexpr double clearance = 6;  ///< [s] phases up to here
 
 double duration(pugi::xml_node phase) {
     return number(phase.attribute("duration").value(), 0);
-}
-
-bool is_green(pugi::xml_node phase) {
-    const std::string_view state = phase.attribute("state").value();
-    return duration(phase) > clearance && state.find('y') == std::string_view::npos &&
-           state.find_first_of("Gg") != std::string_view::npos;
 }
 
 double cycle_of(pugi::xml_node program) {

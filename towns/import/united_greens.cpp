@@ -1,6 +1,5 @@
-// Must: give every link of a program green as before or more often, and nobody who meets at once
-// but
-//   those who had; end every green of a car in yellow.
+// Must: give every link of a program green as before or more often, and nobody who meets at
+//   once but those who had; end every green of a car in yellow.
 // Assumes: phases of netconvert: a green, its end for walkers, yellow.
 // Goes: the greens are sets of links; two of them become one where all of their cars may drive at
 //   once and every crossing still has a green somewhere. Then all who may join in.
@@ -10,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,11 +20,9 @@ namespace reprise::towns {
 
 namespace {
 
-constexpr double cycle = 90;          ///< [s] as netconvert's own
-constexpr double least_green = 6;     ///< [s]
-constexpr int walkers_clear = 5;      ///< [s] of a crossing, while cars still have green
-constexpr int yellow = 3;             ///< [s]
-constexpr double shortest_phase = 6;  ///< [s] of a green; less clears the junction
+constexpr double cycle = 90;      ///< [s] as netconvert's own
+constexpr int walkers_clear = 5;  ///< [s] of a crossing, while cars still have green
+constexpr int yellow = 3;         ///< [s]
 
 /// Does each link have green?
 using Greens = std::vector<bool>;
@@ -41,11 +39,11 @@ class Program {
         for (const pugi::xml_node phase : program.children("phase")) {
             const std::string state = phase.attribute("state").value();
             size_ = std::max(size_, state.size());
-            if (number(phase.attribute("duration").value(), 0) >= shortest_phase &&
-                state.find('y') == std::string::npos &&
-                std::any_of(state.begin(), state.end(), is_go))
+            if (is_green(phase))
                 states_.push_back(state);
         }
+        for (std::string& state : states_)
+            state.resize(size_, 'r');
         meets_.assign(size_, Greens(size_, false));
         walks_.assign(size_, false);
         seen_.assign(size_, false);
@@ -100,7 +98,7 @@ class Program {
 
     bool had_green(std::size_t link) const {
         return std::any_of(states_.begin(), states_.end(), [&](const std::string& state) {
-            return link < state.size() && is_go(state[link]);
+            return is_go(state[link]);
         });
     }
 
@@ -189,7 +187,8 @@ void write(pugi::xml_node program, const std::vector<Greens>& sets, const Progra
         phase.append_attribute("state").set_value(state.c_str());
     };
     const auto count = static_cast<double>(sets.size());
-    const double green = std::max(least_green, std::floor(cycle / count) - walkers_clear - yellow);
+    const double green =
+        std::max(shortest_green, std::floor(cycle / count) - walkers_clear - yellow);
     for (std::size_t i = 0; i < sets.size(); ++i) {
         const Greens& next = sets[(i + 1) % sets.size()];
         std::string go(known.size(), 'r');
@@ -209,6 +208,13 @@ void write(pugi::xml_node program, const std::vector<Greens>& sets, const Progra
 }
 
 }  // namespace
+
+bool is_green(pugi::xml_node phase) {
+    const std::string_view state = phase.attribute("state").value();
+    return number(phase.attribute("duration").value(), 0) >= shortest_green &&
+           state.find('y') == std::string_view::npos &&
+           std::any_of(state.begin(), state.end(), is_go);
+}
 
 bool unite_greens(pugi::xml_node program, pugi::xml_node net, const JunctionLinks& links) {
     const Program known(program, net, links);

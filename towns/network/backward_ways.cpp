@@ -1,6 +1,5 @@
 // Must: leave no way through a junction that runs against the roads before and behind it, where
-// these
-//   can be cut; touch nothing else.
+//   these can be cut; touch nothing else.
 // Assumes: lanes whose numbers were checked (network.cpp).
 // Goes: way by way; of the lanes that it joins each knows all its ways, whose ends go along.
 // Keeps: nothing.
