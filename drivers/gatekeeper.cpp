@@ -20,6 +20,7 @@ constexpr double yellow_braking = 3.5;  // [m/s^2] harder than this we rather dr
 constexpr double red_braking = 7;       // [m/s^2] at red only what is hardly possible
 constexpr double patience = 12;         // [s]
 constexpr double row_patience = 45;     // [s] before junctions that have no room between them
+constexpr double line_patience = 8;     // [s] for those who stand at the other lines
 constexpr double at_the_line = 5;       // [m] who stands so far before it waits there
 constexpr double room_behind = 2.5;     // [m] more than our length
 constexpr double creep_speed = 1.8;     // [m/s]
@@ -140,10 +141,20 @@ bool conflicts(const Comer& comer,
     return meet(ours, theirs);
 }
 
-bool is_free(std::span<const Overlap> overlaps, double from, double to) {
-    return std::none_of(overlaps.begin(), overlaps.end(), [&](const Overlap& other) {
-        return other.s > from && other.s < to && std::abs(other.speed) < 1.5;
-    });
+/// Stands at the end of another lane that leads into the junction, his nose beside our way.
+bool waits_at_line(const world::TickView& last,
+                   const world::TownT& town,
+                   const Way& way,
+                   const Overlap& other) {
+    constexpr double stands = 0.1;  // [m/s]
+    const world::CarState* car = world::find(last.cars(), other.id);
+    if (car == nullptr || car->lane() >= town.lanes.size() ||
+        std::abs(static_cast<double>(car->speed())) > stands)
+        return false;
+    const world::LaneT& lane = town.lanes[car->lane()];
+    return lane.kind == world::LaneKind::driving &&
+           lane.length - static_cast<double>(car->lane_s()) < at_the_line &&
+           std::find(way.lanes().begin(), way.lanes().end(), car->lane()) == way.lanes().end();
 }
 
 /// How far along the path nobody may stand, for us to find room where we stand in no way: behind
@@ -228,7 +239,7 @@ bool Gatekeeper::must_stop(const world::TickView& last,
     // could not stop any more.
     if (needed > yellow_braking)
         return false;
-    bool stop = !has_room(ego, way, gate, overlaps, step);
+    bool stop = !has_room(last, ego, way, gate, overlaps, step);
     if (must_give_way(gate, color)) {
         const bool give_way =
             must_halt(gate, color, ego, to_line) || !has_gap(last, ego, way, gate, style);
@@ -264,18 +275,28 @@ bool Gatekeeper::must_halt(const Gate& gate, SignalColor color, const Ego& ego, 
     return gate.serial != stopped_gate_;
 }
 
-bool Gatekeeper::has_room(const Ego& ego,
+bool Gatekeeper::has_room(const world::TickView& last,
+                          const Ego& ego,
                           const Way& way,
                           const Gate& gate,
                           std::span<const Overlap> overlaps,
                           double step) {
     if (!gate.crossed)
         return true;
+    // At the other lines one always stands: who waits until all of them are gone, while they wait
+    // for nobody, never comes to drive.
+    const bool past_lines = gate.serial == full_gate_ && full_ticks_ * step > line_patience;
+    const auto is_free_until = [&](double to) {
+        return std::none_of(overlaps.begin(), overlaps.end(), [&](const Overlap& one) {
+            return one.s > gate.s && one.s < to && std::abs(one.speed) < 1.5 &&
+                   !(past_lines && one.s < gate.exit_s && waits_at_line(last, *town_, way, one));
+        });
+    };
     const double length = ego.model->length;
     const double needed =
         std::min(length + room_behind, std::max(town_->lanes[gate.to].length - 1, 1.0));
-    const bool is_first_free = is_free(overlaps, gate.s, gate.exit_s + needed);
-    if (is_first_free && is_free(overlaps, gate.s, end_of_room(way, gate, length)))
+    const bool is_first_free = is_free_until(gate.exit_s + needed);
+    if (is_first_free && is_free_until(end_of_room(way, gate, length)))
         return true;
     // Those in the next junction may wait for somebody who waits for us; and where others fill each
     // gap of a queue that goes on, we have waited as well.

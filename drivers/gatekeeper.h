@@ -23,8 +23,9 @@ namespace reprise::drivers {
 ///         where a car turns.
 /// GOES    through the gates ahead, nearest first, until one says stop.
 /// KEEPS   what was decided at yellow, and how long we have waited: after 12 s it creeps on,
-///         because several who all give way would wait for ever; and after 45 s before a row of
-///         junctions it asks no more than that the first be free.
+///         because several who all give way would wait for ever; after 8 s for room those who
+///         stand at the other lines, their noses beside its way, count no longer; and after 45 s
+///         before a row of junctions it asks no more than that the first be free.
 class Gatekeeper {
   public:
     explicit Gatekeeper(const world::TownT& town);
@@ -53,7 +54,8 @@ class Gatekeeper {
                    double step);
     bool stops_at_yellow(const Gate& gate, double needed);
     bool must_halt(const Gate& gate, world::SignalColor color, const Ego& ego, double to_line);
-    bool has_room(const Ego& ego,
+    bool has_room(const world::TickView& last,
+                  const Ego& ego,
                   const Way& way,
                   const Gate& gate,
                   std::span<const Overlap> overlaps,

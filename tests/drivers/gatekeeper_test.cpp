@@ -262,6 +262,26 @@ TEST(Gatekeeper, EntersARowOfJunctionsAlsoWhereTheFirstIsSeldomFree) {
     EXPECT_GT(approach.allowed(1.5, 0, tick_of({})), 1);
 }
 
+/// One of them always stands there, and waits for nobody.
+TEST(Gatekeeper,
+     WhoStandAtTheOtherLinesKeepItWaitingForEightSecondsWhoDriveOrStandInsideForLonger) {
+    const auto waits = [](const world::CarState& car, int ticks) {
+        Approach approach(false);
+        approach.overlaps = {{204, static_cast<double>(car.speed()), car.id()}};
+        double allowed = 0;
+        for (int tick = 0; tick < ticks; ++tick)
+            allowed = approach.allowed(1.5, 0, tick_of({car}));
+        return allowed < 1;
+    };
+    EXPECT_TRUE(waits(crossing_car(0.5, 0), 160));
+    EXPECT_FALSE(waits(crossing_car(0.5, 0), 163));
+    EXPECT_TRUE(waits(crossing_car(0.5, 1), 163)) << "begins to drive";
+    EXPECT_TRUE(waits(crossing_car(20, 0), 163)) << "stands elsewhere";
+    world::CarState inside = crossing_car(0.5, 0);
+    inside.mutate_lane(4);
+    EXPECT_TRUE(waits(inside, 163));
+}
+
 TEST(Gatekeeper, StopsAtAStopSignThoughNobodyIsThereAndGoesOnOnceItStood) {
     Approach approach(true, 0);
     const world::SealedTick sign = tick_of({}, {world::SignalColor::stop});
