@@ -6,6 +6,8 @@
 #include "towns/network/sharp_corners.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -27,6 +29,11 @@ constexpr double cut_step = 0.5;        ///< [m]
 constexpr double least_road = 2;        ///< [m] of the road
 constexpr double share_of_many = 0.15;  ///< of a road with other lanes, which keep what is cut
 constexpr int curve_points = 8;         ///< of a curve
+constexpr double widest_swing = 6.5;    ///< [m] radius of a turn that any car can drive
+constexpr double least_swing = 4;       ///< [m] of one with the wheels at the stop
+constexpr double swung_more = 0.15;     ///< cosine, at the way's other end
+constexpr double longest_swing = 3.5;   ///< [rad]
+constexpr double swing_step = 0.2;      ///< [rad]
 
 /// What is left of a line behind `cut` metres, and what is cut off, both with the place itself.
 struct Cut {
@@ -35,6 +42,8 @@ struct Cut {
 };
 
 Cut cut_at(const DrawnLine& line, double cut) {
+    if (cut == 0)
+        return {{line.front()}, line};
     Cut parts;
     double driven = 0;
     for (std::size_t i = 0; i < line.size(); ++i) {
@@ -90,62 +99,118 @@ std::optional<Cut> begin_behind(const DrawnLine& road,
     return std::nullopt;
 }
 
+/// On an arc until it points to the other place, then straight. None: the place is too near for it,
+/// or one would drive in a circle.
+std::optional<DrawnLine> swing(const Vector3d& from,
+                               const Vector2d& ahead,
+                               const Vector3d& to,
+                               double radius) {
+    constexpr double whole = 2 * std::numbers::pi;
+    const Vector2d gap = (to - from).head<2>();
+    const double side = ahead.x() * gap.y() - ahead.y() * gap.x() > 0 ? 1 : -1;
+    const Vector2d inward = side * Vector2d(-ahead.y(), ahead.x());
+    // Seen from the circle's middle, in the direction of the turn.
+    const Vector2d to_end = gap - radius * inward;
+    const double far = to_end.norm();
+    if (far <= radius)
+        return std::nullopt;
+    const double end_at = std::atan2(to_end.dot(ahead), -to_end.dot(inward));
+    const double turned = std::fmod(end_at - std::acos(radius / far) + 2 * whole, whole);
+    if (turned > longest_swing)
+        return std::nullopt;
+    DrawnLine line{from};
+    const int steps = static_cast<int>(std::ceil(turned / swing_step));
+    const double length = radius * turned + std::sqrt(far * far - radius * radius);
+    for (int i = 1; i <= steps; ++i) {
+        const double angle = turned * i / steps;
+        Vector3d place = from + (to - from) * (radius * angle / length);
+        place.head<2>() =
+            from.head<2>() + radius * (std::sin(angle) * ahead + (1 - std::cos(angle)) * inward);
+        line.push_back(place);
+    }
+    line.push_back(to);
+    return line;
+}
+
+/// How a road begins anew, and the way onto it.
+struct Mended {
+    Cut road;
+    DrawnLine way;
+};
+
+/// `way` leads onto the road, from where one comes in the direction `came`; at most `most` metres
+/// of the road are cut off.
+std::optional<Mended> mend(const DrawnLine& road,
+                           const DrawnLine& way,
+                           const Vector2d& came,
+                           double most) {
+    const Vector3d& end = way.front();
+    const double gentle = std::min(wide_enough, first_direction(way).dot(came) - swung_more);
+    if (const auto parts = begin_behind(road, end, came, most))
+        return Mended{*parts, curve(end, came, parts->left.front(), first_direction(parts->left))};
+    const double cuttable = std::max(0.0, std::min(most, drawn_metres(road) - least_road));
+    // Seen from the road, so that it ends in its direction.
+    for (double radius = widest_swing; radius >= least_swing; radius -= 0.5)
+        for (double cut = 0; cut <= cuttable; cut += cut_step) {
+            const Cut parts = cut_at(road, cut);
+            const auto swung = swing(parts.left.front(), -first_direction(parts.left), end, radius);
+            if (swung && first_direction(reversed(*swung)).dot(came) > gentle)
+                return Mended{parts, reversed(*swung)};
+        }
+    return std::nullopt;
+}
+
 double most_of(const DrawnWays::Lane& lane) {
     const bool is_one =
         lane.node.next_sibling("lane").empty() && lane.node.previous_sibling("lane").empty();
     return is_one ? furthest : std::min(furthest, share_of_many * drawn_metres(lane.line));
 }
 
+/// At the joint of two lines.
+bool is_sharp(const DrawnLine& before, const DrawnLine& behind) {
+    return before.size() > 1 && behind.size() > 1 &&
+           -first_direction(reversed(before)).dot(first_direction(behind)) <= sharp;
+}
+
 /// The road behind the way begins later.
 bool mend_end(DrawnWays& lanes, const DrawnWays::Way& way) {
     const DrawnLine last = lanes.at(way.last).line;
     const DrawnLine road = lanes.at(way.to).line;
-    if (last.size() < 2 || road.size() < 2 ||
-        -first_direction(reversed(last)).dot(first_direction(road)) > sharp)
+    if (!is_sharp(last, road))
         return false;
     const Vector2d came = way.last == way.via
                               ? Vector2d(-first_direction(reversed(lanes.at(way.from).line)))
                               : first_direction(last);
-    const auto parts = begin_behind(road, last.front(), came, most_of(lanes.at(way.to)));
-    if (!parts)
+    const auto mended = mend(road, last, came, most_of(lanes.at(way.to)));
+    if (!mended)
         return false;
     for (const std::string& onto : lanes.at(way.to).before) {
         DrawnLine line = lanes.at(onto).line;
-        line.insert(line.end(), parts->off.begin() + 1, parts->off.end());
-        lanes.redraw(
-            onto,
-            onto == way.last
-                ? curve(last.front(), came, parts->left.front(), first_direction(parts->left))
-                : line);
+        line.insert(line.end(), mended->road.off.begin() + 1, mended->road.off.end());
+        lanes.redraw(onto, onto == way.last ? mended->way : line);
     }
-    lanes.redraw(way.to, parts->left);
+    lanes.redraw(way.to, mended->road.left);
     return true;
 }
 
 /// The road before the way ends earlier.
 bool mend_start(DrawnWays& lanes, const DrawnWays::Way& way) {
     const DrawnLine first = lanes.at(way.via).line;
-    const DrawnLine road = reversed(lanes.at(way.from).line);
-    if (first.size() < 2 || road.size() < 2 ||
-        -first_direction(first).dot(first_direction(road)) > sharp)
+    if (!is_sharp(lanes.at(way.from).line, first))
         return false;
+    const DrawnLine road = reversed(lanes.at(way.from).line);
     const Vector2d goes = way.last == way.via ? first_direction(lanes.at(way.to).line)
                                               : Vector2d(-first_direction(reversed(first)));
-    const auto parts = begin_behind(road, first.back(), -goes, most_of(lanes.at(way.from)));
-    if (!parts)
+    const auto mended = mend(road, reversed(first), -goes, most_of(lanes.at(way.from)));
+    if (!mended)
         return false;
     for (const std::string& off : lanes.at(way.from).behind) {
-        const DrawnLine gone = reversed(parts->off);
+        const DrawnLine gone = reversed(mended->road.off);
         DrawnLine line = lanes.at(off).line;
         line.insert(line.begin(), gone.begin(), gone.end() - 1);
-        lanes.redraw(
-            off,
-            off == way.via
-                ? reversed(
-                      curve(first.back(), -goes, parts->left.front(), first_direction(parts->left)))
-                : line);
+        lanes.redraw(off, off == way.via ? reversed(mended->way) : line);
     }
-    lanes.redraw(way.from, reversed(parts->left));
+    lanes.redraw(way.from, reversed(mended->road.left));
     return true;
 }
 

@@ -1,5 +1,6 @@
 #include "towns/network/sharp_corners.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -102,6 +103,52 @@ TEST(SharpCorners, AWayOnWhichOneWaitsStaysOneOfTwoLanes) {
     corner.expect_driven_through({"a", ":i", ":j", "b"});
     corner.expect_driven_through({":o", "b"});
     EXPECT_EQ(corner.line(":i").back(), Eigen::Vector3d(2, 0, 0));
+}
+
+TEST(SharpCorners, AWayThatLeavesItsRoadBackwardsSwingsOutOverTheJunction) {
+    const Corner::Shapes left{
+        .a = "-50,0 0,0", .i = "0,0 -20,24", .j = "", .b = "-20,24 -60,72", .o = "2,40 -20,24"};
+    const Corner::Shapes right{.a = "-50,0 0,0",
+                               .i = "0,0 -20,-24",
+                               .j = "",
+                               .b = "-20,-24 -60,-72",
+                               .o = "-18,-4 -20,-24"};
+    for (const Corner::Shapes& shapes : {left, right}) {
+        Corner corner(shapes);
+        EXPECT_EQ(corner.mended, 1U);
+        corner.expect_driven_through({"a", ":i", "b"});
+        EXPECT_EQ(corner.line("a").back(), Eigen::Vector3d(0, 0, 0));
+        EXPECT_EQ(corner.line("b").front(), corner.line(":i").back());
+        // On a circle of 6.5 m: it passes the road's end by that much.
+        double furthest = 0;
+        for (const Eigen::Vector3d& p : corner.line(":i"))
+            furthest = std::max(furthest, p.x());
+        EXPECT_NEAR(furthest, 6.5, 0.1);
+    }
+}
+
+TEST(SharpCorners, WhereTheRoadIsTooShortToCutTheWayTurnsWithTheWheelsAtTheStop) {
+    Corner corner({.a = "-50,0 0,0",
+                   .i = "0,0 3,1 6,2 6.2,3",
+                   .j = "",
+                   .b = "6.2,3 9.3,-1.3",
+                   .o = "-10,10 6.2,3"});
+    EXPECT_EQ(corner.mended, 1U);
+    corner.expect_driven_through({"a", ":i", "b"});
+    corner.expect_driven_through({":o", "b"});
+    EXPECT_GE(drawn_metres(corner.line("b")), 2);
+}
+
+TEST(SharpCorners, AWayThatComesOntoItsRoadBackwardsSwingsOutBeforeIt) {
+    Corner corner({.a = "-50,0 0,0",
+                   .i = "0,0 30,4",
+                   .j = "",
+                   .b = "30,4 -60,34",
+                   .o = "40,40 30,4",
+                   .t = "0,0 9,0"});
+    EXPECT_EQ(corner.mended, 1U);
+    corner.expect_driven_through({"a", ":i", "b"});
+    EXPECT_EQ(corner.line("b").front(), Eigen::Vector3d(30, 4, 0));
 }
 
 TEST(SharpCorners, WhatCanBeDrivenOrHasNoRoomOrTurnsRoundStaysAsItIs) {
