@@ -56,8 +56,28 @@ TileTriangles triangles_in(const ground::GroundMesh& ground,
 /// [m] What stands there takes up so much more: the mesh's edge may lie a cell nearer to it than a
 /// body does (TileRules::simplification). Less beside poles, which stand in narrow places.
 constexpr double beside_box = 0.07, beside_pole = 0.05;
-constexpr double narrowest = 0.15;  ///< [m] half width of it: seen by a cell's middle
-constexpr double step_over = 0.1;   ///< [m] what is lower is in nobody's way
+constexpr double beside_house = 0.12;  ///< [m] where corners are acute, and cells cut them
+constexpr double narrowest = 0.15;     ///< [m] half width of it: seen by a cell's middle
+constexpr double step_over = 0.1;      ///< [m] what is lower is in nobody's way
+
+/// A convex outline, wound either way, with every side moved out by `more` [m]; a point no further
+/// than five times that.
+world::Loop moved_out(const world::Loop& outline, double more) {
+    double area = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        area += world::cross(outline[i], outline[(i + 1) % outline.size()]);
+    const double side = area > 0 ? -1 : 1;
+    world::Loop wider;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Eigen::Vector2d& corner = outline[i];
+        const Eigen::Vector2d& before = outline[(i + outline.size() - 1) % outline.size()];
+        const Eigen::Vector2d& behind = outline[(i + 1) % outline.size()];
+        const Eigen::Vector2d out = side * world::turned_left((corner - before).normalized());
+        const Eigen::Vector2d next = side * world::turned_left((behind - corner).normalized());
+        wider.push_back(corner + more * (out + next) / std::max(1 + out.dot(next), 0.08));
+    }
+    return wider;
+}
 
 }  // namespace
 
@@ -80,6 +100,7 @@ WalkTiles::Shape WalkTiles::shape_of(const world::Obstacle& obstacle) {
     if (obstacle.shape == world::Obstacle::Shape::prism) {
         for (const Eigen::Vector3d& corner : obstacle.corners)
             shape.outline.emplace_back(middle + corner.head<2>());
+        shape.outline = moved_out(shape.outline, beside_house);
         return shape;
     }
     const Eigen::Vector2d ahead = world::ahead_of(obstacle.yaw);

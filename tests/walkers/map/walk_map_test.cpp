@@ -1,5 +1,6 @@
 #include "walkers/map/walk_map.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -156,6 +157,65 @@ TEST(WalkMap, EndsAShoulderBesideBenchesAndMailboxes) {
         }
     }
     EXPECT_GT(beside, 100);
+}
+
+/// [m] of a point outside of a convex outline.
+double distance_to(const world::Loop& outline, const Eigen::Vector2d& p) {
+    double least = 1e9;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Eigen::Vector2d& from = outline[i];
+        const Eigen::Vector2d along = outline[(i + 1) % outline.size()] - from;
+        const double t = std::clamp((p - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        least = std::min(least, (from + t * along - p).norm());
+    }
+    return least;
+}
+
+/// Of a house on a pavement, turned and moved by parts of a cell: the least room that is left
+/// around its corners. [m]
+double room_around(const world::Loop& house) {
+    double least = 1e9;
+    for (int turn = 0; turn < 36; ++turn) {
+        GroundMesh mesh;
+        add_rectangle(mesh, 0, 0, 30, 30, 0.15, Surface::sidewalk);
+        const Eigen::Rotation2Dd turned(turn * std::numbers::pi / 18);
+        world::Obstacle prism;
+        prism.shape = world::Obstacle::Shape::prism;
+        prism.position = Vector3d(15 + 0.03 * turn, 15 + 0.017 * turn, 0.15);
+        prism.half = Vector3d(5, 5, 5);
+        prism.radius = 6;
+        world::Loop outline;
+        for (const Eigen::Vector2d& corner : house) {
+            const Eigen::Vector2d there = turned * corner;
+            prism.corners.emplace_back(there.x(), there.y(), 0);
+            outline.emplace_back(prism.position.head<2>() + there);
+        }
+        TileRules rules;  // as people on foot get it
+        rules.cell = 0.2F;
+        rules.radius = 2;
+        rules.simplification = 1.1F;
+        rules.heights = false;
+        const WalkMap map(mesh, rules, {&prism, 1});
+        for (const Eigen::Vector2d& corner : outline)
+            for (int i = 0; i < 24; ++i) {
+                const Eigen::Vector2d beside =
+                    corner +
+                    Eigen::Rotation2Dd(i * std::numbers::pi / 12) * Eigen::Vector2d(0.2, 0);
+                if (world::contains(outline, beside))
+                    continue;
+                const auto place = map.nearest({beside.x(), beside.y(), 0.15});
+                if (place)
+                    least = std::min(least, distance_to(outline, place->position.head<2>()));
+            }
+    }
+    return least;
+}
+
+TEST(WalkMap, LeavesAShoulderAroundTheCornersOfHouses) {
+    constexpr double shoulder = 0.23;
+    EXPECT_GE(room_around({{-4, -2}, {4, -2}, {4, 2}, {-4, 2}}), shoulder);
+    EXPECT_GE(room_around({{4, 2}, {-4, 2}, {-4, -2}, {4, -2}}), shoulder) << "clockwise";
+    EXPECT_GE(room_around({{-4, -2}, {4, -2}, {-4, 2}}), shoulder) << "acute";
 }
 
 TEST(WalkMap, IsTheSameBytesEveryTime) {
