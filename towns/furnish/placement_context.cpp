@@ -69,9 +69,9 @@ void PlacementContext::add_lanes() {
         if (lane.kind == LaneKind::crossing)
             crossings.add_polygon(lane.outline);
         else if (lane.kind == LaneKind::walking_area)
-            walks.add_polygon(lane.outline);
+            add_walking_area(lane);
         else if (lane.kind == LaneKind::sidewalk)
-            walks.add_line(lane.centre, lane.width / 2);
+            add_sidewalk(lane);
         if (lane.kind == LaneKind::crossing || lane.kind == LaneKind::sidewalk)
             walkways.add_line(lane.centre, walkway_half_width);
         else if (lane.kind != LaneKind::walking_area)
@@ -79,6 +79,21 @@ void PlacementContext::add_lanes() {
                            std::max(lane.width / 2,
                                     lane.kind == LaneKind::internal ? turning_half : narrowest));
         add_level(lane);
+    }
+}
+
+void PlacementContext::add_walking_area(const LaneT& lane) {
+    walks.add_polygon(lane.outline);
+    paved.add_polygon(lane.outline);
+}
+
+void PlacementContext::add_sidewalk(const LaneT& lane) {
+    walks.add_line(lane.centre, lane.width / 2);
+    for (std::size_t i = 1; i < lane.centre.size(); ++i) {
+        const Vector2d from = world::in_plan(lane.centre[i - 1]);
+        const Vector2d along = world::in_plan(lane.centre[i]) - from;
+        paved.add_footprint(
+            {from + along / 2, std::atan2(along.y(), along.x()), along.norm(), lane.width});
     }
 }
 
@@ -180,7 +195,7 @@ bool PlacementContext::may_stand(const Vector2d& p, double margin) const {
     if (!roads.is_clear(p, margin) || !crossings.is_clear(p, 0.1))
         return false;
     // The outline of a junction holds its walking areas; the rest of it is road.
-    return !walks.is_clear(p, 0) || junctions.is_clear(p, 0.1);
+    return !paved.is_clear(p, 0) || junctions.is_clear(p, 0.1);
 }
 
 bool PlacementContext::leaves_walkway_free(const Vector2d& p) const {

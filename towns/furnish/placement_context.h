@@ -33,7 +33,8 @@ struct PlacementContext {
     // Obstacles by kind. [m] The largest distance that a step asks for.
     Clearance roads{20};     ///< lanes for vehicles, and where buses sweep over more than those
     Clearance junctions{4};  ///< their outlines, walking areas included
-    Clearance walks{8};      ///< sidewalks and walking areas
+    Clearance walks{8};      ///< sidewalks, with round ends, and walking areas
+    Clearance paved{0.1};    ///< the same, with the ends that they have
     Clearance walkways{1};   ///< the middle of sidewalks and crossings, which nothing may narrow
     Clearance crossings{4};
     Clearance reserved{8};    ///< plots, and what must be kept clear of buildings and plants
@@ -81,6 +82,8 @@ struct PlacementContext {
     };
 
     void add_lanes();
+    void add_walking_area(const world::LaneT& lane);
+    void add_sidewalk(const world::LaneT& lane);
     void add_swept_area();
     void add_level(const world::LaneT& lane);
     void add_sights();
