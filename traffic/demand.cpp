@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "traffic/cars/fleet.h"
-#include "traffic/sight/way_ahead.h"
+#include "traffic/sight/stuck.h"
 #include "world/frames.h"
 #include "world/geometry2d.h"
 #include "world/models/actors.h"
@@ -22,14 +22,9 @@ constexpr double out_of_sight = 80;  // [m] from every physics vehicle
 constexpr double far_too_long = 150;  // [s] of standing
 constexpr double not_beside = 30;     // [m]
 // Nobody waits so long inside of a junction but for one who waits for him, or who never moves.
-constexpr double far_too_long_in_junction = 50;  // [s] of standing, whoever sees it,
-// and so does nobody beside one with mass, which it would hit.
-constexpr double far_too_long_wedged = 50;  // [s] of standing, whoever sees it
-// Beside a fast road nobody lets in who stands where his lane ends; an ego stood behind one.
-constexpr double far_too_long_at_an_end = 50;  // [s] of standing, whoever sees it
-// Two in a bend, each with its body in the other one's way, stood before an ego for 26 minutes.
-constexpr double for_ever = 200;    // [s] of standing for another car, whoever sees it,
-constexpr double ring_lasts = 36;   // [s] and for one who stands for it: Standoffs had its turns
+constexpr double far_too_long_in_junction = 50;  // [s] of standing, whoever sees it
+// Who waits for one who waits for him; see sight/stuck.h for others who go nowhere.
+constexpr double ring_lasts = 36;   // [s] of standing: Standoffs had its turns
 constexpr double ring_stands = 12;  // [s] of the others in that ring
 constexpr double at_its_edge = 1;   // [m] where one who waited to go in is no hindrance
 // But in a row before lights behind it: beside a vehicle with mass only who is first of it goes.
@@ -193,47 +188,6 @@ bool Demand::is_seen(const Eigen::Vector3d& p, const world::TickView& last, doub
     });
 }
 
-bool Demand::waits_for_ever(const Car& car, double step) {
-    return car.stuck_ticks * step > for_ever && !car.waits_for.empty();
-}
-
-bool Demand::is_wedged(const Car& car, double step, std::uint64_t tick) {
-    return car.stuck_ticks * step > far_too_long_wedged && car.wedged_until > tick;
-}
-
-bool Demand::is_at_an_end(const Car& car, double step, const world::TownT& town) {
-    constexpr double near = 15;  // [m]
-    const world::LaneT& lane = town.lanes[car.lane];
-    return car.stuck_ticks * step > far_too_long_at_an_end && lane.links.empty() &&
-           lane.kind == world::LaneKind::driving && lane.sumo_length - car.lane_position < near;
-}
-
-bool Demand::faces_one_who_stands(const Car& car, double step, const world::TickView& last) {
-    constexpr double near = 3;       // [m] of both, ahead: he leaves room to get around him
-    constexpr double stands = 0.1;   // [m/s]
-    constexpr double facing = -0.5;  // cosine
-    if (car.stuck_ticks * step < too_long)
-        return false;
-    const auto body =
-        [](const Eigen::Vector2d& rear, const Eigen::Vector2d& ahead, std::uint16_t model) {
-            const world::Extent extent = world::extent_of(world::vehicle_models()[model]);
-            return BodyBox{rear + (extent.middle() + near / 2) * ahead,
-                           ahead,
-                           (extent.front - extent.rear + near) / 2,
-                           extent.half_width};
-        };
-    const BodyBox own = body(car.rear.head<2>(), car.ahead, car.model);
-    const auto vehicles = last.vehicles();
-    return std::any_of(vehicles.begin(), vehicles.end(), [&](const world::VehicleState& other) {
-        const Eigen::Vector2d ahead =
-            (world::to_eigen(other.orientation()) * Eigen::Vector3d::UnitX()).head<2>();
-        return std::hypot(other.velocity().x(), other.velocity().y()) < stands &&
-               std::abs(other.position().z() - car.rear.z()) < world::level_clearance &&
-               ahead.dot(car.ahead) < facing &&
-               overlap(own, body(world::in_plan(other.position()), ahead, other.model()));
-    });
-}
-
 bool Demand::is_longest_in_a_ring(const Car& car, const Cars& cars) const {
     if (car.stuck_ticks * step_ < ring_lasts)
         return false;
@@ -255,7 +209,8 @@ bool Demand::is_stuck(const Car& car, const Cars& cars, const world::TickView& l
     if ((stood > too_long && !is_seen(car.rear, last, out_of_sight)) ||
         (stood > far_too_long && !is_seen(car.rear, last, not_beside)) ||
         waits_for_ever(car, step_) || is_at_an_end(car, step_, *town_) ||
-        faces_one_who_stands(car, step_, last) || is_longest_in_a_ring(car, cars))
+        faces_one_who_stands(car, step_, last) ||
+        lies_in_one_who_stands(car, cars.all(), step_, *town_) || is_longest_in_a_ring(car, cars))
         return true;
     const bool is_in_junction =
         car.lane_position > at_its_edge && right_of_way_->is_crossed(car.lane);

@@ -36,21 +36,6 @@ class Demand {
 
     void add_to(world::Hasher& hasher) const;
 
-    /// Has it stood for minutes for another car, in whose way it stands itself, perhaps? Then it is
-    /// taken out whoever sees it: nobody else will solve it. `step` [s] of a tick.
-    static bool waits_for_ever(const Car& car, double step);
-
-    /// Has it stood for long at the flank of a vehicle with mass, which it must not hit and which
-    /// waits for it, perhaps? SUMO knows of no such waiting, and its driver cannot back off.
-    static bool is_wedged(const Car& car, double step, std::uint64_t tick);
-
-    /// Has it stood for long at the end of a lane that leads nowhere, and found no gap beside?
-    static bool is_at_an_end(const Car& car, double step, const world::TownT& town);
-
-    /// Has it stood for long nose to nose with a vehicle with mass that stands, as in a bend in
-    /// which neither can get past the other?
-    static bool faces_one_who_stands(const Car& car, double step, const world::TickView& last);
-
   private:
     void hear_of_wrecks(const world::TickView& last);
     bool is_seen(const Eigen::Vector3d& p, const world::TickView& last, double sight) const;

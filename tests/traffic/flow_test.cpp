@@ -5,7 +5,7 @@
 
 #include "tests/support/worlds.h"
 #include "tests/traffic/stage.h"
-#include "traffic/demand.h"
+#include "traffic/sight/stuck.h"
 #include "world/geometry2d.h"
 #include "world/lanes/density.h"
 #include "world/models/actors.h"
@@ -151,11 +151,11 @@ TEST(Flow, WhoStandsForAnotherCarForMinutesIsTakenOutWhoeverSeesIt) {
     constexpr double step = 0.05;  // [s]
     Car car;
     car.stuck_ticks = 4 * minute;
-    EXPECT_FALSE(Demand::waits_for_ever(car, step)) << "a queue before the ego";
+    EXPECT_FALSE(waits_for_ever(car, step)) << "a queue before the ego";
     car.waits_for = {1000008};
-    EXPECT_TRUE(Demand::waits_for_ever(car, step));
+    EXPECT_TRUE(waits_for_ever(car, step));
     car.stuck_ticks = 3 * minute;
-    EXPECT_FALSE(Demand::waits_for_ever(car, step));
+    EXPECT_FALSE(waits_for_ever(car, step));
 }
 
 /// On the ramp of a motorway the first of a queue stood so for 520 s, and an ego behind him.
@@ -167,15 +167,47 @@ TEST(Demand, WhoFindsNoGapAtTheEndOfHisLaneIsTakenOut) {
     town.lanes[1].sumo_length = 200;
     car.lane_position = 198;
     car.stuck_ticks = minute;
-    EXPECT_TRUE(Demand::is_at_an_end(car, 0.05, town));
+    EXPECT_TRUE(is_at_an_end(car, 0.05, town));
     car.lane_position = 150;
-    EXPECT_FALSE(Demand::is_at_an_end(car, 0.05, town)) << "behind others";
+    EXPECT_FALSE(is_at_an_end(car, 0.05, town)) << "behind others";
     car.lane_position = 198;
     car.stuck_ticks = minute / 2;
-    EXPECT_FALSE(Demand::is_at_an_end(car, 0.05, town));
+    EXPECT_FALSE(is_at_an_end(car, 0.05, town));
     car.stuck_ticks = minute;
     town.lanes[1].links.emplace_back();
-    EXPECT_FALSE(Demand::is_at_an_end(car, 0.05, town)) << "it leads on";
+    EXPECT_FALSE(is_at_an_end(car, 0.05, town)) << "it leads on";
+}
+
+/// In a bend a lorry that pushed past a car stood so for 28 s.
+TEST(Demand, OfTwoWhoStandInEachOtherInAJunctionWhoStoodLongerIsTakenOut) {
+    constexpr double step = 0.05;
+    world::TownT town = test::straight_road(200);
+    std::vector<Car> cars(2);
+    for (Car& car : cars) {
+        car.lane = 1;
+        car.stuck_ticks = 140;
+    }
+    cars[0].id = 7;
+    cars[1].id = 8;
+    cars[1].rear.y() = 1.5;
+    cars[1].stuck_ticks = 160;
+    const auto taken_out = [&](std::size_t i) {
+        return lies_in_one_who_stands(cars[i], cars, step, town);
+    };
+    EXPECT_FALSE(taken_out(1)) << "on a road, where lanes are narrow";
+    town.lanes[1].kind = world::LaneKind::internal;
+    EXPECT_TRUE(taken_out(1));
+    EXPECT_FALSE(taken_out(0)) << "the other one is";
+    cars[0].stuck_ticks = 160;
+    EXPECT_TRUE(taken_out(0)) << "one of two who stood as long";
+    EXPECT_FALSE(taken_out(1));
+    cars[0].stuck_ticks = 100;
+    EXPECT_FALSE(taken_out(1)) << "the other one has just come";
+    cars[0].stuck_ticks = 140;
+    cars[1].rear.y() = 2.5;
+    EXPECT_FALSE(taken_out(1)) << "side by side";
+    cars[1].rear = {0, 1.5, 6};
+    EXPECT_FALSE(taken_out(1)) << "on a bridge";
 }
 
 /// In a bend an ego and a lorry stood so for 500 s, each with half a queue behind it.
@@ -188,15 +220,14 @@ TEST(Demand, WhoStandsNoseToNoseWithAVehicleWithMassIsTakenOut) {
         return test::tick_with({test::vehicle_at(1, distance, 0, yaw, speed)});
     };
     car.stuck_ticks = 2200;
-    EXPECT_TRUE(Demand::faces_one_who_stands(car, step, before(M_PI - 0.2, between, 0).view()));
-    EXPECT_FALSE(Demand::faces_one_who_stands(car, step, before(0, between, 0).view()))
-        << "in a queue";
-    EXPECT_FALSE(Demand::faces_one_who_stands(car, step, before(M_PI, between, 0.5).view()))
+    EXPECT_TRUE(faces_one_who_stands(car, step, before(M_PI - 0.2, between, 0).view()));
+    EXPECT_FALSE(faces_one_who_stands(car, step, before(0, between, 0).view())) << "in a queue";
+    EXPECT_FALSE(faces_one_who_stands(car, step, before(M_PI, between, 0.5).view()))
         << "who goes back";
-    EXPECT_FALSE(Demand::faces_one_who_stands(car, step, before(M_PI, between + 5, 0).view()))
+    EXPECT_FALSE(faces_one_who_stands(car, step, before(M_PI, between + 5, 0).view()))
         << "there is room between";
     car.stuck_ticks = 1900;
-    EXPECT_FALSE(Demand::faces_one_who_stands(car, step, before(M_PI, between, 0).view()));
+    EXPECT_FALSE(faces_one_who_stands(car, step, before(M_PI, between, 0).view()));
 }
 
 /// Of a full town, where one waits at a minor road until he is let in. Town 1 has no dead end, at
