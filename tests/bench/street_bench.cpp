@@ -52,23 +52,17 @@ extern "C" void __wrap__ZN7libsumo10Simulation4stepEd(double time) {
 #define MOVE_TO_XY \
     "_ZN7libsumo7Vehicle8moveToXYERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEES8_idddid"
 
-void real_move_to_xy(const std::string& id,
-                     const std::string& edge,
-                     int lane,
-                     double x,
-                     double y,
-                     double angle,
-                     int keep_route,
-                     double reach) __asm__("__real_" MOVE_TO_XY);
+using MoveToXy = void(const std::string& id,
+                      const std::string& edge,
+                      int lane,
+                      double x,
+                      double y,
+                      double angle,
+                      int keep_route,
+                      double reach);
 
-void watched_move_to_xy(const std::string& id,
-                        const std::string& edge,
-                        int lane,
-                        double x,
-                        double y,
-                        double angle,
-                        int keep_route,
-                        double reach) __asm__("__wrap_" MOVE_TO_XY);
+MoveToXy real_move_to_xy __asm__("__real_" MOVE_TO_XY);
+MoveToXy watched_move_to_xy __asm__("__wrap_" MOVE_TO_XY);
 
 void watched_move_to_xy(const std::string& id,
                         const std::string& edge,
