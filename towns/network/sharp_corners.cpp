@@ -1,7 +1,8 @@
 // Must: leave no corner at a junction at which nobody could turn, where the roads have room for it.
 // Assumes: lanes whose numbers were checked (network.cpp); backward ways were mended.
 // Goes: way by way; the road that begins too early is cut metre by metre until a curve leads onto
-//   it; the one that ends too late likewise, seen from its end.
+//   it; the one that ends too late likewise, seen from its end. Where that is not enough the way
+//   is an arc and a straight piece, as wide as there is room for.
 // Keeps: nothing.
 #include "towns/network/sharp_corners.h"
 
@@ -14,6 +15,7 @@
 #include <pugixml.hpp>
 
 #include "towns/network/drawn_ways.h"
+#include "world/geometry2d.h"
 
 namespace reprise::towns {
 
@@ -31,9 +33,9 @@ constexpr double share_of_many = 0.15;  ///< of a road with other lanes, which k
 constexpr int curve_points = 8;         ///< of a curve
 constexpr double widest_swing = 6.5;    ///< [m] radius of a turn that any car can drive
 constexpr double least_swing = 4;       ///< [m] of one with the wheels at the stop
-constexpr double swung_more = 0.15;     ///< cosine, at the way's other end
-constexpr double longest_swing = 3.5;   ///< [rad]
-constexpr double swing_step = 0.2;      ///< [rad]
+constexpr double swung_more = 0.15;     ///< cosine that the joint at the way's other end may lose
+constexpr double longest_swing = 3.5;   ///< [rad] of an arc: more would be a loop
+constexpr double swing_step = 0.2;      ///< [rad] from point to point
 
 /// What is left of a line behind `cut` metres, and what is cut off, both with the place itself.
 struct Cut {
@@ -107,8 +109,8 @@ std::optional<DrawnLine> swing(const Vector3d& from,
                                double radius) {
     constexpr double whole = 2 * std::numbers::pi;
     const Vector2d gap = (to - from).head<2>();
-    const double side = ahead.x() * gap.y() - ahead.y() * gap.x() > 0 ? 1 : -1;
-    const Vector2d inward = side * Vector2d(-ahead.y(), ahead.x());
+    const double side = world::cross(ahead, gap) > 0 ? 1 : -1;
+    const Vector2d inward = side * world::turned_left(ahead);
     // Seen from the circle's middle, in the direction of the turn.
     const Vector2d to_end = gap - radius * inward;
     const double far = to_end.norm();

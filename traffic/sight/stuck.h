@@ -9,14 +9,14 @@
 
 namespace reprise::traffic {
 
-// Who goes nowhere, and what nobody else will solve. `step` [s] of a tick.
+// Who goes nowhere, which nobody else will solve: SUMO's drivers do not back off. `step` [s] of a
+// tick, `tick` the index of the last one.
 
-/// Has it stood for minutes for another car, in whose way it stands itself, perhaps? Then it is
-/// taken out whoever sees it: nobody else will solve it.
+/// Has it stood for minutes for another car, in whose way it stands itself, perhaps?
 bool waits_for_ever(const Car& car, double step);
 
 /// Has it stood for long at the flank of a vehicle with mass, which it must not hit and which
-/// waits for it, perhaps? SUMO knows of no such waiting, and its driver cannot back off.
+/// waits for it, perhaps? SUMO knows of no such waiting.
 bool is_wedged(const Car& car, double step, std::uint64_t tick);
 
 /// Has it stood for long at the end of a lane that leads nowhere, and found no gap beside?
@@ -26,8 +26,8 @@ bool is_at_an_end(const Car& car, double step, const world::TownT& town);
 /// which neither can get past the other?
 bool faces_one_who_stands(const Car& car, double step, const world::TickView& last);
 
-/// Has it stood in a junction with a corner in another one who stands? Of two such who has
-/// stood longer is taken out, or the lower id. Says so once a second.
+/// Has it stood in a junction with a corner in another one who stands? Of two such only who has
+/// stood longer, or the lower id. Looks in every 20th tick of its standing: at other times false.
 bool lies_in_one_who_stands(const Car& car,
                             std::span<const Car> cars,
                             double step,
