@@ -94,7 +94,7 @@ double Sweeping::allowed_speed(Car& car, std::uint64_t tick) const {
     constexpr double waits = 40;                // [s]
     constexpr double crawl = 0.6;               // [m/s] people step back from a tail that comes so
     constexpr double creep = 0.1;               // [m/s] before who does not, though it comes so,
-    constexpr double deep = 0.3;                // [m] and no further over him than this
+    constexpr double deep = 0.15;               // [m] and no further over him than this
     constexpr double least_pace = 2;            // [m/s] that it will have in a moment
     constexpr double lets_out = 5;              // [s] without waiting for him to get out
     constexpr std::uint64_t goes_on_for = 200;  // [ticks]
@@ -128,12 +128,12 @@ double Sweeping::allowed_speed(Car& car, std::uint64_t tick) const {
     const BodyBox now = way.at(0);
     const BodyBox soon = way.at(spacing);
     if (std::any_of(beside.people.begin(), beside.people.end(), [&](const Beside::Near& one) {
-            return one.stands && (overlap(now, one.body) || overlap(soon, one.body));
+            return overlap(now, one.body) || (one.stands && overlap(soon, one.body));
         }))
         allowed = std::max(creep, braking.speed_before(0, 0, 0));
     if (car.standing_ticks * step_ < lets_out &&
         std::any_of(beside.people.begin(), beside.people.end(), [&](const Beside::Near& one) {
-            return one.stands && depth(now, one.body) > deep;
+            return depth(now, one.body) > deep;
         }))
         allowed = braking.speed_before(0, 0, 0);
     const double end = std::min(Beside::looked_at, way.length());
