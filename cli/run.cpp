@@ -1,5 +1,6 @@
 #include "cli/run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -129,12 +130,20 @@ std::span<const world::Control> inputs(replay::TraceReader& before, std::uint64_
     return before.recorded(tick).view.controls();
 }
 
+bool leads_nowhere(const world::TownT& town, const world::LaneT& lane) {
+    return std::none_of(lane.links.begin(), lane.links.end(), [&](const world::Link& link) {
+        return link.to() < town.lanes.size() && world::is_for_cars(town.lanes[link.to()]);
+    });
+}
+
 /// What happened, as it happens: printed lines, blockages, checks; a collision when it is over,
 /// under the time when it began.
 class Commentary {
   public:
-    Commentary(std::uint64_t step_ns, Progress& progress)
-        : step_ns_(step_ns),
+    /// `town` must outlive this.
+    Commentary(const world::TownT& town, std::uint64_t step_ns, Progress& progress)
+        : town_(&town),
+          step_ns_(step_ns),
           progress_(&progress) {}
 
     void hear(const world::TickView& tick) {
@@ -148,7 +157,10 @@ class Commentary {
         for (auto& [actor, stand] : stands_)
             if (const world::Measurement* measured = world::find(tick.measurements(), actor)) {
                 ++stand.seen;
-                stand.stood += std::abs(measured->speed()) < world::halted_speed ? 1 : 0;
+                const bool stands = std::abs(measured->speed()) < world::halted_speed;
+                stand.stood += stands ? 1 : 0;
+                stand.since = stands ? stand.since + 1 : 0;
+                tell_end_of_road(actor, *measured, stand.since, tick.index());
             }
         last_ = tick.index();
     }
@@ -165,7 +177,26 @@ class Commentary {
     struct Stand {
         std::uint64_t seen = 0;
         std::uint64_t stood = 0;
+        std::uint64_t since = 0;  ///< it stopped last; 0: it moves
     };
+
+    /// Who has come to where no lane leads on, and stands there, is blocked by nothing.
+    void tell_end_of_road(std::uint32_t actor,
+                          const world::Measurement& measured,
+                          std::uint64_t stood,
+                          std::uint64_t tick) {
+        constexpr std::uint64_t stands_ns = 2'000'000'000;
+        constexpr double end = 15;  // [m] from the rear axle
+        if (measured.lane() >= town_->lanes.size() ||
+            stood != (stands_ns + step_ns_ - 1) / step_ns_)
+            return;
+        const world::LaneT& lane = town_->lanes[measured.lane()];
+        if (lane.length - measured.lane_s() < end && leads_nowhere(*town_, lane))
+            tell(tick,
+                 fmt::format("{} stands at the end of its road: {} leads nowhere",
+                             crashes_.names().name_of(actor),
+                             lane.name));
+    }
 
     /// Whatever was checked: a drive that was none is said to be none, as where a road ends.
     void tell_who_stood() {
@@ -237,6 +268,7 @@ class Commentary {
         say("{:8.2f} s  {}\n", world::seconds(tick, step_ns_), text);
     }
 
+    const world::TownT* town_;
     std::uint64_t step_ns_;
     Progress* progress_;
     world::CrashStory crashes_;
@@ -331,7 +363,7 @@ int run(const RunOptions& options) {
     Seats seats(
         options.drivers, {options.driver_timeout, [&] { return stop.signal() != 0; }}, recording);
     Progress progress("running", "ticks", world::tick_limit(recording.episode));
-    Commentary commentary(recording.episode.step_ns, progress);
+    Commentary commentary(recording.town, recording.episode.step_ns, progress);
     const std::optional<world::Outcome> ended_before = recorded_end(before);
     std::uint64_t index = 0;
     const auto step = [&]() -> const world::SealedTick& {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -304,6 +305,10 @@ void Roster::choose_place(const world::TickView& last,
         if (town_->lanes[lane].kind == world::LaneKind::driving &&
             town_->lanes[lane].length >= shortest_lane && !town_->lanes[lane].links.empty())
             candidates.push_back(lane);
+    // Not on the way out of the map, where there is another one.
+    const auto goes_on = [&](std::uint32_t lane) { return map_.graph.goes_on(lane); };
+    if (std::any_of(candidates.begin(), candidates.end(), goes_on))
+        std::erase_if(candidates, std::not_fn(goes_on));
     if (candidates.empty())
         throw world::Error(episode_->scenario_path + ":" + std::to_string(command.line) +
                            ": spawn: " + town_->name +

@@ -1,7 +1,9 @@
 #include "drivers/way/lane_graph.h"
 
 #include <algorithm>
+#include <functional>
 
+#include "drivers/way/tight_ways.h"
 #include "world/check.h"
 #include "world/lanes/junctions.h"
 
@@ -125,18 +127,27 @@ void LaneGraph::find_circles() {
 std::vector<std::uint32_t> LaneGraph::choices(std::uint32_t lane) const {
     const std::vector<Link>& links = town_->lanes[lane].links;
     const Continuation best = straight_continuation(lane);
+    std::vector<std::uint32_t> best_ones;
+    for (std::uint32_t i = 0; i < links.size(); ++i)
+        if (leads_somewhere(*town_, links[i]) && continuation(links[i]) == best)
+            best_ones.push_back(i);
     // To turn here is no better than to turn later, unless there is no later.
-    for (const auto& [around, round] : {std::pair{false, false}, {false, true}, {true, true}}) {
-        std::vector<std::uint32_t> found;
-        for (std::uint32_t i = 0; i < links.size(); ++i)
-            if (leads_somewhere(*town_, links[i]) && continuation(links[i]) == best &&
-                (around || links[i].turn() != world::Turn::around) &&
-                (round || !circles_[links[i].to()]))
-                found.push_back(i);
-        if (!found.empty())
-            return found;
-    }
-    return {};
+    const auto keep = [&](const auto& is_wanted) {
+        if (std::any_of(best_ones.begin(), best_ones.end(), is_wanted))
+            std::erase_if(best_ones, std::not_fn(is_wanted));
+    };
+    keep([&](std::uint32_t i) { return links[i].turn() != world::Turn::around; });
+    keep([&](std::uint32_t i) { return !circles_[links[i].to()]; });
+    if (best_ones.size() > 1)
+        keep([&](std::uint32_t i) { return !is_tight(lane, links[i]); });
+    return best_ones;
+}
+
+bool LaneGraph::is_tight(std::uint32_t lane, const Link& link) const {
+    std::vector<std::uint32_t> way = inside(link);
+    way.insert(way.begin(), lane);
+    way.push_back(link.to());
+    return drivers::is_tight(*town_, way);
 }
 
 std::vector<std::uint32_t> LaneGraph::reachable_sideways(std::uint32_t lane) const {

@@ -45,7 +45,8 @@ class LaneGraph {
     const world::TownT& town() const { return *town_; }
 
     /// Links of a lane that a wandering driver may take: those with the best continuation; to turn
-    /// around, or into a circle, only where nothing else is left. Indices in lane.links.
+    /// around, into a circle, or by a corner that no car can turn at, only where nothing else is
+    /// left. Indices in lane.links.
     std::vector<std::uint32_t> choices(std::uint32_t lane) const;
 
     /// A lane in the same direction that leads on better.
@@ -57,6 +58,9 @@ class LaneGraph {
     /// The nearest lane in the same direction whose own links have a better continuation, or as
     /// good a one that does not circle; none when there is no such lane. Ties go to the right.
     std::optional<Better> better_lane(std::uint32_t lane) const;
+
+    /// Need who drives on from this lane, and chooses well, never stop where a road ends?
+    bool goes_on(std::uint32_t lane) const { return continuation_[lane] != Continuation::dead_end; }
 
     /// Does who stays on this lane go round and round a small ring, as on the inner lane of a
     /// roundabout?
@@ -99,6 +103,7 @@ class LaneGraph {
     std::vector<std::uint32_t> reachable_sideways(std::uint32_t lane) const;  ///< nearest first
     void find_dead_ends();
     void find_circles();
+    bool is_tight(std::uint32_t lane, const world::Link& link) const;
     std::uint32_t only_way_on(std::uint32_t lane) const;
 
     const world::TownT* town_;

@@ -104,6 +104,26 @@ TEST(LaneGraph, TurnsAroundOnlyWhereNothingElseIsLeft) {
     EXPECT_EQ(drivers::LaneGraph(town).choices(4), std::vector<std::uint32_t>{0});
 }
 
+TEST(LaneGraph, LeavesCornersThatNoCarCanTurnAtToThoseWhoMust) {
+    constexpr double sharp = 2.6;  // [rad]
+    world::TownT town;
+    town.lanes = {make_lane("in", Turtle(0, 0, 0).ahead(100)),
+                  make_lane("on", Turtle(102, 0, 0).ahead(100)),
+                  make_lane("back", Turtle(102, -2, -sharp).ahead(100)),
+                  make_lane(":on", Turtle(100, 0, 0).ahead(2), 5.5, LaneKind::internal),
+                  make_lane(":back", Turtle(100, 0, 0).ahead(2), 5.5, LaneKind::internal)};
+    town.lanes[1].links = town.lanes[2].links = {make_link(0, world::none, Turn::straight)};
+    town.lanes[0].links = {make_link(1, 3, Turn::straight), make_link(2, 4, Turn::right)};
+    EXPECT_EQ(drivers::LaneGraph(town).choices(0), std::vector<std::uint32_t>{0});
+    town.lanes[0].links = {make_link(2, 4, Turn::right)};
+    EXPECT_EQ(drivers::LaneGraph(town).choices(0), std::vector<std::uint32_t>{0});
+    // A right angle at a corner is none of them.
+    town.lanes[0].links = {make_link(1, 3, Turn::straight), make_link(2, 4, Turn::right)};
+    town.lanes[2] = make_lane("back", Turtle(102, -2, -quarter).ahead(100));
+    town.lanes[2].links = {make_link(0, world::none, Turn::straight)};
+    EXPECT_EQ(drivers::LaneGraph(town).choices(0), (std::vector<std::uint32_t>{0, 1}));
+}
+
 /// A street into a small ring of two lanes, whose outer one alone leads out:
 ///   0 in right, 1 in left -> 2 ring outer, 3 ring inner -> itself; 2 also -> 4 out
 world::TownT roundabout() {

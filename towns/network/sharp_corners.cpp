@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <pugixml.hpp>
 
@@ -162,9 +164,14 @@ std::optional<Mended> mend(const DrawnLine& road,
     return std::nullopt;
 }
 
+/// A sidewalk beside it stays as it is.
+bool is_sidewalk(const pugi::xml_node& lane) {
+    return std::string_view(lane.attribute("allow").value()) == "pedestrian";
+}
+
 double most_of(const DrawnWays::Lane& lane) {
-    const bool is_one =
-        lane.node.next_sibling("lane").empty() && lane.node.previous_sibling("lane").empty();
+    const auto all = lane.node.parent().children("lane");
+    const bool is_one = std::count_if(all.begin(), all.end(), std::not_fn(is_sidewalk)) == 1;
     return is_one ? furthest : std::min(furthest, share_of_many * drawn_metres(lane.line));
 }
 
