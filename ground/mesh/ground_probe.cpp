@@ -1,5 +1,6 @@
 #include "ground/mesh/ground_probe.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -74,12 +75,17 @@ GroundProbe::Extent GroundProbe::extent_of(const GroundMesh& mesh, std::size_t t
                                               mesh.vertices[third].head<2>() - corner));
     world::Box box = box_of(mesh, triangle);
     // A splinter is hit beside it: by as much of its size as it is thinner than the seam allowed.
-    constexpr double rounding = 0.01;  // [m]
     const double beside = (box.high - box.low).sum() * 4 * on_the_edge / std::max(area, least_area);
-    return {static_cast<float>(box.low.x() - beside - rounding),
-            static_cast<float>(box.low.y() - beside - rounding),
-            static_cast<float>(box.high.x() + beside + rounding),
-            static_cast<float>(box.high.y() + beside + rounding)};
+    // Of single precision, which is a hand's breadth in coordinates of a whole country.
+    constexpr double rounding = 0.01;  // [m]
+    constexpr double of_place = 1.2e-7;
+    const double more =
+        beside + rounding +
+        of_place * std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
+    return {static_cast<float>(box.low.x() - more),
+            static_cast<float>(box.low.y() - more),
+            static_cast<float>(box.high.x() + more),
+            static_cast<float>(box.high.y() + more)};
 }
 
 GroundProbe::GroundProbe(const GroundMesh& mesh) : mesh_(&mesh) {
